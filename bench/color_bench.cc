@@ -54,8 +54,7 @@ World MakeWorld(const std::string& name) {
   if (name == "box") return {name, test::MakeOpenSquare(), {0.3, 0.2, 1.7}};
   if (name == "city") return {name, bench::BuildCity({.triangles = 2'000'000}), {0, 0, 30}};
   if (name == "forest") return {name, bench::BuildForest(1500), {0, 0, 3}};
-  if (name == "instances")
-    return {name, bench::BuildCity({.triangles = 2'000'000, .trees = 4000}), {0, 0, 30}};
+  if (name == "instances") return {name, bench::BuildCity({.triangles = 2'000'000, .trees = 4000}), {0, 0, 30}};
   const auto scene = LoadWorld({.world = name});
   return {name, scene, VecCast<double>(FirstViewpoint(*scene))};
 }
@@ -79,8 +78,8 @@ double Median(std::vector<double> v) {
 }
 
 RenderRequest MakeRequest(const Options& options, const World& world, Tier tier, int edge_samples) {
-  RenderRequest request = MakeRequest(Equirectangular{options.width, options.width / 2},
-                                      RigidTransform{{}, world.eye} * CameraInBody(), tier);
+  RenderRequest request =
+      MakeRequest(Equirectangular{options.width, options.width / 2}, RigidTransform{{}, world.eye} * CameraInBody(), tier);
   request.edge_samples = edge_samples;
   return request;
 }
@@ -92,8 +91,7 @@ void MeasureRatios(const Options& options, const World& world, Renderer& rendere
     int edge_samples;
   };
   for (const Kind kind :
-       {Kind{"fast", Tier::kFast, 1}, Kind{"fast aa", Tier::kFast, 4}, Kind{"high", Tier::kHigh, 1},
-        Kind{"high aa", Tier::kHigh, 4}}) {
+       {Kind{"fast", Tier::kFast, 1}, Kind{"fast aa", Tier::kFast, 4}, Kind{"high", Tier::kHigh, 1}, Kind{"high aa", Tier::kHigh, 4}}) {
     if (!options.kind.empty() && options.kind != kind.name) continue;
     const RenderRequest request = MakeRequest(options, world, kind.tier, kind.edge_samples);
     Frame frame;
@@ -124,14 +122,13 @@ void MeasureRatios(const Options& options, const World& world, Renderer& rendere
       }
       const double frame_ms = Median(whole), raw_ms = Median(raw) - Median(read);
       if (threads == 1) one_thread = frame_ms;
-      std::printf(options.json
-                      ? "{\"scene\": \"%s\", \"kind\": \"%s\", \"threads\": %d, \"frame_ms\": %.2f, "
-                        "\"raw_ms\": %.2f, \"ratio\": %.3f, \"mrays_nearest\": %.3f, "
-                        "\"mrays_occlusion\": %.3f, \"speedup\": %.3f}\n"
-                      : "%-14s %-8s %3d  frame %8.1f ms  rays %8.1f ms  ratio %5.2f  nearest %6.2f M, "
-                        "occlusion %6.2f M  x%.2f threads\n",
-                  world.name.c_str(), kind.name, ThreadCount(), frame_ms, raw_ms, frame_ms / raw_ms,
-                  rays.nearest / 1e6, rays.occlusion / 1e6, one_thread / frame_ms);
+      std::printf(options.json ? "{\"scene\": \"%s\", \"kind\": \"%s\", \"threads\": %d, \"frame_ms\": %.2f, "
+                                 "\"raw_ms\": %.2f, \"ratio\": %.3f, \"mrays_nearest\": %.3f, "
+                                 "\"mrays_occlusion\": %.3f, \"speedup\": %.3f}\n"
+                               : "%-14s %-8s %3d  frame %8.1f ms  rays %8.1f ms  ratio %5.2f  nearest %6.2f M, "
+                                 "occlusion %6.2f M  x%.2f threads\n",
+                  world.name.c_str(), kind.name, ThreadCount(), frame_ms, raw_ms, frame_ms / raw_ms, rays.nearest / 1e6,
+                  rays.occlusion / 1e6, one_thread / frame_ms);
       std::fflush(stdout);
       if (!std::isfinite(sum)) std::exit(1);
     }
@@ -172,9 +169,8 @@ void MeasureLatitude(const Options& options, const World& world, Renderer& rende
       for (int i = 0; i < options.rounds; ++i)
         times.push_back(Milliseconds(options, [&] { render(samples, latitude, denoise, 2, frame); }));
       const Point point{Median(times), WsMse(frame.rgb, truth.rgb)};
-      std::printf("%-14s %-10s latitude %-3s %2d rays: %8.1f ms, WS-PSNR %.2f dB\n", world.name.c_str(),
-                  denoise ? "denoised" : "as traced", latitude ? "on" : "off", samples, point.ms,
-                  10 * std::log10(255 * 255 / point.mse));
+      std::printf("%-14s %-10s latitude %-3s %2d rays: %8.1f ms, WS-PSNR %.2f dB\n", world.name.c_str(), denoise ? "denoised" : "as traced",
+                  latitude ? "on" : "off", samples, point.ms, 10 * std::log10(255 * 255 / point.mse));
       return point;
     };
     const Point least = measure(1, false), on = measure(12, true), low = measure(8, false), high = measure(12, false);
@@ -227,8 +223,7 @@ int main(int argc, char** argv) {
   if (!options.scene.empty()) names = {options.scene};
   for (const std::string& name : names) {
     const World world = MakeWorld(name);
-    const auto renderer =
-        MakeCpuRenderer(std::make_shared<const RayTracer>(world.scene), {.tier = Tier::kHigh});
+    const auto renderer = MakeCpuRenderer(std::make_shared<const RayTracer>(world.scene), {.tier = Tier::kHigh});
     if (options.latitude)
       MeasureLatitude(options, world, *renderer);
     else

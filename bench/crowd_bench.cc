@@ -41,8 +41,8 @@ struct Times {
     double sum = 0;
     for (const double t : ms) sum += t;
     const double mean = sum / static_cast<double>(ms.size());
-    std::printf("%6zu people  %-22s mean %7.3f ms  median %7.3f  p99 %7.3f   %.2f us a person\n", people, what, mean,
-                ms[ms.size() / 2], ms[ms.size() * 99 / 100], 1000 * mean / static_cast<double>(people));
+    std::printf("%6zu people  %-22s mean %7.3f ms  median %7.3f  p99 %7.3f   %.2f us a person\n", people, what, mean, ms[ms.size() / 2],
+                ms[ms.size() * 99 / 100], 1000 * mean / static_cast<double>(people));
   }
 };
 
@@ -56,7 +56,8 @@ void TimeSteps(size_t people, float edge) {
   const auto model = BuildCrowd(*scene, mesh, request);
   CrowdState state = StartCrowd(*model);
   if (people == 1000)
-    std::printf("navmesh of %.0f x %.0f m: %.0f ms, %zu polygons, %zu KiB\n", edge, edge, build, mesh->polygon_count(), mesh->memory_bytes() / 1024);
+    std::printf("navmesh of %.0f x %.0f m: %.0f ms, %zu polygons, %zu KiB\n", edge, edge, build, mesh->polygon_count(),
+                mesh->memory_bytes() / 1024);
   for (int i = 0; i < 200; ++i) StepCrowd(*model, state, kCrowdTickNs, {});
   Times all, steer;
   for (int i = 0; i < 600; ++i) {
@@ -92,15 +93,17 @@ void Doors(PersonIndex people) {
     const auto start = Clock::now();
     const internal::DoorRun run = internal::EmptyRoom(30 * scale, 20 * scale, people, two);
     seconds[two] = run.seconds;
-    std::printf("test 9, %u people, %d exits: %.1f s, %.2f people a second and door, closest %.3f m, %zu left (%.1f s of work)\n", people, two ? 2 : 4,
-                run.seconds, run.flow, run.closest, run.left, Milliseconds(start) / 1000);
+    std::printf("test 9, %u people, %d exits: %.1f s, %.2f people a second and door, closest %.3f m, %zu left (%.1f s of work)\n", people,
+                two ? 2 : 4, run.seconds, run.flow, run.closest, run.left, Milliseconds(start) / 1000);
   }
   std::printf("test 9: %.2f times as long\n", seconds[1] / seconds[0]);
   for (const double width : {0.9, 1.0, 1.2, 1.6, 2.0, 2.4}) {
     const internal::DoorRun door = internal::EmptyRoom(15, 10, 250, true, width);
     const internal::CorridorRun corridor = internal::RunCorridors(150, width);
-    std::printf("width %.1f m: door %.2f people a second (%.2f a metre), %zu left; corridor %.2f (%.2f), before it %.1f, before the next %.1f, %zu left\n", width,
-                door.flow, door.flow / width, door.left, corridor.flow, corridor.flow / width, corridor.first, corridor.second, corridor.left);
+    std::printf(
+        "width %.1f m: door %.2f people a second (%.2f a metre), %zu left; corridor %.2f (%.2f), before it %.1f, before the next %.1f, %zu left\n",
+        width, door.flow, door.flow / width, door.left, corridor.flow, corridor.flow / width, corridor.first, corridor.second,
+        corridor.left);
   }
 }
 
@@ -116,10 +119,9 @@ void Explain(const CrowdModel& model, const CrowdState& state, PersonIndex i) {
     const internal::Walker& w = state.internals->walkers[k];
     const internal::Agent& a = state.internals->agents[k];
     const Vec3d d = w.at.p_W - self.at.p_W;
-    std::printf("    %4u at %+.2f %+.2f, wants %+.2f %+.2f, does %+.2f %+.2f%s, %s, walk %d, gate %u of %zu, group %u%s%s\n", k, d.x, d.y, w.wanted.x,
-                w.wanted.y, w.v.x, w.v.y, w.still ? ", still" : "", std::string(PersonStateName(model, state, k)).c_str(),
-                static_cast<int>(a.walk), a.gate,
-                a.gates.size(), a.group, a.at_place ? ", at place" : "", a.hold ? ", red" : "");
+    std::printf("    %4u at %+.2f %+.2f, wants %+.2f %+.2f, does %+.2f %+.2f%s, %s, walk %d, gate %u of %zu, group %u%s%s\n", k, d.x, d.y,
+                w.wanted.x, w.wanted.y, w.v.x, w.v.y, w.still ? ", still" : "", std::string(PersonStateName(model, state, k)).c_str(),
+                static_cast<int>(a.walk), a.gate, a.gates.size(), a.group, a.at_place ? ", at place" : "", a.hold ? ", red" : "");
   };
   std::printf("  stuck: %u at %.2f %.2f, t %.1f s\n", i, self.at.p_W.x, self.at.p_W.y, static_cast<double>(state.t_ns) * 1e-9);
   if (agent.gate < agent.gates.size()) {
@@ -157,10 +159,12 @@ void Soak(size_t people, double minutes, const char* world) {
       for (size_t i = 0; i < state.people.size(); ++i)
         for (size_t k = 0; k < i; ++k) closest = std::min(closest, Norm(state.people[i].p_WP - state.people[k].p_WP));
     }
-    if (tick % 12000 == 1200) std::printf("%5.0f min: heap %zu KiB, hash %016lx\n", static_cast<double>(tick) / 1200, mallinfo2().uordblks / 1024, HashCrowd(state));
+    if (tick % 12000 == 1200)
+      std::printf("%5.0f min: heap %zu KiB, hash %016lx\n", static_cast<double>(tick) / 1200, mallinfo2().uordblks / 1024,
+                  HashCrowd(state));
   }
-  std::printf("%zu people, %.0f min: stuck %zu, messages lost %zu, closest %.3f m, hash %016lx; %.0f s of work\n",
-              people, minutes, stuck, lost, closest, HashCrowd(state), Milliseconds(began) / 1000);
+  std::printf("%zu people, %.0f min: stuck %zu, messages lost %zu, closest %.3f m, hash %016lx; %.0f s of work\n", people, minutes, stuck,
+              lost, closest, HashCrowd(state), Milliseconds(began) / 1000);
   for (const auto& [name, n] : transitions) std::printf("  -> %-20s %zu\n", name.c_str(), n);
 }
 
@@ -186,19 +190,24 @@ void Same(size_t people, double minutes) {
     char text[32];
     std::snprintf(text, sizeof text, "%016lx", hash);
     hashes[threads == 0] = text;
-    std::printf("%zu people, %.0f min, %d threads: hash of all poses %s (%.0f s of work)\n", people, minutes,
-                ThreadCount(), text, Milliseconds(start) / 1000);
+    std::printf("%zu people, %.0f min, %d threads: hash of all poses %s (%.0f s of work)\n", people, minutes, ThreadCount(), text,
+                Milliseconds(start) / 1000);
   }
   std::printf("%s\n", hashes[0] == hashes[1] ? "the same" : "NOT THE SAME");
 }
 
 const char* ColorOf(GroundKind kind) {
   switch (kind) {
-    case GroundKind::kRoad: return "#c9c9cf";
-    case GroundKind::kParking: return "#d6d2c8";
-    case GroundKind::kCrossing: return "#ffffff";
-    case GroundKind::kGrass: return "#cfe3c0";
-    default: return "#f1ebdf";
+    case GroundKind::kRoad:
+      return "#c9c9cf";
+    case GroundKind::kParking:
+      return "#d6d2c8";
+    case GroundKind::kCrossing:
+      return "#ffffff";
+    case GroundKind::kGrass:
+      return "#cfe3c0";
+    default:
+      return "#f1ebdf";
   }
 }
 
@@ -207,8 +216,9 @@ void Trace(const char* world, size_t people, double seconds, const char* out, co
   auto start = Clock::now();
   const auto mesh = NavMesh::Build(*scene);
   const Box3f box = mesh->bounds();
-  std::printf("navmesh: %.0f ms, %zu polygons, %zu walls, %zu crossings, %.0f x %.0f m, %zu KiB\n", Milliseconds(start), mesh->polygon_count(),
-              mesh->walls().size(), mesh->crossings().size(), box.size().x, box.size().y, mesh->memory_bytes() / 1024);
+  std::printf("navmesh: %.0f ms, %zu polygons, %zu walls, %zu crossings, %.0f x %.0f m, %zu KiB\n", Milliseconds(start),
+              mesh->polygon_count(), mesh->walls().size(), mesh->crossings().size(), box.size().x, box.size().y,
+              mesh->memory_bytes() / 1024);
   CrowdRequest request;
   request.count = people;
   if (file) {
@@ -256,15 +266,19 @@ void Trace(const char* world, size_t people, double seconds, const char* out, co
   }
   std::printf("%.0f s of %zu people: %.1f s\n", seconds, lines.size(), Milliseconds(start) / 1000);
   for (size_t i = 0; i < lines.size(); ++i)
-    svg << "<polyline fill=\"none\" stroke=\"hsl(" << (i * 47) % 360 << ",70%,40%)\" stroke-width=\"0.8\" points=\"" << lines[i] << "\"/>\n";
+    svg << "<polyline fill=\"none\" stroke=\"hsl(" << (i * 47) % 360 << ",70%,40%)\" stroke-width=\"0.8\" points=\"" << lines[i]
+        << "\"/>\n";
   for (const PersonState& p : state.people)
-    svg << "<circle cx=\"" << X(p.p_WP.x) << "\" cy=\"" << Y(p.p_WP.y) << "\" r=\"2\" fill=\"#c01818\"/><line x1=\"" << X(p.p_WP.x) << "\" y1=\"" << Y(p.p_WP.y)
-        << "\" x2=\"" << X(p.p_WP.x + 0.8 * std::cos(p.yaw)) << "\" y2=\"" << Y(p.p_WP.y + 0.8 * std::sin(p.yaw)) << "\" stroke=\"#c01818\"/>\n";
+    svg << "<circle cx=\"" << X(p.p_WP.x) << "\" cy=\"" << Y(p.p_WP.y) << "\" r=\"2\" fill=\"#c01818\"/><line x1=\"" << X(p.p_WP.x)
+        << "\" y1=\"" << Y(p.p_WP.y) << "\" x2=\"" << X(p.p_WP.x + 0.8 * std::cos(p.yaw)) << "\" y2=\""
+        << Y(p.p_WP.y + 0.8 * std::sin(p.yaw)) << "\" stroke=\"#c01818\"/>\n";
   svg << "</svg>\n";
   std::map<std::string, size_t> causes;
-  for (const CrowdEvent& event : events) ++causes[std::string(kCrowdEventNames[static_cast<int>(event.kind)]) + " " + event.from + " -> " + event.to];
+  for (const CrowdEvent& event : events)
+    ++causes[std::string(kCrowdEventNames[static_cast<int>(event.kind)]) + " " + event.from + " -> " + event.to];
   for (const auto& [name, n] : causes) std::printf("  %5zu %s\n", n, name.c_str());
-  for (const auto& [name, n] : seen) std::printf("  %5.1f %% %s\n", 100.0 * n / (static_cast<double>(lines.size()) * seconds * 2), name.c_str());
+  for (const auto& [name, n] : seen)
+    std::printf("  %5.1f %% %s\n", 100.0 * n / (static_cast<double>(lines.size()) * seconds * 2), name.c_str());
 }
 
 }  // namespace

@@ -27,9 +27,8 @@ namespace {
 
 using namespace airsim360;
 
-constexpr std::array<CubeFaceName, 6> kFaces = {CubeFaceName::kPosX, CubeFaceName::kNegX,
-                                                CubeFaceName::kPosY, CubeFaceName::kNegY,
-                                                CubeFaceName::kPosZ, CubeFaceName::kNegZ};
+constexpr std::array<CubeFaceName, 6> kFaces = {CubeFaceName::kPosX, CubeFaceName::kNegX, CubeFaceName::kPosY,
+                                                CubeFaceName::kNegY, CubeFaceName::kPosZ, CubeFaceName::kNegZ};
 
 /// Where a panorama pixel looks: a face and a position between four of its pixel centres.
 struct LookUp {
@@ -48,11 +47,9 @@ std::vector<LookUp> MakeTable(const Equirectangular& target, int size) {
       for (size_t f = 0; f < 6; ++f) {
         const auto at = RayToPixel(CubeFace{kFaces[f], size}, ray);
         if (!at) continue;
-        const double x = std::clamp(at->x - 0.5, 0.0, size - 1.001),
-                     y = std::clamp(at->y - 0.5, 0.0, size - 1.001);
+        const double x = std::clamp(at->x - 0.5, 0.0, size - 1.001), y = std::clamp(at->y - 0.5, 0.0, size - 1.001);
         const auto x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-        const int nx = std::clamp(static_cast<int>(at->x), 0, size - 1),
-                  ny = std::clamp(static_cast<int>(at->y), 0, size - 1);
+        const int nx = std::clamp(static_cast<int>(at->x), 0, size - 1), ny = std::clamp(static_cast<int>(at->y), 0, size - 1);
         out = {static_cast<uint8_t>(f),    static_cast<uint16_t>(x0),  static_cast<uint16_t>(y0),
                static_cast<float>(x - x0), static_cast<float>(y - y0), static_cast<uint32_t>(ny * size + nx)};
         break;
@@ -112,16 +109,15 @@ int main(int argc, char** argv) {
   const auto tracer = std::make_shared<const RayTracer>(scene);
   const auto renderer = MakeCpuRenderer(tracer, {.tier = Tier::kFast});
   const Equirectangular panorama{width, width / 2};
-  const RigidTransform X_WC =
-      BodyPose(VecCast<double>(scene->spawn.value_or(Vec3f{})), 0.7, 0, 0) * CameraInBody();
+  const RigidTransform X_WC = BodyPose(VecCast<double>(scene->spawn.value_or(Vec3f{})), 0.7, 0, 0) * CameraInBody();
   const auto render = [&](const Camera& camera, Frame& frame) {
     RenderRequest request = MakeRequest(camera, X_WC, Tier::kFast, {.semantic = false});
     request.edge_samples = 1;
     renderer->Render(request, frame);
   };
 
-  std::printf("downtown_west, %dx%d, colour + range + entity, %d threads, medians of %d alternating rounds\n",
-              width, width / 2, ThreadCount(), rounds);
+  std::printf("downtown_west, %dx%d, colour + range + entity, %d threads, medians of %d alternating rounds\n", width, width / 2,
+              ThreadCount(), rounds);
   Frame direct, stitched;
   std::array<Frame, 6> faces;
   render(panorama, direct);
@@ -139,20 +135,17 @@ int main(int argc, char** argv) {
       whole.push_back(a), six.push_back(b), remap.push_back(c);
     }
     size_t wrong = 0;
-    for (size_t i = 0; i < direct.entity.size(); ++i)
-      wrong += direct.entity.pixels()[i] != stitched.entity.pixels()[i];
+    for (size_t i = 0; i < direct.entity.size(); ++i) wrong += direct.entity.pixels()[i] != stitched.entity.pixels()[i];
     const double d = Median(whole), s = Median(six), r = Median(remap);
     std::printf(
         "faces %4d: direct %.1f ms, six faces %.1f ms + remap %.1f ms, ratio %.2f; ids differ in %.2f %% of "
         "pixels\n",
-        size, d, s, r, (s + r) / d,
-        100.0 * static_cast<double>(wrong) / static_cast<double>(direct.entity.size()));
+        size, d, s, r, (s + r) / d, 100.0 * static_cast<double>(wrong) / static_cast<double>(direct.entity.size()));
     if (out.empty()) continue;
     const std::string folder = out + "/" + std::to_string(size);
     CreateWritableFolder(folder);
     for (size_t f = 0; f < 6; ++f)
-      WriteFileAtomically(folder + "/" + kCubeFaceNames[static_cast<int>(kFaces[f])] + ".png",
-                          EncodePng(faces[f].rgb));
+      WriteFileAtomically(folder + "/" + kCubeFaceNames[static_cast<int>(kFaces[f])] + ".png", EncodePng(faces[f].rgb));
     WriteFileAtomically(folder + "/direct.png", EncodePng(direct.rgb));
   }
 }

@@ -25,7 +25,8 @@ std::optional<Vec3d> PlaceIn(const RoomOutline& room, Vec3d door, const BoundedC
   };
   for (int k = 0; k < 400; ++k) {
     const Vec3d p{between(room.corners[0].x, room.corners[2].x, door.x), between(room.corners[0].y, room.corners[2].y, door.y),
-                  random.Uniform(static_cast<double>(room.floor_z) + 0.4, std::min<double>(static_cast<double>(room.ceiling_z), static_cast<double>(room.floor_z) + 3) - 0.4)};
+                  random.Uniform(static_cast<double>(room.floor_z) + 0.4,
+                                 std::min<double>(static_cast<double>(room.ceiling_z), static_cast<double>(room.floor_z) + 3) - 0.4)};
     if (world.Clearance(p, 2 * radius) > radius + 0.1) return p;
   }
   return std::nullopt;
@@ -37,12 +38,16 @@ struct Outcome {
 };
 
 Outcome Fly(const BuildingRooms& rooms, const RoomDoor& door, const BoundedClearance& world, double radius, RngStream random) {
-  const auto by_id = [&](uint32_t id) { return std::find_if(rooms.rooms.begin(), rooms.rooms.end(), [&](const RoomOutline& r) { return r.id == id; }); };
+  const auto by_id = [&](uint32_t id) {
+    return std::find_if(rooms.rooms.begin(), rooms.rooms.end(), [&](const RoomOutline& r) { return r.id == id; });
+  };
   const Vec3d middle = VecCast<double>(door.center);
-  const auto a = PlaceIn(*by_id(door.rooms[0]), middle, world, radius, random), b = PlaceIn(*by_id(door.rooms[1]), middle, world, radius, random);
+  const auto a = PlaceIn(*by_id(door.rooms[0]), middle, world, radius, random),
+             b = PlaceIn(*by_id(door.rooms[1]), middle, world, radius, random);
   if (!a || !b) return {"no free place beside the door", 0};
   try {
-    const CertifiedFlight flight = FlyFree({*a, middle, *b}, world, {.limits = {.speed = 2, .acceleration = 2}, .allocation = {}, .radius = radius});
+    const CertifiedFlight flight =
+        FlyFree({*a, middle, *b}, world, {.limits = {.speed = 2, .acceleration = 2}, .allocation = {}, .radius = radius});
     if (!flight.certificate.certified) return {"not certified", flight.certificate.least_clearance};
     return {"", flight.certificate.least_clearance};
   } catch (const InputError& error) {
@@ -71,7 +76,8 @@ int main(int argc, char** argv) {
   }
   std::vector<RoomDoor> open;
   for (const RoomDoor& door : rooms->doors)
-    if (door.open > 0.5 && door.rooms[0] != 0 && door.rooms[1] != 0 && static_cast<double>(door.width) >= 2 * radius + 0.1) open.push_back(door);
+    if (door.open > 0.5 && door.rooms[0] != 0 && door.rooms[1] != 0 && static_cast<double>(door.width) >= 2 * radius + 0.1)
+      open.push_back(door);
   Stage stage({.world = request});
   const WaypointSpace space(stage, radius);
   std::map<std::string, int> refused;
@@ -91,7 +97,10 @@ int main(int argc, char** argv) {
     ++certified;
     least = std::min(least, outcome.least);
   });
-  std::printf("%s: %d of %d flights through %zu open doors certified, clearance never below %.3f m\n", name.c_str(), certified, flights, open.size(), least);
+  std::printf("%s: %d of %d flights through %zu open doors certified, clearance never below %.3f m\n", name.c_str(), certified, flights,
+              open.size(), least);
   for (const auto& [reason, count] : refused) std::printf("  %d refused: %s\n", count, reason.c_str());
-  for (const auto& [door, count] : of_door) std::printf("  door %u (%s, %.2f m wide): %d refused\n", open[door].id, open[door].kind.c_str(), static_cast<double>(open[door].width), count);
+  for (const auto& [door, count] : of_door)
+    std::printf("  door %u (%s, %.2f m wide): %d refused\n", open[door].id, open[door].kind.c_str(), static_cast<double>(open[door].width),
+                count);
 }

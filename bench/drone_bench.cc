@@ -31,37 +31,32 @@ void Compare(const char* name, double amplitude, double speed, ControllerKind ki
   FlightLoop loop(model, options);
   const auto curve = std::make_shared<Lemniscate>(Vec3d{}, amplitude, speed, 2, 4);
   const TrackingError e = Track(loop, curve, curve->ramp(), curve->duration() - curve->ramp());
-  std::printf("%-20s %-14s A %4.1f m  %4.1f m/s  rms %7.2f cm  max %7.2f cm%s\n", name,
-              ControllerKindName(kind).c_str(), amplitude, speed, e.rms * 100, e.max * 100,
-              e.upright ? "" : "  TURNED OVER");
+  std::printf("%-20s %-14s A %4.1f m  %4.1f m/s  rms %7.2f cm  max %7.2f cm%s\n", name, ControllerKindName(kind).c_str(), amplitude, speed,
+              e.rms * 100, e.max * 100, e.upright ? "" : "  TURNED OVER");
 }
 
 void Catalogue() {
-  std::printf(
-      "\ncatalogue against the laws (words only): ratio of k_f, J_x, J_y, J_z; lemniscate untuned; gate\n");
+  std::printf("\ncatalogue against the laws (words only): ratio of k_f, J_x, J_y, J_z; lemniscate untuned; gate\n");
   for (const CatalogDrone& drone : DroneCatalog()) {
     const DroneModel model = CatalogModel(std::string(drone.name));
     std::printf("%-20s", std::string(drone.name).c_str());
     if (!drone.prompt.empty()) {
       const DroneModel words = DroneFromPrompt(drone.prompt).model;
       const auto J = [](const DroneModel& m, int i) { return m.inertia_B.m[i][i]; };
-      std::printf(" k_f %.2f  J %.2f %.2f %.2f",
-                  words.rotors[0].thrust_factor / model.rotors[0].thrust_factor, J(words, 0) / J(model, 0),
+      std::printf(" k_f %.2f  J %.2f %.2f %.2f", words.rotors[0].thrust_factor / model.rotors[0].thrust_factor, J(words, 0) / J(model, 0),
                   J(words, 1) / J(model, 1), J(words, 2) / J(model, 2));
     }
     const FlightCheck check = CheckFlight(model);
-    std::printf("  A %.1f m %.1f m/s rms %.1f cm %s;", check.lemniscate.amplitude, check.lemniscate.speed,
-                check.tracking.rms * 100, check.passed ? "ok" : "FAILS");
+    std::printf("  A %.1f m %.1f m/s rms %.1f cm %s;", check.lemniscate.amplitude, check.lemniscate.speed, check.tracking.rms * 100,
+                check.passed ? "ok" : "FAILS");
     for (const std::string& problem : GateProblems(model)) std::printf(" %s;", problem.c_str());
     std::printf("\n");
   }
 }
 
 void Rate() {
-  std::printf(
-      "\nclosed-loop control steps per second and core (one control step + its dynamics, 1 ms each)\n");
-  for (const ControllerKind kind :
-       {ControllerKind::kIndi, ControllerKind::kSe3, ControllerKind::kPx4, ControllerKind::kSimpleFlight}) {
+  std::printf("\nclosed-loop control steps per second and core (one control step + its dynamics, 1 ms each)\n");
+  for (const ControllerKind kind : {ControllerKind::kIndi, ControllerKind::kSe3, ControllerKind::kPx4, ControllerKind::kSimpleFlight}) {
     AutopilotOptions options;
     options.controller = kind;
     options.control_dt = 1e-3;
@@ -101,17 +96,16 @@ void Prompts() {
       worst = std::max(worst, check.tracking.rms / check.lemniscate.amplitude);
       failed += !check.passed;
       if (!check.passed) {
-        std::printf("FAILS: %s (A %.2f m, %.1f m/s, rms %.3f m, hover %.3f m)\n", prompt,
-                    check.lemniscate.amplitude, check.lemniscate.speed, check.tracking.rms,
-                    check.hover_error);
+        std::printf("FAILS: %s (A %.2f m, %.1f m/s, rms %.3f m, hover %.3f m)\n", prompt, check.lemniscate.amplitude,
+                    check.lemniscate.speed, check.tracking.rms, check.hover_error);
       }
     } catch (const InputError& error) {
       ++refused;
       std::printf("REFUSED: %s: %s\n", prompt, error.what());
     }
   }
-  std::printf("\n%zu prompts: %d refused, %d do not fly the lemniscate; worst rms %.2f %% of its amplitude\n",
-              std::size(kSamplePrompts), refused, failed, worst * 100);
+  std::printf("\n%zu prompts: %d refused, %d do not fly the lemniscate; worst rms %.2f %% of its amplitude\n", std::size(kSamplePrompts),
+              refused, failed, worst * 100);
 }
 
 }  // namespace

@@ -107,17 +107,13 @@ int main(int argc, char** argv) {
       const ThreadLimit limit(row.threads);
       row.copies.push_back(Milliseconds(copy_picture));
       copy = room.light;
-      row.times.push_back(Milliseconds([&] {
-        row.denoiser.Run(room.guides(), {&copy, nullptr, row.radius}, row.temporal);
-      }));
+      row.times.push_back(Milliseconds([&] { row.denoiser.Run(room.guides(), {&copy, nullptr, row.radius}, row.temporal); }));
       if (round == 0) row.times.clear(), row.copies.clear();
     }
   }
-  std::printf("%dx%d, %d cores\n%-22s %8s %10s %14s\n", width, width / 2, ThreadCount(), "", "threads", "ms",
-              "/ picture copy");
+  std::printf("%dx%d, %d cores\n%-22s %8s %10s %14s\n", width, width / 2, ThreadCount(), "", "threads", "ms", "/ picture copy");
   for (const Row& row : rows) {
     const double ms = Median(row.times);
-    std::printf("%-22s %8s %10.1f %14.1f\n", row.what, row.threads == 1 ? "1" : "all", ms,
-                ms / Median(row.copies));
+    std::printf("%-22s %8s %10.1f %14.1f\n", row.what, row.threads == 1 ? "1" : "all", ms, ms / Median(row.copies));
   }
 }

@@ -44,8 +44,8 @@ void Report(std::vector<Row>& rows) {
   for (Row& r : rows) {
     std::sort(r.rounds.begin(), r.rounds.end());
     const double median = r.rounds[r.rounds.size() / 2];
-    std::printf("%-52s %8.2f ns a step  %8.1f M steps/s  x %.2f\n", r.name.c_str(), median * 1e9,
-                1e-6 / median, median / rows.front().rounds[rows.front().rounds.size() / 2]);
+    std::printf("%-52s %8.2f ns a step  %8.1f M steps/s  x %.2f\n", r.name.c_str(), median * 1e9, 1e-6 / median,
+                median / rows.front().rounds[rows.front().rounds.size() / 2]);
   }
 }
 
@@ -61,8 +61,8 @@ double SingleDouble(const DroneModel& model) {
 }
 
 /// 16 lanes hold the same work as the batch; the blocks' memory is what `drones` need.
-double Lanes(const DroneModel& model, void (*kernel)(const internal::BatchWork&), int drones, int steps,
-             bool near_ground = false, bool own_air = false) {
+double Lanes(const DroneModel& model, void (*kernel)(const internal::BatchWork&), int drones, int steps, bool near_ground = false,
+             bool own_air = false) {
   const auto constants = internal::MakeDroneConstants<float>(model, 1e-3);
   const int blocks = drones / internal::kBlockDrones;
   std::vector<internal::DroneBlock> memory(blocks);
@@ -101,20 +101,15 @@ void BenchSpeed() {
   const DroneModel base = AgiliciousDrone();
   const auto best = AIRSIM360_SELECT_KERNEL(StepBlocks);
   std::vector<Row> rows;
-  const auto add = [&](std::string name, std::function<double()> run) {
-    rows.push_back({std::move(name), run, {}});
-  };
+  const auto add = [&](std::string name, std::function<double()> run) { rows.push_back({std::move(name), run, {}}); };
   add("one drone, DroneDynamics::Step (double)", [&] { return SingleDouble(base); });
   add("one drone, every term (double)", [] { return SingleDouble(DroneWithEveryTerm()); });
-  add("sse4.2, 16 drones, 100 steps a call",
-      [&] { return Lanes(base, internal::isa_sse42::StepBlocks, 16, 100); });
+  add("sse4.2, 16 drones, 100 steps a call", [&] { return Lanes(base, internal::isa_sse42::StepBlocks, 16, 100); });
   if (internal::CurrentKernelIsa() >= internal::KernelIsa::kAvx2) {
-    add("avx2, 16 drones, 100 steps a call",
-        [&] { return Lanes(base, internal::isa_avx2::StepBlocks, 16, 100); });
+    add("avx2, 16 drones, 100 steps a call", [&] { return Lanes(base, internal::isa_avx2::StepBlocks, 16, 100); });
   }
   if (internal::CurrentKernelIsa() >= internal::KernelIsa::kAvx512) {
-    add("avx512, 16 drones, 100 steps a call",
-        [&] { return Lanes(base, internal::isa_avx512::StepBlocks, 16, 100); });
+    add("avx512, 16 drones, 100 steps a call", [&] { return Lanes(base, internal::isa_avx512::StepBlocks, 16, 100); });
   }
   add("16384 drones, 1 step a call", [&] { return Lanes(base, best, 16384, 1); });
   add("16384 drones, 10 steps a call", [&] { return Lanes(base, best, 16384, 10); });
@@ -226,8 +221,8 @@ int Soak(double hours) {
       return 1;
     }
   }
-  std::printf("%.2f h of random commands at 1 ms: in the room, finite, touching in %.1f %% of the steps\n",
-              hours, 100.0 * static_cast<double>(touching) / static_cast<double>(steps));
+  std::printf("%.2f h of random commands at 1 ms: in the room, finite, touching in %.1f %% of the steps\n", hours,
+              100.0 * static_cast<double>(touching) / static_cast<double>(steps));
   return 0;
 }
 

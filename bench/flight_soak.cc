@@ -61,9 +61,7 @@ Command RandomCommand(RngStream& random, Vec3d home) {
     case 2:
       return RateCommand{.w_B = RandomVector(random, 6), .vertical = {.value = random.Uniform()}};
     case 3:
-      return AttitudeCommand{.roll = random.Uniform(-1, 1),
-                             .pitch = random.Uniform(-1, 1),
-                             .vertical = {.value = random.Uniform()}};
+      return AttitudeCommand{.roll = random.Uniform(-1, 1), .pitch = random.Uniform(-1, 1), .vertical = {.value = random.Uniform()}};
     case 4: {
       RotorSignalCommand signals;
       for (double& s : signals.signals) s = random.Uniform();
@@ -91,8 +89,7 @@ std::vector<SimCommand> RandomCommands(RngStream& random, const SimModel& model)
   std::vector<SimCommand> commands;
   for (size_t i = 0; i < model.drones.size(); ++i) {
     const Vec3d home = model.drones[i]->setup().X_WB.p;
-    if (random.Chance(0.3))
-      commands.push_back({i, FlightCommand{RandomCommand(random, home), 2'000'000'000}});
+    if (random.Chance(0.3)) commands.push_back({i, FlightCommand{RandomCommand(random, home), 2'000'000'000}});
     if (random.Chance(0.01)) {
       RotorHealthCommand health;
       health.health[random.Index(4)] = random.Uniform();
@@ -135,9 +132,7 @@ bool IsFinite(Vec3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std:
 // What is wrong with a vehicle; nullptr if nothing is.
 const char* Problem(const SimModel& model, const Vehicle& vehicle) {
   const DroneState& drone = vehicle.drone;
-  if (!IsFinite(drone.p_WB) || !IsFinite(drone.v_WB) || !IsFinite(drone.w_WB_B) ||
-      !std::isfinite(drone.q_WB.w))
-    return "not a number";
+  if (!IsFinite(drone.p_WB) || !IsFinite(drone.v_WB) || !IsFinite(drone.w_WB_B) || !std::isfinite(drone.q_WB.w)) return "not a number";
   const Scene& scene = model.tracer->scene();
   const float margin = scene.sky_entity == kNoEntity ? 0.01f : 1001;
   Box3f room = scene.bounds;
@@ -145,8 +140,7 @@ const char* Problem(const SimModel& model, const Vehicle& vehicle) {
   room.max += Vec3f{margin, margin, margin};
   if (!room.Contains(VecCast<float>(drone.p_WB))) return "outside of the world";
   for (const SensorStates* sensors = &vehicle.sensors; const ImuState& imu : sensors->imus) {
-    if (!IsFinite(imu.last.specific_force) || !IsFinite(imu.last.angular_velocity))
-      return "IMU is not a number";
+    if (!IsFinite(imu.last.specific_force) || !IsFinite(imu.last.angular_velocity)) return "IMU is not a number";
   }
   return nullptr;
 }
@@ -165,8 +159,8 @@ int Soak(const std::string& world, double seconds, int drones) {
     events.clear();
     for (const Vehicle& vehicle : state.vehicles) {
       if (const char* problem = Problem(model, vehicle)) {
-        std::printf("FAILED: %s at step %lld: %g %g %g\n", problem, static_cast<long long>(i),
-                    vehicle.drone.p_WB.x, vehicle.drone.p_WB.y, vehicle.drone.p_WB.z);
+        std::printf("FAILED: %s at step %lld: %g %g %g\n", problem, static_cast<long long>(i), vehicle.drone.p_WB.x, vehicle.drone.p_WB.y,
+                    vehicle.drone.p_WB.z);
         return 1;
       }
     }
@@ -177,8 +171,7 @@ int Soak(const std::string& world, double seconds, int drones) {
       "%s, %d drones, %.0f s: no NaN, nobody left the world; memory %.1f MiB after a tenth, %.1f MiB at the "
       "end\n",
       world.c_str(), drones, seconds, early, late);
-  for (size_t k = 0; k < std::size(kSimEventNames); ++k)
-    std::printf("  %-16s %lld\n", kSimEventNames[k], static_cast<long long>(kinds[k]));
+  for (size_t k = 0; k < std::size(kSimEventNames); ++k) std::printf("  %-16s %lld\n", kSimEventNames[k], static_cast<long long>(kinds[k]));
   return late < early + 4 ? 0 : 1;
 }
 
@@ -208,8 +201,8 @@ Run Fly(const SimModel& model, int64_t steps) {
 int Determinism(int64_t steps, int drones) {
   const SimModel model = MakeModel("box_room", drones);
   const Run many = Fly(model, steps);
-  std::printf("%lld steps of %d drones: hash %016llx with %d threads\n", static_cast<long long>(steps),
-              drones, static_cast<unsigned long long>(many.hash), ThreadCount());
+  std::printf("%lld steps of %d drones: hash %016llx with %d threads\n", static_cast<long long>(steps), drones,
+              static_cast<unsigned long long>(many.hash), ThreadCount());
   uint64_t one_hash;
   {
     const ThreadLimit one(1);
@@ -243,7 +236,6 @@ int main(int argc, char** argv) {
     return Determinism(std::atoll(Argument(argc, argv, "--steps", "1000000").c_str()),
                        std::atoi(Argument(argc, argv, "--drones", "9").c_str()));
   }
-  return Soak(Argument(argc, argv, "--world", "box_room"),
-              std::atof(Argument(argc, argv, "--seconds", "3600").c_str()),
+  return Soak(Argument(argc, argv, "--world", "box_room"), std::atof(Argument(argc, argv, "--seconds", "3600").c_str()),
               std::atoi(Argument(argc, argv, "--drones", "2").c_str()));
 }

@@ -64,8 +64,7 @@ std::vector<RigidTransform> Poses(const std::shared_ptr<const RayTracer>& tracer
   std::vector<RigidTransform> poses;
   if (spawn) {
     const Scene& scene = tracer->scene();
-    poses.assign(static_cast<size_t>(frames),
-                 {{}, VecCast<double>(FirstViewpoint(scene))});
+    poses.assign(static_cast<size_t>(frames), {{}, VecCast<double>(FirstViewpoint(scene))});
     return poses;
   }
   const auto route = std::make_shared<const Route>(PlanSurvey(*tracer, {}));
@@ -106,8 +105,7 @@ int main(int argc, char** argv) {
     for (size_t i = 0; i < rows.size(); ++i) {
       const ThreadLimit limit(rows[i].threads);
       const double before = ProcessorMilliseconds();
-      RenderRequest request =
-          MakeRequest(Equirectangular{width, width / 2}, CameraPose(rig, X_WB), rows[i].tier);
+      RenderRequest request = MakeRequest(Equirectangular{width, width / 2}, CameraPose(rig, X_WB), rows[i].tier);
       request.edge_samples = rows[i].edge_samples;
       const RenderStats stats = renderer->Render(request, frame);
       times[i].push_back(stats.render_ms);
@@ -118,11 +116,9 @@ int main(int argc, char** argv) {
 
   const SceneCounts counts = scene->Count();
   if (!json) {
-    std::printf("%s, %dx%d, %d poses, %.1f M triangles (%.1f M unique), %d threads at most\n", world.c_str(),
-                width, width / 2, frames, static_cast<double>(counts.instanced_triangles) / 1e6,
-                static_cast<double>(counts.unique_triangles) / 1e6, ThreadCount());
-    std::printf("%-18s %8s %10s %10s %13s %10s %10s\n", "tier", "threads", "median ms", "mean ms",
-                "processor ms", "frames/s", "Mrays");
+    std::printf("%s, %dx%d, %d poses, %.1f M triangles (%.1f M unique), %d threads at most\n", world.c_str(), width, width / 2, frames,
+                static_cast<double>(counts.instanced_triangles) / 1e6, static_cast<double>(counts.unique_triangles) / 1e6, ThreadCount());
+    std::printf("%-18s %8s %10s %10s %13s %10s %10s\n", "tier", "threads", "median ms", "mean ms", "processor ms", "frames/s", "Mrays");
   }
   for (size_t i = 0; i < rows.size(); ++i) {
     double sum = 0;
@@ -133,11 +129,10 @@ int main(int argc, char** argv) {
       std::printf(
           "%s{\"tier\": \"%s\", \"threads\": %d, \"median_ms\": %.3f, \"mean_ms\": %.3f, "
           "\"processor_ms\": %.3f, \"mrays\": %.3f}%s",
-          i == 0 ? "[" : ",\n ", rows[i].what, threads, median, mean, processor, rays[i] / frames / 1e6,
-          i + 1 == rows.size() ? "]\n" : "");
+          i == 0 ? "[" : ",\n ", rows[i].what, threads, median, mean, processor, rays[i] / frames / 1e6, i + 1 == rows.size() ? "]\n" : "");
     } else {
-      std::printf("%-18s %8d %10.1f %10.1f %13.1f %10.2f %10.2f\n", rows[i].what, threads, median, mean,
-                  processor, 1000 / mean, rays[i] / frames / 1e6);
+      std::printf("%-18s %8d %10.1f %10.1f %13.1f %10.2f %10.2f\n", rows[i].what, threads, median, mean, processor, 1000 / mean,
+                  rays[i] / frames / 1e6);
     }
   }
 }

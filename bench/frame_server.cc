@@ -72,20 +72,17 @@ int main(int argc, char** argv) {
   Environment environment = tracer->scene().environment;
   if (argc > 4) environment = LoadWorld({.world = argv[4]})->environment;
   if (plain) environment.cloud_cover = environment.cirrus_cover = environment.haze = 0;
-  const auto renderer =
-      MakeCpuRenderer(tracer, {.tier = ParseTier(argc > 3 ? argv[3] : "fast"), .environment = environment});
+  const auto renderer = MakeCpuRenderer(tracer, {.tier = ParseTier(argc > 3 ? argv[3] : "fast"), .environment = environment});
   const Vec3f sun = internal::Sky(environment).sun_irradiance();
-  std::printf("{\"ready\": true, \"sun_irradiance\": [%g, %g, %g]}\n", static_cast<double>(sun.x),
-              static_cast<double>(sun.y), static_cast<double>(sun.z));
+  std::printf("{\"ready\": true, \"sun_irradiance\": [%g, %g, %g]}\n", static_cast<double>(sun.x), static_cast<double>(sun.y),
+              static_cast<double>(sun.z));
   std::fflush(stdout);
   Frame frame;
   for (std::string line; std::getline(std::cin, line);) {
     const json request = json::parse(line);
     const RenderStats stats = renderer->Render(ReadRequest(request), frame);
-    if (request.contains("radiance"))
-      WriteFileAtomically(request["radiance"].get<std::string>(), EncodeExr(frame.radiance));
-    std::printf("{\"seconds\": %.6f, \"rays\": %llu}\n", stats.render_ms / 1000,
-                static_cast<unsigned long long>(stats.rays));
+    if (request.contains("radiance")) WriteFileAtomically(request["radiance"].get<std::string>(), EncodeExr(frame.radiance));
+    std::printf("{\"seconds\": %.6f, \"rays\": %llu}\n", stats.render_ms / 1000, static_cast<unsigned long long>(stats.rays));
     std::fflush(stdout);
   }
 }

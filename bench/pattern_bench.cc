@@ -21,8 +21,7 @@ int Below(int n) { return static_cast<int>(random_number() % static_cast<unsigne
 std::string Sequence(int depth, int length);
 
 std::string Atom(int depth) {
-  static const char* const kAtoms[] = {".",   "a",       "[a-z]", "\\w",  "[^_]",  "e",  "_",
-                                       "\\d", "[aeiou]", "i",     "(.*)", "(a|e)", "\\S"};
+  static const char* const kAtoms[] = {".", "a", "[a-z]", "\\w", "[^_]", "e", "_", "\\d", "[aeiou]", "i", "(.*)", "(a|e)", "\\S"};
   if (depth == 0 || Below(2) == 0) return kAtoms[Below(13)];
   std::string text = "(" + Sequence(depth - 1, 1 + Below(3));
   while (Below(3) == 0) text += "|" + Sequence(depth - 1, 1 + Below(3));
@@ -59,8 +58,7 @@ std::string HardExpression() {
     case 4:
       return "\\b(.*[a-m]." + times(Below(200)) + "\\b|\\B)*";
     case 5:
-      return "(.*[ae]." + times(Below(250)) + "|.*[io_]." + times(Below(250)) + "|(.?\\w?)" +
-             times(1 + Below(200)) + ")";
+      return "(.*[ae]." + times(Below(250)) + "|.*[io_]." + times(Below(250)) + "|(.?\\w?)" + times(1 + Below(200)) + ")";
     default:
       return Sequence(4, 2 + Below(6));
   }
@@ -68,13 +66,12 @@ std::string HardExpression() {
 
 // Names as worlds have them, and random ones.
 std::vector<std::string> Names() {
-  static const char* const kKinds[] = {
-      "building", "tree",           "car",        "lamp",         "window_frame",
-      "person",   "traffic_barrel", "bench_wood", "road_marking", "SM_Facade_Wall"};
+  static const char* const kKinds[] = {"building", "tree",           "car",        "lamp",         "window_frame",
+                                       "person",   "traffic_barrel", "bench_wood", "road_marking", "SM_Facade_Wall"};
   std::vector<std::string> names;
   for (int i = 0; i < 14000; ++i) {
-    names.push_back(std::string(kKinds[Below(10)]) + "_" + std::to_string(Below(3000)) + "/" +
-                    kKinds[Below(10)] + "_" + std::to_string(Below(100)));
+    names.push_back(std::string(kKinds[Below(10)]) + "_" + std::to_string(Below(3000)) + "/" + kKinds[Below(10)] + "_" +
+                    std::to_string(Below(100)));
   }
   for (int i = 0; i < 6000; ++i) {
     std::string name;
@@ -113,8 +110,7 @@ int main(int argc, char** argv) {
   std::ranges::sort(taken);
   double sum = 0;
   for (const auto& [ms, text] : taken) sum += ms;
-  std::printf(
-      "%d expressions (%d refused) on %zu names: mean %.2f ms, median %.2f, 99 %% %.2f, worst %.2f: %s\n",
-      count, refused, names.size(), sum / count, taken[taken.size() / 2].first,
-      taken[taken.size() * 99 / 100].first, taken.back().first, taken.back().second.c_str());
+  std::printf("%d expressions (%d refused) on %zu names: mean %.2f ms, median %.2f, 99 %% %.2f, worst %.2f: %s\n", count, refused,
+              names.size(), sum / count, taken[taken.size() / 2].first, taken[taken.size() * 99 / 100].first, taken.back().first,
+              taken.back().second.c_str());
 }

@@ -22,8 +22,7 @@ struct Largest {
 };
 
 /// Of one segment at `samples` even times, both ends with it. Eight times at once.
-[[gnu::target_clones("avx512f", "avx2", "default")]] Largest Sample(const double (*c)[8], double duration,
-                                                                    long samples) {
+[[gnu::target_clones("avx512f", "avx2", "default")]] Largest Sample(const double (*c)[8], double duration, long samples) {
   typedef double V8 __attribute__((vector_size(64)));
   V8 t = {}, speed2 = {}, acceleration2 = {};
   const double step = duration / static_cast<double>(samples - 1);
@@ -99,8 +98,7 @@ int main(int argc, char** argv) {
       own_acceleration.Add(peaks.acceleration.value, std::sqrt(largest.acceleration2));
     }
     const std::lock_guard lock(mutex);
-    for (const auto& [all, own] :
-         {std::pair{&speed, own_speed}, std::pair{&acceleration, own_acceleration}}) {
+    for (const auto& [all, own] : {std::pair{&speed, own_speed}, std::pair{&acceleration, own_acceleration}}) {
       all->below = std::min(all->below, own.below);
       all->above = std::max(all->above, own.above);
     }
@@ -111,7 +109,6 @@ int main(int argc, char** argv) {
   std::printf(
       "%llu trajectories of %ld samples: certified / sampled - 1: speed %.3g to %.3g, acceleration %.3g to "
       "%.3g\n",
-      static_cast<unsigned long long>(trajectories), samples, speed.below, speed.above, acceleration.below,
-      acceleration.above);
+      static_cast<unsigned long long>(trajectories), samples, speed.below, speed.above, acceleration.below, acceleration.above);
   return speed.below < 0 || acceleration.below < 0;
 }

@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
   const size_t count = argc > 1 ? static_cast<size_t>(std::atoi(argv[1])) : 200;
   const double seconds = argc > 2 ? std::atof(argv[2]) : 10;
   constexpr int64_t kDt = 50'000'000;  // 20 Hz
-  constexpr Behaviour kUppers[] = {Behaviour::kWalk, Behaviour::kPhoneCall, Behaviour::kTalk, Behaviour::kTexting, Behaviour::kIdle, Behaviour::kCarry};
+  constexpr Behaviour kUppers[] = {Behaviour::kWalk,    Behaviour::kPhoneCall, Behaviour::kTalk,
+                                   Behaviour::kTexting, Behaviour::kIdle,      Behaviour::kCarry};
 
   // Twelve bodies, as many people as asked for; every 3 s each does something else.
   double start = CpuNow();
@@ -65,8 +66,8 @@ int main(int argc, char** argv) {
     calls += static_cast<int64_t>(count);
   }
   const auto n = static_cast<double>(calls);
-  std::printf("step %.2f us, pose %.2f us, both %.2f us a person (bar 15, stretch 6); hash %016llx\n", step_time / n * 1e6, pose_time / n * 1e6, (step_time + pose_time) / n * 1e6,
-              static_cast<unsigned long long>(hasher.hash()));
+  std::printf("step %.2f us, pose %.2f us, both %.2f us a person (bar 15, stretch 6); hash %016llx\n", step_time / n * 1e6,
+              pose_time / n * 1e6, (step_time + pose_time) / n * 1e6, static_cast<unsigned long long>(hasher.hash()));
 
   // Skinning by level.
   for (int level = 0; level < 4; ++level) {
@@ -80,7 +81,8 @@ int main(int argc, char** argv) {
       vertices += positions.size();
     }
     const double time = CpuNow() - start;
-    std::printf("skin level %d: %.0f vertices, %.1f us a person, %.1f ns a vertex\n", level, static_cast<double>(vertices) / rounds, time / rounds * 1e6, time / static_cast<double>(vertices) * 1e9);
+    std::printf("skin level %d: %.0f vertices, %.1f us a person, %.1f ns a vertex\n", level, static_cast<double>(vertices) / rounds,
+                time / rounds * 1e6, time / static_cast<double>(vertices) * 1e9);
   }
 
   // The dynamic geometry of 30 people: skin, then refit in the tracer; whole process.
@@ -120,6 +122,7 @@ int main(int argc, char** argv) {
       skin += b - a;
       refit += c - b;
     }
-    std::printf("30 people, level %d: skinning %.2f ms, tracer %.2f ms a frame\n", level, skin / (kRounds - 5) * 1e3, refit / (kRounds - 5) * 1e3);
+    std::printf("30 people, level %d: skinning %.2f ms, tracer %.2f ms a frame\n", level, skin / (kRounds - 5) * 1e3,
+                refit / (kRounds - 5) * 1e3);
   }
 }

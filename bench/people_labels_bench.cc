@@ -33,14 +33,22 @@ Options Parse(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string a = argv[i];
     const auto value = [&] { return i + 1 < argc ? std::atof(argv[++i]) : 0.0; };
-    if (a == "--people") o.people = static_cast<int>(value());
-    else if (a == "--level") o.level = static_cast<int>(value());
-    else if (a == "--width") o.width = static_cast<int>(value());
-    else if (a == "--views") o.views = static_cast<int>(value());
-    else if (a == "--threads") o.threads = static_cast<int>(value());
-    else if (a == "--spread") o.spread = value();
-    else if (a == "--breakdown") o.breakdown = true;
-    else std::fprintf(stderr, "people_labels_bench: no flag '%s'\n", a.c_str()), std::exit(2);
+    if (a == "--people")
+      o.people = static_cast<int>(value());
+    else if (a == "--level")
+      o.level = static_cast<int>(value());
+    else if (a == "--width")
+      o.width = static_cast<int>(value());
+    else if (a == "--views")
+      o.views = static_cast<int>(value());
+    else if (a == "--threads")
+      o.threads = static_cast<int>(value());
+    else if (a == "--spread")
+      o.spread = value();
+    else if (a == "--breakdown")
+      o.breakdown = true;
+    else
+      std::fprintf(stderr, "people_labels_bench: no flag '%s'\n", a.c_str()), std::exit(2);
   }
   return o;
 }
@@ -138,13 +146,13 @@ int main(int argc, char** argv) {
   DynamicTracer dynamic(base);
   auto state = std::make_shared<SceneState>();
   const double show_ms = TimeMs(5, [&] {
-    state = std::make_shared<SceneState>();
-    ShowPeople(people, poses, *state);
-  }).median;
+                           state = std::make_shared<SceneState>();
+                           ShowPeople(people, poses, *state);
+                         }).median;
   std::shared_ptr<const RayTracer> tracer;
   const double update_ms = TimeMs(3, [&] { tracer = dynamic.At(state); }).median;
-  std::printf("%d people (%s), level %d: skinned %.2f ms, traced anew %.2f ms\n", o.people,
-              people.cast[0].body->character.c_str(), o.level, show_ms, update_ms);
+  std::printf("%d people (%s), level %d: skinned %.2f ms, traced anew %.2f ms\n", o.people, people.cast[0].body->character.c_str(), o.level,
+              show_ms, update_ms);
 
   const Camera camera = Equirectangular{o.width, o.width / 2};
   const auto renderer = MakeCpuRenderer(base, {.tier = Tier::kLabels});
@@ -159,8 +167,8 @@ int main(int argc, char** argv) {
     if (view == 0) {
       const Times keypoints = TimeMs(201, [&] { labels = LabelPeople(picture, {.boxes = false}); });
       const Times all_boxes = TimeMs(5, [&] { labels = LabelPeople(picture); });
-      std::printf("keypoints with visibility %.2f ms (fastest %.2f), with boxes %.1f ms (fastest %.1f), %d threads at most\n", keypoints.median,
-                  keypoints.fastest, all_boxes.median, all_boxes.fastest, o.threads);
+      std::printf("keypoints with visibility %.2f ms (fastest %.2f), with boxes %.1f ms (fastest %.1f), %d threads at most\n",
+                  keypoints.median, keypoints.fastest, all_boxes.median, all_boxes.fastest, o.threads);
     }
     labels = LabelPeople(picture, {.boxes = false});
     RenderRequest request = MakeRequest(camera, X_WC, Tier::kLabels);

@@ -30,8 +30,8 @@ void Print(const char* what, std::vector<double> ms, size_t people) {
   double sum = 0;
   for (const double t : ms) sum += t;
   const double mean = sum / static_cast<double>(ms.size());
-  std::printf("%-34s mean %7.2f ms  median %7.2f  p99 %7.2f  worst %7.2f  %6.2f us a person\n", what, mean,
-              ms[ms.size() / 2], ms[ms.size() * 99 / 100], ms.back(), 1e3 * mean / static_cast<double>(people));
+  std::printf("%-34s mean %7.2f ms  median %7.2f  p99 %7.2f  worst %7.2f  %6.2f us a person\n", what, mean, ms[ms.size() / 2],
+              ms[ms.size() * 99 / 100], ms.back(), 1e3 * mean / static_cast<double>(people));
 }
 
 }  // namespace

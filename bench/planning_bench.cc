@@ -82,11 +82,9 @@ void Solves(size_t segments) {
   for (const Route& route : routes) {
     paths.push_back(SolveMinimumSnap({.waypoints = route.waypoints, .durations = route.durations}));
   }
-  const double peaks = Median(calls, [&](int i) {
-    sink += CertifiedPeaks(paths[static_cast<size_t>(i) % paths.size()]).speed.value;
-  });
-  std::printf("%7zu segments: snap %.3f  quintic %.3f  jerk %.3f  snap + adjoint %.3f  peaks %.3f us%s\n",
-              segments, snap, quintic, jerk, gradient, peaks, sink == 0.5 ? "!" : "");
+  const double peaks = Median(calls, [&](int i) { sink += CertifiedPeaks(paths[static_cast<size_t>(i) % paths.size()]).speed.value; });
+  std::printf("%7zu segments: snap %.3f  quintic %.3f  jerk %.3f  snap + adjoint %.3f  peaks %.3f us%s\n", segments, snap, quintic, jerk,
+              gradient, peaks, sink == 0.5 ? "!" : "");
 }
 
 void Batch() {
@@ -101,8 +99,8 @@ void Batch() {
   const double time = Median(1, [&](int) {
     for (size_t i = 0; i < kRoutes; i += kPortion) {
       SolveMinimumSnapBatch(std::span(waypoints).subspan(i * (kSegments + 1), kPortion * (kSegments + 1)),
-                            std::span(durations).subspan(i * kSegments, kPortion * kSegments), kPortion,
-                            SplineKind::kMinimumSnap, coefficients);
+                            std::span(durations).subspan(i * kSegments, kPortion * kSegments), kPortion, SplineKind::kMinimumSnap,
+                            coefficients);
     }
   });
   std::printf("batch of 10-segment routes: %.3f us a route\n", time / kRoutes);
@@ -113,14 +111,13 @@ void Allocation(size_t segments) {
   for (uint64_t i = 0; i < 8; ++i) routes.push_back(RandomRoute(segments, 100 + i));
   double duration = 0, plain = 0;
   const TrajectoryLimits limits = {.speed = 16, .acceleration = 3};
-  const double time = Median(8, [&](int i) {
-    duration += AllocateTimes(routes[static_cast<size_t>(i)].waypoints, limits).trajectory.duration();
-  });
+  const double time =
+      Median(8, [&](int i) { duration += AllocateTimes(routes[static_cast<size_t>(i)].waypoints, limits).trajectory.duration(); });
   for (const Route& route : routes) {
     plain += AllocateTimes(route.waypoints, limits, {.optimise = false}).trajectory.duration();
   }
-  std::printf("allocation, %zu segments: %.0f us, flight %.2f s (trapezoids %.2f s)\n", segments, time,
-              duration / (8 * kRounds), plain / 8);
+  std::printf("allocation, %zu segments: %.0f us, flight %.2f s (trapezoids %.2f s)\n", segments, time, duration / (8 * kRounds),
+              plain / 8);
 }
 
 }  // namespace

@@ -61,8 +61,7 @@ int main(int argc, char** argv) {
       const auto hit = tracer.Intersect(VecCast<float>(origin), VecCast<float>(direction));
       if (!hit) continue;
       answers[i] = {static_cast<double>(LabelOf(tracer, hit->surface).entity),
-                    DistanceToPlane(tracer.scene(), hit->surface, origin, direction),
-                    static_cast<double>(hit->distance)};
+                    DistanceToPlane(tracer.scene(), hit->surface, origin, direction), static_cast<double>(hit->distance)};
     }
   });
   WriteFileAtomically(argv[3], std::as_bytes(std::span(answers)));

@@ -23,8 +23,7 @@ const Intersect real_intersect = Real<Intersect>("rtcIntersect16");
 const Occluded real_occluded = Real<Occluded>("rtcOccluded16");
 std::vector<RecordedPacket>* recording = nullptr;
 
-void Record(const int* valid, RTCScene scene, const RTCIntersectContext& context, const RTCRay16& ray,
-            bool occlusion) {
+void Record(const int* valid, RTCScene scene, const RTCIntersectContext& context, const RTCRay16& ray, bool occlusion) {
   RecordedPacket& p = recording->emplace_back();
   std::memcpy(p.origin, ray.org_x, sizeof p.origin);
   std::memcpy(p.t_near, ray.tnear, sizeof p.t_near);
@@ -84,8 +83,7 @@ double Replay(const std::vector<RecordedPacket>& packets, bool trace) {
   ParallelFor(static_cast<int64_t>(sums.size()), [&](int64_t run) {
     const FlushDenormals flush;
     double sum = 0;
-    for (int64_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i)
-      sum += Again(packets[static_cast<size_t>(i)], trace);
+    for (int64_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i) sum += Again(packets[static_cast<size_t>(i)], trace);
     sums[static_cast<size_t>(run)] = sum;
   });
   double sum = 0;
@@ -96,15 +94,13 @@ double Replay(const std::vector<RecordedPacket>& packets, bool trace) {
 }  // namespace airsim360::bench
 
 // What our ray tracer calls.
-extern "C" void rtcIntersect16(const int* valid, RTCScene scene, RTCIntersectContext* context,
-                               RTCRayHit16* rays) {
+extern "C" void rtcIntersect16(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRayHit16* rays) {
   using namespace airsim360::bench;
   if (recording != nullptr) Record(valid, scene, *context, rays->ray, false);
   real_intersect(valid, scene, context, rays);
 }
 
-extern "C" void rtcOccluded16(const int* valid, RTCScene scene, RTCIntersectContext* context,
-                              RTCRay16* rays) {
+extern "C" void rtcOccluded16(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* rays) {
   using namespace airsim360::bench;
   if (recording != nullptr) Record(valid, scene, *context, *rays, true);
   real_occluded(valid, scene, context, rays);

@@ -154,7 +154,8 @@ void Print(const Materials& materials) {
   double whole = 0;
   for (const auto& [name, s] : order) whole += (s.a + s.b) / 2;
   for (const auto& [name, s] : order)
-    std::printf("  %-28s %5.1f %% of the light, %.3f ±%.3f\n", name.c_str(), 50 * (s.a + s.b) / whole, 2 * s.high / (s.a + s.b), std::fabs(s.a - s.b) / (s.a + s.b));
+    std::printf("  %-28s %5.1f %% of the light, %.3f ±%.3f\n", name.c_str(), 50 * (s.a + s.b) / whole, 2 * s.high / (s.a + s.b),
+                std::fabs(s.a - s.b) / (s.a + s.b));
 }
 
 void Print(const char* name, const Table& table) {
@@ -221,7 +222,11 @@ int main(int argc, char** argv) {
     request.tier = Tier::kReference, request.samples = paths;
     for (int half = 0; half < 2; ++half) {
       request.seed = static_cast<uint64_t>(half);
-      Reference(*renderer, request, keep.empty() ? "" : keep + "/" + name + "_" + std::to_string(width) + "_" + std::to_string(paths) + "_" + std::to_string(half) + ".f32", light[half], half == 0 ? &shown : nullptr);
+      Reference(*renderer, request,
+                keep.empty()
+                    ? ""
+                    : keep + "/" + name + "_" + std::to_string(width) + "_" + std::to_string(paths) + "_" + std::to_string(half) + ".f32",
+                light[half], half == 0 ? &shown : nullptr);
     }
     Table own;
     Compare(high, light[0], light[1], kinds, own);

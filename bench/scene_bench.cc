@@ -38,13 +38,10 @@ const char* Text(int argc, char** argv, const char* name, const char* value) {
   return value;
 }
 
-double Since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
+double Since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
 double Median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
   return values[values.size() / 2];
 }
 
@@ -95,8 +92,7 @@ void Moving(int width, int rounds) {
   for (MeshId m : cast.meshes) vertices += scene->meshes[m].positions.size();
   RenderRequest request =
       MakeRequest(Equirectangular{width, width / 2},
-                  BodyPose(VecCast<double>(scene->spawn.value_or(Vec3f{0, 0, 3})), 0, 0, 0) * CameraInBody(),
-                  Tier::kLabels, kLabels);
+                  BodyPose(VecCast<double>(scene->spawn.value_or(Vec3f{0, 0, 3})), 0, 0, 0) * CameraInBody(), Tier::kLabels, kLabels);
   Frame frame;
   std::vector<double> ticks, built, moved;
   for (int i = 0; i <= rounds; ++i) {
@@ -111,10 +107,10 @@ void Moving(int width, int rounds) {
     moved.push_back(all);
     ticks.push_back(all - b);
   }
-  std::printf("moving: %zu instances and %zu meshes of %zu vertices; medians of %d, %d threads\n",
-              cast.instances.size(), cast.meshes.size(), vertices, rounds, ThreadCount());
-  std::printf("  frame as built %.1f ms; tick %.2f ms + frame = %.1f ms; ratio %.3f\n", Median(built),
-              Median(ticks), Median(moved), Median(moved) / Median(built));
+  std::printf("moving: %zu instances and %zu meshes of %zu vertices; medians of %d, %d threads\n", cast.instances.size(),
+              cast.meshes.size(), vertices, rounds, ThreadCount());
+  std::printf("  frame as built %.1f ms; tick %.2f ms + frame = %.1f ms; ratio %.3f\n", Median(built), Median(ticks), Median(moved),
+              Median(moved) / Median(built));
 }
 
 // A spray of pointed leaves along a twig, with clear space around.
@@ -123,12 +119,10 @@ Texture Spray() {
   Image<Rgba8> image(kSize, kSize, {70, 110, 40, 0});
   RngStream rng(1, "spray");
   for (int leaf = 0; leaf < 24; ++leaf) {
-    const double cx = 128 + rng.Uniform(-90, 90), cy = 128 + rng.Uniform(-90, 90),
-                 turn = rng.Uniform(0, 3.14);
+    const double cx = 128 + rng.Uniform(-90, 90), cy = 128 + rng.Uniform(-90, 90), turn = rng.Uniform(0, 3.14);
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
-        const double u = (x - cx) * std::cos(turn) + (y - cy) * std::sin(turn),
-                     v = (y - cy) * std::cos(turn) - (x - cx) * std::sin(turn);
+        const double u = (x - cx) * std::cos(turn) + (y - cy) * std::sin(turn), v = (y - cy) * std::cos(turn) - (x - cx) * std::sin(turn);
         if (std::abs(u) < 26 && std::abs(v) < 11 * (1 - u * u / 676)) image(x, y).a = 255;
       }
     }
@@ -150,13 +144,11 @@ std::shared_ptr<const Scene> Forest(uint32_t cuts) {
       for (int k = 0; k < 3; ++k) c[k] = static_cast<float>(rng.Uniform(-2.5, 2.5));
     } while (Norm(c) > 2.5f);
     const Vec3f right = PlaceUpright({}, static_cast<float>(rng.Uniform(0, 6))).A.column(0) * 0.8f;
-    const Vec3f up{static_cast<float>(rng.Uniform(-0.3, 0.3)), static_cast<float>(rng.Uniform(-0.3, 0.3)),
-                   0.7f};
+    const Vec3f up{static_cast<float>(rng.Uniform(-0.3, 0.3)), static_cast<float>(rng.Uniform(-0.3, 0.3)), 0.7f};
     const auto first = static_cast<uint32_t>(tree.positions.size());
     for (uint32_t j = 0; j <= cuts; ++j) {
       for (uint32_t i = 0; i <= cuts; ++i) {
-        const float u = static_cast<float>(i) / static_cast<float>(cuts),
-                    v = static_cast<float>(j) / static_cast<float>(cuts);
+        const float u = static_cast<float>(i) / static_cast<float>(cuts), v = static_cast<float>(j) / static_cast<float>(cuts);
         tree.positions.push_back(c + Vec3f{0, 0, 5} + right * (u - 0.5f) + up * (0.5f - v));
         tree.uvs.push_back({u, v});
       }
@@ -183,11 +175,9 @@ std::shared_ptr<const Scene> Forest(uint32_t cuts) {
 void MeasureForest(uint32_t cuts, int width, int rounds) {
   const auto scene = Forest(cuts);
   const auto sorted = MakeCpuRenderer(std::make_shared<const RayTracer>(scene));
-  const auto filtered = MakeCpuRenderer(
-      std::make_shared<const RayTracer>(scene, RayTracerOptions{.isa = {}, .sort_alpha = false}));
+  const auto filtered = MakeCpuRenderer(std::make_shared<const RayTracer>(scene, RayTracerOptions{.isa = {}, .sort_alpha = false}));
   const RenderRequest request =
-      MakeRequest(Equirectangular{width, width / 2}, BodyPose({0, 0, 3}, 0, 0, 0) * CameraInBody(),
-                  Tier::kLabels, kLabels);
+      MakeRequest(Equirectangular{width, width / 2}, BodyPose({0, 0, 3}, 0, 0, 0) * CameraInBody(), Tier::kLabels, kLabels);
   Frame a, b;
   std::vector<double> with, without;
   for (int i = 0; i <= rounds; ++i) {
@@ -195,8 +185,8 @@ void MeasureForest(uint32_t cuts, int width, int rounds) {
     without.push_back(filtered->Render(request, b).render_ms);
   }
   const double rays = static_cast<double>(width) * width / 2 / 1e3;
-  std::printf("forest, cards of %u x %u: sorted %.2f Mrays/s, filtered %.2f Mrays/s, ratio %.2f; labels %s\n",
-              cuts, cuts, rays / Median(with), rays / Median(without), Median(without) / Median(with),
+  std::printf("forest, cards of %u x %u: sorted %.2f Mrays/s, filtered %.2f Mrays/s, ratio %.2f; labels %s\n", cuts, cuts,
+              rays / Median(with), rays / Median(without), Median(without) / Median(with),
               a.entity == b.entity && a.range == b.range ? "identical" : "DIFFER");
 }
 

@@ -10,17 +10,14 @@ namespace {
 
 constexpr float kSide = 2000;  // metres
 
-float Height(float x, float y) {
-  return 12 * std::sin(x * .01f) * std::cos(y * .013f) + 3 * std::sin(x * .05f + y * .03f);
-}
+float Height(float x, float y) { return 12 * std::sin(x * .01f) * std::cos(y * .013f) + 3 * std::sin(x * .05f + y * .03f); }
 
 // Half of the triangles are terrain …
 void AddTerrain(Mesh& mesh, long triangles) {
   const auto n = static_cast<uint32_t>(std::sqrt(static_cast<double>(triangles) / 4));
   for (uint32_t j = 0; j <= n; ++j) {
     for (uint32_t i = 0; i <= n; ++i) {
-      const float x = (static_cast<float>(i) / n - .5f) * kSide,
-                  y = (static_cast<float>(j) / n - .5f) * kSide;
+      const float x = (static_cast<float>(i) / n - .5f) * kSide, y = (static_cast<float>(j) / n - .5f) * kSide;
       mesh.positions.push_back({x, y, Height(x, y)});
     }
   }
@@ -41,15 +38,13 @@ void AddTower(Mesh& mesh, RngStream& rng) {
     cx = static_cast<float>(rng.Uniform(-.5, .5)) * kSide;
     cy = static_cast<float>(rng.Uniform(-.5, .5)) * kSide;
   } while (cx * cx + cy * cy < 900);
-  const auto radius = static_cast<float>(rng.Uniform(4, 14)),
-             height = static_cast<float>(6 + 70 * rng.Uniform() * rng.Uniform());
+  const auto radius = static_cast<float>(rng.Uniform(4, 14)), height = static_cast<float>(6 + 70 * rng.Uniform() * rng.Uniform());
   const auto first = static_cast<uint32_t>(mesh.positions.size());
   for (uint32_t k = 0; k <= kFloors; ++k) {
     for (uint32_t s = 0; s < kSides; ++s) {
       const float a = static_cast<float>(s) * 2 * std::numbers::pi_v<float> / kSides;
       const float r = radius * (1 + .08f * static_cast<float>(rng.Uniform()));
-      mesh.positions.push_back(
-          {cx + r * std::cos(a), cy + r * std::sin(a), Height(cx, cy) - 2 + height * k / kFloors});
+      mesh.positions.push_back({cx + r * std::cos(a), cy + r * std::sin(a), Height(cx, cy) - 2 + height * k / kFloors});
     }
   }
   for (uint32_t k = 0; k < kFloors; ++k) {
@@ -89,8 +84,7 @@ Mesh LeafCards(MaterialId leaves, EntityId entity) {
     do {
       for (int k = 0; k < 3; ++k) c[k] = static_cast<float>(rng.Uniform(-3, 3));
     } while (Norm(c) > 3);
-    for (int k = 0; k < 3; ++k)
-      u[k] = static_cast<float>(rng.Uniform(-1, 1)), v[k] = static_cast<float>(rng.Uniform(-1, 1));
+    for (int k = 0; k < 3; ++k) u[k] = static_cast<float>(rng.Uniform(-1, 1)), v[k] = static_cast<float>(rng.Uniform(-1, 1));
     u = Normalized(u) * 0.35f;
     v = Normalized(Cross(u, v)) * 0.35f;
     const Vec3f middle = c + Vec3f{0, 0, 5};
@@ -124,10 +118,8 @@ std::shared_ptr<const Scene> BuildCity(const CityOptions& options) {
   Mesh mesh{"city", {}, {}, {}, {}, {}};
   RngStream rng(1, "city");
   const auto add_part = [&] {
-    const auto first =
-        mesh.parts.empty() ? 0 : mesh.parts.back().first_triangle + mesh.parts.back().triangle_count;
-    mesh.parts.push_back({first, static_cast<uint32_t>(mesh.triangles.size()) - first, 0,
-                          builder.AddEntity("part", building)});
+    const auto first = mesh.parts.empty() ? 0 : mesh.parts.back().first_triangle + mesh.parts.back().triangle_count;
+    mesh.parts.push_back({first, static_cast<uint32_t>(mesh.triangles.size()) - first, 0, builder.AddEntity("part", building)});
   };
   AddTerrain(mesh, options.triangles);
   add_part();
@@ -139,10 +131,9 @@ std::shared_ptr<const Scene> BuildCity(const CityOptions& options) {
   if (options.trees > 0) {
     const MeshId tree = builder.AddMesh(Tree());
     for (int i = 0; i < options.trees; ++i) {
-      const auto x = static_cast<float>(rng.Uniform(-500, 500)),
-                 y = static_cast<float>(rng.Uniform(-500, 500));
-      builder.AddInstance({tree, PlaceUpright({x, y, Height(x, y)}, static_cast<float>(rng.Uniform(0, 6))),
-                           builder.AddEntity("tree", building)});
+      const auto x = static_cast<float>(rng.Uniform(-500, 500)), y = static_cast<float>(rng.Uniform(-500, 500));
+      builder.AddInstance(
+          {tree, PlaceUpright({x, y, Height(x, y)}, static_cast<float>(rng.Uniform(0, 6))), builder.AddEntity("tree", building)});
     }
   }
   builder.AddSky();
@@ -154,8 +145,7 @@ std::shared_ptr<const Scene> BuildForest(int trees) {
   const CategoryId plant = builder.tree().At("vegetation/tree");
   Mesh ground{"ground", {}, {}, {}, {}, {}};
   AddTerrain(ground, 200'000);
-  ground.parts = {{0, static_cast<uint32_t>(ground.triangles.size()), builder.AddMaterial({}),
-                   builder.AddEntity("ground", plant)}};
+  ground.parts = {{0, static_cast<uint32_t>(ground.triangles.size()), builder.AddMaterial({}), builder.AddEntity("ground", plant)}};
   builder.AddInstance({builder.AddMesh(std::move(ground)), AffineTransform(), kNoEntity});
   Material leaves;
   leaves.kind = SurfaceKind::kFoliage;
@@ -167,8 +157,7 @@ std::shared_ptr<const Scene> BuildForest(int trees) {
   for (int i = 0; i < trees; ++i) {
     const auto x = static_cast<float>(rng.Uniform(-150, 150)), y = static_cast<float>(rng.Uniform(-150, 150));
     builder.AddInstance({tree,
-                         PlaceUpright({x, y, Height(x, y)}, static_cast<float>(rng.Uniform(0, 6)),
-                                      static_cast<float>(rng.Uniform(1, 2))),
+                         PlaceUpright({x, y, Height(x, y)}, static_cast<float>(rng.Uniform(0, 6)), static_cast<float>(rng.Uniform(1, 2))),
                          builder.AddEntity("tree", plant)});
   }
   builder.AddSky();

@@ -33,9 +33,7 @@ double CpuSeconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-double WallSeconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double WallSeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // Drones two metres apart in a square around a place, all sensors at their default rates or none.
 SimModel MakeModel(const std::shared_ptr<const RayTracer>& tracer, Vec3d p, int count, bool sensors) {
@@ -71,9 +69,8 @@ void Report(const char* what, const SimModel& model, double budget) {
     events.clear();
   }
   const double drone_steps = static_cast<double>(steps) * static_cast<double>(state.vehicles.size());
-  std::printf("%-28s %5zu drones: %9.0f steps/s, %10.0f drone steps/s, %10.0f a CPU second, %lld events\n",
-              what, state.vehicles.size(), static_cast<double>(steps) / (WallSeconds() - wall),
-              drone_steps / (WallSeconds() - wall), drone_steps / (CpuSeconds() - cpu),
+  std::printf("%-28s %5zu drones: %9.0f steps/s, %10.0f drone steps/s, %10.0f a CPU second, %lld events\n", what, state.vehicles.size(),
+              static_cast<double>(steps) / (WallSeconds() - wall), drone_steps / (WallSeconds() - wall), drone_steps / (CpuSeconds() - cpu),
               static_cast<long long>(touches));
 }
 
@@ -89,8 +86,8 @@ void ReportLidar(const RayTracer& tracer, Vec3d p, double budget) {
     points = scan.points.size();
   }
   const double rays = static_cast<double>(scans) * static_cast<double>(spec.shots());
-  std::printf("lidar 64 x 2048: %.2f M rays/s, %.2f M a CPU second, %zu points a scan\n",
-              rays / (WallSeconds() - wall) * 1e-6, rays / (CpuSeconds() - cpu) * 1e-6, points);
+  std::printf("lidar 64 x 2048: %.2f M rays/s, %.2f M a CPU second, %zu points a scan\n", rays / (WallSeconds() - wall) * 1e-6,
+              rays / (CpuSeconds() - cpu) * 1e-6, points);
 }
 
 }  // namespace
@@ -101,8 +98,8 @@ int main(int argc, char** argv) {
   const auto scene = LoadWorld({.world = world});
   const auto tracer = std::make_shared<const RayTracer>(scene);
   const Vec3d p = VecCast<double>(FirstViewpoint(*scene)) + Vec3d{0, 0, 1};
-  std::printf("%s, %llu triangles, %d threads\n", world.c_str(),
-              static_cast<unsigned long long>(scene->Count().instanced_triangles), ThreadCount());
+  std::printf("%s, %llu triangles, %d threads\n", world.c_str(), static_cast<unsigned long long>(scene->Count().instanced_triangles),
+              ThreadCount());
   for (const int count : {1, 16, 1000}) {
     Report("with standard sensors", MakeModel(tracer, p, count, true), budget);
     Report("without sensors", MakeModel(tracer, p, count, false), budget);

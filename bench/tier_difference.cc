@@ -56,9 +56,7 @@ std::vector<Pose> Poses(int argc, char** argv, const Scene& scene) {
 }
 
 // Linear light of a displayed colour.
-double Luminance(Rgb8 c) {
-  return 0.2126 * SrgbToLinear(c.r) + 0.7152 * SrgbToLinear(c.g) + 0.0722 * SrgbToLinear(c.b);
-}
+double Luminance(Rgb8 c) { return 0.2126 * SrgbToLinear(c.r) + 0.7152 * SrgbToLinear(c.g) + 0.0722 * SrgbToLinear(c.b); }
 
 enum Region { kSky, kSunlit, kShade, kLeaves, kGlass, kAll, kRegions };
 constexpr const char* kRegionNames[] = {"sky", "sunlit", "shade", "leaves", "glass", "all"};
@@ -75,9 +73,7 @@ Region RegionOf(const RayTracer& tracer, Vec3f origin, Vec3f direction, Vec3f to
   const Scene& scene = tracer.scene();
   const Mesh& mesh = scene.meshes[scene.instances[hit->surface.instance].mesh];
   for (const MeshPart& part : mesh.parts) {
-    if (hit->surface.triangle < part.first_triangle ||
-        hit->surface.triangle >= part.first_triangle + part.triangle_count)
-      continue;
+    if (hit->surface.triangle < part.first_triangle || hit->surface.triangle >= part.first_triangle + part.triangle_count) continue;
     const SurfaceKind kind = scene.materials[part.material].kind;
     if (kind == SurfaceKind::kFoliage) return kLeaves;
     if (kind == SurfaceKind::kGlass) return kGlass;
@@ -106,14 +102,12 @@ void Compare(const Image<Rgb8>& shown, const Image<Rgb8>& reference, const Image
 }
 
 void Print(const char* name, const Table& sums) {
-  std::printf("%s\n%-8s %8s %10s %10s %10s %11s %8s\n", name, "region", "share", "shown", "reference", "ratio",
-              "WS-PSNR dB", "FLIP");
+  std::printf("%s\n%-8s %8s %10s %10s %10s %11s %8s\n", name, "region", "share", "shown", "reference", "ratio", "WS-PSNR dB", "FLIP");
   for (int r = 0; r < kRegions; ++r) {
     const Sums& s = sums[r];
     if (s.weight == 0) continue;
-    std::printf("%-8s %7.1f%% %10.4f %10.4f %10.3f %11.2f %8.3f\n", kRegionNames[r],
-                100 * s.weight / sums[kAll].weight, s.shown / s.weight, s.reference / s.weight,
-                s.shown / s.reference, 10 * std::log10(255 * 255 / std::max(s.squares / s.weight, 1e-9)),
+    std::printf("%-8s %7.1f%% %10.4f %10.4f %10.3f %11.2f %8.3f\n", kRegionNames[r], 100 * s.weight / sums[kAll].weight, s.shown / s.weight,
+                s.reference / s.weight, s.shown / s.reference, 10 * std::log10(255 * 255 / std::max(s.squares / s.weight, 1e-9)),
                 s.flip / s.weight);
   }
 }
@@ -126,11 +120,9 @@ int main(int argc, char** argv) {
   const auto scene = LoadWorld({.world = Argument(argc, argv, "--world", "downtown_west")});
   const auto tracer = std::make_shared<const RayTracer>(scene);
   const auto renderer = MakeCpuRenderer(tracer, {.tier = Tier::kHigh});
-  const double azimuth = scene->environment.sun_azimuth_deg * M_PI / 180,
-               elevation = scene->environment.sun_elevation_deg * M_PI / 180;
+  const double azimuth = scene->environment.sun_azimuth_deg * M_PI / 180, elevation = scene->environment.sun_elevation_deg * M_PI / 180;
   const Vec3f to_sun{static_cast<float>(std::sin(azimuth) * std::cos(elevation)),
-                     static_cast<float>(std::cos(azimuth) * std::cos(elevation)),
-                     static_cast<float>(std::sin(elevation))};
+                     static_cast<float>(std::cos(azimuth) * std::cos(elevation)), static_cast<float>(std::sin(elevation))};
 
   const std::string out = Argument(argc, argv, "--out", "");
   if (!out.empty()) CreateWritableFolder(out);
@@ -156,8 +148,7 @@ int main(int argc, char** argv) {
     const RenderStats stats = renderer->Render(request, reference);
     request.samples = std::max(1, samples / 2), request.seed = 1;
     renderer->Render(request, half);
-    std::printf("pose %.1f %.1f %.1f %.0f: reference %.1f s\n", pose.x, pose.y, pose.z, pose.yaw_deg,
-                stats.render_ms / 1000);
+    std::printf("pose %.1f %.1f %.1f %.0f: reference %.1f s\n", pose.x, pose.y, pose.z, pose.yaw_deg, stats.render_ms / 1000);
     Compare(fast.rgb, reference.rgb, regions, fast_sums);
     Compare(high.rgb, reference.rgb, regions, high_sums);
     Compare(half.rgb, reference.rgb, regions, noise_sums);

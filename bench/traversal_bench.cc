@@ -83,11 +83,9 @@ class RawScene {
   }
   void Attach(RTCScene scene, const Mesh& mesh) {
     RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* vertices = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
-                                             mesh.positions.size() + 1);
+    void* vertices = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.positions.size() + 1);
     std::memcpy(vertices, mesh.positions.data(), mesh.positions.size() * 12);
-    void* indices =
-        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size());
+    void* indices = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size());
     std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * 12);
     rtcSetGeometryBuildQuality(g, RTC_BUILD_QUALITY_HIGH);
     rtcCommitGeometry(g);
@@ -214,22 +212,16 @@ struct Row {
 
 Row Measure(int threads, int rounds, const RawScene& raw, const RayTables& tables, Renderer& renderer) {
   const ThreadLimit limit(threads);
-  RenderRequest request = MakeRequest(
-      Equirectangular{tables.width, tables.height}, RigidTransform{{}, kEye} * CameraInBody(), Tier::kLabels,
-      {.rgb = false, .range = true, .semantic = true, .entity = true, .normal = true});
+  RenderRequest request = MakeRequest(Equirectangular{tables.width, tables.height}, RigidTransform{{}, kEye} * CameraInBody(),
+                                      Tier::kLabels, {.rgb = false, .range = true, .semantic = true, .entity = true, .normal = true});
   Frame frame, ids;
   std::vector<double> ms[4];
   double checksum[2] = {};
   for (int round = -1; round < rounds; ++round) {  // round -1 warms up
-    const double t[4] = {
-        Milliseconds([&] {
-          checksum[0] = Frame16(tables, [&](int x, int y) { return Raw16(raw.get(), tables, x, y); });
-        }),
-        Milliseconds([&] {
-          checksum[1] = Frame16(tables, [&](int x, int y) { return Raw1(raw.get(), tables, x, y); });
-        }),
-        (request.products.normal = true, Milliseconds([&] { renderer.Render(request, frame); })),
-        (request.products.normal = false, Milliseconds([&] { renderer.Render(request, ids); }))};
+    const double t[4] = {Milliseconds([&] { checksum[0] = Frame16(tables, [&](int x, int y) { return Raw16(raw.get(), tables, x, y); }); }),
+                         Milliseconds([&] { checksum[1] = Frame16(tables, [&](int x, int y) { return Raw1(raw.get(), tables, x, y); }); }),
+                         (request.products.normal = true, Milliseconds([&] { renderer.Render(request, frame); })),
+                         (request.products.normal = false, Milliseconds([&] { renderer.Render(request, ids); }))};
     if (round < 0) continue;
     for (int i = 0; i < 4; ++i) ms[i].push_back(t[i]);
   }
@@ -276,8 +268,7 @@ int main(int argc, char** argv) {
   const Options options = Parse(argc, argv);
   const auto scene = bench::BuildCity({options.triangles, options.trees});
   std::shared_ptr<const RayTracer> tracer;
-  const double build_ms =
-      Milliseconds([&] { tracer = std::make_shared<const RayTracer>(scene, RayTracerOptions{options.isa}); });
+  const double build_ms = Milliseconds([&] { tracer = std::make_shared<const RayTracer>(scene, RayTracerOptions{options.isa}); });
   const auto renderer = MakeCpuRenderer(tracer);
   const RawScene raw(*scene, options.isa);
   const RayTables tables(options.width);
@@ -289,27 +280,25 @@ int main(int argc, char** argv) {
     std::printf(
         "{\"unique_triangles\": %llu, \"instanced_triangles\": %llu, \"width\": %d, \"height\": %d, "
         "\"build_ms\": %.0f, \"rows\": [",
-        static_cast<unsigned long long>(counts.unique_triangles),
-        static_cast<unsigned long long>(counts.instanced_triangles), tables.width, tables.height, build_ms);
+        static_cast<unsigned long long>(counts.unique_triangles), static_cast<unsigned long long>(counts.instanced_triangles), tables.width,
+        tables.height, build_ms);
     for (size_t i = 0; i < rows.size(); ++i) {
       const Row& r = rows[i];
       std::printf(
           "%s{\"threads\": %d, \"raw16_ms\": %.2f, \"raw1_ms\": %.2f, \"labels_ms\": %.2f, \"ids_ms\": %.2f, "
           "\"labels_over_raw\": %.3f, \"ids_over_raw\": %.3f, \"packet_gain\": %.2f}",
-          i ? ", " : "", r.threads, r.raw16, r.raw1, r.labels, r.ids, r.labels / r.raw16, r.ids / r.raw16,
-          r.raw1 / r.raw16);
+          i ? ", " : "", r.threads, r.raw16, r.raw1, r.labels, r.ids, r.labels / r.raw16, r.ids / r.raw16, r.raw1 / r.raw16);
     }
     std::printf("]}\n");
     return 0;
   }
   std::printf("%llu unique triangles, %llu instanced, %dx%d, build %.2f s, median of %d rounds\n",
-              static_cast<unsigned long long>(counts.unique_triangles),
-              static_cast<unsigned long long>(counts.instanced_triangles), tables.width, tables.height,
-              build_ms / 1e3, options.rounds);
+              static_cast<unsigned long long>(counts.unique_triangles), static_cast<unsigned long long>(counts.instanced_triangles),
+              tables.width, tables.height, build_ms / 1e3, options.rounds);
   std::printf("threads  raw16 ms   raw1 ms  labels ms    ids ms  labels/raw16  ids/raw16  raw1/raw16\n");
   for (const Row& r : rows) {
-    std::printf("%7d %9.1f %9.1f %10.1f %9.1f %13.3f %10.3f %11.2f\n", r.threads, r.raw16, r.raw1, r.labels,
-                r.ids, r.labels / r.raw16, r.ids / r.raw16, r.raw1 / r.raw16);
+    std::printf("%7d %9.1f %9.1f %10.1f %9.1f %13.3f %10.3f %11.2f\n", r.threads, r.raw16, r.raw1, r.labels, r.ids, r.labels / r.raw16,
+                r.ids / r.raw16, r.raw1 / r.raw16);
   }
   return 0;
 }

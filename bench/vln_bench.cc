@@ -30,7 +30,8 @@ Spent Now() {
   const auto used_by = [](auto who) {
     rusage used;
     getrusage(who, &used);
-    return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+    return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+           1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
   };
   now.processor = used_by(RUSAGE_SELF);
   now.children = used_by(RUSAGE_CHILDREN);
@@ -47,8 +48,8 @@ Spent Measure(const Work& work) {
 
 double Print(const char* what, size_t frames, const Spent& spent) {
   const auto n = static_cast<double>(frames);
-  std::printf("%-28s %5zu frames, %6.2f frames/s, %6.2f ms of processor a frame (and %.2f of programs), %.2f processors busy\n", what, frames,
-              n / spent.wall, 1e3 * spent.processor / n, 1e3 * spent.children / n, (spent.processor + spent.children) / spent.wall);
+  std::printf("%-28s %5zu frames, %6.2f frames/s, %6.2f ms of processor a frame (and %.2f of programs), %.2f processors busy\n", what,
+              frames, n / spent.wall, 1e3 * spent.processor / n, 1e3 * spent.children / n, (spent.processor + spent.children) / spent.wall);
   std::fflush(stdout);
   return spent.processor / n;
 }
@@ -57,7 +58,10 @@ double Print(const char* what, size_t frames, const Spent& spent) {
 VlnRunOptions Run(const std::shared_ptr<Stage>& stage, int workers, int decisions, int width) {
   VlnRunOptions options;
   options.agent = "exec";
-  options.exec.command = {"sed", "-u", "-e", std::to_string(decisions) + "c{\"action\":\"stop\"}", "-e", "3~3c{\"action\":\"turn_left\"}", "-e", "c{\"action\":\"forward\"}"};
+  options.exec.command = {"sed", "-u",
+                          "-e",  std::to_string(decisions) + "c{\"action\":\"stop\"}",
+                          "-e",  "3~3c{\"action\":\"turn_left\"}",
+                          "-e",  "c{\"action\":\"forward\"}"};
   options.decisions = Decisions::kDiscrete;
   options.protocol = "citynav";
   options.workers = workers;
@@ -73,7 +77,9 @@ int main(int argc, char** argv) try {
   const auto number = [&](int k, int otherwise) { return argc > k ? std::atoi(argv[k]) : otherwise; };
   const int width = number(5, 512);
   std::vector<LanguageEpisode> episodes = ReadEpisodes(argv[1]);
-  std::erase_if(episodes, [first = episodes.front()](const LanguageEpisode& e) { return e.world != first.world || e.world_seed != first.world_seed; });
+  std::erase_if(episodes, [first = episodes.front()](const LanguageEpisode& e) {
+    return e.world != first.world || e.world_seed != first.world_seed;
+  });
   episodes.resize(std::min(episodes.size(), static_cast<size_t>(std::max(1, number(2, 64)))));
   const auto stage = std::make_shared<Stage>(StageOptions{.world = {.world = episodes.front().world, .seed = episodes.front().world_seed}});
   const VlnRunOptions options = Run(stage, number(3, 64), number(4, 12), width);
@@ -94,8 +100,8 @@ int main(int argc, char** argv) try {
       renderers[k++ % std::size(renderers)]->Render(request, frame);
     }
   };
-  std::printf("%s, %zu flights, %d at once, panoramas of %d x %d, %d threads\n", episodes.front().world.c_str(), episodes.size(), options.workers, width,
-              width / 2, ThreadCount());
+  std::printf("%s, %zu flights, %d at once, panoramas of %d x %d, %d threads\n", episodes.front().world.c_str(), episodes.size(),
+              options.workers, width, width / 2, ThreadCount());
   const double a = Print("renderer alone", poses.size(), Measure(draw)), b = Print("flights", poses.size(), flown);
   const double c = Print("renderer alone, again", poses.size(), Measure(draw)), d = Print("flights, again", poses.size(), Measure(fly));
   std::printf("renderer / flights: %.3f of the processor (bar 0.9)\n", (a + c) / (b + d));

@@ -44,23 +44,19 @@ void MeasureRoutes(const WaypointSpace& space, const WaypointWorld& world, int64
       segments += static_cast<int64_t>(flight.flight.trajectory.segments());
       added += static_cast<int64_t>(flight.added);
       allocation += Measure([&] {
-        AllocateTimes(flight.waypoints, {.speed = set.max_speed, .acceleration = set.max_acceleration},
-                      {.sample_interval = set.interval});
+        AllocateTimes(flight.waypoints, {.speed = set.max_speed, .acceleration = set.max_acceleration}, {.sample_interval = set.interval});
       });
-      certificates += Measure([&] {
-        queries += Certify(flight.flight.trajectory, flight.flight.peaks, space.world(), 0.5).queries;
-      });
+      certificates += Measure([&] { queries += Certify(flight.flight.trajectory, flight.flight.peaks, space.world(), 0.5).queries; });
     }
   }
   const double n = static_cast<double>(flights);
   std::printf(
       "%s: %lld flights of %.1f segments (%.2f waypoints added): %.3f ms each in all; times and polynomials "
       "%.3f ms, certificate %.3f ms (%.1f queries)\n",
-      world.name.c_str(), static_cast<long long>(flights), static_cast<double>(segments) / n,
-      static_cast<double>(added) / n, 1e3 * whole / n, 1e3 * allocation / n, 1e3 * certificates / n,
-      static_cast<double>(queries) / n);
-  std::printf("100,000 flights at this rate: %.0f s of one core in all; times and polynomials alone %.0f s\n",
-              1e5 * whole / n, 1e5 * allocation / n);
+      world.name.c_str(), static_cast<long long>(flights), static_cast<double>(segments) / n, static_cast<double>(added) / n,
+      1e3 * whole / n, 1e3 * allocation / n, 1e3 * certificates / n, static_cast<double>(queries) / n);
+  std::printf("100,000 flights at this rate: %.0f s of one core in all; times and polynomials alone %.0f s\n", 1e5 * whole / n,
+              1e5 * allocation / n);
 }
 
 void MeasureFreeFlights(const WaypointSpace& space) {
@@ -90,9 +86,8 @@ void MeasureFreeFlights(const WaypointSpace& space) {
   }
   for (auto* list : {&found, &refused}) std::sort(list->begin(), list->end());
   const auto median = [](const std::vector<double>& v) { return v.empty() ? 0 : v[v.size() / 2]; };
-  std::printf(
-      "free flights up to 150 m: %zu found (median %.1f ms, most %.1f ms), %zu refused (median %.1f ms)\n",
-      found.size(), median(found), found.empty() ? 0 : found.back(), refused.size(), median(refused));
+  std::printf("free flights up to 150 m: %zu found (median %.1f ms, most %.1f ms), %zu refused (median %.1f ms)\n", found.size(),
+              median(found), found.empty() ? 0 : found.back(), refused.size(), median(refused));
 }
 
 }  // namespace

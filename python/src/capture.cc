@@ -12,9 +12,9 @@
 namespace airsim360::python {
 namespace {
 
-Rig MakeRig(uint64_t width, uint64_t height, const std::vector<std::string>& products,
-            const std::string& projection, double fov, const py::object& position, double yaw, double pitch,
-            double roll, bool level, uint64_t seed, double flow_dt, const py::kwargs& picture) {
+Rig MakeRig(uint64_t width, uint64_t height, const std::vector<std::string>& products, const std::string& projection, double fov,
+            const py::object& position, double yaw, double pitch, double roll, bool level, uint64_t seed, double flow_dt,
+            const py::kwargs& picture) {
   CameraSpec spec;
   spec.projection = projection;
   spec.width = width;
@@ -24,11 +24,8 @@ Rig MakeRig(uint64_t width, uint64_t height, const std::vector<std::string>& pro
   ReadKeywords(picture, [&](ConfigVisitor& v) { spec.PictureSettings::Visit(v); });
   spec.seed = seed;
   Rig rig{spec.Rig(), Finite(flow_dt, "flow_dt"), WithProducts(kNoProducts, products)};
-  if (!(flow_dt > 0 && flow_dt <= 10))
-    throw InputError("flow_dt: " + std::to_string(flow_dt) + " s is not above 0 and at most 10");
-  rig.rig.X_BC = BodyPose(ToVec3(position, "position"), Finite(yaw, "yaw"), Finite(pitch, "pitch"),
-                          Finite(roll, "roll")) *
-                 CameraInBody();
+  if (!(flow_dt > 0 && flow_dt <= 10)) throw InputError("flow_dt: " + std::to_string(flow_dt) + " s is not above 0 and at most 10");
+  rig.rig.X_BC = BodyPose(ToVec3(position, "position"), Finite(yaw, "yaw"), Finite(pitch, "pitch"), Finite(roll, "roll")) * CameraInBody();
   if (rig.rig.tier == Tier::kLabels) rig.shown.rgb = false;
   rig.rig.products = Rendered(rig.shown);
   return rig;
@@ -107,14 +104,14 @@ py::object CoverageOf(const py::object& self) {
   offsets.append(offsetof(CoveragePixel, entity));
   offsets.append(offsetof(CoveragePixel, share));
   const auto pixel = static_cast<py::ssize_t>(sizeof(CoveragePixel));
-  return py::array(py::dtype(names, formats, offsets, pixel), {image.height(), image.width()},
-                   {pixel * image.width(), pixel}, image.pixels().data(), self);
+  return py::array(py::dtype(names, formats, offsets, pixel), {image.height(), image.width()}, {pixel * image.width(), pixel},
+                   image.pixels().data(), self);
 }
 
 std::string Describe(const Capture& c) {
   const Pictures there = PicturesOf(c);
-  return Text("Capture(%s, %dx%d, at %s m, t = %.3f s)", Joined(there.names).c_str(), there.width, there.height,
-              Text(c.X_WC.p).c_str(), Seconds(c.t_ns));
+  return Text("Capture(%s, %dx%d, at %s m, t = %.3f s)", Joined(there.names).c_str(), there.width, there.height, Text(c.X_WC.p).c_str(),
+              Seconds(c.t_ns));
 }
 
 // The pictures of a capture in memory of a CUDA device.
@@ -179,16 +176,14 @@ pictures are made, as the flags of `airsim360 render` do.)");
     py::options options;
     options.disable_function_signatures();
     rig.def(py::init(&MakeRig), py::arg("width") = 1024, py::arg("height") = 0, py::kw_only(),
-            py::arg("products") = std::vector<std::string>{"rgb", "range", "semantic", "entity"},
-            py::arg("projection") = "erp", py::arg("fov") = M_PI / 2,
-            py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
-            py::arg("roll") = 0.0, py::arg("level") = false, py::arg("seed") = 0, py::arg("flow_dt") = 0.1,
-            RigDocumentation().c_str());
+            py::arg("products") = std::vector<std::string>{"rgb", "range", "semantic", "entity"}, py::arg("projection") = "erp",
+            py::arg("fov") = M_PI / 2, py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
+            py::arg("roll") = 0.0, py::arg("level") = false, py::arg("seed") = 0, py::arg("flow_dt") = 0.1, RigDocumentation().c_str());
   }
   rig.def("__repr__",
           [](const Rig& r) {
-            return Text("Rig(%dx%d, tier %s, %s)", Width(r.rig.camera), Height(r.rig.camera),
-                        kTierNames[static_cast<int>(r.rig.tier)], Joined(NamesOf(r.shown)).c_str());
+            return Text("Rig(%dx%d, tier %s, %s)", Width(r.rig.camera), Height(r.rig.camera), kTierNames[static_cast<int>(r.rig.tier)],
+                        Joined(NamesOf(r.shown)).c_str());
           })
       .def_property_readonly(
           "width", [](const Rig& r) { return Width(r.rig.camera); }, "Pixels.")
@@ -198,53 +193,38 @@ pictures are made, as the flags of `airsim360 render` do.)");
 
 // Those that the renderer drew.
 void BindPlainPictures(CaptureClass& capture) {
-  capture
-      .def("__repr__", &Describe)
+  capture.def("__repr__", &Describe)
       .def_property_readonly(
-          "products", [](const Capture& c) { return PicturesOf(c).names; },
-          "Names of the pictures that are there.")
+          "products", [](const Capture& c) { return PicturesOf(c).names; }, "Names of the pictures that are there.")
       .def_property_readonly("rgb", Picture<uint8_t>(&Frame::rgb, 3, "rgb"), "(H, W, 3) uint8, sRGB.")
       .def_property_readonly("range", Picture<float>(&Frame::range, 0, "range"),
                              "(H, W) float32, metres along the ray, 0 = nothing hit (sky).")
       .def_property_readonly("semantic", Picture<CategoryId>(&Frame::semantic, 0, "semantic"),
                              "(H, W) uint16, category id (World.categories).")
-      .def_property_readonly("entity", Picture<EntityId>(&Frame::entity, 0, "entity"),
-                             "(H, W) uint32, entity id (World.entities).")
+      .def_property_readonly("entity", Picture<EntityId>(&Frame::entity, 0, "entity"), "(H, W) uint32, entity id (World.entities).")
       .def_property_readonly("normal", Picture<float>(&Frame::normal, 3, "normal"),
                              "(H, W, 3) float32, unit normal in W towards the camera.")
-      .def_property_readonly("position", Picture<float>(&Frame::position, 3, "position"),
-                             "(H, W, 3) float32, point hit, metres in W.")
-      .def_property_readonly("albedo", Picture<float>(&Frame::albedo, 3, "albedo"),
-                             "(H, W, 3) float32, linear base colour.")
-      .def_property_readonly("material", Picture<uint16_t>(&Frame::material, 0, "material"),
-                             "(H, W) uint16, material index plus 1.");
+      .def_property_readonly("position", Picture<float>(&Frame::position, 3, "position"), "(H, W, 3) float32, point hit, metres in W.")
+      .def_property_readonly("albedo", Picture<float>(&Frame::albedo, 3, "albedo"), "(H, W, 3) float32, linear base colour.")
+      .def_property_readonly("material", Picture<uint16_t>(&Frame::material, 0, "material"), "(H, W) uint16, material index plus 1.");
 }
 
 // Those that are made of others or have another form.
 void BindOtherPictures(CaptureClass& capture) {
   capture
       .def_property_readonly(
-          "part",
-          [](const py::object& self) {
-            return PictureIn<uint8_t>(self, self.cast<const Capture&>().part, 0, "part");
-          },
+          "part", [](const py::object& self) { return PictureIn<uint8_t>(self, self.cast<const Capture&>().part, 0, "part"); },
           "(H, W) uint8, which part of the pixel's entity (airsim360.PARTS): 1 window, 2 door, 3 balcony …; "
           "0 = its body, or nothing hit.")
       .def_property_readonly(
-          "sky",
-          [](const py::object& self) {
-            return PictureIn<uint8_t>(self, self.cast<const Capture&>().sky, 0, "sky");
-          },
+          "sky", [](const py::object& self) { return PictureIn<uint8_t>(self, self.cast<const Capture&>().sky, 0, "sky"); },
           "(H, W) uint8, 255 = the ray through the pixel centre meets the sky, else 0.")
-      .def_property_readonly(
-          "coverage", &CoverageOf,
-          "(H, W) records of entity (4,) uint32 and share (4,) float32: the entities in a pixel by the "
-          "share of its area, largest first; entity 0 = no more.")
-      .def_property_readonly("radiance", Picture<float>(&Frame::radiance, 3, "radiance"),
-                             "(H, W, 3) float32, linear light.")
-      .def_property_readonly(
-          "flow", Picture<float>(&Frame::flow, 2, "flow"),  // dx, dy are first in the pixel
-          "(H, W, 2) float32, pixels to where the point is flow_dt later if commands stay; x wraps.");
+      .def_property_readonly("coverage", &CoverageOf,
+                             "(H, W) records of entity (4,) uint32 and share (4,) float32: the entities in a pixel by the "
+                             "share of its area, largest first; entity 0 = no more.")
+      .def_property_readonly("radiance", Picture<float>(&Frame::radiance, 3, "radiance"), "(H, W, 3) float32, linear light.")
+      .def_property_readonly("flow", Picture<float>(&Frame::flow, 2, "flow"),  // dx, dy are first in the pixel
+                             "(H, W, 2) float32, pixels to where the point is flow_dt later if commands stay; x wraps.");
 }
 
 // When and how it was taken.
@@ -253,14 +233,12 @@ void BindTrigger(CaptureClass& capture) {
       .def(
           "tensor",
           [](const py::object& self, const std::string& product) {
-            WithProducts(kNoProducts,
-                         std::vector{product});  // names the nearest where there is no such product
+            WithProducts(kNoProducts, std::vector{product});  // names the nearest where there is no such product
             return ToTensor(self.attr(product.c_str()));
           },
           py::arg("product"), "A picture for from_dlpack of torch, jax, cupy or numpy, without a copy.")
       .def_property_readonly(
-          "pose", [](const Capture& c) { return FromPose(c.X_WC); },
-          "(4, 4) X_WC: p_W = X_WC p_C, C with +X right, +Y down, +Z forward.")
+          "pose", [](const Capture& c) { return FromPose(c.X_WC); }, "(4, 4) X_WC: p_W = X_WC p_C, C with +X right, +Y down, +Z forward.")
       .def_property_readonly(
           "look",
           [](const Capture& c) -> py::object {
@@ -280,8 +258,7 @@ void BindTrigger(CaptureClass& capture) {
           "p", [](const Capture& c) { return FromVec3(c.X_WC.p); }, "(3,) place of the camera in W, metres.")
       .def_readonly("t_ns", &Capture::t_ns, "Time of the trigger, nanoseconds.")
       .def_property_readonly(
-          "render_ms", [](const Capture& c) { return c.stats.render_ms; },
-          "Milliseconds of rays and shading alone.")
+          "render_ms", [](const Capture& c) { return c.stats.render_ms; }, "Milliseconds of rays and shading alone.")
       .def_property_readonly(
           "rays", [](const Capture& c) { return c.stats.rays; }, "Rays that were cast.");
 }
@@ -290,7 +267,8 @@ void BindCudaCapture(py::module_& m) {
   py::class_<CudaCapture, Capture, std::shared_ptr<CudaCapture>>(m, "CudaCapture", R"(A capture whose pictures stay in memory of the GPU.
 
 rgb, range and so on are ValueErrors; tensor("rgb") is a tensor of CUDA for from_dlpack of torch, jax or cupy.)")
-      .def("__repr__", [](const CudaCapture& c) { return Text("CudaCapture(at %s m, t = %.3f s)", Text(c.X_WC.p).c_str(), Seconds(c.t_ns)); })
+      .def("__repr__",
+           [](const CudaCapture& c) { return Text("CudaCapture(at %s m, t = %.3f s)", Text(c.X_WC.p).c_str(), Seconds(c.t_ns)); })
       .def("tensor", &PictureOf, py::arg("product"), "A picture for from_dlpack of torch, jax or cupy, without a copy.");
 }
 
@@ -301,11 +279,9 @@ void BindCapture(py::module_& m) {
   for (const char* name : kPartNames) parts.append(name);
   m.attr("PARTS") = py::tuple(parts);
   m.attr("PRODUCTS") = py::tuple(py::cast(ProductNames()));
-  m.attr("PICTURE_SETTINGS") =
-      py::tuple(py::cast(KeywordNames([](ConfigVisitor& v) { PictureSettings().Visit(v); })));
+  m.attr("PICTURE_SETTINGS") = py::tuple(py::cast(KeywordNames([](ConfigVisitor& v) { PictureSettings().Visit(v); })));
   BindRig(m);
-  CaptureClass capture(
-      m, "Capture", R"(What one trigger gave: all pictures from the same rays at one instant.
+  CaptureClass capture(m, "Capture", R"(What one trigger gave: all pictures from the same rays at one instant.
 
 Pictures are views of this object's memory (no copies); one that the rig was not asked for is a ValueError.)");
   BindPlainPictures(capture);

@@ -36,25 +36,21 @@ std::string ShapeText(const py::array& array) {
 }  // namespace
 
 double Finite(double value, const char* what) {
-  if (!std::isfinite(value))
-    throw InputError(std::string(what) + ": " + std::to_string(value) + " is not a finite number");
+  if (!std::isfinite(value)) throw InputError(std::string(what) + ": " + std::to_string(value) + " is not a finite number");
   return value;
 }
 
 Vec3d ToVec3(const py::handle& value, const char* what) {
   const Doubles a = ToDoubles(value, what);
-  if (a.ndim() != 1 || a.shape(0) != 3)
-    throw InputError(std::string(what) + ": shape " + ShapeText(a) + " is not (3,)");
+  if (a.ndim() != 1 || a.shape(0) != 3) throw InputError(std::string(what) + ": shape " + ShapeText(a) + " is not (3,)");
   return {a.data()[0], a.data()[1], a.data()[2]};
 }
 
 std::vector<Vec3d> ToPoints(const py::handle& value, const char* what) {
   const Doubles a = ToDoubles(value, what);
-  if (a.ndim() != 2 || a.shape(1) != 3)
-    throw InputError(std::string(what) + ": shape " + ShapeText(a) + " is not (N, 3)");
+  if (a.ndim() != 2 || a.shape(1) != 3) throw InputError(std::string(what) + ": shape " + ShapeText(a) + " is not (N, 3)");
   std::vector<Vec3d> points(static_cast<size_t>(a.shape(0)));
-  for (size_t i = 0; i < points.size(); ++i)
-    points[i] = {a.data()[3 * i], a.data()[3 * i + 1], a.data()[3 * i + 2]};
+  for (size_t i = 0; i < points.size(); ++i) points[i] = {a.data()[3 * i], a.data()[3 * i + 1], a.data()[3 * i + 2]};
   return points;
 }
 

@@ -30,8 +30,7 @@ py::array_t<double> FromPoints(const std::vector<Vec3d>& points);  ///< (N, 3)
 
 /// An array that shows `data`, which `owner` keeps alive; nothing is copied.
 template <class T>
-py::array View(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
-               const py::handle& owner) {
+py::array View(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, const py::handle& owner) {
   return py::array(py::dtype::of<T>(), std::move(shape), std::move(strides), data, owner);
 }
 

@@ -30,14 +30,13 @@ Drone MakeDrone(const std::string& what) {
 Drone ToDrone(const py::handle& value) {
   if (py::isinstance<Drone>(value)) return value.cast<Drone>();
   if (py::isinstance<py::str>(value)) return MakeDrone(value.cast<std::string>());
-  throw InputError("drones: " + py::repr(value).cast<std::string>() +
-                   " is neither an airsim360.Drone nor a name, words or a .yaml file");
+  throw InputError("drones: " + py::repr(value).cast<std::string>() + " is neither an airsim360.Drone nor a name, words or a .yaml file");
 }
 
 namespace {
 
-Drone NewDrone(const std::string& model, const std::string& name, const py::object& position, double yaw,
-               bool airborne, const std::string& controller, const std::string& sensors) {
+Drone NewDrone(const std::string& model, const std::string& name, const py::object& position, double yaw, bool airborne,
+               const std::string& controller, const std::string& sensors) {
   Drone drone = MakeDrone(model);
   drone.name = name;
   if (!position.is_none()) drone.p_WB = ToVec3(position, "position");
@@ -79,9 +78,8 @@ void BindDrone(py::module_& m) {
 model: a name of drone_catalog(), a .yaml file, or words ("a 250 g five-inch racing quad"). position (3,) of W: where it
 hovers (airborne) or above where it stands; None: the world's spawn. yaw: radians. controller: simple_flight, px4, se3 or
 indi. sensors: a sensor file. ValueError names what was not understood.)")
-      .def(py::init(&NewDrone), py::arg("model") = "hummingbird", py::arg("name") = "",
-           py::arg("position") = py::none(), py::arg("yaw") = 0.0, py::arg("airborne") = false,
-           py::arg("controller") = "indi", py::arg("sensors") = "")
+      .def(py::init(&NewDrone), py::arg("model") = "hummingbird", py::arg("name") = "", py::arg("position") = py::none(),
+           py::arg("yaw") = 0.0, py::arg("airborne") = false, py::arg("controller") = "indi", py::arg("sensors") = "")
       .def_static(
           "from_words",
           [](const std::string& words) {
@@ -94,10 +92,9 @@ indi. sensors: a sensor file. ValueError names what was not understood.)")
           },
           py::arg("words"), "A drone from a description; every figure has its reason in `laws`.")
       .def("__repr__",
-           [](const Drone& d) {
-             return Text("Drone(%s: %.4g kg, %zu rotors)", d.model.name.c_str(), d.model.mass, d.model.rotors.size());
-           })
-      .def_property_readonly("model", [](const Drone& d) { return d.model.name; }, "Name of its kind.")
+           [](const Drone& d) { return Text("Drone(%s: %.4g kg, %zu rotors)", d.model.name.c_str(), d.model.mass, d.model.rotors.size()); })
+      .def_property_readonly(
+          "model", [](const Drone& d) { return d.model.name; }, "Name of its kind.")
       .def_readonly("name", &Drone::name, "What it is called in a simulation; empty: by its number.")
       .def_property_readonly(
           "mass", [](const Drone& d) { return d.model.mass; }, "kg")
@@ -115,8 +112,7 @@ indi. sensors: a sensor file. ValueError names what was not understood.)")
       "drone_catalog",
       [] {
         py::dict d;
-        for (const CatalogDrone& drone : DroneCatalog())
-          d[py::str(drone.name.data(), drone.name.size())] = std::string(drone.title);
+        for (const CatalogDrone& drone : DroneCatalog()) d[py::str(drone.name.data(), drone.name.size())] = std::string(drone.title);
         return d;
       },
       "Real drones that are known: name -> what it is.");

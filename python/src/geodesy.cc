@@ -8,10 +8,8 @@ namespace airsim360::python {
 namespace {
 
 GeoFrame MakeFrame(double latitude_deg, double longitude_deg, double altitude) {
-  if (!(latitude_deg >= -90 && latitude_deg <= 90))
-    throw InputError(Text("latitude_deg: %g is not in -90 ... 90", latitude_deg));
-  if (!(longitude_deg >= -180 && longitude_deg <= 180))
-    throw InputError(Text("longitude_deg: %g is not in -180 ... 180", longitude_deg));
+  if (!(latitude_deg >= -90 && latitude_deg <= 90)) throw InputError(Text("latitude_deg: %g is not in -90 ... 90", latitude_deg));
+  if (!(longitude_deg >= -180 && longitude_deg <= 180)) throw InputError(Text("longitude_deg: %g is not in -180 ... 180", longitude_deg));
   return GeoFrame({latitude_deg, longitude_deg, Finite(altitude, "altitude")});
 }
 
@@ -39,7 +37,11 @@ latitude_deg, longitude_deg: degrees, -90 … 90 and -180 … 180; altitude: met
 altitude grows with the square of the distance (8 cm at 1 km). Simulation.geo_frame is that of satellite receivers.)")
       .def(py::init(&MakeFrame), py::arg("latitude_deg"), py::arg("longitude_deg"), py::arg("altitude") = 0.0)
       .def_property_readonly(
-          "origin", [](const GeoFrame& f) { return FromVec3({f.origin().latitude_deg, f.origin().longitude_deg, f.origin().altitude}); }, "Latitude, longitude (degrees) and altitude of W's origin.")
+          "origin",
+          [](const GeoFrame& f) {
+            return FromVec3({f.origin().latitude_deg, f.origin().longitude_deg, f.origin().altitude});
+          },
+          "Latitude, longitude (degrees) and altitude of W's origin.")
       .def(
           "to_world",
           [](const GeoFrame& f, const py::object& places) {
@@ -48,9 +50,7 @@ altitude grows with the square of the distance (8 cm at 1 km). Simulation.geo_fr
           py::arg("places"), "Latitude, longitude (degrees), altitude (metres), (3,) or (N, 3) -> metres in W, the same shape.")
       .def(
           "to_geodetic",
-          [](const GeoFrame& f, const py::object& points) {
-            return Rows(points, "points", [&](Vec3d p) { return Geodetic(f, p); });
-          },
+          [](const GeoFrame& f, const py::object& points) { return Rows(points, "points", [&](Vec3d p) { return Geodetic(f, p); }); },
           py::arg("points"), "Metres in W, (3,) or (N, 3) -> latitude, longitude (degrees), altitude (metres), the same shape.")
       .def("__repr__", [](const GeoFrame& f) {
         const GeoPoint& g = f.origin();

@@ -12,12 +12,8 @@ class KeywordReader : public ConfigVisitor {
  public:
   explicit KeywordReader(const py::dict& keywords) : keywords_(keywords) {}
 
-  void Field(std::string_view name, std::string_view, bool& value) override {
-    Read(name, "True or False", value);
-  }
-  void Field(std::string_view name, std::string_view, uint64_t& value) override {
-    Read(name, "a whole number, 0 or more", value);
-  }
+  void Field(std::string_view name, std::string_view, bool& value) override { Read(name, "True or False", value); }
+  void Field(std::string_view name, std::string_view, uint64_t& value) override { Read(name, "a whole number, 0 or more", value); }
   void Field(std::string_view name, std::string_view, double& value, double low, double high) override {
     const std::string wanted = Text("a number from %g to %g", low, high);
     double read = value;
@@ -25,12 +21,8 @@ class KeywordReader : public ConfigVisitor {
     if (!(read >= low && read <= high)) Refuse(name, wanted);
     value = read;
   }
-  void Field(std::string_view name, std::string_view, std::string& value) override {
-    Read(name, "a text", value);
-  }
-  void Field(std::string_view name, std::string_view, std::vector<std::string>& value) override {
-    Read(name, "a list of texts", value);
-  }
+  void Field(std::string_view name, std::string_view, std::string& value) override { Read(name, "a text", value); }
+  void Field(std::string_view name, std::string_view, std::vector<std::string>& value) override { Read(name, "a list of texts", value); }
   void Count(std::string_view name, std::string_view, int& value, int high) override {
     const py::object given = Find(name);
     if (!given || given.is_none()) return;
@@ -40,8 +32,8 @@ class KeywordReader : public ConfigVisitor {
     if (read < 1 || read > high) Refuse(name, wanted);
     value = static_cast<int>(read);
   }
-  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value,
-                double low, double high) override {
+  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value, double low,
+                double high) override {
     const py::object given = Find(name);
     if (!given) return;
     is_word = py::isinstance<py::str>(given) && given.cast<std::string>() == word;
@@ -65,8 +57,7 @@ class KeywordReader : public ConfigVisitor {
   void RefuseUnknown() const {
     for (const auto& [key, value] : keywords_) {
       const auto name = key.cast<std::string>();
-      if (std::ranges::count(known_, name) == 0)
-        throw InputError(UnknownChoiceMessage("keyword", name, known_));
+      if (std::ranges::count(known_, name) == 0) throw InputError(UnknownChoiceMessage("keyword", name, known_));
     }
   }
 
@@ -78,8 +69,7 @@ class KeywordReader : public ConfigVisitor {
   }
   [[noreturn]] void Refuse(std::string_view name, const std::string& wanted) const {
     const std::string key(name);
-    throw InputError(key + ": expected " + wanted + ", found " +
-                     py::repr(keywords_[py::str(key)]).cast<std::string>());
+    throw InputError(key + ": expected " + wanted + ", found " + py::repr(keywords_[py::str(key)]).cast<std::string>());
   }
   template <class T>
   void Read(std::string_view name, const std::string& wanted, T& value) {
@@ -97,42 +87,27 @@ class KeywordReader : public ConfigVisitor {
 
 class KeywordLister : public ConfigVisitor {
  public:
-  void Field(std::string_view name, std::string_view help, bool& value) override {
-    Add(name, help, "bool", value ? "True" : "False");
-  }
-  void Field(std::string_view name, std::string_view help, uint64_t& value) override {
-    Add(name, help, "int", std::to_string(value));
-  }
+  void Field(std::string_view name, std::string_view help, bool& value) override { Add(name, help, "bool", value ? "True" : "False"); }
+  void Field(std::string_view name, std::string_view help, uint64_t& value) override { Add(name, help, "int", std::to_string(value)); }
   void Field(std::string_view name, std::string_view help, double& value, double, double) override {
     Add(name, help, "float", py::repr(py::float_(value)).cast<std::string>());
   }
-  void Field(std::string_view name, std::string_view help, std::string& value) override {
-    Add(name, help, "str", "'" + value + "'");
-  }
-  void Field(std::string_view name, std::string_view help, std::vector<std::string>&) override {
-    Add(name, help, "list[str]", "[]");
-  }
-  void Count(std::string_view name, std::string_view help, int&, int) override {
-    Add(name, help, "int | None", "None");
-  }
-  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value,
-                double, double) override {
-    Add(name, help, "float | str",
-        is_word ? "'" + std::string(word) + "'" : py::repr(py::float_(value)).cast<std::string>());
+  void Field(std::string_view name, std::string_view help, std::string& value) override { Add(name, help, "str", "'" + value + "'"); }
+  void Field(std::string_view name, std::string_view help, std::vector<std::string>&) override { Add(name, help, "list[str]", "[]"); }
+  void Count(std::string_view name, std::string_view help, int&, int) override { Add(name, help, "int | None", "None"); }
+  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value, double, double) override {
+    Add(name, help, "float | str", is_word ? "'" + std::string(word) + "'" : py::repr(py::float_(value)).cast<std::string>());
   }
   void Choice(std::string_view name, std::string_view help, std::span<const char* const> names, size_t index,
               const std::function<void(size_t)>&) override {
     Add(name, help, "str", "'" + std::string(names[index]) + "'");
   }
-  void Group(std::string_view name, std::string_view help, const ConfigFields&) override {
-    Add(name, help, "dict", "{}");
-  }
+  void Group(std::string_view name, std::string_view help, const ConfigFields&) override { Add(name, help, "dict", "{}"); }
   std::vector<std::string> names;
   std::string signature, help;
 
  private:
-  void Add(std::string_view name, std::string_view what, const std::string& type,
-           const std::string& standard) {
+  void Add(std::string_view name, std::string_view what, const std::string& type, const std::string& standard) {
     names.emplace_back(name);
     signature += (signature.empty() ? "" : ", ") + std::string(name) + ": " + type + " = " + standard;
     help += (help.empty() ? "" : " ") + std::string(name) + ": " + std::string(what) + ".";

@@ -9,18 +9,14 @@ namespace {
 
 double InRange(double value, double low, double high, const char* what) {
   if (value >= low && value <= high) return value;
-  throw InputError(std::string(what) + ": " + std::to_string(value) + " is not in " + std::to_string(low) + " ... " +
-                   std::to_string(high));
+  throw InputError(std::string(what) + ": " + std::to_string(value) + " is not in " + std::to_string(low) + " ... " + std::to_string(high));
 }
 
-double DegreesIn(double angle, double low, double high, const char* what) {
-  return InRange(angle, low, high, what) * 180 / M_PI;
-}
+double DegreesIn(double angle, double low, double high, const char* what) { return InRange(angle, low, high, what) * 180 / M_PI; }
 
-Lidar MakeLidar(uint64_t channels, uint64_t columns, double low, double high, double start, double sweep,
-                const std::string& pattern, double field, double rate, double min_range, double max_range,
-                double sigma, double dropout, bool through_panes, bool motion_distortion, const py::object& position,
-                double yaw, double pitch, double roll) {
+Lidar MakeLidar(uint64_t channels, uint64_t columns, double low, double high, double start, double sweep, const std::string& pattern,
+                double field, double rate, double min_range, double max_range, double sigma, double dropout, bool through_panes,
+                bool motion_distortion, const py::object& position, double yaw, double pitch, double roll) {
   constexpr double kSlack = 1e-9;  // of pi, as scripts round it
   constexpr double kQuarter = M_PI / 2 + kSlack, kTurn = 2 * M_PI + kSlack;
   LidarSpec spec;
@@ -70,19 +66,19 @@ in a cone of full opening `field`). rate: turns a second. min_range, max_range, 
 points lost. through_panes: clear glass is not seen. motion_distortion: each shot leaves at its own time. position (3,),
 yaw, pitch, roll: the mount in B. Radians. The default is AirSim's lidar.)")
       .def(py::init(&MakeLidar), py::arg("channels") = 16, py::arg("columns") = 625, py::arg("low") = -M_PI / 4,
-           py::arg("high") = -M_PI / 12, py::arg("start") = M_PI, py::arg("sweep") = 2 * M_PI,
-           py::arg("pattern") = "spinning", py::arg("field") = 70 * M_PI / 180, py::arg("rate") = 10.0,
-           py::arg("min_range") = 0.3, py::arg("max_range") = 100.0, py::arg("sigma") = 0.02, py::arg("dropout") = 0.0,
-           py::arg("through_panes") = false, py::arg("motion_distortion") = false,
-           py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
-           py::arg("roll") = 0.0)
+           py::arg("high") = -M_PI / 12, py::arg("start") = M_PI, py::arg("sweep") = 2 * M_PI, py::arg("pattern") = "spinning",
+           py::arg("field") = 70 * M_PI / 180, py::arg("rate") = 10.0, py::arg("min_range") = 0.3, py::arg("max_range") = 100.0,
+           py::arg("sigma") = 0.02, py::arg("dropout") = 0.0, py::arg("through_panes") = false, py::arg("motion_distortion") = false,
+           py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0, py::arg("roll") = 0.0)
       .def("__repr__",
            [](const Lidar& l) {
              return Text("Lidar(%dx%d shots, %g ... %g m)", static_cast<int>(l.spec.channels), static_cast<int>(l.spec.columns),
                          l.spec.min_range, l.spec.max_range);
            })
-      .def_property_readonly("channels", [](const Lidar& l) { return l.spec.channels; }, "Beams above each other.")
-      .def_property_readonly("columns", [](const Lidar& l) { return l.spec.columns; }, "Shots of each beam in one turn.");
+      .def_property_readonly(
+          "channels", [](const Lidar& l) { return l.spec.channels; }, "Beams above each other.")
+      .def_property_readonly(
+          "columns", [](const Lidar& l) { return l.spec.columns; }, "Shots of each beam in one turn.");
 
   py::class_<LidarScan, std::shared_ptr<LidarScan>>(
       m, "LidarScan", R"(One turn of a lidar, which ends at t_ns: points in the order of their shots, without those that met nothing.

@@ -33,21 +33,15 @@ py::array_t<float> FlipMap(const py::object& reference, const py::object& test, 
 }  // namespace
 
 void BindMetrics(py::module_& m) {
-  auto metrics = m.def_submodule(
-      "metrics", "Metrics: pure functions. Pictures are (H, W, 3) uint8 sRGB of the same size.");
-  metrics.def("psnr", OfPictures(&Psnr), py::arg("a"), py::arg("b"),
-              "Peak signal-to-noise ratio, dB; infinity for equal pictures.");
-  metrics.def("ws_psnr", OfPictures(&WsPsnr), py::arg("a"), py::arg("b"),
-              "The same for panoramas, every row weighted by its solid angle.");
-  metrics.def("ssim", OfPictures(&Ssim), py::arg("a"), py::arg("b"),
-              "Mean structural similarity of luma, at most 1.");
+  auto metrics = m.def_submodule("metrics", "Metrics: pure functions. Pictures are (H, W, 3) uint8 sRGB of the same size.");
+  metrics.def("psnr", OfPictures(&Psnr), py::arg("a"), py::arg("b"), "Peak signal-to-noise ratio, dB; infinity for equal pictures.");
+  metrics.def("ws_psnr", OfPictures(&WsPsnr), py::arg("a"), py::arg("b"), "The same for panoramas, every row weighted by its solid angle.");
+  metrics.def("ssim", OfPictures(&Ssim), py::arg("a"), py::arg("b"), "Mean structural similarity of luma, at most 1.");
+  metrics.def("flip", &FlipMap, py::arg("reference"), py::arg("test"), py::arg("pixels_per_degree") = FlipOptions{}.pixels_per_degree,
+              py::arg("wrap") = false, "FLIP of every pixel, (H, W) float32 in 0 … 1; wrap: the left border goes on at the right one.");
   metrics.def(
-      "flip", &FlipMap, py::arg("reference"), py::arg("test"),
-      py::arg("pixels_per_degree") = FlipOptions{}.pixels_per_degree, py::arg("wrap") = false,
-      "FLIP of every pixel, (H, W) float32 in 0 … 1; wrap: the left border goes on at the right one.");
-  metrics.def(
-      "path_length", [](const py::object& path) { return PathLength(ToPoints(path, "path")); },
-      py::arg("path"), "Metres along points (N, 3).");
+      "path_length", [](const py::object& path) { return PathLength(ToPoints(path, "path")); }, py::arg("path"),
+      "Metres along points (N, 3).");
   metrics.def("spl", &SuccessByLength, py::arg("success"), py::arg("shortest"), py::arg("flown"),
               "Success weighted by path length: success * shortest / max(flown, shortest).");
   metrics.def(

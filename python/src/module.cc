@@ -38,8 +38,7 @@ PYBIND11_MODULE(_native, m) {
       PyErr_SetString(PyExc_RuntimeError, e.what());
     }
   });
-  py::class_<Threads>(
-      m, "Threads", "Limits every parallel loop of the process to `threads` (0 = all cores) in a with block.")
+  py::class_<Threads>(m, "Threads", "Limits every parallel loop of the process to `threads` (0 = all cores) in a with block.")
       .def(py::init<int>(), py::arg("threads"))
       .def("__enter__", [](Threads& t) { t.Enter(); })
       .def("__exit__", [](Threads& t, const py::args&) { t.Exit(); });

@@ -40,15 +40,21 @@ std::string FindPlanText(const std::string& name, const std::vector<std::string>
 
 EnvironmentFlags ToEnvironment(const py::dict& words) {
   const auto word = [&](const char* name) { return words.contains(name) ? words[name].cast<std::string>() : std::string(); };
-  return {.weather = word("weather"), .sun = word("sun"), .time = word("time"), .place = word("place"), .hdri = word("hdri"),
-          .settings = word("environment"), .clouds = word("clouds"), .sky_seed = word("sky_seed")};
+  return {.weather = word("weather"),
+          .sun = word("sun"),
+          .time = word("time"),
+          .place = word("place"),
+          .hdri = word("hdri"),
+          .settings = word("environment"),
+          .clouds = word("clouds"),
+          .sky_seed = word("sky_seed")};
 }
 
 std::unique_ptr<PlanFrames> MakePlanFrames(const std::string& plan_text, const py::dict& picture,
                                            const std::optional<std::vector<std::string>>& products, const std::string& projection,
-                                           const std::string& size, double fov_deg, const std::string& cameras,
-                                           const py::dict& environment, const std::string& device, int gpu,
-                                           const std::optional<std::string>& cache, uint64_t cache_bytes) {
+                                           const std::string& size, double fov_deg, const std::string& cameras, const py::dict& environment,
+                                           const std::string& device, int gpu, const std::optional<std::string>& cache,
+                                           uint64_t cache_bytes) {
   return InWordsOfPython([&] {
     const fs::path own = DiskCache::OfUser().folder();
     DatasetPlan plan = ParsePlan(plan_text, "plan");
@@ -63,8 +69,13 @@ std::unique_ptr<PlanFrames> MakePlanFrames(const std::string& plan_text, const p
     // The size of the recipe is that of a panorama.
     const bool panorama = projection == "erp" && cameras.empty();
     const CameraChoice camera{projection, size.empty() && panorama ? wanted.size : size, cameras, fov_deg};
-    PlanFramesOptions options{.pictures = SpecOfPicture(wanted, camera), .environment = ToEnvironment(environment), .device = {device, gpu},
-                              .cache = cache ? fs::path(*cache) : own.empty() ? own : own / "panoramas", .cache_bytes = cache_bytes};
+    PlanFramesOptions options{.pictures = SpecOfPicture(wanted, camera),
+                              .environment = ToEnvironment(environment),
+                              .device = {device, gpu},
+                              .cache = cache         ? fs::path(*cache)
+                                       : own.empty() ? own
+                                                     : own / "panoramas",
+                              .cache_bytes = cache_bytes};
     if (ProductFolders(options.pictures).empty()) throw InputError("--products: none; name at least one");
     return std::make_unique<PlanFrames>(std::move(plan), options);
   });
@@ -80,10 +91,14 @@ py::array ArrayOf(const StoredPicture& picture, const py::handle& owner) {
   }
   const void* data = picture.values.data();
   switch (picture.type) {
-    case StoredPicture::Type::kUint8: return View(static_cast<const uint8_t*>(data), shape, strides, owner);
-    case StoredPicture::Type::kUint16: return View(static_cast<const uint16_t*>(data), shape, strides, owner);
-    case StoredPicture::Type::kUint32: return View(static_cast<const uint32_t*>(data), shape, strides, owner);
-    case StoredPicture::Type::kFloat32: break;
+    case StoredPicture::Type::kUint8:
+      return View(static_cast<const uint8_t*>(data), shape, strides, owner);
+    case StoredPicture::Type::kUint16:
+      return View(static_cast<const uint16_t*>(data), shape, strides, owner);
+    case StoredPicture::Type::kUint32:
+      return View(static_cast<const uint32_t*>(data), shape, strides, owner);
+    case StoredPicture::Type::kFloat32:
+      break;
   }
   return View(static_cast<const float*>(data), shape, strides, owner);
 }
@@ -122,8 +137,10 @@ void BindPlanFrames(py::module_& m) {
       .def(py::init(&MakePlanFrames), py::arg("plan"), py::arg("picture"), py::arg("products"), py::arg("projection"), py::arg("size"),
            py::arg("fov_deg"), py::arg("cameras"), py::arg("environment"), py::arg("device"), py::arg("gpu"), py::arg("cache"),
            py::arg("cache_bytes"))
-      .def_property_readonly("hash", [](const PlanFrames& f) { return f.plan().hash; }, "Of the plan.")
-      .def_property_readonly("count", [](const PlanFrames& f) { return f.plan().frames(); }, "Number of frames.")
+      .def_property_readonly(
+          "hash", [](const PlanFrames& f) { return f.plan().hash; }, "Of the plan.")
+      .def_property_readonly(
+          "count", [](const PlanFrames& f) { return f.plan().frames(); }, "Number of frames.")
       .def_property_readonly("worlds", &WorldsOf, "World -> hash, None where it did not exist.")
       .def_property_readonly("uses_gpu", &PlanFrames::uses_gpu, "Whether a GPU draws.")
       .def_property_readonly("meta", &PlanFrames::MetaText, "meta.json of a dataset of these frames.")
@@ -144,7 +161,8 @@ void BindPlanFrames(py::module_& m) {
             return f.Describe(frame);
           },
           py::arg("frame"), py::arg("threads"), "What a frame is, JSON.")
-      .def("take", &TakeFrame, py::arg("frame"), py::arg("threads"), "The same with persons, and (product, view, channels, picture) of all pictures.");
+      .def("take", &TakeFrame, py::arg("frame"), py::arg("threads"),
+           "The same with persons, and (product, view, channels, picture) of all pictures.");
 }
 
 }  // namespace airsim360::python

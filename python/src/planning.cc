@@ -50,16 +50,14 @@ AllocatedTrajectory AtTimes(const PlanArguments& a) {
   const std::vector<Vec3d>& points = a.points;
   const std::vector<double>& times = *a.times;
   if (times.size() != points.size())
-    throw InputError("times: " + std::to_string(times.size()) + " for " + std::to_string(points.size()) +
-                     " waypoints");
+    throw InputError("times: " + std::to_string(times.size()) + " for " + std::to_string(points.size()) + " waypoints");
   std::vector<double> durations;
   for (size_t i = 1; i < times.size(); ++i) {
     durations.push_back(times[i] - times[i - 1]);
-    if (!(durations.back() > 0))
-      throw InputError("times[" + std::to_string(i) + "] is not after the one before it");
+    if (!(durations.back() > 0)) throw InputError("times[" + std::to_string(i) + "] is not after the one before it");
   }
-  PolynomialTrajectory path = SolveMinimumSnap(
-      {.waypoints = points, .durations = durations, .start = a.start, .end = a.end, .kind = a.kind});
+  PolynomialTrajectory path =
+      SolveMinimumSnap({.waypoints = points, .durations = durations, .start = a.start, .end = a.end, .kind = a.kind});
   const TrajectoryPeaks peaks = CertifiedPeaks(path);
   return {std::move(path), peaks, 0, 0};
 }
@@ -68,12 +66,8 @@ AllocatedTrajectory AtTimes(const PlanArguments& a) {
 AllocatedTrajectory WithinLimits(const PlanArguments& a) {
   AllocatedTrajectory rest = AllocateTimes(a.points, a.limits, {.kind = a.kind});
   if (!a.moving) return rest;
-  PolynomialTrajectory path = SolveWithinLimits({.waypoints = a.points,
-                                                 .durations = rest.trajectory.durations(),
-                                                 .start = a.start,
-                                                 .end = a.end,
-                                                 .kind = a.kind},
-                                                a.limits);
+  PolynomialTrajectory path = SolveWithinLimits(
+      {.waypoints = a.points, .durations = rest.trajectory.durations(), .start = a.start, .end = a.end, .kind = a.kind}, a.limits);
   const TrajectoryPeaks peaks = CertifiedPeaks(path);
   return {std::move(path), peaks, 0, 0};
 }
@@ -106,11 +100,8 @@ Plan Solve(const PlanArguments& a) {
 
 /// The other limits by their names.
 void ReadLimits(const py::dict& values, TrajectoryLimits& limits) {
-  const std::vector<std::string> names = {"axis_vmax", "axis_amax", "climb",
-                                          "descent",   "thrust",    "body_rate"};
-  const auto axes = [](const py::handle& value, const char* name) {
-    return ToPoints(py::make_tuple(value), name).at(0);
-  };
+  const std::vector<std::string> names = {"axis_vmax", "axis_amax", "climb", "descent", "thrust", "body_rate"};
+  const auto axes = [](const py::handle& value, const char* name) { return ToPoints(py::make_tuple(value), name).at(0); };
   for (const auto& [key, value] : values) {
     const std::string name = py::str(key);
     if (name == "axis_vmax") {
@@ -146,16 +137,14 @@ BoundaryDerivatives ReadEnd(const py::object& value, const char* what, bool& mov
 }
 
 SplineKind ReadKind(int order, const std::string& minimise) {
-  if (order != 5 && order != 7)
-    throw InputError("order: " + std::to_string(order) + " is not 5 or 7; did you mean 7?");
+  if (order != 5 && order != 7) throw InputError("order: " + std::to_string(order) + " is not 5 or 7; did you mean 7?");
   if (minimise == "jerk" && order == 5) return SplineKind::kMinimumJerk;
   if (minimise != "snap") throw InputError("minimise: '" + minimise + "' is not snap, or jerk with order=5");
   return order == 5 ? SplineKind::kPaperQuintic : SplineKind::kMinimumSnap;
 }
 
-Plan PlanMinimumSnap(const py::object& waypoints, const std::optional<std::vector<double>>& times,
-                     double vmax, double amax, int order, const std::shared_ptr<World>& world,
-                     double clearance, bool avoid, const py::dict& limits, const std::string& minimise,
+Plan PlanMinimumSnap(const py::object& waypoints, const std::optional<std::vector<double>>& times, double vmax, double amax, int order,
+                     const std::shared_ptr<World>& world, double clearance, bool avoid, const py::dict& limits, const std::string& minimise,
                      const py::object& start, const py::object& end) {
   PlanArguments a{.points = ToPoints(waypoints, "waypoints"),
                   .times = times,
@@ -173,8 +162,7 @@ Plan PlanMinimumSnap(const py::object& waypoints, const std::optional<std::vecto
   if (avoid && a.moving) throw InputError("avoid: flights around obstacles start and end at rest");
   if (avoid && !world) throw InputError("avoid: give the world whose surfaces are to be avoided");
   if (avoid && times) throw InputError("avoid: times cannot be given, waypoints are added");
-  if (!(clearance > 0 && std::isfinite(clearance)))
-    throw InputError("clearance: " + std::to_string(clearance) + " is not positive");
+  if (!(clearance > 0 && std::isfinite(clearance))) throw InputError("clearance: " + std::to_string(clearance) + " is not positive");
   if (a.points.size() < 2) throw InputError("waypoints: at least two are needed");
   const py::gil_scoped_release release;
   return Solve(a);
@@ -191,8 +179,8 @@ py::array_t<double> Times(const Plan& p) {
 py::array Coefficients(const py::object& self) {
   const PolynomialTrajectory& path = *self.cast<const Plan&>().trajectory;
   const py::ssize_t powers = path.degree() + 1, word = sizeof(double);
-  return View(path.coefficients().data(), {static_cast<py::ssize_t>(path.segments()), 3, powers},
-              {3 * powers * word, powers * word, word}, self);
+  return View(path.coefficients().data(), {static_cast<py::ssize_t>(path.segments()), 3, powers}, {3 * powers * word, powers * word, word},
+              self);
 }
 
 // Rows of points as a dictionary of arrays.
@@ -220,8 +208,7 @@ py::object CertificateOf(const Plan& p) {
   py::dict d;
   d["certified"] = p.certificate->certified;
   d["least_clearance"] = p.certificate->least_clearance;
-  d["violation_time"] =
-      p.certificate->certified ? py::object(py::none()) : py::float_(p.certificate->violation_time);
+  d["violation_time"] = p.certificate->certified ? py::object(py::none()) : py::float_(p.certificate->violation_time);
   return d;
 }
 
@@ -231,28 +218,27 @@ void BindPlanning(py::module_& m) {
   py::class_<Plan>(m, "Plan", "A minimum-snap trajectory in W: metres, seconds.")
       .def("__repr__",
            [](const Plan& p) {
-             return Text("Plan(%zu waypoints, %.3f s, at most %.3f m/s and %.3f m/s^2)", p.waypoints.size(),
-                         p.trajectory->duration(), p.peaks.speed.value, p.peaks.acceleration.value);
+             return Text("Plan(%zu waypoints, %.3f s, at most %.3f m/s and %.3f m/s^2)", p.waypoints.size(), p.trajectory->duration(),
+                         p.peaks.speed.value, p.peaks.acceleration.value);
            })
       .def_property_readonly("times", &Times, "(segments + 1,) seconds at which the waypoints are passed.")
       .def_property_readonly(
           "waypoints", [](const Plan& p) { return FromPoints(p.waypoints); }, "(segments + 1, 3) metres in W")
+      .def_property_readonly("coefficients", &Coefficients,
+                             "(segments, 3, order + 1): ascending powers of the segment's local time. A view, do not write.")
       .def_property_readonly(
-          "coefficients", &Coefficients,
-          "(segments, 3, order + 1): ascending powers of the segment's local time. A view, do not write.")
-      .def_property_readonly("order", [](const Plan& p) { return p.trajectory->degree(); }, "Degree of the polynomials.")
-      .def_property_readonly("duration", [](const Plan& p) { return p.trajectory->duration(); }, "Seconds.")
+          "order", [](const Plan& p) { return p.trajectory->degree(); }, "Degree of the polynomials.")
+      .def_property_readonly(
+          "duration", [](const Plan& p) { return p.trajectory->duration(); }, "Seconds.")
       .def_readonly("cost_snap", &Plan::cost_snap, "Integral of squared snap over all axes, m^2/s^7.")
       .def_property_readonly(
           "max_speed", [](const Plan& p) { return p.peaks.speed.value; }, "m/s, certified upper bound")
       .def_property_readonly(
-          "max_acceleration", [](const Plan& p) { return p.peaks.acceleration.value; },
-          "m/s^2, certified upper bound")
+          "max_acceleration", [](const Plan& p) { return p.peaks.acceleration.value; }, "m/s^2, certified upper bound")
       .def_property_readonly("certificate", &CertificateOf,
                              "With a world: whether the clearance is proved everywhere (certified, "
                              "least_clearance, violation_time); else None.")
-      .def("at", &At, py::arg("times"),
-           "t (N,), p, v, a, jerk, snap (N, 3) at given times, clamped to the flight.")
+      .def("at", &At, py::arg("times"), "t (N,), p, v, a, jerk, snap (N, 3) at given times, clamped to the flight.")
       .def(
           "sample",
           [](const Plan& p, double dt) {
@@ -261,10 +247,9 @@ void BindPlanning(py::module_& m) {
             return At(p, SampleTimes(p.trajectory->duration(), dt));
           },
           py::arg("dt") = 0.1, "As at(), every dt seconds and at the end.");
-  m.def("plan_minimum_snap", &PlanMinimumSnap, py::arg("waypoints"), py::arg("times") = py::none(),
-        py::arg("vmax") = 4.0, py::arg("amax") = 4.0, py::arg("order") = 7, py::arg("world") = py::none(),
-        py::arg("clearance") = 0.5, py::arg("avoid") = false, py::arg("limits") = py::dict(),
-        py::arg("minimise") = "snap", py::arg("start") = py::none(), py::arg("end") = py::none(),
+  m.def("plan_minimum_snap", &PlanMinimumSnap, py::arg("waypoints"), py::arg("times") = py::none(), py::arg("vmax") = 4.0,
+        py::arg("amax") = 4.0, py::arg("order") = 7, py::arg("world") = py::none(), py::arg("clearance") = 0.5, py::arg("avoid") = false,
+        py::arg("limits") = py::dict(), py::arg("minimise") = "snap", py::arg("start") = py::none(), py::arg("end") = py::none(),
         R"(The smoothest flight through waypoints (N, 3) of W, at rest at both ends.
 
 times: (N,) seconds; None: the fastest that were found within vmax (m/s) and amax (m/s^2). order: 7 (minimum snap) or 5

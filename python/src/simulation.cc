@@ -17,13 +17,11 @@ constexpr double kSpacing = 2;  // metres between drones whose place is not give
 std::vector<Drone> ToDrones(const py::object& drones) {
   if (py::isinstance<py::int_>(drones)) {
     const auto count = drones.cast<int64_t>();
-    if (count < 0 || count > 10000)
-      throw InputError("drones: " + std::to_string(count) + " is not in 0 ... 10000");
+    if (count < 0 || count > 10000) throw InputError("drones: " + std::to_string(count) + " is not in 0 ... 10000");
     return std::vector<Drone>(static_cast<size_t>(count), count > 0 ? MakeDrone("hummingbird") : Drone{});
   }
   if (py::isinstance<py::str>(drones) || py::isinstance<Drone>(drones)) return {ToDrone(drones)};
-  if (!py::isinstance<py::sequence>(drones))
-    throw InputError("drones: give a number, a drone, or a list of drones");
+  if (!py::isinstance<py::sequence>(drones)) throw InputError("drones: give a number, a drone, or a list of drones");
   std::vector<Drone> list;
   for (const py::handle& drone : drones) list.push_back(ToDrone(drone));
   return list;
@@ -36,25 +34,22 @@ RigidTransform StartOf(const Drone& drone, size_t i, size_t count, const Scene& 
   const auto half = 0.5 * static_cast<double>(columns - 1);
   const Vec3d spawn = VecCast<double>(FirstViewpoint(scene));
   const Vec3d offset{static_cast<double>(i % columns) - half, static_cast<double>(i / columns) - half, 0};
-  return BodyPose(spawn + kSpacing * offset, drone.yaw != 0 ? drone.yaw : scene.spawn_yaw_deg * M_PI / 180, 0,
-                  0);
+  return BodyPose(spawn + kSpacing * offset, drone.yaw != 0 ? drone.yaw : scene.spawn_yaw_deg * M_PI / 180, 0, 0);
 }
 
 }  // namespace
 
-Simulation::Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed,
-                       double dt, const py::object& wind)
+Simulation::Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed, double dt,
+                       const py::object& wind)
     : world_(std::move(world)) {
   const PeopleRequest crowd = PeopleOf(people, seed);
-  if (!(dt >= 1e-5 && dt <= 0.1))
-    throw InputError("dt: " + std::to_string(dt) + " s is not in 0.00001 ... 0.1");
+  if (!(dt >= 1e-5 && dt <= 0.1)) throw InputError("dt: " + std::to_string(dt) + " s is not in 0.00001 ... 0.1");
   const std::vector<Drone> list = ToDrones(drones);
   const std::optional<Vec3d> mean_wind = wind.is_none() ? std::nullopt : std::optional(ToVec3(wind, "wind"));
   std::vector<DroneSetup> setups;
   for (size_t i = 0; i < list.size(); ++i) {
     const Drone& drone = list[i];
-    DroneSetup setup{.name = drone.name.empty() ? "drone" + std::to_string(i) : drone.name,
-                     .model = drone.model};
+    DroneSetup setup{.name = drone.name.empty() ? "drone" + std::to_string(i) : drone.name, .model = drone.model};
     setup.autopilot.controller = drone.controller;
     if (drone.sensors) setup.sensors = *drone.sensors;
     setup.X_WB = StartOf(drone, i, list.size(), world_->scene());
@@ -109,8 +104,7 @@ size_t Simulation::Find(const py::object& drone) const {
 
 void Simulation::Post(const py::object& drone, Command command, double timeout) {
   const size_t i = Find(drone);
-  if (!(timeout >= 0 && timeout < 1e9))
-    throw InputError("timeout: " + std::to_string(timeout) + " s is not 0 (none) or more");
+  if (!(timeout >= 0 && timeout < 1e9)) throw InputError("timeout: " + std::to_string(timeout) + " s is not 0 (none) or more");
   // What the drone cannot fly is told here and not by an event later.
   const std::string problem = CommandProblem(command, model_->drones[i]->model());
   if (!problem.empty()) throw InputError(problem);
@@ -144,13 +138,13 @@ std::shared_ptr<CudaCapture> Simulation::TakeCuda(const Rig& rig, size_t i) {
     throw InputError("memory: the labels of World.relabel are put in on the CPU; use memory=\"cpu\"");
   for (const char* product : {"part", "sky"}) {
     if (std::ranges::count(NamesOf(rig.shown), product) > 0)
-      throw InputError("memory: the product '" + std::string(product) +
-                       "' is made on the CPU; use memory=\"cpu\"");
+      throw InputError("memory: the product '" + std::string(product) + "' is made on the CPU; use memory=\"cpu\"");
   }
   auto capture = std::make_shared<CudaCapture>();
   const std::lock_guard lock(render_mutex_);
-  if (!cuda_) cuda_ = std::make_unique<CudaRenderer>(stage_->tracer(), RendererOptions{.tier = rig.rig.tier, .environment = stage_->environment()},
-                                            GpuOptions{.gpu = device.gpu});
+  if (!cuda_)
+    cuda_ = std::make_unique<CudaRenderer>(stage_->tracer(), RendererOptions{.tier = rig.rig.tier, .environment = stage_->environment()},
+                                           GpuOptions{.gpu = device.gpu});
   CaptureLocked(rig, i, nullptr, *cuda_, *capture);
   capture->pictures = cuda_->Take();
   return capture;
@@ -166,8 +160,7 @@ std::shared_ptr<LidarScan> Simulation::Scan(const Lidar& lidar, size_t i) {
   const SensorKey key = KeyOf(model_->world, static_cast<uint32_t>(i), "python lidar", 0);
   auto scan = std::make_shared<LidarScan>();
   const std::lock_guard lock(render_mutex_);
-  ScanLidar(lidar.spec, key, *SensorsLocked().TracerOf(*state, i), state->vehicles[i].motion, lidar.X_BS, state->t_ns,
-            *scan);
+  ScanLidar(lidar.spec, key, *SensorsLocked().TracerOf(*state, i), state->vehicles[i].motion, lidar.X_BS, state->t_ns, *scan);
   FinishScan(world_->labels().get(), *scan);
   return scan;
 }

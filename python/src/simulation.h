@@ -8,8 +8,7 @@ namespace airsim360::python {
 
 class Simulation {
  public:
-  Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed, double dt,
-             const py::object& wind);
+  Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed, double dt, const py::object& wind);
 
   SimLoop& loop() { return *loop_; }
   const std::shared_ptr<const SimModel>& model() const { return model_; }
@@ -44,7 +43,7 @@ class Simulation {
   std::shared_ptr<const SimModel> model_;
   std::unique_ptr<SimLoop> loop_;
   std::vector<std::string> names_;
-  std::mutex render_mutex_;  // of what follows; never waited for with the GIL held
+  std::mutex render_mutex_;             // of what follows; never waited for with the GIL held
   std::unique_ptr<CudaRenderer> cuda_;  // made when first asked for
   std::unique_ptr<SnapshotSensors> sensors_;
   SnapshotSensors& SensorsLocked();

@@ -33,8 +33,7 @@ bool Wait(Simulation& sim, const py::object& drone, double timeout) {
 }
 
 int64_t StepsOf(const Simulation& sim, double seconds) {
-  if (!(seconds >= 0 && seconds < 1e8))
-    throw InputError("seconds: " + std::to_string(seconds) + " is not 0 or more");
+  if (!(seconds >= 0 && seconds < 1e8)) throw InputError("seconds: " + std::to_string(seconds) + " is not 0 or more");
   return std::llround(seconds * 1e9 / static_cast<double>(sim.model()->dt_ns));
 }
 
@@ -60,51 +59,47 @@ py::dict ReplayFrom(const Simulation& sim, const Recording& recording, const Sna
 }
 
 void BindSnapshot(py::module_& m) {
-  py::class_<Snapshot>(
-      m, "Snapshot",
-      "Everything that changes in a simulation, at one instant. Simulation.restore goes back to it exactly.")
-      .def_property_readonly("t", [](const Snapshot& s) { return static_cast<double>(s.state->t_ns) * 1e-9; }, "Simulated time, seconds.")
-      .def("__repr__", [](const Snapshot& s) { return Text("Snapshot(t = %.3f s)", Seconds(s.state->t_ns)); })
-      .def_property_readonly("step", [](const Snapshot& s) { return s.state->step; }, "Steps since the start.")
+  py::class_<Snapshot>(m, "Snapshot",
+                       "Everything that changes in a simulation, at one instant. Simulation.restore goes back to it exactly.")
       .def_property_readonly(
-          "hash", [](const Snapshot& s) { return HashState(*s.state); },
-          "64 bits over every number of the state.")
+          "t", [](const Snapshot& s) { return static_cast<double>(s.state->t_ns) * 1e-9; }, "Simulated time, seconds.")
+      .def("__repr__", [](const Snapshot& s) { return Text("Snapshot(t = %.3f s)", Seconds(s.state->t_ns)); })
+      .def_property_readonly(
+          "step", [](const Snapshot& s) { return s.state->step; }, "Steps since the start.")
+      .def_property_readonly(
+          "hash", [](const Snapshot& s) { return HashState(*s.state); }, "64 bits over every number of the state.")
       .def(
           "state",
           [](const Snapshot& s, size_t i) {
             if (i >= s.state->vehicles.size())
-              throw InputError("drone " + std::to_string(i) + " of " +
-                               std::to_string(s.state->vehicles.size()));
+              throw InputError("drone " + std::to_string(i) + " of " + std::to_string(s.state->vehicles.size()));
             return StateView{s.model, s.state, i};
           },
           py::arg("drone") = 0, "DroneState of a drone by number, then.");
 }
 
 void BindRecording(py::module_& m) {
-  py::class_<Recording, std::shared_ptr<Recording>>(m, "Recording",
-                                                    "The commands of a run with hashes of its states.")
+  py::class_<Recording, std::shared_ptr<Recording>>(m, "Recording", "The commands of a run with hashes of its states.")
       .def("__repr__",
            [](const Recording& r) { return Text("Recording(%lld steps: '%s')", static_cast<long long>(r.steps), r.note.c_str()); })
       .def_readonly("note", &Recording::note, "What start_recording was told.")
       .def_readonly("steps", &Recording::steps, "Steps that it holds.")
       .def(
-          "write", [](const Recording& r, const std::string& path) { WriteRecording(path, r); },
-          py::arg("path"), "Writes it to a file.")
+          "write", [](const Recording& r, const std::string& path) { WriteRecording(path, r); }, py::arg("path"), "Writes it to a file.")
       .def_static(
-          "read", [](const std::string& path) { return std::make_shared<Recording>(ReadRecording(path)); },
-          py::arg("path"), "ValueError for anything but a recording.");
+          "read", [](const std::string& path) { return std::make_shared<Recording>(ReadRecording(path)); }, py::arg("path"),
+          "ValueError for anything but a recording.");
 }
 
 void BindTime(py::class_<Simulation>& sim) {
-  sim
-      .def(
-          "step",
-          [](Simulation& s, int64_t n) {
-            if (n < 0) throw InputError("step: " + std::to_string(n) + " is negative");
-            const py::gil_scoped_release release;
-            s.loop().Advance(n);
-          },
-          py::arg("n") = 1, "Takes n steps of dt.")
+  sim.def(
+         "step",
+         [](Simulation& s, int64_t n) {
+           if (n < 0) throw InputError("step: " + std::to_string(n) + " is negative");
+           const py::gil_scoped_release release;
+           s.loop().Advance(n);
+         },
+         py::arg("n") = 1, "Takes n steps of dt.")
       .def(
           "run",
           [](Simulation& s, double seconds) {
@@ -120,19 +115,19 @@ void BindTime(py::class_<Simulation>& sim) {
 
 // What is seen and measured now.
 void BindSensing(py::class_<Simulation>& sim) {
-  sim
-      .def(
-          "state",
-          [](Simulation& s, const py::object& drone) {
-            return StateView{s.model(), s.loop().Snapshot(), s.Find(drone)};
-          },
-          py::arg("drone") = 0, "DroneState of a drone by number or name.")
+  sim.def(
+         "state",
+         [](Simulation& s, const py::object& drone) {
+           return StateView{s.model(), s.loop().Snapshot(), s.Find(drone)};
+         },
+         py::arg("drone") = 0, "DroneState of a drone by number or name.")
       .def(
           "capture",
           [](Simulation& s, const Rig& rig, const py::object& drone, const std::string& memory) -> py::object {
             const size_t i = s.Find(drone);
             static const std::vector<std::string> kMemories = {"cpu", "cuda"};
-            if (std::ranges::count(kMemories, memory) == 0) throw InputError("memory: " + UnknownChoiceMessage("memory", memory, kMemories));
+            if (std::ranges::count(kMemories, memory) == 0)
+              throw InputError("memory: " + UnknownChoiceMessage("memory", memory, kMemories));
             std::shared_ptr<Capture> on_cpu;
             std::shared_ptr<CudaCapture> on_gpu;
             {
@@ -168,62 +163,55 @@ void BindSensing(py::class_<Simulation>& sim) {
 }
 
 void BindHistory(py::class_<Simulation>& sim) {
-  sim
-      .def(
-          "snapshot",
-          [](Simulation& s) {
-            return Snapshot{s.model(), s.loop().Snapshot()};
-          },
-          "A copy of everything that changes.")
+  sim.def(
+         "snapshot",
+         [](Simulation& s) {
+           return Snapshot{s.model(), s.loop().Snapshot()};
+         },
+         "A copy of everything that changes.")
       .def(
           "restore",
           [](Simulation& s, const Snapshot& snapshot) {
-            if (snapshot.model != s.model())
-              throw InputError("restore: the snapshot is of another simulation");
+            if (snapshot.model != s.model()) throw InputError("restore: the snapshot is of another simulation");
             const py::gil_scoped_release release;
             s.loop().Restore(*snapshot.state);
           },
-          py::arg("snapshot"),
-          "Goes back to a snapshot of this simulation; commands not yet applied are dropped.")
+          py::arg("snapshot"), "Goes back to a snapshot of this simulation; commands not yet applied are dropped.")
       .def(
-          "start_recording", [](Simulation& s, const std::string& note) { s.loop().StartRecording(note); },
-          py::arg("note") = "", "Notes commands and hashes from now on.")
+          "start_recording", [](Simulation& s, const std::string& note) { s.loop().StartRecording(note); }, py::arg("note") = "",
+          "Notes commands and hashes from now on.")
       .def("stop_recording", &StopRecording, "The Recording since start_recording.")
       .def("replay", &ReplayFrom, py::arg("recording"), py::arg("start"),
            "Repeats a recording from the snapshot it began with, beside this simulation: dictionary with "
            "same, "
            "steps, differs_at (step, or None), hash.")
       .def(
-          "hash", [](Simulation& s) { return HashState(*s.loop().Snapshot()); },
-          "64 bits over every number of the state.")
-      .def("events", &Simulation::Events,
-           "What happened since the last call: dictionaries with event, drone, t_ns, …");
+          "hash", [](Simulation& s) { return HashState(*s.loop().Snapshot()); }, "64 bits over every number of the state.")
+      .def("events", &Simulation::Events, "What happened since the last call: dictionaries with event, drone, t_ns, …");
 }
 
 void BindFacts(py::class_<Simulation>& sim) {
-  sim
+  sim.def_property_readonly(
+         "t", [](Simulation& s) { return static_cast<double>(s.loop().t_ns()) * 1e-9; }, "Seconds since the start.")
       .def_property_readonly(
-          "t", [](Simulation& s) { return static_cast<double>(s.loop().t_ns()) * 1e-9; },
-          "Seconds since the start.")
-      .def_property_readonly("t_ns", [](Simulation& s) { return s.loop().t_ns(); }, "Nanoseconds since the start.")
+          "t_ns", [](Simulation& s) { return s.loop().t_ns(); }, "Nanoseconds since the start.")
       .def_property_readonly(
           "geo_frame", [](const Simulation& s) { return s.model()->world.frame; },
           "GeoFrame: where W lies on the Earth, for satellite receivers.")
       .def("__repr__",
            [](Simulation& s) {
              return Text("Simulation(%s, drones: %s, t = %.3f s, dt = %g s)", s.world()->name().c_str(),
-                         s.names().empty() ? "none" : Joined(s.names()).c_str(), Seconds(s.loop().t_ns()),
-                         Seconds(s.model()->dt_ns));
+                         s.names().empty() ? "none" : Joined(s.names()).c_str(), Seconds(s.loop().t_ns()), Seconds(s.model()->dt_ns));
            })
-      .def_property_readonly("dt", [](Simulation& s) { return static_cast<double>(s.model()->dt_ns) * 1e-9; }, "Seconds of a step.")
+      .def_property_readonly(
+          "dt", [](Simulation& s) { return static_cast<double>(s.model()->dt_ns) * 1e-9; }, "Seconds of a step.")
       .def_property_readonly("world", &Simulation::world, "The world that it takes place in.")
       .def_property_readonly(
           "entities", [](const Simulation& s) { return EntitiesOf(s.scene(), s.world()->labels().get()); },
           "As World.entities, with the bodies of drones (if there are several) and people.")
-      .def_property_readonly(
-          "people", &Simulation::People,
-          "Everybody now: dictionaries with entity, position (3,) on the ground in W, velocity, "
-          "yaw, behaviour, visible.")
+      .def_property_readonly("people", &Simulation::People,
+                             "Everybody now: dictionaries with entity, position (3,) on the ground in W, velocity, "
+                             "yaw, behaviour, visible.")
       .def_property_readonly("vehicles", &Simulation::Vehicles,
                              "The traffic now: dictionaries with entity, name, category, position and orientation in W, velocity, size, "
                              "indicator, braking, stopped.")
@@ -235,15 +223,13 @@ void BindFacts(py::class_<Simulation>& sim) {
 void BindSimulation(py::module_& m) {
   BindSnapshot(m);
   BindRecording(m);
-  py::class_<Simulation> sim(
-      m, "Simulation", R"(Drones in a world, advanced in fixed steps of dt seconds; no clock but the steps.
+  py::class_<Simulation> sim(m, "Simulation", R"(Drones in a world, advanced in fixed steps of dt seconds; no clock but the steps.
 
 drones: a number of hummingbirds, a Drone (or a name, words, a .yaml file), or a list of them. The same seed and the same
 commands give the same bytes with any number of threads. people: how many
 walk about. wind: (3,) m/s in W, None: that of the world. The world says what draws the pictures.)");
-  sim.def(py::init<std::shared_ptr<World>, const py::object&, int64_t, uint64_t, double, const py::object&>(),
-          py::arg("world"), py::arg("drones") = 1, py::arg("people") = 0, py::arg("seed") = 0,
-          py::arg("dt") = 0.001, py::arg("wind") = py::none());
+  sim.def(py::init<std::shared_ptr<World>, const py::object&, int64_t, uint64_t, double, const py::object&>(), py::arg("world"),
+          py::arg("drones") = 1, py::arg("people") = 0, py::arg("seed") = 0, py::arg("dt") = 0.001, py::arg("wind") = py::none());
   BindTime(sim);
   BindSensing(sim);
   BindHistory(sim);

@@ -75,7 +75,8 @@ py::dict FlyMission(Simulation& sim, const std::string& mission, const py::objec
   Outcome outcome;
   {
     const py::gil_scoped_release release;
-    const auto pilot = std::make_shared<MissionPilot>(ReadMission(xml, is_text ? "mission" : mission, {sim.model(), sim.world()->earth()}, i));
+    const auto pilot =
+        std::make_shared<MissionPilot>(ReadMission(xml, is_text ? "mission" : mission, {sim.model(), sim.world()->earth()}, i));
     sim.loop().Attach(pilot);
     outcome = Run(sim, *pilot, i, rig, sim.loop().t_ns() + std::llround(timeout * 1e9));
     sim.loop().Detach(pilot.get());

@@ -77,31 +77,26 @@ py::dict Sensors(const StateView& s) {
 }  // namespace
 
 void BindState(py::module_& m) {
-  const auto vector = [](Vec3d Kinematics::*field) {
-    return [field](const StateView& s) { return FromVec3(s.vehicle().motion.*field); };
-  };
-  py::class_<StateView>(
-      m, "DroneState",
-      "One drone at one instant: a look at an immutable snapshot. W, metres, seconds, radians.")
+  const auto vector = [](Vec3d Kinematics::*field) { return [field](const StateView& s) { return FromVec3(s.vehicle().motion.*field); }; };
+  py::class_<StateView>(m, "DroneState", "One drone at one instant: a look at an immutable snapshot. W, metres, seconds, radians.")
       .def("__repr__",
            [](const StateView& s) {
              const Vehicle& v = s.vehicle();
              return Text("DroneState(t = %.3f s, position %s m, velocity %s m/s, %s)", Seconds(s.state->t_ns),
                          Text(v.motion.X_WB.p).c_str(), Text(v.motion.v_WB).c_str(), DescribeState(v.autopilot).c_str());
            })
-      .def_property_readonly("t",
-                             [](const StateView& s) { return static_cast<double>(s.state->t_ns) * 1e-9; }, "Simulated time, seconds.")
-      .def_property_readonly("t_ns", [](const StateView& s) { return s.state->t_ns; }, "Simulated time, nanoseconds.")
+      .def_property_readonly(
+          "t", [](const StateView& s) { return static_cast<double>(s.state->t_ns) * 1e-9; }, "Simulated time, seconds.")
+      .def_property_readonly(
+          "t_ns", [](const StateView& s) { return s.state->t_ns; }, "Simulated time, nanoseconds.")
       .def_property_readonly(
           "position", [](const StateView& s) { return FromVec3(s.vehicle().motion.X_WB.p); }, "(3,) p_WB, metres")
       .def_property_readonly("velocity", vector(&Kinematics::v_WB), "(3,) v_WB in W, m/s")
       .def_property_readonly("angular_velocity", vector(&Kinematics::w_WB_B), "(3,) rad/s in B")
       .def_property_readonly(
-          "acceleration", [](const StateView& s) { return FromVec3(s.vehicle().a_WB); },
-          "(3,) m/s^2 in W, mean over the last step")
+          "acceleration", [](const StateView& s) { return FromVec3(s.vehicle().a_WB); }, "(3,) m/s^2 in W, mean over the last step")
       .def_property_readonly(
-          "orientation",
-          [](const StateView& s) { return FromQuaternion(ToQuaternion(s.vehicle().motion.X_WB.R)); },
+          "orientation", [](const StateView& s) { return FromQuaternion(ToQuaternion(s.vehicle().motion.X_WB.R)); },
           "(4,) q_WB as w, x, y, z")
       .def_property_readonly("euler", &Euler, "(3,) roll, pitch, yaw: R_WB = Rz(yaw) Ry(-pitch) Rx(roll)")
       .def_property_readonly(
@@ -112,11 +107,12 @@ void BindState(py::module_& m) {
       .def_property_readonly(
           "clearance", [](const StateView& s) { return s.vehicle().clearance; },
           "metres to the nearest surface, at most 2; renewed every 10 ms")
-      .def_property_readonly("mode", [](const StateView& s) { return DescribeState(s.vehicle().autopilot); }, "What the autopilot does, in words.")
-      .def_property_readonly("touching", [](const StateView& s) { return s.vehicle().touching; }, "Whether it is in contact with a surface.")
       .def_property_readonly(
-          "collision", &Collision,
-          "The last contact: count, t_ns, point, normal, impact_speed, entity; None if there was none.")
+          "mode", [](const StateView& s) { return DescribeState(s.vehicle().autopilot); }, "What the autopilot does, in words.")
+      .def_property_readonly(
+          "touching", [](const StateView& s) { return s.vehicle().touching; }, "Whether it is in contact with a surface.")
+      .def_property_readonly("collision", &Collision,
+                             "The last contact: count, t_ns, point, normal, impact_speed, entity; None if there was none.")
       .def_property_readonly("sensors", &Sensors, "Sensor name -> its last reading.");
 }
 

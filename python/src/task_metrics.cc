@@ -101,7 +101,8 @@ py::dict Semantic(const py::object& prediction, const py::object& truth, const s
   for (size_t t = 0; t < classes.size(); ++t) {
     iou[py::int_(classes[t])] = confusion.Iou(t);
     acc[py::int_(classes[t])] = confusion.Accuracy(t);
-    for (size_t c = 0; c <= classes.size(); ++c) table.mutable_at(static_cast<py::ssize_t>(t), static_cast<py::ssize_t>(c)) = confusion.At(t, c);
+    for (size_t c = 0; c <= classes.size(); ++c)
+      table.mutable_at(static_cast<py::ssize_t>(t), static_cast<py::ssize_t>(c)) = confusion.At(t, c);
   }
   py::dict dict;
   dict["miou"] = confusion.MeanIou();
@@ -115,8 +116,8 @@ py::dict Semantic(const py::object& prediction, const py::object& truth, const s
   return dict;
 }
 
-py::dict Panoptic(const py::object& prediction, const py::object& truth, const std::map<uint32_t, int64_t>& predicted, const std::map<uint32_t, int64_t>& real,
-                  const std::vector<uint32_t>& crowds, const std::string& weights) {
+py::dict Panoptic(const py::object& prediction, const py::object& truth, const std::map<uint32_t, int64_t>& predicted,
+                  const std::map<uint32_t, int64_t>& real, const std::vector<uint32_t>& crowds, const std::string& weights) {
   const auto p = ToArray<uint32_t>(prediction, "prediction"), g = ToArray<uint32_t>(truth, "truth");
   CheckSameShape(p, g, "prediction, truth");
   std::map<int64_t, size_t> categories;
@@ -125,7 +126,8 @@ py::dict Panoptic(const py::object& prediction, const py::object& truth, const s
   }
   std::vector<PanopticSegment> ps, gs;
   for (const auto& [id, category] : predicted) ps.push_back({id, categories[category], false});
-  for (const auto& [id, category] : real) gs.push_back({id, categories[category], std::find(crowds.begin(), crowds.end(), id) != crowds.end()});
+  for (const auto& [id, category] : real)
+    gs.push_back({id, categories[category], std::find(crowds.begin(), crowds.end(), id) != crowds.end()});
   PanopticOverlap overlap;
   overlap.Add(Span(p), Span(g), WeightsOf(g, weights));
   std::vector<PanopticCount> counts(categories.size());
@@ -158,7 +160,8 @@ void AddMasks(const py::handle& masks, int64_t image, const char* what, std::vec
 }
 
 py::dict Entity(const py::sequence& predictions, const py::sequence& scores, const py::sequence& truths, const std::string& weights) {
-  if (predictions.size() != truths.size() || scores.size() != truths.size()) throw InputError("predictions, scores, truths: one entry a picture each");
+  if (predictions.size() != truths.size() || scores.size() != truths.size())
+    throw InputError("predictions, scores, truths: one entry a picture each");
   CocoTruths all{{}, {{1, "entity"}}, {}, {}};
   std::vector<CocoObject> results;
   for (size_t i = 0; i < truths.size(); ++i) {
@@ -176,10 +179,14 @@ py::dict Entity(const py::sequence& predictions, const py::sequence& scores, con
   const CocoTable table = AccumulateCoco(matches, run.options, 1);
   py::dict dict;
   const auto all_t = CocoTable::kAll;
-  dict["ap"] = table.MeanPrecision(all_t, all_t, 0, 2), dict["ap50"] = table.MeanPrecision(0, all_t, 0, 2), dict["ap75"] = table.MeanPrecision(5, all_t, 0, 2);
-  dict["ap_small"] = table.MeanPrecision(all_t, all_t, 1, 2), dict["ap_medium"] = table.MeanPrecision(all_t, all_t, 2, 2), dict["ap_large"] = table.MeanPrecision(all_t, all_t, 3, 2);
-  dict["ar1"] = table.MeanRecall(all_t, all_t, 0, 0), dict["ar10"] = table.MeanRecall(all_t, all_t, 0, 1), dict["ar100"] = table.MeanRecall(all_t, all_t, 0, 2);
-  dict["ar_small"] = table.MeanRecall(all_t, all_t, 1, 2), dict["ar_medium"] = table.MeanRecall(all_t, all_t, 2, 2), dict["ar_large"] = table.MeanRecall(all_t, all_t, 3, 2);
+  dict["ap"] = table.MeanPrecision(all_t, all_t, 0, 2), dict["ap50"] = table.MeanPrecision(0, all_t, 0, 2),
+  dict["ap75"] = table.MeanPrecision(5, all_t, 0, 2);
+  dict["ap_small"] = table.MeanPrecision(all_t, all_t, 1, 2), dict["ap_medium"] = table.MeanPrecision(all_t, all_t, 2, 2),
+  dict["ap_large"] = table.MeanPrecision(all_t, all_t, 3, 2);
+  dict["ar1"] = table.MeanRecall(all_t, all_t, 0, 0), dict["ar10"] = table.MeanRecall(all_t, all_t, 0, 1),
+  dict["ar100"] = table.MeanRecall(all_t, all_t, 0, 2);
+  dict["ar_small"] = table.MeanRecall(all_t, all_t, 1, 2), dict["ar_medium"] = table.MeanRecall(all_t, all_t, 2, 2),
+  dict["ar_large"] = table.MeanRecall(all_t, all_t, 3, 2);
   return dict;
 }
 
@@ -187,14 +194,15 @@ py::dict FlowOf(const py::object& prediction, const py::object& truth, const std
   const auto p = ToArray<double>(prediction, "prediction"), g = ToArray<double>(truth, "truth");
   CheckSameShape(p, g, "prediction, truth");
   if (g.ndim() != 3 || g.shape(2) != 2) throw InputError("flow is (H, W, 2)");
-  const FlowErrors errors = MeasureFlow(Span(p), Span(g), static_cast<int>(g.shape(1)), static_cast<int>(g.shape(0)), {}, WeightsOf(g, weights, 1));
+  const FlowErrors errors =
+      MeasureFlow(Span(p), Span(g), static_cast<int>(g.shape(1)), static_cast<int>(g.shape(0)), {}, WeightsOf(g, weights, 1));
   py::dict dict = ToDict(kFlowFigures, Figures(errors));
   dict["valid"] = errors.valid;
   return dict;
 }
 
-py::dict Vln(const py::object& flown, const py::object& reference, double radius, const std::string& protocol, const py::object& goal, const py::object& shortest, bool stopped,
-             bool collided) {
+py::dict Vln(const py::object& flown, const py::object& reference, double radius, const std::string& protocol, const py::object& goal,
+             const py::object& shortest, bool stopped, bool collided) {
   VlnEpisode episode{ToPoints(reference, "reference"), ToPoints(flown, "flown"), {}, {}, stopped, collided};
   if (!goal.is_none()) episode.goal = ToVec3(goal, "goal");
   if (!shortest.is_none()) episode.shortest = Finite(shortest.cast<double>(), "shortest");
@@ -202,8 +210,8 @@ py::dict Vln(const py::object& flown, const py::object& reference, double radius
 }
 
 py::dict Mpde(const py::object& distance, const py::object& angle, const py::object& true_distance, const py::object& true_angle) {
-  const auto d = ToArray<double>(distance, "distance"), a = ToArray<double>(angle, "angle"), td = ToArray<double>(true_distance, "true_distance"),
-             ta = ToArray<double>(true_angle, "true_angle");
+  const auto d = ToArray<double>(distance, "distance"), a = ToArray<double>(angle, "angle"),
+             td = ToArray<double>(true_distance, "true_distance"), ta = ToArray<double>(true_angle, "true_angle");
   CheckSameShape(d, a, "distance, angle");
   CheckSameShape(d, td, "distance, true_distance");
   CheckSameShape(d, ta, "distance, true_angle");
@@ -214,13 +222,15 @@ py::dict Mpde(const py::object& distance, const py::object& angle, const py::obj
   }
   const MpdeErrors e = MeasureMpde(prediction, truth);
   py::dict dict;
-  dict["count"] = e.count, dict["distance_mae_m"] = e.distance_mae_m, dict["angle_mae_deg"] = e.angle_mae_deg, dict["angle_unwrapped_mae_deg"] = e.angle_unwrapped_mae_deg;
+  dict["count"] = e.count, dict["distance_mae_m"] = e.distance_mae_m, dict["angle_mae_deg"] = e.angle_mae_deg,
+  dict["angle_unwrapped_mae_deg"] = e.angle_unwrapped_mae_deg;
   return dict;
 }
 
 RoomLayout ToRoom(const py::object& corners, const char* what) {
   const auto array = ToArray<double>(corners, what);
-  if (array.ndim() != 2 || array.shape(1) != 2 || array.shape(0) % 2 != 0) throw InputError(std::string(what) + ": corners are (2 N, 2), ceiling and floor in turn");
+  if (array.ndim() != 2 || array.shape(1) != 2 || array.shape(0) % 2 != 0)
+    throw InputError(std::string(what) + ": corners are (2 N, 2), ceiling and floor in turn");
   RoomLayout room;
   for (py::ssize_t i = 0; i < array.shape(0); i += 2) {
     room.ceiling.push_back({array.at(i, 0), array.at(i, 1)});
@@ -234,9 +244,10 @@ py::dict Layout(const py::object& prediction, const py::object& truth, int width
   return ToDict(kLayoutFigures, Figures(MeasureLayout(ToRoom(prediction, "prediction"), ToRoom(truth, "truth"), width, width / 2)));
 }
 
-py::dict Tracking(const py::object& pred_category, const py::object& pred_instance, const py::object& category, const py::object& instance, const std::vector<bool>& things) {
-  const auto pc = ToArray<uint32_t>(pred_category, "pred_category"), pi = ToArray<uint32_t>(pred_instance, "pred_instance"), c = ToArray<uint32_t>(category, "category"),
-             i = ToArray<uint32_t>(instance, "instance");
+py::dict Tracking(const py::object& pred_category, const py::object& pred_instance, const py::object& category, const py::object& instance,
+                  const std::vector<bool>& things) {
+  const auto pc = ToArray<uint32_t>(pred_category, "pred_category"), pi = ToArray<uint32_t>(pred_instance, "pred_instance"),
+             c = ToArray<uint32_t>(category, "category"), i = ToArray<uint32_t>(instance, "instance");
   CheckSameShape(pc, pi, "pred_category, pred_instance");
   CheckSameShape(pc, c, "pred_category, category");
   CheckSameShape(pc, i, "pred_category, instance");
@@ -251,7 +262,8 @@ py::dict Tracking(const py::object& pred_category, const py::object& pred_instan
 
 SphericalBox ToBfov(const py::object& box, const char* what) {
   const auto a = ToArray<double>(box, what);
-  if (a.ndim() != 1 || (a.size() != 4 && a.size() != 5)) throw InputError(std::string(what) + ": a box is (lon, lat, width, height[, turn])");
+  if (a.ndim() != 1 || (a.size() != 4 && a.size() != 5))
+    throw InputError(std::string(what) + ": a box is (lon, lat, width, height[, turn])");
   return {a.data()[0], a.data()[1], a.data()[2], a.data()[3], a.size() == 5 ? a.data()[4] : 0};
 }
 
@@ -259,27 +271,34 @@ SphericalBox ToBfov(const py::object& box, const char* what) {
 
 void BindTaskMetrics(py::module_& metrics) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  metrics.def("depth", &Depth, py::arg("prediction"), py::arg("truth"), py::arg("weights") = "pixel", py::arg("min_depth") = 0.0, py::arg("max_depth") = kInfinity,
-              "Errors of ranges (H, W), metres, as a dict: absrel, sqrel, rmse, rmselog, log10, mae, d1, d2, d3, silog, tau, valid. weights: pixel or solid_angle.");
-  metrics.def("semantic", &Semantic, py::arg("prediction"), py::arg("truth"), py::arg("classes"), py::arg("weights") = "pixel",
-              "Classes of pictures (H, W) or of a stack (N, H, W), in one table: miou, miou_present, pixel_accuracy, macc, fwiou, iou and acc by id, confusion (n, n + 1).");
-  metrics.def("panoptic", &Panoptic, py::arg("prediction"), py::arg("truth"), py::arg("pred_categories"), py::arg("categories"), py::arg("crowds") = std::vector<uint32_t>{},
-              py::arg("weights") = "pixel", "Panoptic quality of ids (H, W), 0 = void, whose categories are dicts id -> category: a dict category -> pq, sq, rq, iou, tp, fp, fn.");
+  metrics.def(
+      "depth", &Depth, py::arg("prediction"), py::arg("truth"), py::arg("weights") = "pixel", py::arg("min_depth") = 0.0,
+      py::arg("max_depth") = kInfinity,
+      "Errors of ranges (H, W), metres, as a dict: absrel, sqrel, rmse, rmselog, log10, mae, d1, d2, d3, silog, tau, valid. weights: pixel or solid_angle.");
+  metrics.def(
+      "semantic", &Semantic, py::arg("prediction"), py::arg("truth"), py::arg("classes"), py::arg("weights") = "pixel",
+      "Classes of pictures (H, W) or of a stack (N, H, W), in one table: miou, miou_present, pixel_accuracy, macc, fwiou, iou and acc by id, confusion (n, n + 1).");
+  metrics.def(
+      "panoptic", &Panoptic, py::arg("prediction"), py::arg("truth"), py::arg("pred_categories"), py::arg("categories"),
+      py::arg("crowds") = std::vector<uint32_t>{}, py::arg("weights") = "pixel",
+      "Panoptic quality of ids (H, W), 0 = void, whose categories are dicts id -> category: a dict category -> pq, sq, rq, iou, tp, fp, fn.");
   metrics.def("entity", &Entity, py::arg("predictions"), py::arg("scores"), py::arg("truths"), py::arg("weights") = "pixel",
               "COCO's twelve figures of masks without categories: of each picture masks (K, H, W) and scores (K,).");
   metrics.def("flow", &FlowOf, py::arg("prediction"), py::arg("truth"), py::arg("weights") = "pixel",
               "Errors of flow (H, W, 2), NaN = unknown: epe, fl_all, below1, below3, below5, angle_error_deg, valid.");
-  metrics.def("vln", &Vln, py::arg("flown"), py::arg("reference"), py::arg("radius") = 20.0, py::arg("protocol") = "ours", py::arg("goal") = py::none(),
-              py::arg("shortest") = py::none(), py::arg("stopped") = true, py::arg("collided") = false,
+  metrics.def("vln", &Vln, py::arg("flown"), py::arg("reference"), py::arg("radius") = 20.0, py::arg("protocol") = "ours",
+              py::arg("goal") = py::none(), py::arg("shortest") = py::none(), py::arg("stopped") = true, py::arg("collided") = false,
               "Scores of one flown path (N, 3): sr, osr, spl, spl_straight, ne, ndtw, sdtw, cls, path_length.");
   metrics.def("mpde", &Mpde, py::arg("distance"), py::arg("angle"), py::arg("true_distance"), py::arg("true_angle"),
               "Errors of distances (N,), metres, and angles (N,), radians: count, distance_mae_m, angle_mae_deg, angle_unwrapped_mae_deg.");
-  metrics.def("layout", &Layout, py::arg("prediction"), py::arg("truth"), py::arg("width") = 1024,
-              "Errors of a room of corners (2 N, 2) in pixels, ceiling and floor in turn: iou2d, iou3d, corner_error_percent, pixel_error_percent, rmse, d1.");
-  metrics.def("tracking", &Tracking, py::arg("pred_category"), py::arg("pred_instance"), py::arg("category"), py::arg("instance"), py::arg("things"),
-              "STEP's stq, aq, sq, tubes of one video: arrays (T, H, W), 0xffffffff = void; things: a flag a category.");
-  metrics.def("bfov_iou", [](const py::object& a, const py::object& b) { return SphericalIou(ToBfov(a, "a"), ToBfov(b, "b")); }, py::arg("a"), py::arg("b"),
-              "Unbiased intersection over union of boxes (lon, lat, width, height[, turn]) on the sphere, radians.");
+  metrics.def(
+      "layout", &Layout, py::arg("prediction"), py::arg("truth"), py::arg("width") = 1024,
+      "Errors of a room of corners (2 N, 2) in pixels, ceiling and floor in turn: iou2d, iou3d, corner_error_percent, pixel_error_percent, rmse, d1.");
+  metrics.def("tracking", &Tracking, py::arg("pred_category"), py::arg("pred_instance"), py::arg("category"), py::arg("instance"),
+              py::arg("things"), "STEP's stq, aq, sq, tubes of one video: arrays (T, H, W), 0xffffffff = void; things: a flag a category.");
+  metrics.def(
+      "bfov_iou", [](const py::object& a, const py::object& b) { return SphericalIou(ToBfov(a, "a"), ToBfov(b, "b")); }, py::arg("a"),
+      py::arg("b"), "Unbiased intersection over union of boxes (lon, lat, width, height[, turn]) on the sphere, radians.");
 }
 
 }  // namespace airsim360::python

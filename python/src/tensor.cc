@@ -61,9 +61,13 @@ template <class Kind>
 py::capsule Pack(const Tensor& tensor, bool copied) {
   auto own = std::make_unique<Export<Kind>>();
   own->shape = tensor.shape, own->strides = tensor.strides, own->keep = tensor.keep;
-  own->managed.tensor = {const_cast<void*>(tensor.data), {tensor.cuda >= 0 ? kCudaDevice : kCpuDevice, std::max(tensor.cuda, 0)},
-                         static_cast<int32_t>(own->shape.size()), {tensor.type.code, tensor.type.bits, 1},
-                         own->shape.data(), own->strides.data(), 0};
+  own->managed.tensor = {const_cast<void*>(tensor.data),
+                         {tensor.cuda >= 0 ? kCudaDevice : kCpuDevice, std::max(tensor.cuda, 0)},
+                         static_cast<int32_t>(own->shape.size()),
+                         {tensor.type.code, tensor.type.bits, 1},
+                         own->shape.data(),
+                         own->strides.data(),
+                         0};
   own->managed.context = own.get();
   // Consumers call this on any thread, perhaps when Python is already gone.
   own->managed.deleter = [](Kind* managed) { delete static_cast<Export<Kind>*>(managed->context); };
@@ -160,7 +164,10 @@ py::object ToTensor(const py::object& picture) {
     tensor.strides.push_back(array.strides(k) / array.itemsize());
   }
   const char kind = array.dtype().kind();
-  tensor.type = {kind == 'f' ? TensorType::kFloat : kind == 'i' ? TensorType::kInt : TensorType::kUint, static_cast<uint8_t>(8 * array.itemsize())};
+  tensor.type = {kind == 'f'   ? TensorType::kFloat
+                 : kind == 'i' ? TensorType::kInt
+                               : TensorType::kUint,
+                 static_cast<uint8_t>(8 * array.itemsize())};
   tensor.keep = std::shared_ptr<const void>(array.data(), [held = new py::array(array)](const void*) {
     if (Py_IsInitialized() == 0) return;
     const py::gil_scoped_acquire gil;
@@ -177,11 +184,14 @@ Nothing is copied; the memory stays alive for as long as any consumer has it. co
            py::arg("dl_device") = py::none(), py::arg("copy") = py::none())
       .def("__dlpack_device__",
            [](const Tensor& t) { return py::make_tuple(static_cast<int>(t.cuda >= 0 ? kCudaDevice : kCpuDevice), std::max(t.cuda, 0)); })
-      .def_property_readonly("shape", [](const Tensor& t) {
-        py::tuple shape(t.shape.size());
-        for (size_t i = 0; i < t.shape.size(); ++i) shape[i] = t.shape[i];
-        return shape;
-      }, "(H, W) or (H, W, channels).");
+      .def_property_readonly(
+          "shape",
+          [](const Tensor& t) {
+            py::tuple shape(t.shape.size());
+            for (size_t i = 0; i < t.shape.size(); ++i) shape[i] = t.shape[i];
+            return shape;
+          },
+          "(H, W) or (H, W, channels).");
 }
 
 }  // namespace airsim360::python

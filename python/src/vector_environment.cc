@@ -18,22 +18,21 @@ double Number(const py::handle& value, const std::string& name) {
   }
 }
 
-constexpr std::pair<const char*, double NavigationTask::*> kTaskNumbers[] = {
-    {"least_distance", &NavigationTask::least_distance},
-    {"most_distance", &NavigationTask::most_distance},
-    {"goal_radius", &NavigationTask::goal_radius},
-    {"clearance", &NavigationTask::clearance},
-    {"area", &NavigationTask::area},
-    {"min_height", &NavigationTask::min_height},
-    {"max_height", &NavigationTask::max_height},
-    {"seconds", &NavigationTask::seconds},
-    {"safe_distance", &NavigationTask::safe_distance},
-    {"progress_reward", &NavigationTask::progress_reward},
-    {"goal_reward", &NavigationTask::goal_reward},
-    {"crash_cost", &NavigationTask::crash_cost},
-    {"step_cost", &NavigationTask::step_cost},
-    {"near_cost", &NavigationTask::near_cost},
-    {"seen_reward", &NavigationTask::seen_reward}};
+constexpr std::pair<const char*, double NavigationTask::*> kTaskNumbers[] = {{"least_distance", &NavigationTask::least_distance},
+                                                                             {"most_distance", &NavigationTask::most_distance},
+                                                                             {"goal_radius", &NavigationTask::goal_radius},
+                                                                             {"clearance", &NavigationTask::clearance},
+                                                                             {"area", &NavigationTask::area},
+                                                                             {"min_height", &NavigationTask::min_height},
+                                                                             {"max_height", &NavigationTask::max_height},
+                                                                             {"seconds", &NavigationTask::seconds},
+                                                                             {"safe_distance", &NavigationTask::safe_distance},
+                                                                             {"progress_reward", &NavigationTask::progress_reward},
+                                                                             {"goal_reward", &NavigationTask::goal_reward},
+                                                                             {"crash_cost", &NavigationTask::crash_cost},
+                                                                             {"step_cost", &NavigationTask::step_cost},
+                                                                             {"near_cost", &NavigationTask::near_cost},
+                                                                             {"seen_reward", &NavigationTask::seen_reward}};
 
 std::vector<std::string> TaskOptions() {
   std::vector<std::string> names = {"target"};
@@ -68,11 +67,11 @@ std::vector<EpisodeWish> ToWishes(const py::dict& options, size_t count) {
     const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
     const bool rows = array && array.ndim() == axes + 1;
     if (rows && static_cast<size_t>(array.shape(0)) != count) {
-      throw InputError(std::string(name) + ": " + std::to_string(array.shape(0)) + " rows for " + std::to_string(count) +
-                       " environments");
+      throw InputError(std::string(name) + ": " + std::to_string(array.shape(0)) + " rows for " + std::to_string(count) + " environments");
     }
     wishes.resize(rows ? count : std::max<size_t>(1, wishes.size()), wishes.empty() ? EpisodeWish{} : wishes[0]);
-    for (size_t i = 0; i < wishes.size(); ++i) set(wishes[i], rows ? value[py::int_(i)].cast<py::object>() : py::reinterpret_borrow<py::object>(value));
+    for (size_t i = 0; i < wishes.size(); ++i)
+      set(wishes[i], rows ? value[py::int_(i)].cast<py::object>() : py::reinterpret_borrow<py::object>(value));
   };
   for (const auto& [key, value] : options) {
     const auto name = key.cast<std::string>();
@@ -106,12 +105,10 @@ void SetObservations(const std::vector<std::string>& names, VectorEnvironmentOpt
   }
 }
 
-std::unique_ptr<VectorEnvironment> Make(const std::shared_ptr<World>& world, const std::string& task,
-                                        const py::dict& task_options, int count, const py::object& drone,
-                                        const std::string& action, int width, int height,
-                                        const std::vector<std::string>& observations, double period,
-                                        double max_speed, double max_turn, double max_rate, bool level,
-                                        bool auto_reset, uint64_t seed, const py::kwargs& picture) {
+std::unique_ptr<VectorEnvironment> Make(const std::shared_ptr<World>& world, const std::string& task, const py::dict& task_options,
+                                        int count, const py::object& drone, const std::string& action, int width, int height,
+                                        const std::vector<std::string>& observations, double period, double max_speed, double max_turn,
+                                        double max_rate, bool level, bool auto_reset, uint64_t seed, const py::kwargs& picture) {
   VectorEnvironmentOptions options;
   options.count = count;
   options.drone = ToDrone(drone).model;
@@ -175,8 +172,7 @@ auto Numbers(std::span<const T> (VectorEnvironment::*rows)() const) {
 auto Flags(std::span<const uint8_t> (VectorEnvironment::*rows)() const) {
   return [rows](const py::object& self) {
     const auto data = (self.cast<const VectorEnvironment&>().*rows)();
-    return View(reinterpret_cast<const bool*>(data.data()), {static_cast<py::ssize_t>(data.size())}, {1},
-                self);
+    return View(reinterpret_cast<const bool*>(data.data()), {static_cast<py::ssize_t>(data.size())}, {1}, self);
   };
 }
 
@@ -194,8 +190,7 @@ void BindActions(py::class_<E>& environment) {
           "reset",
           [](E& e, std::optional<uint64_t> seed, const py::object& options) {
             std::vector<EpisodeWish> wishes;
-            if (!options.is_none())
-              wishes = ToWishes(options.cast<py::dict>(), static_cast<size_t>(e.count()));
+            if (!options.is_none()) wishes = ToWishes(options.cast<py::dict>(), static_cast<size_t>(e.count()));
             const py::gil_scoped_release release;
             e.Reset(seed, wishes);
           },
@@ -213,18 +208,13 @@ void BindActions(py::class_<E>& environment) {
           },
           py::arg("actions"), "actions: (count, action_size) float32 in -1 … 1.")
       .def_property_readonly_static(
-          "TASK_OPTIONS", [](const py::object&) { return py::tuple(py::cast(TaskOptions())); },
-          "Names that task_options takes.")
-      .def("__repr__",
-           [](const E& e) {
-             return Text("VectorEnvironment(%d of %dx%d)", e.count(), e.options().width, e.options().height);
-           });
+          "TASK_OPTIONS", [](const py::object&) { return py::tuple(py::cast(TaskOptions())); }, "Names that task_options takes.")
+      .def("__repr__", [](const E& e) { return Text("VectorEnvironment(%d of %dx%d)", e.count(), e.options().width, e.options().height); });
 }
 
 // What stands after each step, one row an environment.
 void BindArrays(py::class_<E>& environment) {
-  environment
-      .def_property_readonly("count", &E::count, "Environments.")
+  environment.def_property_readonly("count", &E::count, "Environments.")
       .def_property_readonly("action_size", &E::action_size, "Numbers of an action.")
       .def_property_readonly(
           "width", [](const E& e) { return e.options().width; }, "Pixels.")
@@ -249,16 +239,14 @@ void BindEpisodes(py::class_<E>& environment) {
       .def(
           "pose_of",
           [](const E& e, int i) {
-            if (i < 0 || i >= e.count())
-              throw InputError("environment " + std::to_string(i) + " of " + std::to_string(e.count()));
+            if (i < 0 || i >= e.count()) throw InputError("environment " + std::to_string(i) + " of " + std::to_string(e.count()));
             return FromPose(e.sim_state(i).vehicles[0].motion.X_WB);
           },
           py::arg("environment"), "(4, 4) X_WB of a drone.")
       .def(
           "goal_of",
           [](const E& e, int i) {
-            if (i < 0 || i >= e.count())
-              throw InputError("environment " + std::to_string(i) + " of " + std::to_string(e.count()));
+            if (i < 0 || i >= e.count()) throw InputError("environment " + std::to_string(i) + " of " + std::to_string(e.count()));
             return FromVec3(e.episode(i).goal_W);
           },
           py::arg("environment"), "(3,) goal in W.")
@@ -268,20 +256,17 @@ void BindEpisodes(py::class_<E>& environment) {
 }  // namespace
 
 void BindVectorEnvironment(py::module_& m) {
-  py::class_<E> environment(
-      m, "VectorEnvironment",
-      "Many drones that learn at once (see airsim360.gym). Arrays stay where they are: each step "
-      "writes into them.");
+  py::class_<E> environment(m, "VectorEnvironment",
+                            "Many drones that learn at once (see airsim360.gym). Arrays stay where they are: each step "
+                            "writes into them.");
   {
     py::options options;
     options.disable_function_signatures();
-    environment.def(
-        py::init(&Make), py::arg("world"), py::arg("task") = "reach", py::arg("task_options") = py::dict(),
-        py::arg("count") = 1, py::arg("drone") = "hummingbird", py::arg("action") = "velocity",
-        py::arg("width") = 128, py::arg("height") = 0, py::kw_only(),
-        py::arg("observations") = std::vector<std::string>{"rgb", "range"}, py::arg("period") = 0.1,
-        py::arg("max_speed") = 3.0, py::arg("max_turn") = 1.5, py::arg("max_rate") = 6.0,
-        py::arg("level") = false, py::arg("auto_reset") = true, py::arg("seed") = 0, Documentation().c_str());
+    environment.def(py::init(&Make), py::arg("world"), py::arg("task") = "reach", py::arg("task_options") = py::dict(),
+                    py::arg("count") = 1, py::arg("drone") = "hummingbird", py::arg("action") = "velocity", py::arg("width") = 128,
+                    py::arg("height") = 0, py::kw_only(), py::arg("observations") = std::vector<std::string>{"rgb", "range"},
+                    py::arg("period") = 0.1, py::arg("max_speed") = 3.0, py::arg("max_turn") = 1.5, py::arg("max_rate") = 6.0,
+                    py::arg("level") = false, py::arg("auto_reset") = true, py::arg("seed") = 0, Documentation().c_str());
   }
   BindActions(environment);
   BindArrays(environment);

@@ -94,9 +94,10 @@ hevc_vaapi. quality: 0 (best) ... 51.)")
       .def(py::init<const std::string&, int, int, double, bool, const std::string&, int>(), py::arg("path"), py::arg("width") = 0,
            py::arg("height") = 0, py::arg("fps") = 30.0, py::arg("spherical") = true, py::arg("encoder") = "auto",
            py::arg("quality") = VideoOptions{}.quality)
-      .def("add", &Video::Add, py::arg("picture"), py::arg("t") = py::none(),
-           "A Capture (shown from its t_ns on if that is later than the last picture) or (H, W, 3) uint8; else 1 / fps after the last. t: seconds "
-           "instead.")
+      .def(
+          "add", &Video::Add, py::arg("picture"), py::arg("t") = py::none(),
+          "A Capture (shown from its t_ns on if that is later than the last picture) or (H, W, 3) uint8; else 1 / fps after the last. t: seconds "
+          "instead.")
       .def(
           "close",
           [](Video& v) {
@@ -111,7 +112,8 @@ hevc_vaapi. quality: 0 (best) ... 51.)")
              const py::gil_scoped_release release;
              v.Close(keep);
            })
-      .def_property_readonly("encoder", &Video::encoder, py::call_guard<py::gil_scoped_release>(), "The one that was taken, once there is a picture.")
+      .def_property_readonly("encoder", &Video::encoder, py::call_guard<py::gil_scoped_release>(),
+                             "The one that was taken, once there is a picture.")
       .def("__len__", &Video::count);
 }
 

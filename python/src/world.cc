@@ -50,9 +50,7 @@ Kinematics Standing(const py::object& position, double yaw, double pitch, double
   return {BodyPose(ToVec3(position, "position"), Finite(yaw, "yaw"), Finite(pitch, "pitch"), Finite(roll, "roll")), {}, {}};
 }
 
-py::array_t<double> BoundsOf(const Box3f& box) {
-  return FromPoints({VecCast<double>(box.min), VecCast<double>(box.max)});
-}
+py::array_t<double> BoundsOf(const Box3f& box) { return FromPoints({VecCast<double>(box.min), VecCast<double>(box.max)}); }
 
 }  // namespace
 
@@ -85,8 +83,7 @@ namespace {
 py::tuple Raycast(World& world, const py::object& origins, const py::object& directions) {
   const std::vector<Vec3d> from = ToPoints(origins, "origins"), along = ToPoints(directions, "directions");
   if (from.size() != along.size())
-    throw InputError("raycast: " + std::to_string(from.size()) + " origins and " +
-                     std::to_string(along.size()) + " directions");
+    throw InputError("raycast: " + std::to_string(from.size()) + " origins and " + std::to_string(along.size()) + " directions");
   const auto n = static_cast<py::ssize_t>(from.size());
   py::array_t<float> range(n);
   py::array_t<EntityId> entity(n);
@@ -98,12 +95,10 @@ py::tuple Raycast(World& world, const py::object& origins, const py::object& dir
     const Scene& scene = world.scene();
     constexpr int64_t kRaysPerTask = 256;
     ParallelFor((n + kRaysPerTask - 1) / kRaysPerTask, [&](int64_t task) {
-      for (auto i = static_cast<size_t>(task * kRaysPerTask);
-           i < std::min(from.size(), static_cast<size_t>((task + 1) * kRaysPerTask)); ++i) {
+      for (auto i = static_cast<size_t>(task * kRaysPerTask); i < std::min(from.size(), static_cast<size_t>((task + 1) * kRaysPerTask));
+           ++i) {
         const double length = Norm(along[i]);
-        const auto hit = length > 0
-                             ? tracer->Intersect(VecCast<float>(from[i]), VecCast<float>(along[i] / length))
-                             : std::nullopt;
+        const auto hit = length > 0 ? tracer->Intersect(VecCast<float>(from[i]), VecCast<float>(along[i] / length)) : std::nullopt;
         ranges[i] = hit ? hit->distance : 0;
         entities[i] = scene.sky_entity;
         if (hit) entities[i] = LabelOf(*tracer, hit->surface).entity;
@@ -119,9 +114,8 @@ py::array_t<float> Clearance(World& world, const py::object& points, float most)
   float* out = distance.mutable_data();
   const py::gil_scoped_release release;
   const auto tracer = world.stage()->solid();
-  ParallelFor(static_cast<int64_t>(places.size()), [&](int64_t i) {
-    out[i] = tracer->Clearance(VecCast<float>(places[static_cast<size_t>(i)]), most);
-  });
+  ParallelFor(static_cast<int64_t>(places.size()),
+              [&](int64_t i) { out[i] = tracer->Clearance(VecCast<float>(places[static_cast<size_t>(i)]), most); });
   return distance;
 }
 
@@ -177,12 +171,11 @@ TrafficRequest ToTraffic(int64_t count, uint64_t seed) {
   return {.count = static_cast<size_t>(count), .seed = seed};
 }
 
-std::shared_ptr<World> OpenWorld(const std::string& name, uint64_t seed, bool models, const std::string& labels,
-                                 const std::string& device, int gpu, const std::string& weather, const std::string& sun,
-                                 const std::string& time, const std::string& place, const std::string& hdri,
-                                 const std::string& environment, const std::string& clouds, const std::string& sky_seed,
-                                 const std::string& bbox, const std::string& centre, double radius,
-                                 const py::object& people, const std::string& wind, int64_t traffic) {
+std::shared_ptr<World> OpenWorld(const std::string& name, uint64_t seed, bool models, const std::string& labels, const std::string& device,
+                                 int gpu, const std::string& weather, const std::string& sun, const std::string& time,
+                                 const std::string& place, const std::string& hdri, const std::string& environment,
+                                 const std::string& clouds, const std::string& sky_seed, const std::string& bbox, const std::string& centre,
+                                 double radius, const py::object& people, const std::string& wind, int64_t traffic) {
   StageOptions options{.world = {.world = name, .seed = seed, .labels = labels, .use_models = models},
                        .environment = {weather, sun, time, place, hdri, environment, clouds, sky_seed},
                        .people = ToPeople(people, seed),
@@ -207,8 +200,7 @@ size_t Relabel(World& w, const py::dict& labels) {
   std::vector<std::string> unused;
   const size_t changed = w.Relabel(patterns, unused);
   for (const std::string& pattern : unused) {
-    if (PyErr_WarnEx(PyExc_UserWarning, ("relabel: '" + pattern + "' matches no entity").c_str(), 1) < 0)
-      throw py::error_already_set();
+    if (PyErr_WarnEx(PyExc_UserWarning, ("relabel: '" + pattern + "' matches no entity").c_str(), 1) < 0) throw py::error_already_set();
   }
   return changed;
 }
@@ -219,11 +211,11 @@ void BindContent(WorldClass& world) {
       .def("__repr__",
            [](const World& w) {
              const SceneCounts counts = w.scene().Count();
-             return Text("World(%s: %zu entities, %zu triangles, device %s)", w.name().c_str(),
-                         static_cast<size_t>(counts.entities), static_cast<size_t>(counts.instanced_triangles),
-                         w.stage()->device().device.c_str());
+             return Text("World(%s: %zu entities, %zu triangles, device %s)", w.name().c_str(), static_cast<size_t>(counts.entities),
+                         static_cast<size_t>(counts.instanced_triangles), w.stage()->device().device.c_str());
            })
-      .def_property_readonly("device", [](const World& w) { return w.stage()->device().device; }, "What draws its pictures: cpu or vulkan.")
+      .def_property_readonly(
+          "device", [](const World& w) { return w.stage()->device().device; }, "What draws its pictures: cpu or vulkan.")
       .def_property_readonly("name", &World::name, "Name or path that it was opened by.")
       .def_property_readonly(
           "entities", [](World& w) { return EntitiesOf(w.scene(), w.labels().get()); },
@@ -238,25 +230,18 @@ void BindContent(WorldClass& world) {
             return d;
           },
           "Category id -> path.")
-      .def(
-          "relabel",
-          &Relabel,
-          py::arg("labels"),
-          "Categories by patterns of entity names ({'node/22*': 'furniture/misc'}; * any characters, ? one; the first that matches "
-          "counts; paths that the tree lacks are added), from the next capture or scan on, in this world and its simulations. "
-          "Returns how many entities match; a pattern that matches none gives a UserWarning.")
+      .def("relabel", &Relabel, py::arg("labels"),
+           "Categories by patterns of entity names ({'node/22*': 'furniture/misc'}; * any characters, ? one; the first that matches "
+           "counts; paths that the tree lacks are added), from the next capture or scan on, in this world and its simulations. "
+           "Returns how many entities match; a pattern that matches none gives a UserWarning.")
       .def_property_readonly(
-          "bounds", [](const World& w) { return BoundsOf(w.scene().bounds); },
-          "(2, 3) least and greatest corner in W, metres.")
+          "bounds", [](const World& w) { return BoundsOf(w.scene().bounds); }, "(2, 3) least and greatest corner in W, metres.")
       .def_property_readonly(
-          "spawn",
-          [](const World& w) {
-            return FromVec3(VecCast<double>(FirstViewpoint(w.scene())));
-          },
+          "spawn", [](const World& w) { return FromVec3(VecCast<double>(FirstViewpoint(w.scene()))); },
           "(3,) a good first viewpoint in W, metres.")
-      .def_property_readonly("triangles",
-                             [](const World& w) { return w.scene().Count().instanced_triangles; },
-                             "Triangles, those of every copy of a mesh counted.");
+      .def_property_readonly(
+          "triangles", [](const World& w) { return w.scene().Count().instanced_triangles; },
+          "Triangles, those of every copy of a mesh counted.");
 }
 
 // What rays, a rig and a lidar meet.
@@ -269,10 +254,8 @@ void BindSensing(WorldClass& world) {
       .def("clearance", &Clearance, py::arg("points"), py::arg("most") = 100.0f,
            "Distance (N,) float32 from points (N, 3) of W to the nearest surface, at most `most` metres.")
       .def(
-          "export",
-          [](const World& w, const std::string& path) { WriteFileAtomically(path, EncodeGlb(w.scene())); },
-          py::arg("path"), py::call_guard<py::gil_scoped_release>(),
-          "Writes the world as binary glTF (.glb).")
+          "export", [](const World& w, const std::string& path) { WriteFileAtomically(path, EncodeGlb(w.scene())); }, py::arg("path"),
+          py::call_guard<py::gil_scoped_release>(), "Writes the world as binary glTF (.glb).")
       .def(
           "capture",
           [](World& w, const py::object& position, const Rig& rig, double yaw, double pitch, double roll) {
@@ -280,8 +263,7 @@ void BindSensing(WorldClass& world) {
             const py::gil_scoped_release release;
             return w.Render(rig, body);
           },
-          py::arg("position"), py::arg_v("rig", DefaultRig(), "Rig()"), py::arg("yaw") = 0.0,
-          py::arg("pitch") = 0.0, py::arg("roll") = 0.0,
+          py::arg("position"), py::arg_v("rig", DefaultRig(), "Rig()"), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0, py::arg("roll") = 0.0,
           "A capture by a body that stands still at `position` (3,) of W. Radians; yaw 0 faces east and "
           "grows "
           "counter-clockwise, pitch is positive nose up, roll right side down.")
@@ -292,18 +274,16 @@ void BindSensing(WorldClass& world) {
             const py::gil_scoped_release release;
             return w.Scan(lidar, body);
           },
-          py::arg("position"), py::arg_v("lidar", Lidar{}, "Lidar()"), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
-          py::arg("roll") = 0.0, "LidarScan of one turn by a body that stands still, as capture.");
+          py::arg("position"), py::arg_v("lidar", Lidar{}, "Lidar()"), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0, py::arg("roll") = 0.0,
+          "LidarScan of one turn by a body that stands still, as capture.");
 }
 
 }  // namespace
 
 void BindWorld(py::module_& m) {
-  m.def("worlds", &ListOfWorlds,
-        "The built-in worlds: dictionaries with name, setting, area_m2, categories, description.");
+  m.def("worlds", &ListOfWorlds, "The built-in worlds: dictionaries with name, setting, area_m2, categories, description.");
   m.def("gpus", &Gpus, "GPUs of this machine: dictionaries with index, name, driver, software, missing (what it lacks to render), uuid.");
-  WorldClass world(
-      m, "World", R"(A world by name, or a path to .glb, .gltf, .obj, .osm, CityJSON or world .yaml.
+  WorldClass world(m, "World", R"(A world by name, or a path to .glb, .gltf, .obj, .osm, CityJSON or world .yaml.
 
 `labels` is a label file: categories by patterns of names (docs/guide/labels.md).
 
@@ -315,11 +295,11 @@ people .yaml; they live in simulations of it, and captures of the world show the
 simulations.
 
 ValueError names the nearest world where there is none of that name.)");
-  world.def(py::init(&OpenWorld), py::arg("name"), py::arg("seed") = 0, py::arg("models") = true, py::kw_only(),
-           py::arg("labels") = "", py::arg("device") = "auto", py::arg("gpu") = -1, py::arg("weather") = "", py::arg("sun") = "",
-           py::arg("time") = "", py::arg("place") = "", py::arg("hdri") = "", py::arg("environment") = "",
-           py::arg("clouds") = "", py::arg("sky_seed") = "", py::arg("bbox") = "",
-           py::arg("centre") = "", py::arg("radius") = 0.0, py::arg("people") = 0, py::arg("wind") = "", py::arg("traffic") = 0);
+  world.def(py::init(&OpenWorld), py::arg("name"), py::arg("seed") = 0, py::arg("models") = true, py::kw_only(), py::arg("labels") = "",
+            py::arg("device") = "auto", py::arg("gpu") = -1, py::arg("weather") = "", py::arg("sun") = "", py::arg("time") = "",
+            py::arg("place") = "", py::arg("hdri") = "", py::arg("environment") = "", py::arg("clouds") = "", py::arg("sky_seed") = "",
+            py::arg("bbox") = "", py::arg("centre") = "", py::arg("radius") = 0.0, py::arg("people") = 0, py::arg("wind") = "",
+            py::arg("traffic") = 0);
   BindContent(world);
   BindSensing(world);
 }

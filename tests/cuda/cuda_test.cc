@@ -133,9 +133,9 @@ TEST_F(Cuda, CallsComeInOrderWithTheSizesOfTheBuffer) {
   size_t at = 0;
   // Each picture begins at a multiple of 64 bytes: range, entity 4 bytes a pixel, semantic 2, normal 12.
   const std::string size = std::to_string(64 * 32 * (4 + 4 + 2 + 12));
-  for (const std::string& call : {std::string("cuInit 0\n"), std::string("cuDeviceGetCount\n"), std::string("cuDevicePrimaryCtxRetain"),
-                                  std::string("cuImportExternalMemory type 1 size "),
-                                  "cuExternalMemoryGetMappedBuffer offset 0 size " + size + "\n"}) {
+  for (const std::string& call :
+       {std::string("cuInit 0\n"), std::string("cuDeviceGetCount\n"), std::string("cuDevicePrimaryCtxRetain"),
+        std::string("cuImportExternalMemory type 1 size "), "cuExternalMemoryGetMappedBuffer offset 0 size " + size + "\n"}) {
     at = calls.find(call, at);
     ASSERT_NE(at, std::string::npos) << call << " in\n" << calls;
   }

@@ -131,10 +131,10 @@ int cuGetErrorString(int error, const char** text) {
 }
 int cuImportExternalMemory(void** memory, const MemoryHandle* handle) {
   LOCK;
-  if (const int error = Note("cuImportExternalMemory", "type " + std::to_string(handle->type) + " size " + std::to_string(handle->size) + " flags " +
-                                                           std::to_string(handle->flags)))
+  if (const int error = Note("cuImportExternalMemory", "type " + std::to_string(handle->type) + " size " + std::to_string(handle->size) +
+                                                           " flags " + std::to_string(handle->flags)))
     return error;
-  struct stat file{};
+  struct stat file {};
   if (pushed < 1 || ::fstat(handle->fd, &file) != 0 || static_cast<size_t>(file.st_size) < handle->size + header) return kInvalid;
   void* const map = ::mmap(nullptr, static_cast<size_t>(file.st_size), PROT_READ | PROT_WRITE, MAP_SHARED, handle->fd, 0);
   if (map == MAP_FAILED) return kInvalid;
@@ -145,7 +145,8 @@ int cuImportExternalMemory(void** memory, const MemoryHandle* handle) {
 }
 int cuExternalMemoryGetMappedBuffer(unsigned long long* address, void* memory, const MemoryBuffer* buffer) {
   LOCK;
-  if (const int error = Note("cuExternalMemoryGetMappedBuffer", "offset " + std::to_string(buffer->offset) + " size " + std::to_string(buffer->size)))
+  if (const int error =
+          Note("cuExternalMemoryGetMappedBuffer", "offset " + std::to_string(buffer->offset) + " size " + std::to_string(buffer->size)))
     return error;
   const auto found = memories.find(memory);
   if (found == memories.end() || pushed < 1 || header + buffer->offset + buffer->size > found->second.mapped) return kInvalid;

@@ -74,8 +74,8 @@ inline std::string ExamProblem(const ExamSentence& sentence) {
   for (const auto& [name, value] : sentence.figures) {
     const double is = ExamFigure(design, name);
     if (!(is >= 0.98 * value.first && is <= 1.02 * value.second)) {
-      problems += name + " is " + std::to_string(is) + ", said " + std::to_string(value.first) + " to " +
-                  std::to_string(value.second) + "; ";
+      problems +=
+          name + " is " + std::to_string(is) + ", said " + std::to_string(value.first) + " to " + std::to_string(value.second) + "; ";
     }
   }
   return problems;

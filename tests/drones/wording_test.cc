@@ -28,17 +28,16 @@ struct SaidMass {
   const char* words;
   double kilograms;
 };
-constexpr SaidMass kMasses[] = {
-    {"900 g", 0.9}, {"900g", 0.9}, {"1.2 kg", 1.2}, {"1,2 kg", 1.2}, {"2 lb", 0.90718474}, {"40 oz", 1.13398093},
-    {"1.5 kilos", 1.5}, {"one kilo", 1}, {"850 grams", 0.85}, {"2-pound", 0.90718474}};
+constexpr SaidMass kMasses[] = {{"900 g", 0.9},        {"900g", 0.9},      {"1.2 kg", 1.2}, {"1,2 kg", 1.2},     {"2 lb", 0.90718474},
+                                {"40 oz", 1.13398093}, {"1.5 kilos", 1.5}, {"one kilo", 1}, {"850 grams", 0.85}, {"2-pound", 0.90718474}};
 
-constexpr const char* kVerbs[] = {"carry", "haul",      "lift",   "lug",   "deliver", "drop", "hoist",
+constexpr const char* kVerbs[] = {"carry", "haul",      "lift",    "lug",   "deliver", "drop", "hoist",
                                   "bring", "transport", "airlift", "ferry", "hold",    "tote", "shuttle"};
 
 // Things that are in no lexicon, made-up ones among them: nouns are an open class.
-constexpr const char* kThings[] = {"buoy",    "kettle",          "zorblatt",      "methane sniffer", "throw bag",
-                                   "lidar",   "self inflating raft", "teddy bear", "wooden crate",    "geophone",
-                                   "pumpkin", "sonar pod",       "repair kit",    "frobnicator",     "spray can"};
+constexpr const char* kThings[] = {
+    "buoy",     "kettle",  "zorblatt",  "methane sniffer", "throw bag",   "lidar",    "self inflating raft", "teddy bear", "wooden crate",
+    "geophone", "pumpkin", "sonar pod", "repair kit",      "frobnicator", "spray can"};
 
 /// How often a form is read as it is meant, and the first sentences that are not.
 class Tally {
@@ -87,8 +86,7 @@ TEST(Wording, WhateverIsCarriedIsPayloadWhereverItsMassStands) {
       for (const char* thing : kThings) {
         // Every verb meets every thing, and masses take turns.
         const SaidMass& mass = kMasses[turn++ % std::size(kMasses)];
-        Check(tally, Filled(Filled(Filled(form, 'v', verb), 'n', thing), 'm', mass.words), &DroneRequest::payload,
-              mass.kilograms);
+        Check(tally, Filled(Filled(Filled(form, 'v', verb), 'n', thing), 'm', mass.words), &DroneRequest::payload, mass.kilograms);
       }
     }
     EXPECT_EQ(tally.share(), 1) << form << "\n" << tally.bad();
@@ -96,14 +94,22 @@ TEST(Wording, WhateverIsCarriedIsPayloadWhereverItsMassStands) {
 }
 
 TEST(Wording, AThingBesideTheDroneIsPayloadWithoutAVerb) {
-  const Forms forms = {"hexa with a %n weighing %m, 20 min", "hexa for a %m %n, 20 min",
-                       "hexa with a %m %n on board, 20 min", "hexa + %n %m, 20 min",
-                       "hexa plus a %m %n, 20 min",          "six rotors, 20 min with a %m %n",
-                       "MTOW 9 kg hexa, %n %m, 20 min",      "hexa, 20 min. The %n is %m.",
-                       "hexa, 20 min, %n weighs %m",         "the %n comes to %m, hexa, 20 min",
-                       "Hexa for 20 min; %n = %m",           "hexa, 20 min, my %n is about %m",
-                       "20 min hexa with a %n of %m",        "hexa equipped with a %n (%m), 20 min",
-                       "Hexacopter mit einem %n von %m, 20 min", "hexacoptere avec un %n de %m, 20 min",
+  const Forms forms = {"hexa with a %n weighing %m, 20 min",
+                       "hexa for a %m %n, 20 min",
+                       "hexa with a %m %n on board, 20 min",
+                       "hexa + %n %m, 20 min",
+                       "hexa plus a %m %n, 20 min",
+                       "six rotors, 20 min with a %m %n",
+                       "MTOW 9 kg hexa, %n %m, 20 min",
+                       "hexa, 20 min. The %n is %m.",
+                       "hexa, 20 min, %n weighs %m",
+                       "the %n comes to %m, hexa, 20 min",
+                       "Hexa for 20 min; %n = %m",
+                       "hexa, 20 min, my %n is about %m",
+                       "20 min hexa with a %n of %m",
+                       "hexa equipped with a %n (%m), 20 min",
+                       "Hexacopter mit einem %n von %m, 20 min",
+                       "hexacoptere avec un %n de %m, 20 min",
                        "hexacoptero con un %n de %m, 20 min"};
   for (const std::string& form : forms) {
     Tally tally;
@@ -146,12 +152,12 @@ TEST(Wording, TheMassOfTheDroneStaysItsOwn) {
 TEST(Wording, MotorsAndPropellersByAnyCode) {
   Tally kv, propeller;
   for (const int value : {400, 920, 1750, 2450}) {
-    for (const char* form : {"2207 %kkv", "2207/%kKV", "2207-%kkv", "RS2207-%k", "MN5212XF-%k", "%k KV motors",
-                             "KV%k", "2312E %k kv", "four Hobbywing X8 (%kKV)", "2207s %kkv", "motors: %k kv"})
+    for (const char* form : {"2207 %kkv", "2207/%kKV", "2207-%kkv", "RS2207-%k", "MN5212XF-%k", "%k KV motors", "KV%k", "2312E %k kv",
+                             "four Hobbywing X8 (%kKV)", "2207s %kkv", "motors: %k kv"})
       Check(kv, "quad, 1.2 kg, " + Filled(form, 'k', std::to_string(value)) + ", 4S", &DroneRequest::motor_kv, value);
   }
-  for (const char* form : {"1045 props", "1045s", "10x4.5", "10 x 4.5 props", "P10x4.5", "10\" props", "10in props",
-                           "10-inch propellers", "10 inchs props", "25.4 cm props", "254mm propellers", "props 10in"})
+  for (const char* form : {"1045 props", "1045s", "10x4.5", "10 x 4.5 props", "P10x4.5", "10\" props", "10in props", "10-inch propellers",
+                           "10 inchs props", "25.4 cm props", "254mm propellers", "props 10in"})
     Check(propeller, std::string("quad, 1.2 kg, ") + form + ", 4S", &DroneRequest::propeller, 0.254);
   EXPECT_EQ(kv.share(), 1) << kv.bad();
   EXPECT_EQ(propeller.share(), 1) << propeller.bad();
@@ -159,11 +165,11 @@ TEST(Wording, MotorsAndPropellersByAnyCode) {
 
 TEST(Wording, ThrustOverWeightAndTimesInAnyWords) {
   Tally ratio, time;
-  for (const char* form : {"TWR 4", "4:1", "4 to 1 thrust", "thrust to weight of 4", "T/W 4:1", "4:1 punch",
-                           "thrust-to-weight ratio 4", "with a 4:1 ratio"})
+  for (const char* form :
+       {"TWR 4", "4:1", "4 to 1 thrust", "thrust to weight of 4", "T/W 4:1", "4:1 punch", "thrust-to-weight ratio 4", "with a 4:1 ratio"})
     Check(ratio, std::string("quad, 1.2 kg, 10 inch, ") + form, &DroneRequest::thrust_to_weight, 4);
-  for (const char* form : {"6 min", "6 mins", "6 minits", "6 minuets", "6 minutes per charge", "6 min on one charge",
-                           "six minutes", "360 seconds", "6 Minuten", "0.1 h", "6 minutos"})
+  for (const char* form : {"6 min", "6 mins", "6 minits", "6 minuets", "6 minutes per charge", "6 min on one charge", "six minutes",
+                           "360 seconds", "6 Minuten", "0.1 h", "6 minutos"})
     Check(time, std::string("quad, 1.2 kg, 10 inch, flies ") + form, &DroneRequest::flight_time, 360);
   EXPECT_EQ(ratio.share(), 1) << ratio.bad();
   EXPECT_EQ(time.share(), 1) << time.bad();
@@ -212,8 +218,9 @@ TEST(Wording, ListsOfThingsAddUp) {
   const auto payload = &DroneRequest::payload;
   Tally tally;
   for (const char* sentence :
-       {"hexa, payload: lidar 1 kg, camera 300 g, gimbal 200 g, 9 kg AUW", "hexa carrying a 1 kg lidar, a 300 g camera and a 200 g gimbal, 9 kg AUW",
-        "hexa that carries 3 cartons of 500 g, 9 kg", "hexa, 9 kg AUW including a 1.5 kg payload", "hexa, 9 kg incl. 1.5 kg radiosonde"})
+       {"hexa, payload: lidar 1 kg, camera 300 g, gimbal 200 g, 9 kg AUW",
+        "hexa carrying a 1 kg lidar, a 300 g camera and a 200 g gimbal, 9 kg AUW", "hexa that carries 3 cartons of 500 g, 9 kg",
+        "hexa, 9 kg AUW including a 1.5 kg payload", "hexa, 9 kg incl. 1.5 kg radiosonde"})
     Check(tally, sentence, payload, 1.5);
   const auto mass = &DroneRequest::mass;
   Check(tally, "quad: frame 400 g, motors 320 g, electronics 130 g, battery 350 g, 9 inch props", mass, 1.2);
@@ -224,9 +231,9 @@ TEST(Wording, ListsOfThingsAddUp) {
 TEST(Wording, FiguresThatNoLawLetsBeAreRefused) {
   for (const char* prompt :
        {"4S 22.2V quad, 1.8 kg", "quad with a 3S (14.8 V) pack, 1.2 kg", "5 kg quad, TWR 15:1, 4 motors, 2 kg thrust each",
-        "2 kg quad, total thrust 1.5 kg", "quad without battery, dynamos on the props recharge it",
-        "quad, 1 kg, hovers indefinitely", "F450 carrying me, 75 kg", "Drohne, Abfluggewicht 3 kg, Gesamtschub 2 kg",
-        "quad at 30 km altitude, 5 kg", "quad, 2 kg, 100 Wh, flies 500 km", "quad with no battery and no cable, 1 kg",
+        "2 kg quad, total thrust 1.5 kg", "quad without battery, dynamos on the props recharge it", "quad, 1 kg, hovers indefinitely",
+        "F450 carrying me, 75 kg", "Drohne, Abfluggewicht 3 kg, Gesamtschub 2 kg", "quad at 30 km altitude, 5 kg",
+        "quad, 2 kg, 100 Wh, flies 500 km", "quad with no battery and no cable, 1 kg",
         "quad without any battery, fuel or other energy source, 1 kg", "20 inch props, 2000 kv motors, 12S, quad",
         "quad 2 kg, maximum thrust of 0.3 times its weight", "quad weighing 250 g all up including its 300 g camera",
         "2000 Wh lipo that weighs 500 g, 3 kg quad"})

@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // The plane that a ray meets first, from the numbers of docs/reference/contracts.md alone.
 struct Answer {
   double range = kInfinity;
-  int side = -1;  ///< 0..5: room x-, x+, y-, y+, floor, ceiling; 6..11: the cube's faces, same order
+  int side = -1;                  ///< 0..5: room x-, x+, y-, y+, floor, ceiling; 6..11: the cube's faces, same order
   double edge_angle = kInfinity;  ///< angle to the nearest edge of the face, radians (a lower bound)
 };
 
@@ -28,8 +28,7 @@ constexpr std::array<Vec3d, 2> kRoom = {Vec3d{-5, -5, 0}, Vec3d{5, 5, 6}};
 constexpr std::array<Vec3d, 2> kCube = {Vec3d{2.5, -0.5, 0}, Vec3d{3.5, 0.5, 1}};
 
 // Nearest face of a box along a ray; `inside`: the faces seen from within.
-void Meet(const std::array<Vec3d, 2>& box, int first_side, bool inside, Vec3d origin, Vec3d ray,
-          Answer& answer) {
+void Meet(const std::array<Vec3d, 2>& box, int first_side, bool inside, Vec3d origin, Vec3d ray, Answer& answer) {
   for (int axis = 0; axis < 3; ++axis) {
     for (int end = 0; end < 2; ++end) {
       const double t = (box[end][axis] - origin[axis]) / ray[axis];
@@ -51,8 +50,7 @@ double AngleToSegment(Vec3d origin, Vec3d ray, Vec3d a, Vec3d b) {
   // The point p + s e that minimises the angle to `ray` lies where the plane of p, e and the plane across
   // meet.
   const Vec3d n = Normalized(Cross(p, e));
-  const Vec3d flat =
-      ray - n * Dot(n, ray);  // projection of the ray into the plane of the segment and the eye
+  const Vec3d flat = ray - n * Dot(n, ray);  // projection of the ray into the plane of the segment and the eye
   const Vec3d side = Cross(n, flat);
   const double denominator = Dot(e, side);
   double s = std::abs(denominator) > 1e-15 ? -Dot(p, side) / denominator : 0;
@@ -101,10 +99,9 @@ TEST_F(BoxRoom, EveryLabelOfEveryPixelIsTheClosedFormFromTwentyRandomPoses) {
       p = {rng.Uniform(-4.9, 4.9), rng.Uniform(-4.9, 4.9), rng.Uniform(0.1, 5.9)};
     } while (p.x > 2.4 && p.x < 3.6 && std::abs(p.y) < 0.6 && p.z < 1.1);
     const double pi = std::numbers::pi;
-    RenderRequest request = MakeRequest(
-        Equirectangular{kWidth, kHeight},
-        BodyPose(p, rng.Uniform(-pi, pi), rng.Uniform(-1.5, 1.5), rng.Uniform(-pi, pi)) * CameraInBody(),
-        Tier::kLabels, {.rgb = false, .normal = true});
+    RenderRequest request = MakeRequest(Equirectangular{kWidth, kHeight},
+                                        BodyPose(p, rng.Uniform(-pi, pi), rng.Uniform(-1.5, 1.5), rng.Uniform(-pi, pi)) * CameraInBody(),
+                                        Tier::kLabels, {.rgb = false, .normal = true});
     Frame frame;
     renderer_->Render(request, frame);
     for (int y = 0; y < kHeight; ++y) {
@@ -118,8 +115,7 @@ TEST_F(BoxRoom, EveryLabelOfEveryPixelIsTheClosedFormFromTwentyRandomPoses) {
         // them.
         const int side = std::min(answer.side, 6);
         const EntityId id = frame.entity(x, y);
-        ASSERT_EQ(entity_of_side.try_emplace(side, id).first->second, id)
-            << "pose " << pose << " pixel " << x << " " << y;
+        ASSERT_EQ(entity_of_side.try_emplace(side, id).first->second, id) << "pose " << pose << " pixel " << x << " " << y;
         ASSERT_EQ(side_of_entity.try_emplace(id, side).first->second, side);
         ASSERT_EQ(frame.semantic(x, y), scene_->entity(id).category);
         worst_range = std::max(worst_range, std::abs(frame.range(x, y) / answer.range - 1));
@@ -135,17 +131,14 @@ TEST_F(BoxRoom, EveryLabelOfEveryPixelIsTheClosedFormFromTwentyRandomPoses) {
   std::printf("worst relative range error %.3g\n", worst_range);
 
   // Names and categories say what the sides are.
-  const auto path = [&](int side) {
-    return scene_->tree[scene_->entity(entity_of_side[side]).category].path;
-  };
+  const auto path = [&](int side) { return scene_->tree[scene_->entity(entity_of_side[side]).category].path; };
   EXPECT_EQ(path(4), "ground/floor");
   EXPECT_EQ(path(5), "construction/ceiling");
   for (int wall : {0, 1, 2, 3}) EXPECT_EQ(path(wall), "construction/wall");
 }
 
 TEST_F(BoxRoom, EntityAreasAddUpToAllPixels) {
-  RenderRequest request = MakeRequest(Equirectangular{256, 128},
-                                      BodyPose({0, 1, 2}, 0.3, 0.2, 0.1) * CameraInBody(), Tier::kLabels);
+  RenderRequest request = MakeRequest(Equirectangular{256, 128}, BodyPose({0, 1, 2}, 0.3, 0.2, 0.1) * CameraInBody(), Tier::kLabels);
   Frame frame;
   renderer_->Render(request, frame);
   std::map<EntityId, int> area;

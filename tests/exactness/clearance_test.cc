@@ -36,15 +36,13 @@ double DistanceToTriangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
 // Over all triangles of instances whose box is nearer than what was found.
 double BruteForce(const Scene& scene, const std::vector<Box3f>& bounds, Vec3d p, double farthest) {
   for (size_t i = 0; i < scene.instances.size(); ++i) {
-    const Vec3d out =
-        Max(Max(VecCast<double>(bounds[i].min) - p, p - VecCast<double>(bounds[i].max)), Vec3d{});
+    const Vec3d out = Max(Max(VecCast<double>(bounds[i].min) - p, p - VecCast<double>(bounds[i].max)), Vec3d{});
     if (Norm(out) >= farthest) continue;
     const AffineTransform& X = scene.instances[i].X_WM;
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
     for (const Vec3u t : mesh.triangles) {
       farthest = std::min(farthest, DistanceToTriangle(p, VecCast<double>(X * mesh.positions[t.x]),
-                                                       VecCast<double>(X * mesh.positions[t.y]),
-                                                       VecCast<double>(X * mesh.positions[t.z])));
+                                                       VecCast<double>(X * mesh.positions[t.y]), VecCast<double>(X * mesh.positions[t.z])));
     }
   }
   return farthest;
@@ -57,16 +55,15 @@ TEST(ClearanceOfATown, IsTheLeastDistanceOverAllItsTriangles) {
   for (size_t i = 0; i < bounds.size(); ++i) {
     const Box3f box = scene->meshes[scene->instances[i].mesh].Bounds();
     for (int k = 0; k < 8; ++k) {
-      bounds[i].Add(scene->instances[i].X_WM * Vec3f{k & 1 ? box.max.x : box.min.x,
-                                                     k & 2 ? box.max.y : box.min.y,
-                                                     k & 4 ? box.max.z : box.min.z});
+      bounds[i].Add(scene->instances[i].X_WM *
+                    Vec3f{k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z});
     }
   }
   RngStream rng(1, "clearance");
   for (int i = 0; i < 150; ++i) {
     // Among trees, cars and furniture, and above.
-    const Vec3d p = VecCast<double>(VecCast<float>(
-        Vec3d{rng.Uniform(-100, 100), rng.Uniform(-100, 100), rng.Uniform(0.3, i % 2 ? 6 : 40)}));
+    const Vec3d p =
+        VecCast<double>(VecCast<float>(Vec3d{rng.Uniform(-100, 100), rng.Uniform(-100, 100), rng.Uniform(0.3, i % 2 ? 6 : 40)}));
     EXPECT_NEAR(tracer.Clearance(VecCast<float>(p), 30), BruteForce(*scene, bounds, p, 30), 5e-5) << i;
   }
 }

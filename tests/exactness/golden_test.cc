@@ -58,14 +58,12 @@ void ExpectSimilarColours(const Image<Rgb8>& rgb, const std::string& name) {
 
 void ExpectGoldens(std::shared_ptr<const Scene> scene, const std::string& name) {
   ASSERT_EQ(internal::CurrentKernelIsa(), internal::KernelIsa::kSse42) << "run it with AIRSIM360_ISA=sse42";
-  const auto tracer =
-      std::make_shared<const RayTracer>(std::move(scene), RayTracerOptions{.isa = "sse4.2"});
+  const auto tracer = std::make_shared<const RayTracer>(std::move(scene), RayTracerOptions{.isa = "sse4.2"});
   const auto renderer = MakeCpuRenderer(tracer, {.tier = Tier::kHigh});
   for (const Tier tier : {Tier::kFast, Tier::kHigh, Tier::kReference}) {
     const int width = tier == Tier::kReference ? 64 : 128;
     Frame frame;
-    renderer->Render(MakeRequest(Equirectangular{width, width / 2},
-                                 BodyPose({0.3, 0.2, 1.7}, 0.3, 0.2, -0.1) * CameraInBody(), tier),
+    renderer->Render(MakeRequest(Equirectangular{width, width / 2}, BodyPose({0.3, 0.2, 1.7}, 0.3, 0.2, -0.1) * CameraInBody(), tier),
                      frame);
     const std::string file = name + "_" + kTierNames[static_cast<int>(tier)];
     ExpectSimilarColours(frame.rgb, file + ".png");

@@ -54,8 +54,7 @@ TEST(ManyEntities, EachOfNinetyThousandIsSeenAsItself) {
   for (int k = 0; k < 60; ++k) {
     const double px = 3 + std::fmod(k * 71.3, kSide - 6), py = 3 + std::fmod(k * 37.7, kSide - 6);
     const RenderRequest request =
-        MakeRequest(Equirectangular{64, 32}, BodyPose({px, py, 1.5}, 0.2, -0.1, 0) * CameraInBody(),
-                    Tier::kLabels, {.rgb = false});
+        MakeRequest(Equirectangular{64, 32}, BodyPose({px, py, 1.5}, 0.2, -0.1, 0) * CameraInBody(), Tier::kLabels, {.rgb = false});
     Frame frame;
     renderer->Render(request, frame);
     for (int y = 0; y < 32; ++y) {

@@ -69,8 +69,7 @@ TEST(MeasureRange, NoiseHasTheSetSigma) {
   double sum = 0, squares = 0;
   constexpr int kCount = 5000;
   for (int i = 0; i < kCount; ++i) {
-    const double error =
-        MeasureRange(spec, {}, Room(), BodyPose({1, 0.7, 3}, 0, 0, 0), i * int64_t{1000}).range - 4;
+    const double error = MeasureRange(spec, {}, Room(), BodyPose({1, 0.7, 3}, 0, 0, 0), i * int64_t{1000}).range - 4;
     sum += error;
     squares += error * error;
   }
@@ -90,22 +89,14 @@ TEST(ScanLidar, RangesAreTheClosedFormOfTheRoom) {
     ASSERT_NEAR(point.range, RoomRange(scan.X_WS.p, d), 2e-5) << point.shot;
     const Vec3d hit = scan.X_WS * VecCast<double>(point.p_S);
     // The category and entity are those of the face where the point lies.
-    const bool on_cube =
-        std::abs(hit.x - 3) < 0.501 && std::abs(hit.y) < 0.501 && hit.z > 1e-4 && hit.z < 1.001;
+    const bool on_cube = std::abs(hit.x - 3) < 0.501 && std::abs(hit.y) < 0.501 && hit.z > 1e-4 && hit.z < 1.001;
     ASSERT_EQ(EntityName(point.entity) == "box", on_cube) << point.shot;
     ASSERT_EQ(point.category, Room().scene().entity(point.entity).category);
   }
 }
 
 TEST(ScanLidar, IntensityIsReflectanceTimesTheCosineOfIncidence) {
-  LidarSpec spec{.channels = 1,
-                 .columns = 90,
-                 .low_deg = 0,
-                 .high_deg = 0,
-                 .start_deg = 40,
-                 .sweep_deg = 80,
-                 .min_range = 0,
-                 .sigma = 0};
+  LidarSpec spec{.channels = 1, .columns = 90, .low_deg = 0, .high_deg = 0, .start_deg = 40, .sweep_deg = 80, .min_range = 0, .sigma = 0};
   const Kinematics body{BodyPose({0, 0, 3}, 0, 0, 0), {}, {}};
   LidarScan scan;
   ScanLidar(spec, {}, Room(), body, {}, 0, scan);

@@ -15,9 +15,7 @@
 namespace airsim360 {
 namespace {
 
-Mesh Quad(Vec3f a, Vec3f b, Vec3f c, Vec3f d) {
-  return {"quad", {a, b, c, d}, {}, {}, {{0, 1, 2}, {0, 2, 3}}, {}};
-}
+Mesh Quad(Vec3f a, Vec3f b, Vec3f c, Vec3f d) { return {"quad", {a, b, c, d}, {}, {}, {{0, 1, 2}, {0, 2, 3}}, {}}; }
 
 // A small leaf-like mesh of many small triangles, used often, turned and scaled.
 std::shared_ptr<const Scene> Grove() {
@@ -26,20 +24,17 @@ std::shared_ptr<const Scene> Grove() {
   SceneBuilder builder("grove");
   const EntityId ground = builder.AddEntity("ground", builder.tree().At("ground/road"));
   const EntityId tree = builder.AddEntity("tree", builder.tree().At("vegetation/tree"));
-  builder.AddInstance(
-      {builder.AddMesh(Quad({-30, -30, 0}, {30, -30, 0}, {30, 30, 0}, {-30, 30, 0})), {}, ground});
+  builder.AddInstance({builder.AddMesh(Quad({-30, -30, 0}, {30, -30, 0}, {30, 30, 0}, {-30, 30, 0})), {}, ground});
   Mesh leaves{"leaves", {}, {}, {}, {}, {}};
   for (uint32_t i = 0; i < 400; ++i) {
     const Vec3f p{u(-1, 1), u(-1, 1), u(0, 3)};
-    for (int k = 0; k < 3; ++k)
-      leaves.positions.push_back(p + Vec3f{u(-0.1, 0.1), u(-0.1, 0.1), u(-0.1, 0.1)});
+    for (int k = 0; k < 3; ++k) leaves.positions.push_back(p + Vec3f{u(-0.1, 0.1), u(-0.1, 0.1), u(-0.1, 0.1)});
     leaves.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   leaves.positions.insert(leaves.positions.end(), {{0, 0, 0}, {0.1f, 0, 0}, {0, 0, 3}});
   leaves.triangles.push_back({1200, 1201, 1202});
   const MeshId mesh = builder.AddMesh(leaves);
-  for (int i = 0; i < 25; ++i)
-    builder.AddInstance({mesh, PlaceUpright({u(-25, 25), u(-25, 25), 0}, u(0, 6), u(0.4, 2)), tree});
+  for (int i = 0; i < 25; ++i) builder.AddInstance({mesh, PlaceUpright({u(-25, 25), u(-25, 25), 0}, u(0, 6), u(0.4, 2)), tree});
   builder.SetSpawn({0, 0, 9});
   builder.AddSky();
   return builder.Build();
@@ -106,8 +101,7 @@ TEST(WorldClearance, CertifiedFlightsKeepTheirDistanceFromEveryTriangle) {
   for (const Instance& instance : scene->instances) {
     const Mesh& mesh = scene->meshes[instance.mesh];
     for (const Vec3u t : mesh.triangles) {
-      triangles.push_back({VecCast<double>(instance.X_WM * mesh.positions[t.x]),
-                           VecCast<double>(instance.X_WM * mesh.positions[t.y]),
+      triangles.push_back({VecCast<double>(instance.X_WM * mesh.positions[t.x]), VecCast<double>(instance.X_WM * mesh.positions[t.y]),
                            VecCast<double>(instance.X_WM * mesh.positions[t.z])});
     }
   }
@@ -156,12 +150,9 @@ TEST(RoadRoute, FollowsTheMiddleOfAnAngleAtItsHeight) {
   SceneBuilder builder("roads");
   const EntityId lawn = builder.AddEntity("lawn", builder.tree().At("ground/grass"));
   const EntityId road = builder.AddEntity("road", builder.tree().At("ground/road"));
-  builder.AddInstance(
-      {builder.AddMesh(Quad({-60, -60, 0}, {60, -60, 0}, {60, 60, 0}, {-60, 60, 0})), {}, lawn});
-  builder.AddInstance(
-      {builder.AddMesh(Quad({-50, -5, 0.05f}, {5, -5, 0.05f}, {5, 5, 0.05f}, {-50, 5, 0.05f})), {}, road});
-  builder.AddInstance(
-      {builder.AddMesh(Quad({-5, -5, 0.06f}, {5, -5, 0.06f}, {5, 50, 0.06f}, {-5, 50, 0.06f})), {}, road});
+  builder.AddInstance({builder.AddMesh(Quad({-60, -60, 0}, {60, -60, 0}, {60, 60, 0}, {-60, 60, 0})), {}, lawn});
+  builder.AddInstance({builder.AddMesh(Quad({-50, -5, 0.05f}, {5, -5, 0.05f}, {5, 5, 0.05f}, {-50, 5, 0.05f})), {}, road});
+  builder.AddInstance({builder.AddMesh(Quad({-5, -5, 0.06f}, {5, -5, 0.06f}, {5, 50, 0.06f}, {-5, 50, 0.06f})), {}, road});
   builder.AddSky();
   const RayTracer tracer(builder.Build());
   const std::vector<Vec3d> route = RoadRoute(tracer, {.height = 6});
@@ -172,8 +163,7 @@ TEST(RoadRoute, FollowsTheMiddleOfAnAngleAtItsHeight) {
     // On the road everywhere, also between the corners.
     for (int k = 0; i > 0 && k <= 20; ++k) {
       const Vec3d p = route[i - 1] + (route[i] - route[i - 1]) * (k / 20.0);
-      EXPECT_TRUE((p.x > -51 && p.x < 6 && std::fabs(p.y) < 6) ||
-                  (p.y > -6 && p.y < 51 && std::fabs(p.x) < 6));
+      EXPECT_TRUE((p.x > -51 && p.x < 6 && std::fabs(p.y) < 6) || (p.y > -6 && p.y < 51 && std::fabs(p.x) < 6));
     }
   }
   EXPECT_GT(length, 85);

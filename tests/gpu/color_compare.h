@@ -23,8 +23,8 @@ struct Pair {
 };
 
 struct ColorDifference {
-  double mean = 0;    // absolute, of 255
-  double off = 0;     // share of pixels with a channel more than 3 codes off
+  double mean = 0;        // absolute, of 255
+  double off = 0;         // share of pixels with a channel more than 3 codes off
   double off_inside = 0;  // likewise, away from edges
 };
 

@@ -13,8 +13,8 @@ namespace {
 
 using namespace test;
 
-void ExpectTheCpus(const std::shared_ptr<const Scene>& scene, const Environment& environment, const std::string& what,
-                   int width = 128, bool has_leaves = false) {
+void ExpectTheCpus(const std::shared_ptr<const Scene>& scene, const Environment& environment, const std::string& what, int width = 128,
+                   bool has_leaves = false) {
   Pair pair(scene, environment, Tier::kFast);
   RenderRequest request = ColorRequest(*scene, width);
   for (const int samples : {1, 4}) {
@@ -23,8 +23,8 @@ void ExpectTheCpus(const std::shared_ptr<const Scene>& scene, const Environment&
     pair.cpu->Render(request, cpu);
     pair.gpu->Render(request, gpu);
     const ColorDifference d = Difference(cpu, gpu);
-    std::printf("%s, %d samples: mean %.3f of 255, %.2f %% of pixels off by more than 3, %.2f %% away from edges\n",
-                what.c_str(), samples, d.mean, 100 * d.off, 100 * d.off_inside);
+    std::printf("%s, %d samples: mean %.3f of 255, %.2f %% of pixels off by more than 3, %.2f %% away from edges\n", what.c_str(), samples,
+                d.mean, 100 * d.off, 100 * d.off_inside);
     // On the CPU edge samples of leaves take the sun from leaves around by chance (sun_pixels.h), on the GPU they ask.
     const bool noisy = has_leaves && samples > 1;
     EXPECT_LE(d.mean, noisy ? 2 : 0.25);
@@ -32,8 +32,7 @@ void ExpectTheCpus(const std::shared_ptr<const Scene>& scene, const Environment&
     EXPECT_LE(d.off_inside, 0.002);
     EXPECT_FLOAT_EQ(cpu.exposure, gpu.exposure);
     double albedo = 0;
-    for (size_t i = 0; i < cpu.albedo.size(); ++i)
-      albedo += std::fabs(cpu.albedo.pixels()[i].g - gpu.albedo.pixels()[i].g);
+    for (size_t i = 0; i < cpu.albedo.size(); ++i) albedo += std::fabs(cpu.albedo.pixels()[i].g - gpu.albedo.pixels()[i].g);
     EXPECT_LE(albedo / static_cast<double>(cpu.albedo.size()), 1e-3);
   }
   for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;

@@ -43,9 +43,7 @@ TEST(Device, AutoWithoutAGpuIsTheCpuAndSaysNothing) {
   EXPECT_EQ(Said({.device = "auto"}), "");
 }
 
-TEST(Device, UnknownOnesAreNamed) {
-  EXPECT_THROW(MakeRenderer(Room(), {}, {.device = "gpu"}), InputError);
-}
+TEST(Device, UnknownOnesAreNamed) { EXPECT_THROW(MakeRenderer(Room(), {}, {.device = "gpu"}), InputError); }
 
 TEST(Device, AutoGoesOnOnTheCpuAndSaysWhy) {
   AIRSIM360_NEEDS_GPU();
@@ -64,8 +62,9 @@ TEST(Device, AutoGoesOnOnTheCpuAndSaysWhy) {
     EXPECT_NE(said.find("cpu"), std::string::npos) << said;
     // Once, after the name of the device where that could be opened.
     EXPECT_LE(std::count(said.begin(), said.end(), '\n'), 2) << said;
-    EXPECT_THROW(MakeRenderer(Room(), {.tier = Tier::kLabels}, {"vulkan", usable, fault})->Render(SmallRequest(), *std::make_unique<Frame>()),
-                 RuntimeError);
+    EXPECT_THROW(
+        MakeRenderer(Room(), {.tier = Tier::kLabels}, {"vulkan", usable, fault})->Render(SmallRequest(), *std::make_unique<Frame>()),
+        RuntimeError);
   }
 }
 

@@ -19,8 +19,7 @@ RenderRequest SquareRequest(int width, double x, double yaw) {
 
 struct Pair {
   std::shared_ptr<const Scene> scene = test::MakeOpenSquare();
-  std::shared_ptr<const RayTracer> tracer =
-      std::make_shared<const RayTracer>(scene, RayTracerOptions{.isa = "avx2"});
+  std::shared_ptr<const RayTracer> tracer = std::make_shared<const RayTracer>(scene, RayTracerOptions{.isa = "avx2"});
   std::unique_ptr<Renderer> cpu = MakeCpuRenderer(tracer);
   std::unique_ptr<GpuRenderer> gpu = MakeVulkanRenderer(tracer, {}, {.validate = true});
 };
@@ -63,8 +62,8 @@ TEST(GpuDynamic, WhatMovesHidesAndBendsIsSeenAsByTheCpu) {
 TEST(GpuDynamic, FlowIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   Pair pair;
-  std::vector<Camera> cameras{Equirectangular{128, 64}, CubeFace{CubeFaceName::kPosX, 64},
-                              Pinhole{96, 64, 60, 60, 48, 32}, Fisheye::Equidistant(64, 64, 3)};
+  std::vector<Camera> cameras{Equirectangular{128, 64}, CubeFace{CubeFaceName::kPosX, 64}, Pinhole{96, 64, 60, 60, 48, 32},
+                              Fisheye::Equidistant(64, 64, 3)};
   for (const Camera& lens : test::CalibratedLenses()) cameras.push_back(lens);
   for (const Camera& camera : cameras) {
     RenderRequest request = SquareRequest(128, 0.5, 0.3);

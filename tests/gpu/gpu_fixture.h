@@ -18,14 +18,12 @@
 namespace airsim360::test {
 
 /// Skips the test where no device can trace rays.
-#define AIRSIM360_NEEDS_GPU()                                                                               \
-  do {                                                                                                      \
-    std::string why = "no Vulkan device traces rays";                                                       \
-    bool any = false;                                                                                       \
-    for (const GpuInfo& gpu : ListGpus(&why)) any |= gpu.missing.empty();                                   \
-    if (!any)                                                                                               \
-      GTEST_SKIP() << why                                                                                   \
-                   << " (apt-get install -t bookworm-backports mesa-vulkan-drivers brings a software one)"; \
+#define AIRSIM360_NEEDS_GPU()                                                                                              \
+  do {                                                                                                                     \
+    std::string why = "no Vulkan device traces rays";                                                                      \
+    bool any = false;                                                                                                      \
+    for (const GpuInfo& gpu : ListGpus(&why)) any |= gpu.missing.empty();                                                  \
+    if (!any) GTEST_SKIP() << why << " (apt-get install -t bookworm-backports mesa-vulkan-drivers brings a software one)"; \
   } while (false)
 
 /// Worlds that take longer to build than the other tests together: AIRSIM360_GPU_WORLDS="city_park downtown_west".
@@ -62,12 +60,12 @@ inline std::shared_ptr<const Scene> WorldOf(const std::string& name) {
 
 /// What differs between two label pictures of one request.
 struct LabelDifference {
-  int pixels = 0;         ///< with a ray
-  int different = 0;      ///< entity or category differ
-  int far = 0;            ///< of these, more than a pixel from any edge of the first
-  double range = 0;       ///< largest relative error of range where labels agree, off edges
-  double normal = 0;      ///< likewise largest distance of normals
-  int off_edges = 0;      ///< pixels that the last two are about
+  int pixels = 0;     ///< with a ray
+  int different = 0;  ///< entity or category differ
+  int far = 0;        ///< of these, more than a pixel from any edge of the first
+  double range = 0;   ///< largest relative error of range where labels agree, off edges
+  double normal = 0;  ///< likewise largest distance of normals
+  int off_edges = 0;  ///< pixels that the last two are about
 };
 
 /// Whether any of the nine pixels around differs from pixel (x, y): another entity, or a step in range or normal.

@@ -36,8 +36,8 @@ struct Pair {
 
 // 0.02 per cent of the pixels, each within a pixel of an edge; range to 1e-5.
 void ExpectSameLabels(const LabelDifference& d, const std::string& what) {
-  std::printf("%s: %d of %d labels differ (%d far from edges), range %.2g, normal %.2g over %d pixels\n",
-              what.c_str(), d.different, d.pixels, d.far, d.range, d.normal, d.off_edges);
+  std::printf("%s: %d of %d labels differ (%d far from edges), range %.2g, normal %.2g over %d pixels\n", what.c_str(), d.different,
+              d.pixels, d.far, d.range, d.normal, d.off_edges);
   EXPECT_LE(d.different, std::max(1.0, 2e-4 * d.pixels)) << what;
   EXPECT_EQ(d.far, 0) << what;
   EXPECT_LE(d.range, 1e-5) << what;
@@ -50,11 +50,11 @@ TEST(GpuLabels, AreTheCpusThroughEveryCamera) {
   Pair pair(test::MakeRoom());
   RngStream rng(3, "gpu");
   std::vector<Camera> cameras{Equirectangular{128, 64},
-                            CubeFace{CubeFaceName::kNegX, 64},
-                            CubeFace{CubeFaceName::kPosY, 48},
-                            Pinhole{100, 60, 70, 65, 51, 29},
-                            Fisheye::Equidistant(64, 64, kPi * 1.1),
-                            Fisheye{80, 64, 20, 20, 40, 32, {0.01, -0.002, 0, 0}, 1.5}};
+                              CubeFace{CubeFaceName::kNegX, 64},
+                              CubeFace{CubeFaceName::kPosY, 48},
+                              Pinhole{100, 60, 70, 65, 51, 29},
+                              Fisheye::Equidistant(64, 64, kPi * 1.1),
+                              Fisheye{80, 64, 20, 20, 40, 32, {0.01, -0.002, 0, 0}, 1.5}};
   for (const Camera& lens : test::CalibratedLenses()) cameras.push_back(lens);
   for (const Camera& camera : cameras) {
     const RenderRequest request = LabelRequest(camera, test::RandomPose(rng));
@@ -98,7 +98,7 @@ TEST(GpuLabels, SharesOfEntitiesInAPixelAreTheCpusThroughEveryCamera) {
   Pair pair(test::MakeRoom());
   RngStream rng(5, "gpu");
   std::vector<Camera> cameras{Equirectangular{128, 64}, CubeFace{CubeFaceName::kNegY, 64}, Pinhole{100, 60, 70, 65, 51, 29},
-                            Fisheye{80, 64, 20, 20, 40, 32, {0.01, -0.002, 0, 0}, 1.5}};
+                              Fisheye{80, 64, 20, 20, 40, 32, {0.01, -0.002, 0, 0}, 1.5}};
   for (const Camera& lens : test::CalibratedLenses()) cameras.push_back(lens);
   int edges = 0;
   for (const Camera& camera : cameras) {
@@ -129,8 +129,7 @@ TEST(GpuLabels, SharesOfEntitiesInAPixelAreTheCpusThroughEveryCamera) {
 
 RenderRequest FromSpawn(const Scene& scene) {
   const Vec3f spawn = scene.spawn.value_or(Vec3f{0, 0, 2});
-  return LabelRequest(Equirectangular{256, 128}, BodyPose(VecCast<double>(spawn) + Vec3d{0.1, 0.2, 0.3}, 0.4, -0.1, 0.05) *
-                                                     CameraInBody());
+  return LabelRequest(Equirectangular{256, 128}, BodyPose(VecCast<double>(spawn) + Vec3d{0.1, 0.2, 0.3}, 0.4, -0.1, 0.05) * CameraInBody());
 }
 
 void ExpectTheCpus(const std::shared_ptr<const Scene>& scene, const RenderRequest& request) {

@@ -55,33 +55,30 @@ struct Push {
 
 void RunOnGpu(GpuDevice& device, std::span<const uint32_t> words, const Push& push) {
   const VkDevice d = device.device();
-  const VkShaderModuleCreateInfo code{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, nullptr, 0, words.size_bytes(),
-                                      words.data()};
+  const VkShaderModuleCreateInfo code{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, nullptr, 0, words.size_bytes(), words.data()};
   VkShaderModule module;
   CheckVk(vkCreateShaderModule(d, &code, nullptr, &module), "loading a shader");
   const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Push)};
-  const VkPipelineLayoutCreateInfo layout_info{
-      VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 0, nullptr, 1, &range};
+  const VkPipelineLayoutCreateInfo layout_info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 0, nullptr, 1, &range};
   VkPipelineLayout layout;
   CheckVk(vkCreatePipelineLayout(d, &layout_info, nullptr, &layout), "making a pipeline");
-  const VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-                                         nullptr,
-                                         0,
-                                         {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0,
-                                          VK_SHADER_STAGE_COMPUTE_BIT, module, "main", nullptr},
-                                         layout,
-                                         VK_NULL_HANDLE,
-                                         0};
+  const VkComputePipelineCreateInfo info{
+      VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+      nullptr,
+      0,
+      {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_COMPUTE_BIT, module, "main", nullptr},
+      layout,
+      VK_NULL_HANDLE,
+      0};
   VkPipeline pipeline;
   CheckVk(vkCreateComputePipelines(d, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), "compiling");
   device.Run([&](VkCommandBuffer commands) {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
     vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Push), &push);
     vkCmdDispatch(commands, (push.count + 63) / 64, 1, 1);
-    const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_SHADER_WRITE_BIT,
-                                  VK_ACCESS_HOST_READ_BIT};
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0,
-                         nullptr, 0, nullptr);
+    const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_SHADER_WRITE_BIT, VK_ACCESS_HOST_READ_BIT};
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0,
+                         nullptr);
   });
   vkDestroyPipeline(d, pipeline, nullptr);
   vkDestroyPipelineLayout(d, layout, nullptr);
@@ -112,8 +109,7 @@ std::vector<double> WorstOf(GpuDevice& device, std::span<const uint32_t> code) {
   for (size_t f = 0; f < functions; ++f) {
     const float* a = in + 3 * f * kCount;
     for (uint32_t i = 0; i < kCount; ++i)
-      worst[f] = std::max(worst[f], UlpsApart(out[f * kCount + i], kFunctions[f].evaluate(a[i], a[kCount + i],
-                                                                                         a[2 * kCount + i])));
+      worst[f] = std::max(worst[f], UlpsApart(out[f * kCount + i], kFunctions[f].evaluate(a[i], a[kCount + i], a[2 * kCount + i])));
   }
   return worst;
 }

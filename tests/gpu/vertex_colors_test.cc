@@ -26,8 +26,7 @@ TEST(GpuVertexColors, AreTheCpusInEveryTier) {
     pair.cpu->Render(request, cpu);
     pair.gpu->Render(request, gpu);
     const ColorDifference d = Difference(cpu, gpu);
-    std::printf("tier %d: mean %.3f of 255, %.2f %% of pixels off by more than 3\n", static_cast<int>(tier), d.mean,
-                100 * d.off);
+    std::printf("tier %d: mean %.3f of 255, %.2f %% of pixels off by more than 3\n", static_cast<int>(tier), d.mean, 100 * d.off);
     EXPECT_LE(d.mean, tier == Tier::kFast ? 0.1 : 1);
     EXPECT_LE(d.off, tier == Tier::kFast ? 0.005 : 0.05);
     int checked = 0, covered = 0;
@@ -38,8 +37,7 @@ TEST(GpuVertexColors, AreTheCpusInEveryTier) {
       EXPECT_NEAR(a.r, b.r, 2e-4);
       EXPECT_NEAR(a.g, b.g, 2e-4);
       EXPECT_NEAR(a.b, b.b, 2e-4);
-      const Material& material =
-          scene->materials[scene->meshes[scene->instances[entity - 1].mesh].parts[0].material];
+      const Material& material = scene->materials[scene->meshes[scene->instances[entity - 1].mesh].parts[0].material];
       covered += material.alpha_mode == AlphaMode::kMask;
       if (material.kind == SurfaceKind::kGlass) continue;
       const auto truth = ColorAt(*scene, entity - 1, VecCast<double>(gpu.position.pixels()[i]));

@@ -24,8 +24,7 @@ constexpr double kMetresPerPixel = 0.1;
 void Fourier(Complex* a, bool inverse) {
   static const std::vector<Complex> kTurns = [] {
     std::vector<Complex> turns;
-    for (int k = 0; k < kPadded / 2; ++k)
-      turns.push_back(std::polar(1.0, -2 * std::numbers::pi * k / kPadded));
+    for (int k = 0; k < kPadded / 2; ++k) turns.push_back(std::polar(1.0, -2 * std::numbers::pi * k / kPadded));
     return turns;
   }();
   for (int i = 1, j = 0; i < kPadded; ++i) {
@@ -40,8 +39,7 @@ void Fourier(Complex* a, bool inverse) {
         const Complex& w = kTurns[k * (kPadded / length)];
         const Complex turn(w.real(), inverse ? -w.imag() : w.imag());
         const Complex odd = a[i + k + length / 2];
-        const Complex t(odd.real() * turn.real() - odd.imag() * turn.imag(),
-                        odd.real() * turn.imag() + odd.imag() * turn.real());
+        const Complex t(odd.real() * turn.real() - odd.imag() * turn.imag(), odd.real() * turn.imag() + odd.imag() * turn.real());
         a[i + k + length / 2] = a[i + k] - t;
         a[i + k] += t;
       }
@@ -55,8 +53,7 @@ void Fourier2(std::vector<Complex>& a, bool inverse) {
     for (int y = 0; y < kPadded; ++y) Fourier(&a[static_cast<size_t>(y) * kPadded], inverse);
     if (pass == 1) break;
     for (int y = 0; y < kPadded; ++y) {
-      for (int x = 0; x < y; ++x)
-        std::swap(a[static_cast<size_t>(y) * kPadded + x], a[static_cast<size_t>(x) * kPadded + y]);
+      for (int x = 0; x < y; ++x) std::swap(a[static_cast<size_t>(y) * kPadded + x], a[static_cast<size_t>(x) * kPadded + y]);
     }
   }
 }
@@ -74,8 +71,7 @@ class Autocorrelation {
     std::vector<double> sums(static_cast<size_t>(kCrop + 1) * (kCrop + 1));
     const auto sum = [&](int x, int y) -> double& { return sums[static_cast<size_t>(y) * (kCrop + 1) + x]; };
     for (int y = 0; y < kCrop; ++y) {
-      for (int x = 0; x < kCrop; ++x)
-        sum(x + 1, y + 1) = light(x, y) + sum(x, y + 1) + sum(x + 1, y) - sum(x, y);
+      for (int x = 0; x < kCrop; ++x) sum(x + 1, y + 1) = light(x, y) + sum(x, y + 1) + sum(x + 1, y) - sum(x, y);
     }
     const int half = static_cast<int>(2 / kMetresPerPixel);
     for (int y = 0; y < kCrop; ++y) {
@@ -93,8 +89,7 @@ class Autocorrelation {
   }
   double At(int dx, int dy) const {
     const auto pairs = static_cast<double>(kCrop - std::abs(dx)) * (kCrop - std::abs(dy));
-    return power_[static_cast<size_t>(dy & (kPadded - 1)) * kPadded + (dx & (kPadded - 1))].real() / pairs /
-           zero_;
+    return power_[static_cast<size_t>(dy & (kPadded - 1)) * kPadded + (dx & (kPadded - 1))].real() / pairs / zero_;
   }
   // Radius in pixels where the mean over directions first falls below 0.12.
   int FirstLobe() const {
@@ -102,9 +97,7 @@ class Autocorrelation {
       double sum = 0;
       for (int k = 0; k < 64; ++k) {
         const double a = std::numbers::pi * k / 64;
-        sum += At(static_cast<int>(std::lround(r * std::cos(a))),
-                  static_cast<int>(std::lround(r * std::sin(a)))) /
-               64;
+        sum += At(static_cast<int>(std::lround(r * std::cos(a))), static_cast<int>(std::lround(r * std::sin(a)))) / 64;
       }
       if (sum < 0.12) return r;
     }
@@ -146,10 +139,8 @@ class Grounds {
   }
   Image<Rgb8> FromAbove(size_t i) {
     const double focal = 60 / kMetresPerPixel;
-    RenderRequest request{
-        .camera = Pinhole{kPixels, kPixels, focal, focal, kPixels / 2.0, kPixels / 2.0},
-        .X_WC = BodyPose({90.0 * static_cast<double>(i) + 45, 45, 60}, 0, -std::numbers::pi / 2, 0) *
-                CameraInBody()};
+    RenderRequest request{.camera = Pinhole{kPixels, kPixels, focal, focal, kPixels / 2.0, kPixels / 2.0},
+                          .X_WC = BodyPose({90.0 * static_cast<double>(i) + 45, 45, 60}, 0, -std::numbers::pi / 2, 0) * CameraInBody()};
     request.products = {.rgb = true, .range = false, .semantic = false, .entity = false};
     Frame frame;
     renderer_->Render(request, frame);
@@ -161,16 +152,14 @@ class Grounds {
 };
 
 TEST(Repeat, NoGroundRepeatsWithin64Metres) {
-  const std::vector<Surface> kinds = {Surface::kAsphalt, Surface::kLawn, Surface::kPath, Surface::kSoil,
-                                      Surface::kRoofBitumen};
+  const std::vector<Surface> kinds = {Surface::kAsphalt, Surface::kLawn, Surface::kPath, Surface::kSoil, Surface::kRoofBitumen};
   const char* names[] = {"asphalt", "lawn", "gravel", "soil", "bitumen"};
   Grounds grounds(kinds);
   for (size_t i = 0; i < kinds.size(); ++i) {
     const Autocorrelation correlation(grounds.FromAbove(i));
     const int lobe = correlation.FirstLobe();
     const double peak = correlation.Peak(lobe);
-    std::printf("%s: first lobe %.1f m, highest value outside %.3f\n", names[i], lobe * kMetresPerPixel,
-                peak);
+    std::printf("%s: first lobe %.1f m, highest value outside %.3f\n", names[i], lobe * kMetresPerPixel, peak);
     EXPECT_LT(peak, 0.25) << names[i];
   }
 }

@@ -13,10 +13,10 @@
 #include "airsim360/trace/ray_tracer.h"
 #include "airsim360/worlds/building/massing.h"
 #include "airsim360/worlds/built_in.h"
-#include "airsim360/worlds/props/placer.h"
 #include "airsim360/worlds/kit/mesh_builder.h"
 #include "airsim360/worlds/new_york_city/manhattan.h"
 #include "airsim360/worlds/osm/test_real_towns.h"
+#include "airsim360/worlds/props/placer.h"
 #include "airsim360/worlds/survey/world_floor.h"
 #include "airsim360/worlds/survey/world_survey.h"
 
@@ -32,8 +32,7 @@ struct Built {
 
 void Index(Built& built) {
   built.tracer = std::make_shared<const RayTracer>(built.scene);
-  for (const Entity& entity : built.scene->entities)
-    built.by_category[built.scene->tree[entity.category].path].push_back(&entity);
+  for (const Entity& entity : built.scene->entities) built.by_category[built.scene->tree[entity.category].path].push_back(&entity);
 }
 
 // Procedural props only, seed 0; each world is built once for the program.
@@ -167,8 +166,7 @@ void ExpectThreeVisible(const Built& built, const std::string& path) {
     const Box3f& box = crowded[i].second->bounds;
     for (Vec3f offset : {Vec3f{2.5f, 2.5f, 2}, Vec3f{-3, 3, 3}, Vec3f{3, -5, 8}, Vec3f{-6, -6, 25}}) {
       const Vec3f c = box.center();
-      const Seen seen =
-          LookFrom(built, *renderer, {c.x + offset.x, c.y + offset.y, box.max.z + offset.z}, path);
+      const Seen seen = LookFrom(built, *renderer, {c.x + offset.x, c.y + offset.y, box.max.z + offset.z}, path);
       EXPECT_EQ(seen.unlabelled, 0) << path;
       most = std::max(most, seen.entities);
       if (most >= 3) break;
@@ -193,18 +191,14 @@ TEST(NewYorkCity, AnnouncesExactlyTheCategoriesThatItHas) {
   EXPECT_EQ(present, internal::NewYorkCityInfo().categories);
 }
 
-TEST(NewYorkCity, ItsUniqueGeometryFitsIntoLittleMemory) {
-  EXPECT_LE(NewYork().scene->Count().unique_triangles, 8'000'000u);
-}
+TEST(NewYorkCity, ItsUniqueGeometryFitsIntoLittleMemory) { EXPECT_LE(NewYork().scene->Count().unique_triangles, 8'000'000u); }
 
 // How many entities carry a name, repeats (" 2", " 3", …) included.
 int CountNamed(const Scene& scene, const std::string& name) {
-  return static_cast<int>(
-      std::count_if(scene.entities.begin(), scene.entities.end(), [&](const Entity& entity) {
-        if (entity.name == name) return true;
-        return entity.name.starts_with(name + " ") &&
-               entity.name.find_first_not_of("0123456789", name.size() + 1) == std::string::npos;
-      }));
+  return static_cast<int>(std::count_if(scene.entities.begin(), scene.entities.end(), [&](const Entity& entity) {
+    if (entity.name == name) return true;
+    return entity.name.starts_with(name + " ") && entity.name.find_first_not_of("0123456789", name.size() + 1) == std::string::npos;
+  }));
 }
 
 // Red curtains: many windows, all of one storey of one building.
@@ -223,25 +217,11 @@ void ExpectRedCurtainsOnOneStorey(const Built& built, int least) {
 
 /// The landmarks of both cities and those of this one.
 void ExpectLandmarksOnce(const Scene& scene, std::vector<const char*> names) {
-  for (const char* name : {"red telephone booth",
-                           "orange mailbox",
-                           "blue mailbox",
-                           "food truck",
-                           "small fountain",
-                           "billboard BLACK & WHITE",
-                           "billboard person in a blue suit",
-                           "billboard red car",
-                           "billboard black and white portrait",
-                           "blue billboard",
-                           "bank with the purple sign",
-                           "giant cola bottle",
-                           "tree with red leaves",
-                           "yellow sunshade",
-                           "blue barrier",
-                           "red bridge",
-                           "lake",
-                           "island",
-                           "american flag on a mast"})
+  for (const char* name :
+       {"red telephone booth", "orange mailbox", "blue mailbox", "food truck", "small fountain", "billboard BLACK & WHITE",
+        "billboard person in a blue suit", "billboard red car", "billboard black and white portrait", "blue billboard",
+        "bank with the purple sign", "giant cola bottle", "tree with red leaves", "yellow sunshade", "blue barrier", "red bridge", "lake",
+        "island", "american flag on a mast"})
     names.push_back(name);
   for (const char* name : names) EXPECT_EQ(CountNamed(scene, name), 1) << name;
 }
@@ -267,8 +247,7 @@ TEST(DowntownWest, HasEachLandmarkOfTheInstructionsOnce) {
 struct Distances {
   double areas = 0, heights = 0, trees = 0, lamps = 0;
 };
-Distances CompareWithRealTowns(const char* name, const Built& built, const std::vector<BuildingPlan>& buildings,
-                               const GroundRect& reach) {
+Distances CompareWithRealTowns(const char* name, const Built& built, const std::vector<BuildingPlan>& buildings, const GroundRect& reach) {
   std::vector<double> areas, heights;
   for (const BuildingPlan& plan : buildings) {
     if (!reach.Contains(plan.bounds().center())) continue;
@@ -296,8 +275,8 @@ Distances CompareWithRealTowns(const char* name, const Built& built, const std::
   const Distances d{distance(areas, "building_area_m2"), distance(heights, "building_height_m"),
                     distance(internal::NearestDistances(trees), "tree_spacing_m"),
                     distance(internal::NearestDistances(lamps), "lamp_spacing_m")};
-  std::printf("%s: %zu buildings, %zu trees, %zu lamps; Kolmogorov-Smirnov: area %.3f height %.3f trees %.3f lamps %.3f\n",
-              name, areas.size(), trees.size(), lamps.size(), d.areas, d.heights, d.trees, d.lamps);
+  std::printf("%s: %zu buildings, %zu trees, %zu lamps; Kolmogorov-Smirnov: area %.3f height %.3f trees %.3f lamps %.3f\n", name,
+              areas.size(), trees.size(), lamps.size(), d.areas, d.heights, d.trees, d.lamps);
   return d;
 }
 
@@ -312,8 +291,7 @@ TEST(DowntownWest, LotsHeightsTreesAndLampsAreDistributedAsInRealTowns) {
 
 TEST(NewYorkCity, LotsHeightsTreesAndLampsAreDistributedAsInRealTowns) {
   const StreetPlan plan = PlanNewYorkCity();
-  const Distances d =
-      CompareWithRealTowns("new_york_city", NewYork(), internal::PlanManhattan(plan, {}).buildings, plan.reach());
+  const Distances d = CompareWithRealTowns("new_york_city", NewYork(), internal::PlanManhattan(plan, {}).buildings, plan.reach());
   EXPECT_LE(d.areas, 0.25);
   EXPECT_LE(d.heights, 0.25);
   EXPECT_LE(d.trees, 0.25);
@@ -387,8 +365,7 @@ TEST(NewYorkCity, NoTwoPropsShareGround) {
     for (size_t k = i + 1; k < placements.size(); ++k) {
       const Footprint &a = placements[i].footprint, &b = placements[k].footprint;
       if (std::hypot(a.center.x - b.center.x, a.center.y - b.center.y) > 20) continue;
-      EXPECT_FALSE(a.Overlaps(b)) << placements[i].kind << " and " << placements[k].kind << " at "
-                                  << a.center.x << " " << a.center.y;
+      EXPECT_FALSE(a.Overlaps(b)) << placements[i].kind << " and " << placements[k].kind << " at " << a.center.x << " " << a.center.y;
     }
   }
 }
@@ -406,8 +383,7 @@ TEST(NewYorkCity, NoPropStandsInABuilding) {
 
 TEST(Manhattan, IsAFunctionOfItsSeedAndTiersStandOnTheTierBelow) {
   const StreetPlan plan = PlanNewYorkCity();
-  const internal::Manhattan a = internal::PlanManhattan(plan, {.seed = 3}),
-                            b = internal::PlanManhattan(plan, {.seed = 3}),
+  const internal::Manhattan a = internal::PlanManhattan(plan, {.seed = 3}), b = internal::PlanManhattan(plan, {.seed = 3}),
                             c = internal::PlanManhattan(plan, {.seed = 4});
   ASSERT_EQ(a.buildings.size(), b.buildings.size());
   bool differs = a.buildings.size() != c.buildings.size();
@@ -440,8 +416,7 @@ TEST(Manhattan, HousesAndTheirYardsKeepOffEachOther) {
       if (b.block != a.block) break;
       EXPECT_FALSE(b.base == 0 && meet(a.bounds(), b.bounds())) << i << " " << k;
     }
-    for (const internal::BackYard& yard : city.yards)
-      EXPECT_FALSE(yard.block == a.block && meet(a.bounds(), yard.rect)) << i;
+    for (const internal::BackYard& yard : city.yards) EXPECT_FALSE(yard.block == a.block && meet(a.bounds(), yard.rect)) << i;
   }
 }
 

@@ -19,9 +19,9 @@ using namespace airsim360::internal;
 struct Place {
   const char* world;
   const char* room;
-  float low, high;      // height over the floor of what is measured, m
-  double least, most;   // lx
-  float cell;           // m, of the surfels
+  float low, high;     // height over the floor of what is measured, m
+  double least, most;  // lx
+  float cell;          // m, of the surfels
 };
 
 // Part of a room that is asked for, at most 14 m each way about its middle.
@@ -39,7 +39,8 @@ bool Within(const Box3f& box, Vec3f p, float margin) {
 
 std::vector<SurfacePiece> PiecesIn(const std::vector<SurfacePiece>& all, const Box3f& box) {
   std::vector<SurfacePiece> pieces;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(pieces), [&](const SurfacePiece& piece) { return Within(box, piece.corner[0], 0.5f); });
+  std::copy_if(all.begin(), all.end(), std::back_inserter(pieces),
+               [&](const SurfacePiece& piece) { return Within(box, piece.corner[0], 0.5f); });
   return pieces;
 }
 

@@ -36,7 +36,8 @@ long UnlabelledPixels(const std::shared_ptr<const Scene>& scene, const BuildingR
   Frame frame;
   for (int tries = 0; made < poses && tries < 4000; ++tries) {
     const RoomOutline& room = rooms.rooms[rng.Index(static_cast<uint32_t>(rooms.rooms.size()))];
-    const Vec3f p{between(room.corners[0].x, room.corners[2].x), between(room.corners[0].y, room.corners[2].y), between(room.floor_z, room.ceiling_z)};
+    const Vec3f p{between(room.corners[0].x, room.corners[2].x), between(room.corners[0].y, room.corners[2].y),
+                  between(room.floor_z, room.ceiling_z)};
     if (tracer->Clearance(p, 0.3f) < 0.3f) continue;
     ++made;
     renderer->Render(MakeRequest(Equirectangular{256, 128}, BodyPose({p.x, p.y, p.z}, 0, 0, 0) * CameraInBody(), Tier::kLabels), frame);
@@ -54,7 +55,8 @@ const WorldInfo& InfoOf(const std::string& name) {
 }
 
 TEST(Interiors, AreFullOfThingsWithLabelsEverywhere) {
-  const std::map<std::string, double> least_area = {{"apartment", 150}, {"office", 600}, {"warehouse", 2000}, {"mall", 3000}, {"car_park", 2500}};
+  const std::map<std::string, double> least_area = {
+      {"apartment", 150}, {"office", 600}, {"warehouse", 2000}, {"mall", 3000}, {"car_park", 2500}};
   for (const char* name : kBuildings) {
     SCOPED_TRACE(name);
     const auto scene = BuildWorld(name, {});

@@ -79,11 +79,12 @@ TEST(SfCity, UniqueGeometryFitsIntoLittleMemory) { EXPECT_LE(SfCity().scene->Cou
 
 // The paper's 20 categories but the sky, and how many of each must be seen in one frame: there is one lake.
 TEST(SfCity, ShowsThreeEntitiesOfEveryCategoryOfThePaperInSomeFrame) {
-  for (const char* path : {"construction/building", "ground/sidewalk", "ground/road", "vehicle/bus", "barrier/fence", "traffic/temporary/cone",
-                           "furniture/utility/fire_hydrant", "furniture/utility/parking_meter", "furniture/transit/bus_stop", "furniture/utility/electric_box",
-                           "furniture/waste/trash", "traffic/temporary/tube", "traffic/barrier/barrier", "furniture/lighting/lamp_post/type_a",
-                           "furniture/lighting/lamp_post/type_b", "water/lake", "barrier/rope_bollard", "traffic/barrier/metal_barricade",
-                           "vegetation/tree/broadleaf/generic"}) {
+  for (const char* path :
+       {"construction/building", "ground/sidewalk", "ground/road", "vehicle/bus", "barrier/fence", "traffic/temporary/cone",
+        "furniture/utility/fire_hydrant", "furniture/utility/parking_meter", "furniture/transit/bus_stop", "furniture/utility/electric_box",
+        "furniture/waste/trash", "traffic/temporary/tube", "traffic/barrier/barrier", "furniture/lighting/lamp_post/type_a",
+        "furniture/lighting/lamp_post/type_b", "water/lake", "barrier/rope_bollard", "traffic/barrier/metal_barricade",
+        "vegetation/tree/broadleaf/generic"}) {
     const auto it = SfCity().by_category.find(path);
     ASSERT_NE(it, SfCity().by_category.end()) << path;
     // From above the places where most of them stand within 30 m.
@@ -140,7 +141,7 @@ TEST(SfCity, StreetsLieOnTheHillsWithoutAGap) {
       const StreetLine& line = plan.north_south[static_cast<size_t>(i)];
       for (float d : {-5.9f, -3.1f, -0.6f, 0.7f, 4.4f}) {
         const Vec3f p = hills.drape().At({line.center + d, s, 0.35f});
-  const auto hit = SfCity().tracer->Intersect(p, {0, 0, -1});
+        const auto hit = SfCity().tracer->Intersect(p, {0, 0, -1});
         missed += !hit || hit->distance > 0.56f;
       }
     }

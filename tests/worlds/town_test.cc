@@ -41,7 +41,8 @@ long UnlabelledPixels(const std::shared_ptr<const Scene>& scene, const TownSpec&
   long unlabelled = 0;
   Frame frame;
   for (int made = 0, tries = 0; made < 8 && tries < 400; ++tries) {
-    const Vec3f p{static_cast<float>(rng.Uniform(-0.5, 0.5) * spec.width), static_cast<float>(rng.Uniform(-0.5, 0.5) * spec.depth), static_cast<float>(rng.Uniform(-10, 60))};
+    const Vec3f p{static_cast<float>(rng.Uniform(-0.5, 0.5) * spec.width), static_cast<float>(rng.Uniform(-0.5, 0.5) * spec.depth),
+                  static_cast<float>(rng.Uniform(-10, 60))};
     if (tracer->Clearance(p, 1) < 1 || !tracer->Intersect(p, {0, 0, -1})) continue;
     ++made;
     RenderRequest request;

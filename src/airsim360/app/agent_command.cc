@@ -8,9 +8,9 @@
 #include "airsim360/app/config_flags.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
-#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/app/stop_signals.h"
+#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
@@ -30,15 +30,13 @@ struct AgentArguments {
   TrafficArguments traffic;
 };
 
-double SteadySeconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double SteadySeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 AgentApiOptions OptionsOf(const AgentArguments& arguments, const GlobalOptions& globals) {
   AgentApiOptions api{.world = arguments.world, .world_seed = globals.seed};
   for (const WorldInfo& world : ListWorlds()) api.worlds.push_back(world.name);
   StageOptions options = StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed),
-                             arguments.traffic.Request(globals.seed));
+                                        arguments.traffic.Request(globals.seed));
   options.wind = ReadWindFile(arguments.wind);
   CheckRenderSettings(arguments.picture, "--");
   api.open = [picture = arguments.picture, options](const std::string& name, uint64_t seed) {
@@ -80,11 +78,9 @@ void Serve(const AgentArguments& arguments, const GlobalOptions& globals) {
 }  // namespace
 
 void AddAgentCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command =
-      app.add_subcommand("agent", "navigation episodes for VLA/VLM models over HTTP and WebSocket (docs/guide/agents.md)");
+  CLI::App* command = app.add_subcommand("agent", "navigation episodes for VLA/VLM models over HTTP and WebSocket (docs/guide/agents.md)");
   auto arguments = std::make_shared<AgentArguments>();
-  command->add_option("--world", arguments->world, "name or file of the world of episodes that name none")
-      ->required();
+  command->add_option("--world", arguments->world, "name or file of the world of episodes that name none")->required();
   command->add_option("--port", arguments->port, "TCP port, 0 = any free one (default 8361)");
   command->add_option("--host", arguments->host, "IPv4 address to listen on (default 127.0.0.1)");
   AddConfigFlags(*command, [arguments](ConfigVisitor& v) { arguments->picture.Visit(v); });

@@ -51,8 +51,7 @@ PoseArgument ParsePose(const std::string& text) {
     good = ParseNumber(Trimmed(parts[i]), values[i]) && std::isfinite(values[i]);
   }
   if (!good) {
-    throw InputError("--pose: '" + text +
-                     "' is not x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] in metres and degrees");
+    throw InputError("--pose: '" + text + "' is not x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] in metres and degrees");
   }
   for (const double value : values) {
     if (std::fabs(value) > kCoordinateLimit) throw InputError("--pose: '" + text + "': " + BeyondLimitText(value));
@@ -60,8 +59,7 @@ PoseArgument ParsePose(const std::string& text) {
   return {{values[0], values[1], values[2]}, values[3], values[4], values[5]};
 }
 
-std::vector<std::string> ParseList(std::string_view flag, const std::string& text,
-                                   const std::vector<std::string>& choices) {
+std::vector<std::string> ParseList(std::string_view flag, const std::string& text, const std::vector<std::string>& choices) {
   std::vector<std::string> parts = Split(text, ',');
   for (const std::string& part : parts) ParseChoice("value", part, choices, flag);
   return parts;
@@ -70,8 +68,8 @@ std::vector<std::string> ParseList(std::string_view flag, const std::string& tex
 Shard ParseShard(const std::string& text) {
   Shard shard;
   const std::vector<std::string> parts = Split(text, '/');
-  if (parts.size() != 2 || !ParseNumber(parts[0], shard.index) || !ParseNumber(parts[1], shard.count) ||
-      shard.index < 0 || shard.count < 1 || shard.index >= shard.count)
+  if (parts.size() != 2 || !ParseNumber(parts[0], shard.index) || !ParseNumber(parts[1], shard.count) || shard.index < 0 ||
+      shard.count < 1 || shard.index >= shard.count)
     throw InputError("--shard: '" + text + "' is not I/N with I from 0 to N - 1, for example 0/4");
   return shard;
 }
@@ -92,15 +90,13 @@ std::vector<double> ParseNumbers(const char* flag, const std::string& text, size
     double value;
     const auto [stop, error] = std::from_chars(p, end, value);
     if (error != std::errc() || !std::isfinite(value) || (stop != end && *stop != ',')) break;
-    if (std::fabs(value) > kCoordinateLimit)
-      throw InputError(std::string(flag) + ": '" + text + "': " + BeyondLimitText(value));
+    if (std::fabs(value) > kCoordinateLimit) throw InputError(std::string(flag) + ": '" + text + "': " + BeyondLimitText(value));
     values.push_back(value);
     p = stop == end ? end : stop + 1;
     if (stop != end && p == end) p = nullptr;  // a comma at the end
     if (p == nullptr) break;
   }
-  if (p != end || values.size() != count)
-    throw InputError(std::string(flag) + ": '" + text + "' is not " + form);
+  if (p != end || values.size() != count) throw InputError(std::string(flag) + ": '" + text + "' is not " + form);
   return values;
 }
 

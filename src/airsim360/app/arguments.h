@@ -23,8 +23,7 @@ struct PoseArgument {
 PoseArgument ParsePose(const std::string& text);
 
 /// "a,b,c" split; InputError naming `flag` for an entry that is not among `choices`.
-std::vector<std::string> ParseList(std::string_view flag, const std::string& text,
-                                   const std::vector<std::string>& choices);
+std::vector<std::string> ParseList(std::string_view flag, const std::string& text, const std::vector<std::string>& choices);
 
 /// "I/N", 0 <= I < N; InputError naming `--shard` otherwise.
 struct Shard {

@@ -46,8 +46,7 @@ struct StepSpeed {
 std::vector<Tier> TiersOf(const BenchArguments& arguments) {
   const std::vector<std::string> names(std::begin(kTierNames), std::end(kTierNames));
   std::vector<Tier> tiers;
-  for (const std::string& name : ParseList("--tiers", arguments.tiers, names))
-    tiers.push_back(ParseTier(name));
+  for (const std::string& name : ParseList("--tiers", arguments.tiers, names)) tiers.push_back(ParseTier(name));
   return tiers;
 }
 
@@ -93,11 +92,11 @@ StepSpeed TimeSteps(Stage& stage, double seconds) {
 void PrintTable(const BenchArguments& arguments, const Stage& stage, const std::vector<TierSpeed>& tiers, const StepSpeed& steps) {
   const SceneCounts counts = stage.scene().Count();
   std::printf("%s: %.1f M triangles, %zu entities, ready after %.1f s; %d threads, device %s\n", arguments.world.c_str(),
-              1e-6 * static_cast<double>(counts.instanced_triangles), static_cast<size_t>(counts.entities),
-              stage.load_seconds(), ThreadCount(), stage.device().device.c_str());
+              1e-6 * static_cast<double>(counts.instanced_triangles), static_cast<size_t>(counts.entities), stage.load_seconds(),
+              ThreadCount(), stage.device().device.c_str());
   for (const TierSpeed& tier : tiers)
-    std::printf("%-10s %s  %8.1f ms a frame (least %.1f)  %7.2f frames/s  %6.2f Mrays/s\n", tier.tier.c_str(),
-                arguments.size.c_str(), tier.median_ms, tier.least_ms, 1e3 / tier.median_ms, tier.mrays_per_second);
+    std::printf("%-10s %s  %8.1f ms a frame (least %.1f)  %7.2f frames/s  %6.2f Mrays/s\n", tier.tier.c_str(), arguments.size.c_str(),
+                tier.median_ms, tier.least_ms, 1e3 / tier.median_ms, tier.mrays_per_second);
   std::printf("simulation %9.0f steps/s, %.0f times real time: one drone, %zu people, %d vehicles\n", steps.steps_per_second,
               steps.real_time_factor, stage.people() ? stage.people()->cast.size() : 0, arguments.traffic.count);
   std::printf("memory     %9.0f MiB at most\n", PeakRssMib());

@@ -73,8 +73,7 @@ void CheckFlowSteps(const RayTracer& tracer, const DatasetSpec& spec, const Flig
   constexpr int kDirections = 96;
   if (!spec.products.flow || flight.shots.size() < 2) return;
   std::vector<double> steps, ranges;
-  for (size_t i = 0; i + 1 < flight.shots.size(); ++i)
-    steps.push_back(Norm(flight.shots[i + 1].body.X_WB.p - flight.shots[i].body.X_WB.p));
+  for (size_t i = 0; i + 1 < flight.shots.size(); ++i) steps.push_back(Norm(flight.shots[i + 1].body.X_WB.p - flight.shots[i].body.X_WB.p));
   // Ranges of some frames, evenly over the flight, in directions of equal solid angle.
   const size_t frames = std::min(kFrames, flight.shots.size());
   for (size_t k = 0; k < frames; ++k) {

@@ -12,10 +12,10 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
-#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/plan_file.h"
 #include "airsim360/app/session.h"
+#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
@@ -37,8 +37,8 @@ constexpr double kTouching = 0.05;     // metres: a route closer to a surface is
 
 struct CollectArguments {
   std::string world, route = "auto", format = "native", shard = "0/1", out, plan, poses, recipe, subset;
-  int64_t frames = 0;          // 0: not given
-  double fps = 0;              // 0: not given
+  int64_t frames = 0;  // 0: not given
+  double fps = 0;      // 0: not given
   std::optional<double> start;
   EnvironmentFlags environment;
   CameraArguments camera;
@@ -51,8 +51,7 @@ struct CollectArguments {
 // The video, people, and what is written of them. The native layout holds panoptic.json and people.jsonl in any case.
 void SetFormats(const CollectArguments& arguments, DatasetSpec& spec) {
   const std::vector<std::string> formats = ParseList(
-      "--format", arguments.format,
-      {"native", "coco", "video", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops", "overlay"});
+      "--format", arguments.format, {"native", "coco", "video", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops", "overlay"});
   spec.people = arguments.people.Describe();
   spec.traffic = arguments.traffic.Describe();
   const auto wanted = [&](const std::string& name) { return std::ranges::count(formats, name) > 0; };
@@ -61,8 +60,7 @@ void SetFormats(const CollectArguments& arguments, DatasetSpec& spec) {
     if (wanted(format) || coco) spec.people_formats.push_back(format);
   }
   spec.video = wanted("video");
-  if (spec.video && spec.tier == Tier::kLabels)
-    throw InputError("--format: a video needs colours; use --tier fast instead of labels");
+  if (spec.video && spec.tier == Tier::kLabels) throw InputError("--format: a video needs colours; use --tier fast instead of labels");
   if (spec.video && Views(spec).size() > 1)
     throw InputError("--format: a video shows one picture a frame; use --projection erp, pinhole or fisheye");
   if (spec.video) CheckVideo({spec.width, spec.height}, {});
@@ -99,8 +97,7 @@ std::vector<int64_t> ShotTimes(const CollectArguments& arguments, const Route& r
   const double start = arguments.start.value_or(0), left = route.duration() - start;
   char text[160];
   if (left < 0) {
-    std::snprintf(text, sizeof text, "--start: %g s is after the end of the flight, which lasts %.6g s", start,
-                  route.duration());
+    std::snprintf(text, sizeof text, "--start: %g s is after the end of the flight, which lasts %.6g s", start, route.duration());
     throw InputError(text);
   }
   const auto most = static_cast<int64_t>(std::floor(std::min(left * arguments.fps, 1e12) + 1e-9)) + 1;
@@ -115,8 +112,7 @@ std::vector<int64_t> ShotTimes(const CollectArguments& arguments, const Route& r
                      "; take the first of them with --frames");
   }
   std::vector<int64_t> times;
-  for (int64_t i = 0; i < frames; ++i)
-    times.push_back(std::llround((start + static_cast<double>(i) / arguments.fps) * 1e9));
+  for (int64_t i = 0; i < frames; ++i) times.push_back(std::llround((start + static_cast<double>(i) / arguments.fps) * 1e9));
   return times;
 }
 
@@ -148,8 +144,7 @@ Plan PlanFromFile(const CollectArguments& arguments, DatasetSpec& spec) {
     plan.shot_times_ns = ShotTimes(arguments, *plan.route);
     spec.route = "even along " + hash + Rate(arguments);
   } else {
-    for (const RouteNode& node : plan.route->nodes())
-      plan.shot_times_ns.push_back(std::llround(node.t * 1e9));
+    for (const RouteNode& node : plan.route->nodes()) plan.shot_times_ns.push_back(std::llround(node.t * 1e9));
     spec.route = "waypoints of " + hash;
   }
   return plan;
@@ -186,7 +181,8 @@ Plan MakePlan(const CollectArguments& arguments, const SimModel& model, DatasetS
   if (!arguments.plan.empty()) return PlanFromTrajectory(arguments, spec);
   if (arguments.route != "auto") return PlanFromFile(arguments, spec);
   if (std::optional<Plan> near_people = PlanNearPeople(arguments, model, spec)) return *std::move(near_people);
-  Plan plan{std::make_shared<const Route>(PlanSurvey(*model.tracer, {.seed = spec.seed, .viewpoints = SurveyViewpoints(arguments.frames)})), {}};
+  Plan plan{std::make_shared<const Route>(PlanSurvey(*model.tracer, {.seed = spec.seed, .viewpoints = SurveyViewpoints(arguments.frames)})),
+            {}};
   plan.shot_times_ns = ShotTimes(arguments, *plan.route);
   spec.route = "auto" + Rate(arguments);
   return plan;
@@ -210,8 +206,7 @@ Flight Fly(const CollectArguments& arguments, const SimModel& model, DatasetSpec
   }
   spec.frames = static_cast<int64_t>(flight.shots.size());
   if (spec.shards > spec.frames) {
-    throw InputError("--shard: '" + arguments.shard + "': more shards than frames (" +
-                     std::to_string(spec.frames) + ")");
+    throw InputError("--shard: '" + arguments.shard + "': more shards than frames (" + std::to_string(spec.frames) + ")");
   }
   return flight;
 }
@@ -221,20 +216,18 @@ void CheckRoute(const CollectArguments& arguments) {
   if (arguments.route != "auto") ReadRouteFile(arguments.route);
   if (!arguments.plan.empty()) ReadPlanFile(arguments.plan);
   if (!arguments.poses.empty()) ReadPoseFile(arguments.poses);
-  if (!arguments.plan.empty() && arguments.route != "auto")
-    throw InputError("--plan: give either --plan or --route, not both");
+  if (!arguments.plan.empty() && arguments.route != "auto") throw InputError("--plan: give either --plan or --route, not both");
   if (!arguments.poses.empty() && (arguments.route != "auto" || !arguments.plan.empty()))
     throw InputError("--poses: give one of --poses, --route and --plan");
   if (!arguments.poses.empty() && (arguments.frames > 0 || arguments.fps > 0))
     throw InputError("--poses: there is one frame at each pose; leave out --frames and --fps");
-  if (arguments.start && arguments.fps == 0)
-    throw InputError("--start: it is when the frames of --fps begin; add --fps");
+  if (arguments.start && arguments.fps == 0) throw InputError("--start: it is when the frames of --fps begin; add --fps");
 }
 
 // A dataset for each subset of a table.
 void RunRecipe(const CollectArguments& arguments, const GlobalOptions& globals) {
-  if (arguments.route != "auto" || !arguments.plan.empty() || !arguments.poses.empty() ||
-      !arguments.people.people.empty() || arguments.traffic.count > 0)
+  if (arguments.route != "auto" || !arguments.plan.empty() || !arguments.poses.empty() || !arguments.people.people.empty() ||
+      arguments.traffic.count > 0)
     throw InputError("--recipe: it has routes and people of its own; leave out --route, --plan, --poses, --people and --traffic");
   if (arguments.processes.processes > 1 || !globals.gpus.empty() || arguments.fps > 0)
     throw InputError("--recipe: it takes no --fps, --processes or several GPUs; use --shard I/N in several runs");
@@ -278,16 +271,14 @@ void RunCollect(const CollectArguments& arguments, GlobalOptions& globals) {
       return CollectPart(input, stage.renderer(spec.tier), frames, done);
     });
   }
-  const CollectResult result =
-      processes == 1 ? Collect(input, stage.renderer(spec.tier)) : Collect(input, RenderInProcesses(processes));
+  const CollectResult result = processes == 1 ? Collect(input, stage.renderer(spec.tier)) : Collect(input, RenderInProcesses(processes));
   ReportRun(stage, spec, result, arguments.out, globals.json);
 }
 
 }  // namespace
 
 void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command = app.add_subcommand(
-      "collect", "collect a labelled dataset along a route; run again to finish an interrupted one");
+  CLI::App* command = app.add_subcommand("collect", "collect a labelled dataset along a route; run again to finish an interrupted one");
   auto arguments = std::make_shared<CollectArguments>();
   command->add_option("--world", arguments->world,
                       "name (airsim360 worlds) or path of a .glb, .gltf, .obj, .city.json, .osm, .osm.pbf or world .yaml; "
@@ -299,14 +290,11 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--route", arguments->route,
                       "auto (a survey through free space; near people if there are any), or a file (CSV x,y,z[,yaw_deg][,t], YAML, GPX or "
                       "KML): without --frames one frame at each waypoint");
-  command->add_option(
-      "--plan", arguments->plan,
-      "fly a trajectory of `airsim360 plan` (its JSON or YAML), frames spread evenly over it");
+  command->add_option("--plan", arguments->plan, "fly a trajectory of `airsim360 plan` (its JSON or YAML), frames spread evenly over it");
   command->add_option("--poses", arguments->poses,
                       "one frame at each pose of a file: CSV x,y,z[,yaw_deg,pitch_deg,roll_deg] or qw,qx,qy,qz, TUM, or "
                       "frames.jsonl of another dataset (docs/guide/datasets.md)");
-  command->add_option("--frames", arguments->frames,
-                      "frames, spread evenly over the flight (default 8); with --fps so many at that rate")
+  command->add_option("--frames", arguments->frames, "frames, spread evenly over the flight (default 8); with --fps so many at that rate")
       ->check(CLI::Range(int64_t{1}, kMaxFrames));
   command->add_option("--fps", arguments->fps, "so many frames a second of the flight, as long as it lasts")
       ->check(CLI::Range(0.001, 1000.0));
@@ -321,8 +309,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   arguments->traffic.AddTo(*command);
   AddEnvironmentFlags(*command, arguments->environment);
   AddWorldFlags(*command, globals);
-  command->add_option("--shard", arguments->shard,
-                      "I/N: only the frames with index % N == I, I from 0 (default 0/1)");
+  command->add_option("--shard", arguments->shard, "I/N: only the frames with index % N == I, I from 0 (default 0/1)");
   arguments->processes.AddTo(*command);
   command->callback([arguments, &globals] { RunCollect(*arguments, globals); });
 }

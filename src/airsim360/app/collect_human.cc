@@ -35,7 +35,8 @@ struct HumanWorld {
   std::vector<PlacedSubset> placed;  ///< all subsets of the world, made now or not
 };
 
-HumanWorld OpenHumanWorld(const std::string& name, std::span<const HumanSubset> subsets, const HumanRun& run, const GlobalOptions& globals) {
+HumanWorld OpenHumanWorld(const std::string& name, std::span<const HumanSubset> subsets, const HumanRun& run,
+                          const GlobalOptions& globals) {
   HumanWorld world;
   world.stage = std::make_shared<Stage>(StageOptionsOf(name, globals, run.environment));
   world.mesh = NavMesh::Build(world.stage->scene());
@@ -62,16 +63,16 @@ CollectResult CollectSubset(const HumanRun& run, const HumanRecipe& recipe, cons
   spec.seed = seed;
   spec.frames = subset.frames;
   char text[160];
-  std::snprintf(text, sizeof text, "%s: %.1f x %.1f m, pitch %g", subset.name.c_str(), subset.width, subset.depth,
-                subset.pitch_deg);
+  std::snprintf(text, sizeof text, "%s: %.1f x %.1f m, pitch %g", subset.name.c_str(), subset.width, subset.depth, subset.pitch_deg);
   spec.route = text;
   spec.people = std::to_string(subset.people) + " in the area";
   spec.environment = DescribeEnvironment(stage.environment());
   const Flight flight = FilmSubset(recipe, subset, area, *stage.people(), *world.stage->tracer(), seed);
   const CollectResult result = Collect(InputOf(stage, spec, flight, folder), stage.renderer(spec.tier));
   // What subsets.json says of it, also when other runs make the others.
-  WriteFileAtomically(folder.string() + ".subset.json",
-                      nlohmann::ordered_json{{"split", subset.split}, {"area", {area.low.x, area.low.y, area.high.x, area.high.y}}}.dump() + "\n");
+  WriteFileAtomically(
+      folder.string() + ".subset.json",
+      nlohmann::ordered_json{{"split", subset.split}, {"area", {area.low.x, area.low.y, area.high.x, area.high.y}}}.dump() + "\n");
   return result;
 }
 
@@ -86,9 +87,9 @@ void TakeCameras(const HumanRecipe& recipe, HumanRun& run) {
 nlohmann::ordered_json ListOf(std::span<const HumanSubset> subsets, const fs::path& out) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const HumanSubset& subset : subsets) {
-    nlohmann::ordered_json entry = {{"subset", subset.name}, {"world", subset.world}, {"exists", Exists(subset.world)}, {"width", subset.width},
-                                    {"depth", subset.depth}, {"people", subset.people}, {"pitch_deg", subset.pitch_deg}, {"frames", subset.frames},
-                                    {"split", subset.split}};
+    nlohmann::ordered_json entry = {{"subset", subset.name},         {"world", subset.world},   {"exists", Exists(subset.world)},
+                                    {"width", subset.width},         {"depth", subset.depth},   {"people", subset.people},
+                                    {"pitch_deg", subset.pitch_deg}, {"frames", subset.frames}, {"split", subset.split}};
     const fs::path made = (out / subset.name).string() + ".subset.json";
     if (fs::exists(made)) entry.update(nlohmann::ordered_json::parse(ReadTextFile(made, 1 << 16)));
     list.push_back(entry);
@@ -152,15 +153,20 @@ void CollectHumanSets(const HumanRun& run, const GlobalOptions& globals) {
   }
   WriteFileAtomically(fs::path(run.out) / "subsets.json", ListOf(subsets, run.out).dump(1) + "\n");
   if (globals.json) {
-    PrintJson({{"out", run.out}, {"subsets", subsets.size()}, {"subsets_without_world", skipped}, {"frames", frames}, {"frames_written", written},
-               {"people", people}, {"people_seen", seen.persons_seen}, {"people_seen_100px", seen.persons_large}});
+    PrintJson({{"out", run.out},
+               {"subsets", subsets.size()},
+               {"subsets_without_world", skipped},
+               {"frames", frames},
+               {"frames_written", written},
+               {"people", people},
+               {"people_seen", seen.persons_seen},
+               {"people_seen_100px", seen.persons_large}});
     return;
   }
-  std::printf("%s: %lld frames (%lld written now); %lld subsets wait for their worlds\n", run.out.c_str(),
-              static_cast<long long>(frames), static_cast<long long>(written), static_cast<long long>(skipped));
-  std::printf("people: %lld of %lld have pixels, %lld of them %lld or more in some picture\n",
-              static_cast<long long>(seen.persons_seen), static_cast<long long>(people),
-              static_cast<long long>(seen.persons_large), static_cast<long long>(kLargePerson));
+  std::printf("%s: %lld frames (%lld written now); %lld subsets wait for their worlds\n", run.out.c_str(), static_cast<long long>(frames),
+              static_cast<long long>(written), static_cast<long long>(skipped));
+  std::printf("people: %lld of %lld have pixels, %lld of them %lld or more in some picture\n", static_cast<long long>(seen.persons_seen),
+              static_cast<long long>(people), static_cast<long long>(seen.persons_large), static_cast<long long>(kLargePerson));
 }
 
 }  // namespace airsim360

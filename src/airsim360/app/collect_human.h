@@ -12,12 +12,12 @@
 namespace airsim360 {
 
 struct HumanRun {
-  std::string recipe;   ///< "omni360-human" or a file
-  std::string world;    ///< only its subsets, or every row's world instead; empty = as the table says
+  std::string recipe;  ///< "omni360-human" or a file
+  std::string world;   ///< only its subsets, or every row's world instead; empty = as the table says
   std::string out;
-  std::string subset;   ///< only this one ("downtown_city/03"); empty = all
-  int64_t frames = 0;   ///< of each subset at most; 0 = as the table says
-  DatasetSpec spec;     ///< size, tier, formats
+  std::string subset;       ///< only this one ("downtown_city/03"); empty = all
+  int64_t frames = 0;       ///< of each subset at most; 0 = as the table says
+  DatasetSpec spec;         ///< size, tier, formats
   bool has_camera = false;  ///< flags say what is looked through
   EnvironmentFlags environment;
   PeopleArguments people;

@@ -148,7 +148,8 @@ void AddTotals(const std::string& line, CollectResult& result) {
   result.render_ms += render_ms, result.write_ms += write_ms, result.rays += rays;
 }
 
-void RenderAll(int processes, Dealing dealing, const std::vector<int64_t>& missing, const std::function<void()>& written, CollectResult& result) {
+void RenderAll(int processes, Dealing dealing, const std::vector<int64_t>& missing, const std::function<void()>& written,
+               CollectResult& result) {
   const auto count = std::min(static_cast<size_t>(processes), missing.size());
   std::vector<std::unique_ptr<Worker>> workers;
   for (size_t k = 0; k < count; ++k) {
@@ -174,7 +175,8 @@ void RenderAll(int processes, Dealing dealing, const std::vector<int64_t>& missi
       waiting.push_back({worker->output(), static_cast<short>(POLLIN | (worker->has_to_feed() ? POLLOUT : 0)), 0});
       which.push_back(worker.get());
     }
-    if (::poll(waiting.data(), waiting.size(), -1) < 0 && errno != EINTR) throw RuntimeError(std::string("--processes: ") + std::strerror(errno));
+    if (::poll(waiting.data(), waiting.size(), -1) < 0 && errno != EINTR)
+      throw RuntimeError(std::string("--processes: ") + std::strerror(errno));
     for (size_t i = 0; i < waiting.size(); ++i) {
       if (waiting[i].revents & POLLOUT) which[i]->Feed();
       if ((waiting[i].revents & (POLLIN | POLLHUP | POLLERR)) == 0) continue;
@@ -187,8 +189,9 @@ void RenderAll(int processes, Dealing dealing, const std::vector<int64_t>& missi
 
 void ProcessArguments::AddTo(CLI::App& command) {
   command
-      .add_option("--processes", processes,
-                  "render in so many processes at once (default 1, or one for each of several --gpu); the dataset is the same, byte for byte")
+      .add_option(
+          "--processes", processes,
+          "render in so many processes at once (default 1, or one for each of several --gpu); the dataset is the same, byte for byte")
       ->check(CLI::Range(1, kMostProcesses));
   command.add_option("--worker", worker)->group("");  // of those processes: not for people
 }

@@ -14,7 +14,7 @@ namespace airsim360 {
 
 /// Flags of collect, one of them for its own use.
 struct ProcessArguments {
-  int processes = 0;  ///< 0: not given
+  int processes = 0;   ///< 0: not given
   std::string worker;  ///< --worker K/N: this is process K of N; it reads the frames to make from stdin
 
   void AddTo(CLI::App& command);

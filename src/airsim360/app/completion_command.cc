@@ -72,11 +72,10 @@ std::string BashScript(const CLI::App& program) {
       flags += (flags.empty() ? "" : " ") + Joined(argument.names);
       if (!argument.value) continue;
       for (const std::string& name : argument.names)
-        values += "    '" + path + "/" + name + "') words='" + Joined(argument.choices) +
-                  "' files=" + (argument.files ? "1" : "") + " value=1 ;;\n";
+        values += "    '" + path + "/" + name + "') words='" + Joined(argument.choices) + "' files=" + (argument.files ? "1" : "") +
+                  " value=1 ;;\n";
     }
-    words += "      '" + path + "') flags='" + flags + "' words='" + rest + "' files=" + (files ? "1" : "") +
-             " ;;\n";
+    words += "      '" + path + "') flags='" + flags + "' words='" + rest + "' files=" + (files ? "1" : "") + " ;;\n";
   }
   return R"(# Completion of airsim360 in bash: made by 'airsim360 completion bash'.
 _airsim360() {
@@ -128,8 +127,7 @@ std::string ZshAction(const Argument& argument) {
 
 std::string ZshFunction(const CLI::App& command) {
   std::string name = "_airsim360";
-  for (const char c : CommandPath(command).empty() ? "" : "_" + CommandPath(command))
-    name += c == ' ' ? '_' : c;
+  for (const char c : CommandPath(command).empty() ? "" : "_" + CommandPath(command)) name += c == ' ' ? '_' : c;
   std::string text = name + "() {\n  local line state\n  _arguments -S";
   for (const Argument& argument : ArgumentsOf(command)) {
     if (!argument.flag) {
@@ -137,27 +135,22 @@ std::string ZshFunction(const CLI::App& command) {
       continue;
     }
     for (const std::string& flag : argument.names) {
-      text += " \\\n    '" + flag + (argument.value && flag.starts_with("--") ? "=" : "") + "[" +
-              ZshText(argument.about) + "]";
+      text += " \\\n    '" + flag + (argument.value && flag.starts_with("--") ? "=" : "") + "[" + ZshText(argument.about) + "]";
       if (argument.value) text += ":value:" + ZshAction(argument);
       text += "'";
     }
   }
   const auto inner = Inner(command);
   if (inner.empty()) return text + "\n}\n";
-  text +=
-      " \\\n    '1: :->command' '*:: :->rest'\n  case $state in\n    command)\n      local -a commands=(\n";
-  for (const CLI::App* one : inner)
-    text += "        '" + one->get_name() + ":" + ZshText(one->get_description()) + "'\n";
+  text += " \\\n    '1: :->command' '*:: :->rest'\n  case $state in\n    command)\n      local -a commands=(\n";
+  for (const CLI::App* one : inner) text += "        '" + one->get_name() + ":" + ZshText(one->get_description()) + "'\n";
   text += "      )\n      _describe command commands ;;\n    rest)\n      case $line[1] in\n";
-  for (const CLI::App* one : inner)
-    text += "        " + one->get_name() + ") " + name + "_" + one->get_name() + " ;;\n";
+  for (const CLI::App* one : inner) text += "        " + one->get_name() + ") " + name + "_" + one->get_name() + " ;;\n";
   return text + "      esac ;;\n  esac\n}\n";
 }
 
 std::string ZshScript(const CLI::App& program) {
-  std::string text =
-      "#compdef airsim360\n# Completion of airsim360 in zsh: made by 'airsim360 completion zsh'.\n";
+  std::string text = "#compdef airsim360\n# Completion of airsim360 in zsh: made by 'airsim360 completion zsh'.\n";
   for (const CLI::App* command : CommandsOf(program)) text += ZshFunction(*command);
   return text +
          "if [ \"$funcstack[1]\" = \"_airsim360\" ]; then _airsim360 \"$@\"; else compdef _airsim360 "
@@ -173,16 +166,14 @@ std::string FishText(const std::string& text) {
 std::string FishScript(const CLI::App& program) {
   std::string known, lines;
   for (const CLI::App* command : CommandsOf(program)) {
-    const std::string path = CommandPath(*command),
-                      at = "complete -c airsim360 -n \"__airsim360_at '" + path + "'\"";
+    const std::string path = CommandPath(*command), at = "complete -c airsim360 -n \"__airsim360_at '" + path + "'\"";
     if (!path.empty()) known += " " + FishText(path);
     for (const CLI::App* inner : Inner(*command))
       lines += at + " -f -a " + inner->get_name() + " -d " + FishText(inner->get_description()) + "\n";
     for (const Argument& argument : ArgumentsOf(*command)) {
       lines += at;
       for (const std::string& name : argument.names) {
-        if (argument.flag)
-          lines += (name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1));
+        if (argument.flag) lines += (name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1));
       }
       if (!argument.files) lines += " -f";
       if (argument.value && argument.flag) lines += " -r";
@@ -209,17 +200,13 @@ complete -c airsim360 -f
 }  // namespace
 
 void AddCompletionCommand(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("completion", "prints what a shell needs to complete commands, flags and names");
+  CLI::App* command = app.add_subcommand("completion", "prints what a shell needs to complete commands, flags and names");
   const auto shell = std::make_shared<std::string>();
   command->add_option("shell", *shell, "bash, zsh or fish")->required();
   command->callback([&app, shell] {
     const std::vector<std::string> shells = {"bash", "zsh", "fish"};
-    if (std::ranges::count(shells, *shell) == 0)
-      throw InputError("completion: " + UnknownChoiceMessage("shell", *shell, shells));
-    const std::string script = *shell == "bash"  ? BashScript(app)
-                               : *shell == "zsh" ? ZshScript(app)
-                                                 : FishScript(app);
+    if (std::ranges::count(shells, *shell) == 0) throw InputError("completion: " + UnknownChoiceMessage("shell", *shell, shells));
+    const std::string script = *shell == "bash" ? BashScript(app) : *shell == "zsh" ? ZshScript(app) : FishScript(app);
     std::fputs(script.c_str(), stdout);
   });
 }

@@ -45,19 +45,16 @@ int ParseCount(const std::string& flag, const std::string& text, int high) {
   if (!Parse(text, value)) Refuse(flag, text, "a whole number from 1 to " + std::to_string(high));
   const int64_t nearest = std::clamp<int64_t>(value, 1, high);
   if (nearest != value) {
-    throw InputError(flag + ": " + text + " is not in 1 … " + std::to_string(high) + "; did you mean " +
-                     std::to_string(nearest) + "?");
+    throw InputError(flag + ": " + text + " is not in 1 … " + std::to_string(high) + "; did you mean " + std::to_string(nearest) + "?");
   }
   return static_cast<int>(value);
 }
 
-double ParseNumberIn(const std::string& flag, const std::string& text, double low, double high,
-                     const std::string& or_word) {
+double ParseNumberIn(const std::string& flag, const std::string& text, double low, double high, const std::string& or_word) {
   double value = 0;
   if (Parse(text, value) && value >= low && value <= high) return value;
   const std::string range = "a number from " + Text(low) + " to " + Text(high);
-  throw InputError(flag + ": '" + text + "' is " +
-                   (or_word.empty() ? "not " : "neither " + or_word + " nor ") + range);
+  throw InputError(flag + ": '" + text + "' is " + (or_word.empty() ? "not " : "neither " + or_word + " nor ") + range);
 }
 
 class FlagAdder : public ConfigVisitor {
@@ -67,16 +64,14 @@ class FlagAdder : public ConfigVisitor {
   void Field(std::string_view name, std::string_view help, bool& value) override {
     const bool begins = value;
     command_.add_flag_callback(
-        FlagOf(name, begins ? "--no-" : "--"), [&value, begins] { value = !begins; },
-        (begins ? "without the " : "") + std::string(help));
+        FlagOf(name, begins ? "--no-" : "--"), [&value, begins] { value = !begins; }, (begins ? "without the " : "") + std::string(help));
   }
   void Field(std::string_view name, std::string_view help, uint64_t& value) override {
     command_.add_option(FlagOf(name), value, Help(help, std::to_string(value)));
   }
   void Field(std::string_view name, std::string_view help, double& value, double low, double high) override {
-    Add(name, Help(help, Text(value)), [&value, low, high](const std::string& flag, const std::string& text) {
-      value = ParseNumberIn(flag, text, low, high, "");
-    });
+    Add(name, Help(help, Text(value)),
+        [&value, low, high](const std::string& flag, const std::string& text) { value = ParseNumberIn(flag, text, low, high, ""); });
   }
   void Field(std::string_view name, std::string_view help, std::string& value) override {
     command_.add_option(FlagOf(name), value, std::string(help));
@@ -89,8 +84,8 @@ class FlagAdder : public ConfigVisitor {
       value = ParseCount(flag, text, high);
     })->type_name("INT");
   }
-  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value,
-                double low, double high) override {
+  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value, double low,
+                double high) override {
     Add(name, Help(help, is_word ? word : Text(value)),
         [word, &is_word, &value, low, high](const std::string& flag, const std::string& text) {
           is_word = text == word;
@@ -99,17 +94,14 @@ class FlagAdder : public ConfigVisitor {
   }
   void Choice(std::string_view name, std::string_view help, std::span<const char* const> names, size_t index,
               const std::function<void(size_t)>& set) override {
-    Add(name, Help(help, names[index]),
-        [what = WordsOf(name), names, set](const std::string& flag, const std::string& text) {
-          set(ParseChoice(what, text, names, flag));
-        });
+    Add(name, Help(help, names[index]), [what = WordsOf(name), names, set](const std::string& flag, const std::string& text) {
+      set(ParseChoice(what, text, names, flag));
+    });
   }
   void Group(std::string_view, std::string_view, const ConfigFields& visit) override { visit(*this); }
 
  private:
-  static std::string Help(std::string_view help, const std::string& standard) {
-    return std::string(help) + " (default " + standard + ")";
-  }
+  static std::string Help(std::string_view help, const std::string& standard) { return std::string(help) + " (default " + standard + ")"; }
   template <class Take>
   CLI::Option* Add(std::string_view name, const std::string& help, const Take& take) {
     const std::string flag = FlagOf(name);
@@ -126,16 +118,13 @@ class FlagLister : public ConfigVisitor {
     std::string name;
     std::vector<std::string> choices;
   };
-  void Field(std::string_view name, std::string_view, bool& value) override {
-    Add(name, {}, value ? "--no-" : "--");
-  }
+  void Field(std::string_view name, std::string_view, bool& value) override { Add(name, {}, value ? "--no-" : "--"); }
   void Field(std::string_view name, std::string_view, uint64_t&) override { Add(name); }
   void Field(std::string_view name, std::string_view, double&, double, double) override { Add(name); }
   void Field(std::string_view name, std::string_view, std::string&) override { Add(name); }
   void Field(std::string_view name, std::string_view, std::vector<std::string>&) override { Add(name); }
   void Count(std::string_view name, std::string_view, int&, int) override { Add(name); }
-  void NumberOr(std::string_view name, std::string_view, const char* word, bool&, double& value, double,
-                double) override {
+  void NumberOr(std::string_view name, std::string_view, const char* word, bool&, double& value, double, double) override {
     Add(name, {Text(value), word});
   }
   void Choice(std::string_view name, std::string_view, std::span<const char* const> names, size_t,

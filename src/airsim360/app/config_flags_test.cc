@@ -30,9 +30,8 @@ std::string Refusal(std::vector<std::string> words) {
 }
 
 TEST(ConfigFlags, EveryOptionOfPicturesIsAFlag) {
-  const DatasetSpec spec =
-      Parsed({"--tier", "high", "--samples", "7", "--no-denoise", "--edge-samples=64", "--tone", "agx",
-              "--exposure", "-1.5", "--pano-frame", "level", "--lens", "real360", "--rgb-format", "jpg"});
+  const DatasetSpec spec = Parsed({"--tier", "high", "--samples", "7", "--no-denoise", "--edge-samples=64", "--tone", "agx", "--exposure",
+                                   "-1.5", "--pano-frame", "level", "--lens", "real360", "--rgb-format", "jpg"});
   EXPECT_EQ(spec.tier, Tier::kHigh);
   EXPECT_EQ(spec.samples, 7);
   EXPECT_FALSE(spec.denoise);
@@ -57,27 +56,21 @@ TEST(ConfigFlags, ExposureIsANumberOrAuto) {
   EXPECT_TRUE(Parsed({"--exposure", "auto"}).auto_exposure);
   EXPECT_EQ(Parsed({"--exposure", "+2"}).exposure_ev, 2);
   for (const char* value : {"20.1", "-21", "nan", "inf", "1e300", "one", "1 2", ""})
-    EXPECT_EQ(Refusal({"--exposure", value}),
-              "--exposure: '" + std::string(value) + "' is neither 'auto' nor a number from -20 to 20");
+    EXPECT_EQ(Refusal({"--exposure", value}), "--exposure: '" + std::string(value) + "' is neither 'auto' nor a number from -20 to 20");
 }
 
 TEST(ConfigFlags, CountsOutOfRangeNameTheNearest) {
   EXPECT_EQ(Refusal({"--edge-samples", "0"}), "--edge-samples: 0 is not in 1 … 64; did you mean 1?");
   EXPECT_EQ(Refusal({"--edge-samples", "-3"}), "--edge-samples: -3 is not in 1 … 64; did you mean 1?");
-  EXPECT_EQ(Refusal({"--edge-samples", "9223372036854775807"}),
-            "--edge-samples: 9223372036854775807 is not in 1 … 64; did you mean 64?");
+  EXPECT_EQ(Refusal({"--edge-samples", "9223372036854775807"}), "--edge-samples: 9223372036854775807 is not in 1 … 64; did you mean 64?");
   for (const char* value : {"9223372036854775808", "2.5", "four", "0x10"})
-    EXPECT_EQ(Refusal({"--samples", value}),
-              "--samples: '" + std::string(value) + "' is not a whole number from 1 to 1048576");
+    EXPECT_EQ(Refusal({"--samples", value}), "--samples: '" + std::string(value) + "' is not a whole number from 1 to 1048576");
 }
 
 TEST(ConfigFlags, WrongWordsNameTheNearest) {
-  EXPECT_NE(Refusal({"--tone", "filmik"}).find("--tone: unknown tone 'filmik'; did you mean 'filmic'?"),
-            std::string::npos);
+  EXPECT_NE(Refusal({"--tone", "filmik"}).find("--tone: unknown tone 'filmik'; did you mean 'filmic'?"), std::string::npos);
   EXPECT_NE(Refusal({"--pano-frame", "lvel"}).find("did you mean 'level'?"), std::string::npos);
-  EXPECT_NE(
-      Refusal({"--products", "normal,flwo"}).find("--products: unknown product 'flwo'; did you mean 'flow'?"),
-      std::string::npos);
+  EXPECT_NE(Refusal({"--products", "normal,flwo"}).find("--products: unknown product 'flwo'; did you mean 'flow'?"), std::string::npos);
 }
 
 TEST(ConfigFlags, ProductsAreAddedToThoseOfEveryDataset) {
@@ -97,12 +90,10 @@ TEST(ConfigFlags, TierLabelsHasNoLight) {
 
 TEST(ConfigFlags, ChoicesOfCompletionAreThoseThatAreTaken) {
   const ConfigFields fields = [](ConfigVisitor& v) { DatasetSpec().Visit(v); };
-  EXPECT_EQ(ConfigFlagChoices(fields, "--tier"),
-            (std::vector<std::string>{"labels", "fast", "high", "reference"}));
+  EXPECT_EQ(ConfigFlagChoices(fields, "--tier"), (std::vector<std::string>{"labels", "fast", "high", "reference"}));
   EXPECT_EQ(ConfigFlagChoices(fields, "--samples"), std::vector<std::string>{});
   for (const std::string& flag : PictureFlagNames())
-    for (const std::string& word : ConfigFlagChoices(fields, flag))
-      EXPECT_EQ(Refusal({flag, word}), "no error");
+    for (const std::string& word : ConfigFlagChoices(fields, flag)) EXPECT_EQ(Refusal({flag, word}), "no error");
 }
 
 TEST(CheckPictureSettings, WhatDoesNotFitTheCameraOrTheTierIsNamed) {
@@ -124,8 +115,7 @@ TEST(CheckPictureSettings, WhatDoesNotFitTheCameraOrTheTierIsNamed) {
   EXPECT_EQ(refusal(settings, CubeFace{}).find("--exposure: 'auto'"), 0u);
   settings = {};
   settings.samples = 257;
-  EXPECT_EQ(refusal(settings, Equirectangular{}),
-            "--samples: 257 is not in 1 … 256 of tier fast; did you mean 256?");
+  EXPECT_EQ(refusal(settings, Equirectangular{}), "--samples: 257 is not in 1 … 256 of tier fast; did you mean 256?");
   settings.tier = Tier::kReference;
   EXPECT_EQ(refusal(settings, Equirectangular{}), "no error");
 }

@@ -31,14 +31,12 @@ size_t FaceIndex(std::string_view name, std::string_view axes) {
 std::string FaceNameOf(const std::string& stem) {
   for (const char* name : kCubeFaceNames) {
     const bool positive = name[0] == '+';
-    for (const std::string& spelling : {std::string(name), std::string(positive ? "pos" : "neg") + name[1],
-                                        std::string(positive ? "p" : "n") + name[1]}) {
+    for (const std::string& spelling :
+         {std::string(name), std::string(positive ? "pos" : "neg") + name[1], std::string(positive ? "p" : "n") + name[1]}) {
       if (!stem.ends_with(spelling)) continue;
       // A word must stand alone: "512px" is not a face.
       const size_t before = stem.size() - spelling.size();
-      if (std::ispunct(spelling[0]) || before == 0 ||
-          !std::isalnum(static_cast<unsigned char>(stem[before - 1])))
-        return name;
+      if (std::ispunct(spelling[0]) || before == 0 || !std::isalnum(static_cast<unsigned char>(stem[before - 1]))) return name;
     }
   }
   return "";
@@ -67,8 +65,8 @@ FaceFiles FindFaces(const std::string& folder, const std::string& axes) {
     if (name.empty()) continue;
     const auto [at, fresh] = found.emplace(name, picture);
     if (!fresh) {
-      throw InputError("--cube: two files for face " + name + ": " + at->second.filename().string() +
-                       " and " + picture.filename().string());
+      throw InputError("--cube: two files for face " + name + ": " + at->second.filename().string() + " and " +
+                       picture.filename().string());
     }
   }
   std::string missing, seen;
@@ -82,8 +80,7 @@ FaceFiles FindFaces(const std::string& folder, const std::string& axes) {
   for (size_t i = 0; i < std::min<size_t>(pictures.size(), 12); ++i) {
     seen += (seen.empty() ? "" : ", ") + pictures[i].filename().string();
   }
-  throw InputError("--cube: '" + folder + "' lacks faces " + missing +
-                   " (files whose name ends in the face name, as +x.png); " +
+  throw InputError("--cube: '" + folder + "' lacks faces " + missing + " (files whose name ends in the face name, as +x.png); " +
                    (seen.empty() ? "there are no pictures" : "there are: " + seen));
 }
 
@@ -122,8 +119,7 @@ CubeFolder ReadCubeFolder(const std::string& folder, const std::string& axes) {
     const FaceKind kind = KindOf(faces.files[f], faces.bytes[f]);
     if (f == 0) faces.kind = kind;
     if (kind != faces.kind) {
-      throw InputError("--cube: " + faces.files[0].filename().string() + " is " +
-                       kFaceKindNames[static_cast<int>(faces.kind)] + ", " +
+      throw InputError("--cube: " + faces.files[0].filename().string() + " is " + kFaceKindNames[static_cast<int>(faces.kind)] + ", " +
                        faces.files[f].filename().string() + " is " + kFaceKindNames[static_cast<int>(kind)] +
                        "; all faces must be of one kind");
     }

@@ -12,8 +12,8 @@ namespace airsim360 {
 /// What the pictures of a cube hold, told by their extension and header.
 /// kPalette: label ids below 256, all six with one palette.
 enum class FaceKind { kColor8, kColor16, kGray8, kGray16, kRange, kPalette };
-inline constexpr const char* kFaceKindNames[] = {"8-bit colour", "16-bit colour", "8-bit gray", "16-bit gray",
-                                                 "range", "labels with a palette"};
+inline constexpr const char* kFaceKindNames[] = {"8-bit colour", "16-bit colour", "8-bit gray",
+                                                 "16-bit gray",  "range",         "labels with a palette"};
 
 /// Six files, in the order of kCubeFaceNames in the camera frame C.
 struct CubeFolder {

@@ -8,7 +8,8 @@
 namespace airsim360 {
 
 void AddDatasetCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command = app.add_subcommand("dataset", "datasets as a whole: plans, shards, clusters, other formats, duplicates, what is in them");
+  CLI::App* command =
+      app.add_subcommand("dataset", "datasets as a whole: plans, shards, clusters, other formats, duplicates, what is in them");
   command->require_subcommand(1);
   AddDatasetPlan(*command, globals);
   AddDatasetRun(*command, globals);

@@ -52,7 +52,8 @@ void AddDatasetDedupe(CLI::App& dataset, GlobalOptions& globals) {
   command->add_option("--parallax", arguments->options.parallax, "rad: baseline / median range of twins is below (default 0.02)");
   command->add_option("--bits", arguments->options.bits, "of 256: hashes of twins differ in no more (default 31)");
   command->add_option("--model", arguments->model, "ONNX file of the network of --method sscd");
-  command->add_option("--similarity", arguments->options.similarity, "of --method sscd: cosine of descriptors of twins is at least (default 0.75)");
+  command->add_option("--similarity", arguments->options.similarity,
+                      "of --method sscd: cosine of descriptors of twins is at least (default 0.75)");
   command->add_flag("--apply", arguments->options.apply, "take the dropped frames out of the dataset");
   command->callback([arguments, command, &globals] { RunDedupe(*arguments, *command, globals.json); });
 }

@@ -41,7 +41,7 @@ nlohmann::ordered_json SummaryOf(const DatasetPlan& plan) {
     worlds[WorldKey(row)] = facts.exists() ? nlohmann::ordered_json(facts.hash) : nlohmann::ordered_json(nullptr);
     if (!facts.exists()) waiting += static_cast<int64_t>(row.frames);
   }
-  return {{"name", plan.recipe.name}, {"hash", plan.hash}, {"format", kPlanFormat}, {"seed", plan.seed},
+  return {{"name", plan.recipe.name}, {"hash", plan.hash},  {"format", kPlanFormat},           {"seed", plan.seed},
           {"frames", plan.frames()},  {"waiting", waiting}, {"rows", plan.recipe.rows.size()}, {"worlds", worlds}};
 }
 
@@ -69,7 +69,8 @@ void ShowFrames(const DatasetPlan& plan, const std::string& show, const GlobalOp
     const RecipeRow& row = plan.recipe.rows[block.row];
     if (!plan.facts(row).exists()) {
       if (last == first + 1)
-        throw InputError("--show: frame " + std::to_string(frame) + " is of world '" + row.world + "', which did not exist when this was planned");
+        throw InputError("--show: frame " + std::to_string(frame) + " is of world '" + row.world +
+                         "', which did not exist when this was planned");
       frame = block.first + block.count;
       continue;
     }
@@ -77,9 +78,12 @@ void ShowFrames(const DatasetPlan& plan, const std::string& show, const GlobalOp
     const int64_t begin = last == first + 1 ? frame : block.first;
     const PlannedSky sky = SkyOf(plan, block, source.StageOf(block.row)->environment());
     for (; frame < std::min(last, block.first + block.count); ++frame) {
-      const std::string json = PlannedFrameJson(plan, frame, flight.shots[static_cast<size_t>(frame - begin)], sky, plan.recipe.picture.settings);
-      if (last == first + 1) PrintJson(nlohmann::ordered_json::parse(json));
-      else std::printf("%s\n", json.c_str());
+      const std::string json =
+          PlannedFrameJson(plan, frame, flight.shots[static_cast<size_t>(frame - begin)], sky, plan.recipe.picture.settings);
+      if (last == first + 1)
+        PrintJson(nlohmann::ordered_json::parse(json));
+      else
+        std::printf("%s\n", json.c_str());
     }
   }
 }
@@ -99,7 +103,8 @@ void RunPlanCommand(const PlanArguments& arguments, const GlobalOptions& globals
   const nlohmann::ordered_json summary = SummaryOf(plan);
   if (globals.json) return PrintJson(summary);
   std::printf("%s: %lld frames of %zu rows, %lld of them of worlds that do not exist yet\nhash %s\n", arguments.out.c_str(),
-              static_cast<long long>(plan.frames()), plan.recipe.rows.size(), static_cast<long long>(summary["waiting"].get<int64_t>()), plan.hash.c_str());
+              static_cast<long long>(plan.frames()), plan.recipe.rows.size(), static_cast<long long>(summary["waiting"].get<int64_t>()),
+              plan.hash.c_str());
 }
 
 }  // namespace
@@ -107,10 +112,13 @@ void RunPlanCommand(const PlanArguments& arguments, const GlobalOptions& globals
 void AddDatasetPlan(CLI::App& dataset, GlobalOptions& globals) {
   CLI::App* command = dataset.add_subcommand("plan", "a dataset before it is made: a small file from which every frame follows");
   auto arguments = std::make_shared<PlanArguments>();
-  command->add_option("RECIPE", arguments->recipe, "name, YAML file (docs/guide/dataset_plans.md), or a plan to --show; @HASH behind it: what its hash must be; without one the names are listed");
+  command->add_option(
+      "RECIPE", arguments->recipe,
+      "name, YAML file (docs/guide/dataset_plans.md), or a plan to --show; @HASH behind it: what its hash must be; without one the names are listed");
   command->add_option("--out", arguments->out, "file of the plan");
   command->add_option("--world", arguments->worlds, "only the rows of these worlds: name,name");
-  command->add_option("--frames", arguments->frames, "scale all rows to so many frames in total")->check(CLI::Range(int64_t{1}, kMostPlanFrames));
+  command->add_option("--frames", arguments->frames, "scale all rows to so many frames in total")
+      ->check(CLI::Range(int64_t{1}, kMostPlanFrames));
   command->add_option("--show", arguments->show, "what frame I is, or frames FIRST:LAST, a JSON line each");
   command->callback([arguments, &globals] { RunPlanCommand(*arguments, globals); });
 }

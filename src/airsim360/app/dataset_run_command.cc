@@ -76,12 +76,14 @@ void RunShard(const RunArguments& arguments, const CLI::App& command, GlobalOpti
   const int processes = arguments.processes.is_worker() ? 1 : CountProcesses(arguments.processes, globals);
   // What is meant to be a plan's file is never taken for the name of a recipe.
   const bool is_file = fs::path(arguments.plan).extension() == ".json";
-  const DatasetPlan plan = is_file ? ReadPlan(arguments.plan) : FindPlan({.name = arguments.plan, .seed = globals.seed}, {globals.device, globals.gpu});
+  const DatasetPlan plan =
+      is_file ? ReadPlan(arguments.plan) : FindPlan({.name = arguments.plan, .seed = globals.seed}, {globals.device, globals.gpu});
   const DatasetSpec spec = SpecOfPictures(plan.recipe.picture, GivenFields(command, arguments.picture));
   const Shard shard = ParseShard(arguments.shard);
   const PlanRun run{plan, spec, arguments.out, shard.index, shard.count, WorldOpener({globals.device, globals.gpu})};
   if (arguments.processes.is_worker()) {
-    return RunWorker([&](std::span<const int64_t> frames, const std::function<void(int64_t)>& done) { return RunPlanPart(run, frames, done); });
+    return RunWorker(
+        [&](std::span<const int64_t> frames, const std::function<void(int64_t)>& done) { return RunPlanPart(run, frames, done); });
   }
   PrintReport(processes == 1 ? RunPlan(run) : RunPlan(run, RenderInProcesses(processes, Dealing::kRuns)), arguments, globals);
 }
@@ -121,12 +123,15 @@ void RunStatus(const StatusArguments& arguments, const GlobalOptions& globals) {
   std::vector<std::pair<int64_t, int64_t>> shards;
   if (arguments.array > 0) {
     for (const int64_t shard : MissingShards(plan, Paths(arguments.folders), arguments.array)) {
-      if (!shards.empty() && shards.back().second == shard) ++shards.back().second;
-      else shards.emplace_back(shard, shard + 1);
+      if (!shards.empty() && shards.back().second == shard)
+        ++shards.back().second;
+      else
+        shards.emplace_back(shard, shard + 1);
     }
   }
   if (globals.json) {
-    nlohmann::ordered_json json = {{"hash", plan.hash}, {"frames", status.frames}, {"done", status.done}, {"missing", status.missing},
+    nlohmann::ordered_json json = {{"hash", plan.hash},         {"frames", status.frames},
+                                   {"done", status.done},       {"missing", status.missing},
                                    {"waiting", status.waiting}, {"missing_frames", RunsText(status.missing_runs, 1000)}};
     if (arguments.array > 0) json["missing_shards"] = RunsText(shards, SIZE_MAX);
     return PrintJson(json);
@@ -135,8 +140,9 @@ void RunStatus(const StatusArguments& arguments, const GlobalOptions& globals) {
     std::printf("%s\n", RunsText(shards, SIZE_MAX).c_str());
     return;
   }
-  std::printf("%lld of %lld frames are done, %lld missing, %lld wait for worlds that do not exist yet\n", static_cast<long long>(status.done),
-              static_cast<long long>(status.frames), static_cast<long long>(status.missing), static_cast<long long>(status.waiting));
+  std::printf("%lld of %lld frames are done, %lld missing, %lld wait for worlds that do not exist yet\n",
+              static_cast<long long>(status.done), static_cast<long long>(status.frames), static_cast<long long>(status.missing),
+              static_cast<long long>(status.waiting));
   if (status.missing > 0) std::printf("missing: %s\n", RunsText(status.missing_runs, 20).c_str());
 }
 
@@ -145,13 +151,16 @@ void RunStatus(const StatusArguments& arguments, const GlobalOptions& globals) {
 void AddDatasetRun(CLI::App& dataset, GlobalOptions& globals) {
   CLI::App* command = dataset.add_subcommand("run", "make the frames of a plan; run again to finish what was interrupted");
   auto arguments = std::make_shared<RunArguments>();
-  command->add_option("PLAN", arguments->plan, "file of airsim360 dataset plan, or a recipe, of which the plan with --seed is made")->required();
+  command->add_option("PLAN", arguments->plan, "file of airsim360 dataset plan, or a recipe, of which the plan with --seed is made")
+      ->required();
   command->add_option("--out", arguments->out, "folder of the dataset, or of this shard of it")->required();
   command->add_option("--shard", arguments->shard, "I/N: part I of N of the frames, which follow one another (default 0/1)");
   RecipePicture& picture = arguments->picture;
   AddConfigFlags(*command, [&picture](ConfigVisitor& v) { picture.settings.Visit(v); });
   command->add_option("--size", picture.size, "WxH, twice as wide as high (default: as the recipe says, like all flags of pictures)");
-  command->add_option("--products", picture.products, "beside rgb,range,semantic,entity: normal,position,albedo,sky,flow,coverage,radiance")->delimiter(',')->allow_extra_args(false);
+  command->add_option("--products", picture.products, "beside rgb,range,semantic,entity: normal,position,albedo,sky,flow,coverage,radiance")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   arguments->processes.AddTo(*command);
   command->callback([arguments, command, &globals] { RunShard(*arguments, *command, globals); });
 }

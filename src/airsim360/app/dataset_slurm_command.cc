@@ -36,12 +36,14 @@ void PlaceInPods(const CLI::App& command, const SlurmArguments& arguments, const
   const auto on_volume = [](const std::string& path) { return path.starts_with("/data/"); };
   if (command.count("--program") == 0) job.program = "airsim360";
   if (arguments.shards.empty()) job.out = "/data/" + std::filesystem::path(arguments.plan).stem().string() + "_shards";
-  if (!on_volume(job.out)) throw InputError("--shards: '" + arguments.shards + "' is not on the volume of the pods, which is mounted at /data");
+  if (!on_volume(job.out))
+    throw InputError("--shards: '" + arguments.shards + "' is not on the volume of the pods, which is mounted at /data");
   if (command.count("--claim") == 0 && !job.remote.empty()) job.claim.clear();
   if (on_volume(job.plan)) return;
   job.plan_text = PlanJson(plan);
   if (job.plan_text.size() > kMostText)
-    throw InputError(arguments.plan + ": a plan of " + std::to_string(job.plan_text.size()) + " bytes is too large for a manifest; put it on the volume and give its path there, /data/…");
+    throw InputError(arguments.plan + ": a plan of " + std::to_string(job.plan_text.size()) +
+                     " bytes is too large for a manifest; put it on the volume and give its path there, /data/…");
 }
 
 void RunSlurm(const SlurmArguments& arguments, const CLI::App& command, const GlobalOptions& globals) {
@@ -63,12 +65,14 @@ void RunSlurm(const SlurmArguments& arguments, const CLI::App& command, const Gl
   }
   const int64_t frames = static_cast<int64_t>(FramesOfShard(plan, 0, 1).size());
   if (job.shards > frames)
-    throw InputError("--array: " + std::to_string(job.shards) + " shards are more than the " + std::to_string(frames) + " frames that can be made");
+    throw InputError("--array: " + std::to_string(job.shards) + " shards are more than the " + std::to_string(frames) +
+                     " frames that can be made");
   // Slurm does not make the folder of its logs.
   if (backend == ClusterBackend::kSlurm) CreateWritableFolder(job.out);
   WriteFileAtomically(arguments.out, ClusterScript(backend, job));
   if (globals.json) return PrintJson({{"out", arguments.out}, {"shards", job.shards}, {"folder", job.out}, {"backend", arguments.backend}});
-  std::printf("%s: %lld shards in %s\n", arguments.out.c_str(), static_cast<long long>(job.shards), (job.remote.empty() ? job.out : job.remote).c_str());
+  std::printf("%s: %lld shards in %s\n", arguments.out.c_str(), static_cast<long long>(job.shards),
+              (job.remote.empty() ? job.out : job.remote).c_str());
 }
 
 }  // namespace
@@ -83,7 +87,8 @@ void AddDatasetSlurm(CLI::App& dataset, GlobalOptions& globals) {
   command->add_option("PLAN", arguments->plan, "file of airsim360 dataset plan, where the nodes find it")->required();
   command->add_option("--array", job.shards, "shards")->required()->check(CLI::Range(int64_t{1}, int64_t{1'000'000}));
   command->add_option("--out", arguments->out, "the script")->required();
-  command->add_option("--shards", arguments->shards, "folder of the shards, where the nodes find it (default: PLAN_shards beside the plan; kubernetes: in /data)");
+  command->add_option("--shards", arguments->shards,
+                      "folder of the shards, where the nodes find it (default: PLAN_shards beside the plan; kubernetes: in /data)");
   command->add_option("--remote", job.remote, "REMOTE:PATH of rclone: shards are copied there when done, and taken from there to merge");
   command->add_option("--backend", arguments->backend, "slurm, kubernetes (an Indexed Job) or xargs (this machine)");
   command->add_option("--at-once", job.at_once, "shards at the same time at most")->check(CLI::Range(int64_t{1}, int64_t{1'000'000}));
@@ -95,7 +100,8 @@ void AddDatasetSlurm(CLI::App& dataset, GlobalOptions& globals) {
   command->add_option("--flags", job.flags, "further flags of dataset run, for example \"--tier high\"");
   command->add_option("--image", job.image, "kubernetes: container image (default airsim360:latest)");
   command->add_option("--claim", job.claim, "kubernetes: volume claim, mounted at /data (default airsim360; with --remote none)");
-  command->add_option("--secret", job.secret, "kubernetes: secret whose keys are environment variables of the shards, such as those of rclone");
+  command->add_option("--secret", job.secret,
+                      "kubernetes: secret whose keys are environment variables of the shards, such as those of rclone");
   command->callback([arguments, command, &globals] { RunSlurm(*arguments, *command, globals); });
 }
 

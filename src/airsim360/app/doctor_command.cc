@@ -50,15 +50,12 @@ std::vector<Check> RunChecks() {
   const bool exiftool = Exists("/usr/bin/exiftool");
   return {
       {"airsim360", true, kVersion, ""},
-      {"threads", true,
-       std::to_string(ThreadCount()) + " of " + std::to_string(std::thread::hardware_concurrency()), ""},
+      {"threads", true, std::to_string(ThreadCount()) + " of " + std::to_string(std::thread::hardware_concurrency()), ""},
       {"instruction set", true, InstructionSet(), ""},
       CheckGpus(),
-      {"sweethome3d-furniture", models,
-       "furniture and vehicles of the worlds; without it procedural ones are used",
+      {"sweethome3d-furniture", models, "furniture and vehicles of the worlds; without it procedural ones are used",
        models ? "" : "sudo apt-get install sweethome3d-furniture"},
-      {"ffmpeg", ffmpeg, "360 degree videos: fly --video, collect --format video, video",
-       ffmpeg ? "" : "sudo apt-get install ffmpeg"},
+      {"ffmpeg", ffmpeg, "360 degree videos: fly --video, collect --format video, video", ffmpeg ? "" : "sudo apt-get install ffmpeg"},
       {"exiftool", exiftool, "only to look at the GPano metadata of pictures",
        exiftool ? "" : "sudo apt-get install libimage-exiftool-perl"},
   };
@@ -67,11 +64,9 @@ std::vector<Check> RunChecks() {
 void RunDoctor(bool json) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Check& check : RunChecks()) {
-    list.push_back(
-        {{"name", check.name}, {"present", check.present}, {"detail", check.detail}, {"fix", check.fix}});
+    list.push_back({{"name", check.name}, {"present", check.present}, {"detail", check.detail}, {"fix", check.fix}});
     if (json) continue;
-    std::printf("%-8s %-22s %s\n", check.present ? "ok" : "missing", check.name.c_str(),
-                check.detail.c_str());
+    std::printf("%-8s %-22s %s\n", check.present ? "ok" : "missing", check.name.c_str(), check.detail.c_str());
     if (!check.fix.empty()) std::printf("         %-22s %s\n", "", check.fix.c_str());
   }
   if (json) PrintJson(list);
@@ -80,8 +75,7 @@ void RunDoctor(bool json) {
 }  // namespace
 
 void AddDoctorCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command =
-      app.add_subcommand("doctor", "what is installed, what is missing and the command that fixes it");
+  CLI::App* command = app.add_subcommand("doctor", "what is installed, what is missing and the command that fixes it");
   command->callback([&globals] { RunDoctor(globals.json); });
 }
 

@@ -18,14 +18,13 @@ using Json = nlohmann::json;
 
 constexpr uint64_t kMostAnswer = 1 << 20;  // bytes
 constexpr int kSeconds = 60;
-constexpr int kDeepest = 16;          // levels of the server's answer
+constexpr int kDeepest = 16;           // levels of the server's answer
 constexpr size_t kLongestShown = 200;  // bytes of the answer in a message
 constexpr size_t kLongestWords = 1000;
 constexpr std::string_view kPath = "/chat/completions";
 
 std::string Excerpt(std::string_view text) {
-  return "'" + internal::PrintableText(text.substr(0, kLongestShown)) + (text.size() > kLongestShown ? " ..." : "") +
-         "'";
+  return "'" + internal::PrintableText(text.substr(0, kLongestShown)) + (text.size() > kLongestShown ? " ..." : "") + "'";
 }
 
 bool IsPlain(std::string_view text) {
@@ -80,21 +79,19 @@ std::string Body(const DroneChat& chat, const std::string& words) {
 }
 
 /// The text of a small file that curl wrote; "" if it wrote none.
-std::string Written(const fs::path& file) {
-  return fs::exists(file) ? ReadTextFile(file, kMostAnswer) : "";
-}
+std::string Written(const fs::path& file) { return fs::exists(file) ? ReadTextFile(file, kMostAnswer) : ""; }
 
 /// The body of the server's answer, of status 200.
 std::string Post(const std::string& address, const std::string& key, const std::string& body) {
   const ScratchFolder folder("llm");
-  const fs::path asked = folder.path() / "asked.json", config = folder.path() / "curl",
-                 answer = folder.path() / "answer", complaints = folder.path() / "complaints";
+  const fs::path asked = folder.path() / "asked.json", config = folder.path() / "curl", answer = folder.path() / "answer",
+                 complaints = folder.path() / "complaints";
   WriteFileAtomically(asked, body);
   // The key stands in a file that goes with its folder, which is this user's alone: never on a command line.
   std::string flags = "url = " + Quoted(address) + "\ngloboff\nsilent\nshow-error\nproto = \"=http,https\"\n" +
                       "max-time = " + std::to_string(kSeconds) + "\nmax-filesize = " + std::to_string(kMostAnswer) +
-                      "\nheader = \"Content-Type: application/json\"\ndata-binary = " +
-                      Quoted("@" + asked.string()) + "\nwrite-out = \"%{stderr}status=%{http_code}\\n\"\n";
+                      "\nheader = \"Content-Type: application/json\"\ndata-binary = " + Quoted("@" + asked.string()) +
+                      "\nwrite-out = \"%{stderr}status=%{http_code}\\n\"\n";
   if (!key.empty()) flags += "header = " + Quoted("Authorization: Bearer " + key) + "\n";
   WriteFileAtomically(config, flags);
   const auto end = RunProgram({"curl", "--disable", "--config", config.string()},
@@ -102,8 +99,7 @@ std::string Post(const std::string& address, const std::string& key, const std::
   if (!end) throw InputError("--llm needs the program curl: sudo apt-get install curl");
   const std::string at = "--llm: the server at " + address;
   constexpr int kTooLate = 28, kTooLarge = 63, kEndedBySize = 128 + 25;
-  if (end->timed_out || end->status == kTooLate)
-    throw RuntimeError(at + " did not answer within " + std::to_string(kSeconds) + " s");
+  if (end->timed_out || end->status == kTooLate) throw RuntimeError(at + " did not answer within " + std::to_string(kSeconds) + " s");
   if (end->status == kTooLarge || end->status == kEndedBySize || (end->status == 23 && fs::file_size(answer) >= kMostAnswer))
     throw RuntimeError(at + " answers with more than 1 MiB");
   const std::string said = Written(complaints);
@@ -135,8 +131,7 @@ std::string Content(const Json& answer, const std::string& text, const std::stri
     return of.is_object() && found != of.end() ? *found : none;
   };
   const Json& choices = field(answer, "choices");
-  const Json& content =
-      field(field(choices.is_array() && !choices.empty() ? choices[0] : none, "message"), "content");
+  const Json& content = field(field(choices.is_array() && !choices.empty() ? choices[0] : none, "message"), "content");
   if (content.is_string()) return content.get<std::string>();
   throw RuntimeError("--llm: the answer of " + address + " has no text choices[0].message.content: " + Excerpt(text));
 }
@@ -145,16 +140,13 @@ std::string Content(const Json& answer, const std::string& text, const std::stri
 
 DroneRequest AskForDrone(const DroneChat& chat, const std::string& words) {
   const std::string address = Endpoint(chat.url), key = Key(chat.key_environment);
-  if (words.size() > kLongestWords)
-    throw InputError("the description has " + std::to_string(words.size()) + " bytes, more than 1000");
+  if (words.size() > kLongestWords) throw InputError("the description has " + std::to_string(words.size()) + " bytes, more than 1000");
   const std::string text = Post(address, key, Body(chat, words));
   const Json answer = ParseAnswer(text, address);
   DroneRequest request = ReadDroneForm(Content(answer, text, address), words);
   std::string model = chat.model;
-  if (model.empty() && answer.contains("model") && answer["model"].is_string())
-    model = answer["model"].get<std::string>().substr(0, 80);
-  request.decided.push_back("filled by " + (model.empty() ? "a model" : internal::PrintableText(model)) + " at " +
-                            address);
+  if (model.empty() && answer.contains("model") && answer["model"].is_string()) model = answer["model"].get<std::string>().substr(0, 80);
+  request.decided.push_back("filled by " + (model.empty() ? "a model" : internal::PrintableText(model)) + " at " + address);
   return request;
 }
 

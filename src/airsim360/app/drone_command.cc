@@ -64,9 +64,7 @@ nlohmann::ordered_json DesignJson(const DroneDesign& design) {
     json["wheelbase"] = design.wheelbase;
     json["payload"] = design.parts.payload;
     json["motor_kv"] = design.motor_kv;
-    json["battery"] = {{"cells", model.battery.cells},
-                       {"capacity_ah", model.battery.capacity_ah},
-                       {"energy_wh", design.energy_wh}};
+    json["battery"] = {{"cells", model.battery.cells}, {"capacity_ah", model.battery.capacity_ah}, {"energy_wh", design.energy_wh}};
   }
   json["unused"] = design.unused;
   json["decided"] = design.decided;
@@ -86,16 +84,14 @@ void PrintDesign(const DroneDesign& design) {
   const auto& J = model.inertia_B.m;
   std::printf("%s\n", model.name.c_str());
   std::printf("  mass            %.4g kg\n", model.mass);
-  std::printf("  rotors          %zu, %.0f mm, hover at %.0f rad/s of %.0f\n", model.rotors.size(),
-              model.rotors[0].diameter * 1000, f.hover_speed, model.rotors[0].max_speed);
+  std::printf("  rotors          %zu, %.0f mm, hover at %.0f rad/s of %.0f\n", model.rotors.size(), model.rotors[0].diameter * 1000,
+              f.hover_speed, model.rotors[0].max_speed);
   std::printf("  thrust          %.4g N, %.2f times the weight\n", f.max_thrust, f.thrust_to_weight);
   std::printf("  inertia         %.3g %.3g %.3g kg m^2\n", J[0][0], J[1][1], J[2][2]);
-  std::printf("  propellers      C_T %.3f, figure of merit %.2f, tips at Mach %.2f\n", f.thrust_coefficient,
-              f.figure_of_merit, f.tip_mach);
+  std::printf("  propellers      C_T %.3f, figure of merit %.2f, tips at Mach %.2f\n", f.thrust_coefficient, f.figure_of_merit, f.tip_mach);
   if (design.endurance > 0) {
-    std::printf("  battery         %dS %.3g Ah, hovers %.1f minutes at %.3g W\n", model.battery.cells,
-                model.battery.capacity_ah, (design.hover_time > 0 ? design.hover_time : design.endurance) / 60,
-                design.hover_power);
+    std::printf("  battery         %dS %.3g Ah, hovers %.1f minutes at %.3g W\n", model.battery.cells, model.battery.capacity_ah,
+                (design.hover_time > 0 ? design.hover_time : design.endurance) / 60, design.hover_power);
     std::printf("  level speed     %.1f m/s\n", design.level_speed);
   }
   if (design.hover_time > 0) std::printf("  flies           %.1f minutes\n", design.flight_time / 60);
@@ -103,8 +99,7 @@ void PrintDesign(const DroneDesign& design) {
   std::string unused;
   for (const std::string& word : design.unused) unused += " " + word;
   if (!unused.empty()) std::printf("  not used       %s\n", unused.c_str());
-  for (const std::string& problem : GateProblems(model))
-    std::printf("  implausible     %s\n", problem.c_str());
+  for (const std::string& problem : GateProblems(model)) std::printf("  implausible     %s\n", problem.c_str());
 }
 
 void PrintCatalog(bool json) {
@@ -113,9 +108,8 @@ void PrintCatalog(bool json) {
     const DroneModel model = CatalogModel(std::string(drone.name));
     const DroneFigures f = FiguresOf(model);
     if (!json) {
-      std::printf("%-20s %7.3f kg  %zu rotors %4.0f mm  T/W %4.1f  %s\n", std::string(drone.name).c_str(),
-                  model.mass, model.rotors.size(), model.rotors[0].diameter * 1000, f.thrust_to_weight,
-                  std::string(drone.title).c_str());
+      std::printf("%-20s %7.3f kg  %zu rotors %4.0f mm  T/W %4.1f  %s\n", std::string(drone.name).c_str(), model.mass, model.rotors.size(),
+                  model.rotors[0].diameter * 1000, f.thrust_to_weight, std::string(drone.title).c_str());
     }
     list.push_back({{"name", drone.name},
                     {"title", drone.title},
@@ -159,8 +153,7 @@ void RunDrone(const DroneOptions& options, const GlobalOptions& globals) {
   if (options.catalog) return PrintCatalog(globals.json);
   const DroneDesign design = Chosen(options);
   if (!options.out.empty()) {
-    if (const fs::path parent = fs::path(options.out).parent_path(); !parent.empty())
-      CreateWritableFolder(parent);
+    if (const fs::path parent = fs::path(options.out).parent_path(); !parent.empty()) CreateWritableFolder(parent);
     WriteFileAtomically(options.out, DroneYaml(design));
   }
 
@@ -171,9 +164,8 @@ void RunDrone(const DroneOptions& options, const GlobalOptions& globals) {
     const FlightCheck check = CheckFlight(design.model);
     json["flight"] = CheckJson(check);
     if (!globals.json) {
-      std::printf("  flight          lemniscate of %.2f m at %.1f m/s: rms %.2f cm, max %.2f cm: %s\n",
-                  check.lemniscate.amplitude, check.lemniscate.speed, check.tracking.rms * 100,
-                  check.tracking.max * 100, check.passed ? "passed" : "FAILED");
+      std::printf("  flight          lemniscate of %.2f m at %.1f m/s: rms %.2f cm, max %.2f cm: %s\n", check.lemniscate.amplitude,
+                  check.lemniscate.speed, check.tracking.rms * 100, check.tracking.max * 100, check.passed ? "passed" : "FAILED");
     }
   }
   if (globals.json) PrintJson(json);
@@ -182,23 +174,19 @@ void RunDrone(const DroneOptions& options, const GlobalOptions& globals) {
 }  // namespace
 
 void AddDroneCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command =
-      app.add_subcommand("drone", "a drone from words: every parameter with the law it came from");
+  CLI::App* command = app.add_subcommand("drone", "a drone from words: every parameter with the law it came from");
   const auto options = std::make_shared<DroneOptions>();
-  command->add_option("prompt", options->prompt,
-                      "description, for example \"a 250 g five-inch racing quad\"");
+  command->add_option("prompt", options->prompt, "description, for example \"a 250 g five-inch racing quad\"");
   command->add_option("--out", options->out, "YAML file to write");
   command->add_option("--real", options->real, "a real drone by its name in the catalogue");
   command->add_option("--file", options->file, "a drone's YAML file to read and report");
   command->add_flag("--catalog", options->catalog, "list the real drones that are known");
   command->add_flag("--words", options->words, "what descriptions may say, and the real drones that are known");
   command->add_flag("--form", options->form, "the form that --llm has filled, as a JSON schema");
-  CLI::Option* llm = command->add_option(
-      "--llm", options->chat.url, "URL of an OpenAI-style chat server whose model reads the description");
+  CLI::Option* llm =
+      command->add_option("--llm", options->chat.url, "URL of an OpenAI-style chat server whose model reads the description");
   command->add_option("--llm-model", options->chat.model, "name of the model, where the server has several")->needs(llm);
-  command
-      ->add_option("--llm-key-env", options->chat.key_environment,
-                   "name of the environment variable that holds the server's key")
+  command->add_option("--llm-key-env", options->chat.key_environment, "name of the environment variable that holds the server's key")
       ->needs(llm);
   command->add_flag("--check", options->check, "fly it: hover and the standard lemniscate, untuned");
   command->callback([options, &globals] { RunDrone(*options, globals); });

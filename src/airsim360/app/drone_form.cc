@@ -96,9 +96,7 @@ std::string Shown(std::string_view text) {
   return internal::PrintableText(text.substr(0, kLongestShown)) + (text.size() > kLongestShown ? " ..." : "");
 }
 
-std::string ShownValue(const Json& value) {
-  return Shown(value.dump(-1, ' ', true, Json::error_handler_t::replace));
-}
+std::string ShownValue(const Json& value) { return Shown(value.dump(-1, ' ', true, Json::error_handler_t::replace)); }
 
 std::string Figure(double value, const char* unit) {
   char text[64];
@@ -142,8 +140,7 @@ void ReadNumber(const NumberField& field, const Json& value, DroneRequest& reque
   if (!value.is_number()) Refuse(name + " is " + ShownValue(value) + ", not a number");
   const double number = value.get<double>();
   if (!(number >= field.low && number <= field.high)) {
-    Refuse(name + " is " + ShownValue(value) + ", not in " + Figure(field.low, "") + " ... " +
-           Figure(field.high, field.unit));
+    Refuse(name + " is " + ShownValue(value) + ", not in " + Figure(field.low, "") + " ... " + Figure(field.high, field.unit));
   }
   if (field.whole && number != std::floor(number)) Refuse(name + " is " + ShownValue(value) + ", not a whole number");
   if (field.field == &DroneRequest::rotors && number != 4 && number != 6 && number != 8)
@@ -194,8 +191,7 @@ void JoinMasses(DroneRequest& request) {
   }
   const double whole = *request.empty_mass + request.payload.value_or(0);
   if (request.mass && std::abs(*request.mass - whole) > 0.02 * std::max(*request.mass, whole)) {
-    Refuse("'" + request.words.at("mass") + "' contradicts '" + words + "' and a payload of " +
-           Figure(request.payload.value_or(0), "kg"));
+    Refuse("'" + request.words.at("mass") + "' contradicts '" + words + "' and a payload of " + Figure(request.payload.value_or(0), "kg"));
   }
   if (request.mass) return;
   request.mass = whole;
@@ -216,8 +212,7 @@ nlohmann::ordered_json DroneFormSchema() {
   }
   for (const ChoiceField& field : Choices())
     properties[field.name] = {{"type", "string"}, {"enum", field.choices}, {"description", field.meaning}};
-  for (const FlagField& field : kFlags)
-    properties[field.name] = {{"type", "boolean"}, {"description", field.meaning}};
+  for (const FlagField& field : kFlags) properties[field.name] = {{"type", "boolean"}, {"description", field.meaning}};
   return {{"title", "what words say about a multirotor drone"},
           {"type", "object"},
           {"properties", properties},
@@ -225,8 +220,7 @@ nlohmann::ordered_json DroneFormSchema() {
 }
 
 DroneRequest ReadDroneForm(std::string_view text, std::string_view prompt) {
-  if (prompt.size() > kLongestPrompt)
-    throw InputError("the description has " + std::to_string(prompt.size()) + " bytes, more than 1000");
+  if (prompt.size() > kLongestPrompt) throw InputError("the description has " + std::to_string(prompt.size()) + " bytes, more than 1000");
   const Json form = ParseForm(text);
   const std::vector<std::string> names = FieldNames();
   DroneRequest request;

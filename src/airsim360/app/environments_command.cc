@@ -22,8 +22,7 @@ struct Arguments {
 
 void Sample(const Arguments& arguments, const GlobalOptions& globals) {
   if (arguments.count < 1 || arguments.count > kMaxSamples) {
-    throw InputError("environments sample: " + std::to_string(arguments.count) + " is not in 1 … " +
-                     std::to_string(kMaxSamples));
+    throw InputError("environments sample: " + std::to_string(arguments.count) + " is not in 1 … " + std::to_string(kMaxSamples));
   }
   Climate climate = arguments.climate;
   climate.urban = !arguments.rural;
@@ -51,13 +50,11 @@ void Sample(const Arguments& arguments, const GlobalOptions& globals) {
 void AddEnvironmentsCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand("environments", "skies and weather by climate statistics");
   command->require_subcommand(1);
-  CLI::App* sample = command->add_subcommand(
-      "sample", "draws plausible environments, one a line: each is a text for --environment");
+  CLI::App* sample = command->add_subcommand("sample", "draws plausible environments, one a line: each is a text for --environment");
   auto arguments = std::make_shared<Arguments>();
   sample->add_option("count", arguments->count, "how many (default 1)");
   sample->add_option("--latitude", arguments->climate.latitude_deg, "degrees north, -70 … 70 (default 45)");
-  sample->add_option("--min-sun", arguments->climate.least_sun_elevation_deg,
-                     "the sun is at least so high, degrees, -90 … 20 (default 2)");
+  sample->add_option("--min-sun", arguments->climate.least_sun_elevation_deg, "the sun is at least so high, degrees, -90 … 20 (default 2)");
   sample->add_flag("--rural", arguments->rural, "the clearer air of the country");
   sample->callback([arguments, &globals] { Sample(*arguments, globals); });
 }

@@ -42,7 +42,8 @@ std::vector<size_t> ParseMost(const std::vector<int64_t>& given, const std::vect
   std::vector<size_t> most;
   for (const int64_t n : given) {
     if (n < 1) throw InputError("--max-detections: " + std::to_string(n) + " is not above 0");
-    if (!most.empty() && static_cast<size_t>(n) <= most.back()) throw InputError("--max-detections: numbers must rise, " + std::to_string(n) + " does not");
+    if (!most.empty() && static_cast<size_t>(n) <= most.back())
+      throw InputError("--max-detections: numbers must rise, " + std::to_string(n) + " does not");
     most.push_back(static_cast<size_t>(n));
   }
   return most;
@@ -51,7 +52,7 @@ std::vector<size_t> ParseMost(const std::vector<int64_t>& given, const std::vect
 // COCO's order: twelve figures of masks and boxes.
 std::vector<Row> InstanceRows(const std::vector<size_t>& most) {
   const size_t last = most.size() - 1;
-  std::vector<Row> rows = {{"ap", true, 0, 0, last},       {"ap50", true, 0.5, 0, last},     {"ap75", true, 0.75, 0, last},
+  std::vector<Row> rows = {{"ap", true, 0, 0, last},       {"ap50", true, 0.5, 0, last},    {"ap75", true, 0.75, 0, last},
                            {"ap_small", true, 0, 1, last}, {"ap_medium", true, 0, 2, last}, {"ap_large", true, 0, 3, last}};
   for (size_t m = 0; m < most.size(); ++m) rows.push_back({"ar" + std::to_string(most[m]), false, 0, 0, m});
   rows.push_back({"ar_small", false, 0, 1, last});
@@ -65,8 +66,11 @@ std::vector<Row> KeypointRows() {
   std::vector<Row> rows;
   for (const bool precision : {true, false}) {
     const std::string name = precision ? "ap" : "ar";
-    rows.insert(rows.end(), {{name, precision, 0, 0, 0}, {name + "50", precision, 0.5, 0, 0}, {name + "75", precision, 0.75, 0, 0},
-                             {name + "_medium", precision, 0, 1, 0}, {name + "_large", precision, 0, 2, 0}});
+    rows.insert(rows.end(), {{name, precision, 0, 0, 0},
+                             {name + "50", precision, 0.5, 0, 0},
+                             {name + "75", precision, 0.75, 0, 0},
+                             {name + "_medium", precision, 0, 1, 0},
+                             {name + "_large", precision, 0, 2, 0}});
   }
   return rows;
 }
@@ -81,7 +85,8 @@ double Value(const CocoTable& table, const Row& row, const CocoOptions& options,
   for (size_t t = 0; t < options.thresholds.size(); ++t) {
     if (row.threshold > 0 && std::abs(options.thresholds[t] - row.threshold) < 1e-9) threshold = t;
   }
-  return row.precision ? table.MeanPrecision(threshold, category, row.area, row.most) : table.MeanRecall(threshold, category, row.area, row.most);
+  return row.precision ? table.MeanPrecision(threshold, category, row.area, row.most)
+                       : table.MeanRecall(threshold, category, row.area, row.most);
 }
 
 struct Task {
@@ -124,15 +129,18 @@ Json OpenWorld(const CocoTable& table, const CocoTruths& truths, const Task& tas
 }
 
 // [x, y, width, height] of what is compared.
-std::array<double, 4> BoxOf(const CocoObject& object, CocoKind kind) { return kind == CocoKind::kMasks ? MaskBox(object.mask) : object.box; }
+std::array<double, 4> BoxOf(const CocoObject& object, CocoKind kind) {
+  return kind == CocoKind::kMasks ? MaskBox(object.mask) : object.box;
+}
 
 // AP of the objects by where they are: `place` is a number of each, in ranges [low, high).
-std::vector<double> PlaceAp(const CocoTruths& truths, const std::vector<CocoObject>& results, CocoRun run, const std::vector<double>& borders,
-                            const std::function<double(const CocoObject&, const CocoImage&)>& place) {
+std::vector<double> PlaceAp(const CocoTruths& truths, const std::vector<CocoObject>& results, CocoRun run,
+                            const std::vector<double>& borders, const std::function<double(const CocoObject&, const CocoImage&)>& place) {
   std::map<int64_t, const CocoImage*> images;
   for (const CocoImage& image : truths.images) {
     if (image.width != 2 * image.height)
-      throw InputError("--seam and --latitude-bands need panoramas, twice as wide as high; picture " + std::to_string(image.id) + " is " + std::to_string(image.width) + "x" + std::to_string(image.height));
+      throw InputError("--seam and --latitude-bands need panoramas, twice as wide as high; picture " + std::to_string(image.id) + " is " +
+                       std::to_string(image.width) + "x" + std::to_string(image.height));
     images[image.id] = &image;
   }
   CocoTruths placed = truths;
@@ -153,12 +161,14 @@ std::vector<double> PlaceAp(const CocoTruths& truths, const std::vector<CocoObje
 // Objects whose nearest column is within `--seam` columns of the seam, and the others; objects by the latitude of the middle of their box.
 void AppendPlaces(Json& json, const Arguments& a, const CocoTruths& truths, const std::vector<CocoObject>& results, const CocoRun& run) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (a.seam < 0 || a.bands < 0 || a.bands > 1000) throw InputError("--seam and --latitude-bands must be at least 1, and at most 1000 bands");
+  if (a.seam < 0 || a.bands < 0 || a.bands > 1000)
+    throw InputError("--seam and --latitude-bands must be at least 1, and at most 1000 bands");
   if (a.seam > 0) {
-    const auto aps = PlaceAp(truths, results, run, {-kInfinity, static_cast<double>(a.seam), kInfinity}, [&run](const CocoObject& o, const CocoImage& image) {
-      const auto box = BoxOf(o, run.kind);
-      return std::min(box[0], image.width - (box[0] + box[2]));
-    });
+    const auto aps = PlaceAp(truths, results, run, {-kInfinity, static_cast<double>(a.seam), kInfinity},
+                             [&run](const CocoObject& o, const CocoImage& image) {
+                               const auto box = BoxOf(o, run.kind);
+                               return std::min(box[0], image.width - (box[0] + box[2]));
+                             });
     json["seam"] = {{"columns", a.seam}, {"near", {{"ap", aps[0]}}}, {"far", {{"ap", aps[1]}}}};
   }
   if (a.bands == 0) return;
@@ -171,15 +181,17 @@ void AppendPlaces(Json& json, const Arguments& a, const CocoTruths& truths, cons
     return 90 - 180 * (box[1] + box[3] / 2) / image.height;
   });
   for (int band = a.bands; band-- > 0;)
-    json["latitude_bands"].push_back({{"latitude_deg", {-90 + 180.0 * (band + 1) / a.bands, -90 + 180.0 * band / a.bands}}, {"ap", aps[static_cast<size_t>(band)]}});
+    json["latitude_bands"].push_back(
+        {{"latitude_deg", {-90 + 180.0 * (band + 1) / a.bands, -90 + 180.0 * band / a.bands}}, {"ap", aps[static_cast<size_t>(band)]}});
 }
 
 void WriteTable(const std::string& path, const CocoTable& table, const CocoTruths& truths, const Task& task) {
   std::vector<std::vector<std::string>> rows = {{"category", "id"}};
   for (const Row& row : task.rows) rows[0].push_back(row.name);
   for (size_t k = 0; k < (task.run.class_agnostic ? 1 : truths.categories.size()); ++k) {
-    auto& line = rows.emplace_back(task.run.class_agnostic ? std::vector<std::string>{"all", "1"}
-                                                           : std::vector<std::string>{truths.categories[k].name, std::to_string(truths.categories[k].id)});
+    auto& line = rows.emplace_back(task.run.class_agnostic
+                                       ? std::vector<std::string>{"all", "1"}
+                                       : std::vector<std::string>{truths.categories[k].name, std::to_string(truths.categories[k].id)});
     for (const Row& row : task.rows) line.push_back(NumberText(Value(table, row, task.run.options, k)));
   }
   WriteCsv(path, rows);
@@ -202,7 +214,8 @@ void RunTask(const Arguments& a, Task task, const GlobalOptions& globals, std::v
     summary.push_back(json[row.name]);
   }
   json["summary"] = summary;
-  if (task.unlimited) json["ap_all"] = table.MeanPrecision(CocoTable::kAll, CocoTable::kAll, 0, task.run.options.most_detections.size() - 1);
+  if (task.unlimited)
+    json["ap_all"] = table.MeanPrecision(CocoTable::kAll, CocoTable::kAll, 0, task.run.options.most_detections.size() - 1);
   json["pictures"] = truths.images.size();
   json["truths"] = truths.objects.size();
   json["detections"] = results.size();
@@ -228,15 +241,18 @@ void RunTask(const Arguments& a, Task task, const GlobalOptions& globals, std::v
   WriteTable(a.report.csv, table, truths, task);
   notes.insert(notes.end(), truths.notes.begin(), truths.notes.end());
   if (!notes.empty()) json["notes"] = notes;
-  if (globals.json) PrintJson(json);
-  else PrintFigures(json);
+  if (globals.json)
+    PrintJson(json);
+  else
+    PrintFigures(json);
 }
 
 void AddCommon(CLI::App& command, Arguments& a) {
   command.add_option("pred", a.pred, "COCO results: a list of image_id, category_id, score and what is compared")->required();
   command.add_option("gt", a.gt, "COCO annotations: images, annotations, categories")->required();
   command.add_flag("--class-agnostic", a.class_agnostic, "all categories are one");
-  command.add_option("--open-world", a.held_out, "categories that training has not seen, by name: their AP beside that of the others")->delimiter(',');
+  command.add_option("--open-world", a.held_out, "categories that training has not seen, by name: their AP beside that of the others")
+      ->delimiter(',');
   AddReportFlags(command, a.report, "a row a category");
 }
 
@@ -249,13 +265,15 @@ void RunEntity(Arguments a, const GlobalOptions& globals) {
     a.class_agnostic = true;
     notes.push_back("entityseg: all categories are one; AP^e of Entityv2 asks for predictions that do not overlap");
   } else if (a.protocol == "coco") {
-    notes.push_back("coco: at most " + std::string(a.most.empty() ? "100" : std::to_string(a.most.back())) + " detections of a picture and category count; ap_all lets all count");
+    notes.push_back("coco: at most " + std::string(a.most.empty() ? "100" : std::to_string(a.most.back())) +
+                    " detections of a picture and category count; ap_all lets all count");
   } else if (!a.protocol.empty()) {
     throw InputError("--protocol: " + UnknownChoiceMessage("protocol of entities", a.protocol, protocols));
   }
   task.run.kind = a.type == "segm" ? CocoKind::kMasks : CocoKind::kBoxes;
   task.run.solid_angle = ParsePixelWeight(a.weights) == PixelWeight::kSolidAngle;
-  if (task.run.solid_angle && a.type == "bbox") throw InputError("--weights solid_angle is for masks; boxes on the sphere are `eval boxes --kind bfov`");
+  if (task.run.solid_angle && a.type == "bbox")
+    throw InputError("--weights solid_angle is for masks; boxes on the sphere are `eval boxes --kind bfov`");
   task.run.options.most_detections = ParseMost(a.most, task.run.options.most_detections);
   task.rows = InstanceRows(task.run.options.most_detections);
   task.unlimited = true;
@@ -298,7 +316,8 @@ void AddEvalCoco(CLI::App& command, GlobalOptions& globals) {
   CLI::App* one = command.add_subcommand("entity", "average precision of masks or boxes (COCO)");
   AddCommon(*one, *entity);
   one->add_option("--type", entity->type, "what is compared: segm (masks, the default) or bbox");
-  one->add_option("--max-detections", entity->most, "N,…: how many detections of a picture and category count (default 1,10,100)")->delimiter(',');
+  one->add_option("--max-detections", entity->most, "N,…: how many detections of a picture and category count (default 1,10,100)")
+      ->delimiter(',');
   one->add_option("--seam", entity->seam, "AP also of what comes within so many columns of the panorama's seam, and of the rest");
   one->add_option("--latitude-bands", entity->bands, "AP also in so many bands of latitude, by the middle of the box");
   one->add_option("--weights", entity->weights, "what a pixel counts: pixel (1, the default) or solid_angle (its steradians, panoramas)");
@@ -309,8 +328,11 @@ void AddEvalCoco(CLI::App& command, GlobalOptions& globals) {
   two->callback([keypoints, &globals] { RunKeypoints(*keypoints, globals); });
   CLI::App* three = command.add_subcommand("boxes", "average precision of boxes: in pictures, on the sphere, in space");
   AddCommon(*three, *boxes);
-  three->add_option("--kind", boxes->kind, "bbox [x, y, width, height] (the default), bfov [lon, lat, width, height, turn] in degrees, or box3d {center, size, yaw_deg} in metres");
-  three->add_option("--max-detections", boxes->most, "N,…: how many detections of a picture and category count (default 1,10,100)")->delimiter(',');
+  three->add_option(
+      "--kind", boxes->kind,
+      "bbox [x, y, width, height] (the default), bfov [lon, lat, width, height, turn] in degrees, or box3d {center, size, yaw_deg} in metres");
+  three->add_option("--max-detections", boxes->most, "N,…: how many detections of a picture and category count (default 1,10,100)")
+      ->delimiter(',');
   three->add_flag("--wrap", boxes->wrap, "bbox in panoramas: columns go round");
   three->callback([boxes, &globals] { RunBoxes(*boxes, globals); });
 }

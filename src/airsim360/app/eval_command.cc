@@ -25,9 +25,7 @@ struct ImageArguments {
 Image<Rgb8> ReadRgb8(const std::string& path) {
   const Image<Rgba8> rgba = DecodeRgba8(ReadFile(path), path);
   Image<Rgb8> rgb(rgba.width(), rgba.height());
-  std::transform(rgba.pixels().begin(), rgba.pixels().end(), rgb.pixels().begin(), [](Rgba8 p) {
-    return Rgb8{p.r, p.g, p.b};
-  });
+  std::transform(rgba.pixels().begin(), rgba.pixels().end(), rgb.pixels().begin(), [](Rgba8 p) { return Rgb8{p.r, p.g, p.b}; });
   return rgb;
 }
 
@@ -79,10 +77,8 @@ void AddEvalCommand(CLI::App& app, GlobalOptions& globals) {
   const auto arguments = std::make_shared<ImageArguments>();
   image->add_option("first", arguments->first, "PNG, JPEG or WebP; transparency is ignored")->required();
   image->add_option("second", arguments->second, "the reference, of the same size")->required();
-  image->add_option("--ppd", arguments->flip.pixels_per_degree,
-                    "FLIP: pixels per degree that the viewer sees (default 67.02)");
-  image->add_flag("--wrap", arguments->flip.wrap_columns,
-                  "FLIP: the left border goes on at the right one (panoramas)");
+  image->add_option("--ppd", arguments->flip.pixels_per_degree, "FLIP: pixels per degree that the viewer sees (default 67.02)");
+  image->add_flag("--wrap", arguments->flip.wrap_columns, "FLIP: the left border goes on at the right one (panoramas)");
   image->callback([arguments, &globals] { RunImage(*arguments, globals); });
   CLI::App* statistics = command->add_subcommand("statistics", "spectrum slope, flat share, gradient and entropy of panoramas");
   const auto files = std::make_shared<std::vector<std::string>>();

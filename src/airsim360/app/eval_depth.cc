@@ -37,9 +37,13 @@ struct Protocol {
   bool square_by_square, cos_latitude;
 };
 constexpr std::array<Protocol, 3> kProtocols = {{
-    {"unik3d", "figures of each picture, then their mean; SILog with n - 1; truths above 0.01 m; the _si figures after scaling by medians", 0.01, 0, false, false},
-    {"deep360", "truths up to 1000 m; SqRel divides by the square of the truth; shares are fractions here, per cent there", 0, 1000, true, false},
-    {"pano3d", "weights are the cosine of the latitude of the row's centre, also in the denominator of masked means (their code divides by the unmasked sum)", 0, 0, false, true},
+    {"unik3d", "figures of each picture, then their mean; SILog with n - 1; truths above 0.01 m; the _si figures after scaling by medians",
+     0.01, 0, false, false},
+    {"deep360", "truths up to 1000 m; SqRel divides by the square of the truth; shares are fractions here, per cent there", 0, 1000, true,
+     false},
+    {"pano3d",
+     "weights are the cosine of the latitude of the row's centre, also in the denominator of masked means (their code divides by the unmasked sum)",
+     0, 0, false, true},
 }};
 
 // What one picture gives: errors of each view, of each rolled prediction, and after scaling; what looks like a mistake.
@@ -76,7 +80,8 @@ void Check(Arguments& a) {
   CheckPositive("--pred-scale", a.pred_scale);
   CheckPositive("--gt-scale", a.gt_scale);
   CheckPositive("--png-scale", a.files.png_scale);
-  if (!(a.depth.min_depth >= 0 && a.depth.max_depth > a.depth.min_depth)) throw InputError("--min-depth and --max-depth: must be 0 <= min < max");
+  if (!(a.depth.min_depth >= 0 && a.depth.max_depth > a.depth.min_depth))
+    throw InputError("--min-depth and --max-depth: must be 0 <= min < max");
   if (!a.clip.empty() && !(a.clip[0] > 0 && a.clip[1] > a.clip[0])) throw InputError("--clip: must be 0 < MIN < MAX");
 }
 
@@ -90,14 +95,16 @@ NumberPicture ReadScaled(const std::filesystem::path& path, const Arguments& a, 
   return picture;
 }
 
-void CheckSizes(const NumberPicture& pred, const NumberPicture& gt, const std::filesystem::path& pred_path, const std::filesystem::path& gt_path) {
+void CheckSizes(const NumberPicture& pred, const NumberPicture& gt, const std::filesystem::path& pred_path,
+                const std::filesystem::path& gt_path) {
   if (pred.width == gt.width && pred.height == gt.height) return;
-  throw InputError(pred_path.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " + gt_path.string() + " has " +
-                   std::to_string(gt.width) + "x" + std::to_string(gt.height) +
+  throw InputError(pred_path.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " +
+                   gt_path.string() + " has " + std::to_string(gt.width) + "x" + std::to_string(gt.height) +
                    (pred.width == gt.height && pred.height == gt.width ? ": are rows and columns exchanged?" : ": resize the predictions"));
 }
 
-DepthErrors Measure(const NumberPicture& pred, const NumberPicture& gt, const PixelView& view, const DepthOptions& options, const std::filesystem::path& path) {
+DepthErrors Measure(const NumberPicture& pred, const NumberPicture& gt, const PixelView& view, const DepthOptions& options,
+                    const std::filesystem::path& path) {
   try {
     if (view.source.empty()) return MeasureDepth(pred.values, gt.values, view.weights, options);
     return MeasureDepth(Take<double>(pred.values, view), Take<double>(gt.values, view), view.weights, options);
@@ -106,7 +113,8 @@ DepthErrors Measure(const NumberPicture& pred, const NumberPicture& gt, const Pi
   }
 }
 
-Result MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, const std::vector<Rolled>& turns, size_t index, const Arguments& a, ViewCache& cache) {
+Result MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, const std::vector<Rolled>& turns, size_t index,
+                   const Arguments& a, ViewCache& cache) {
   const NumberPicture pred = ReadScaled(pair.prediction, a, true), gt = ReadScaled(pair.truth, a, false);
   CheckSizes(pred, gt, pair.prediction, pair.truth);
   const auto views = cache.Of(gt.width, gt.height);
@@ -151,7 +159,8 @@ std::vector<Figure> Named(const std::vector<double>& values, const char* suffix 
 }
 
 int64_t Valid(const std::vector<Result>& results, size_t view) {
-  return std::accumulate(results.begin(), results.end(), int64_t{0}, [view](int64_t sum, const Result& r) { return sum + r.views[view].valid; });
+  return std::accumulate(results.begin(), results.end(), int64_t{0},
+                         [view](int64_t sum, const Result& r) { return sum + r.views[view].valid; });
 }
 
 void WriteTable(const std::string& path, const std::vector<FilePair>& pairs, const std::vector<Result>& results) {
@@ -172,10 +181,12 @@ void Run(Arguments a, const GlobalOptions& globals) {
   std::vector<FilePairs> rolled;
   for (const Rolled& turn : turns) rolled.push_back(PairFiles(turn.path, a.gt, endings, "range"));
   ViewCache cache(a.view);
-  const auto results = MeasureAll<Result>("eval depth", files.pairs.size(), [&](size_t i) { return MeasurePair(files.pairs[i], rolled, turns, i, a, cache); });
+  const auto results = MeasureAll<Result>("eval depth", files.pairs.size(),
+                                          [&](size_t i) { return MeasurePair(files.pairs[i], rolled, turns, i, a, cache); });
 
   const auto of_view = [&](size_t view, std::span<const uint32_t> draws = {}) {
-    return MeanFigures(results, [view](const Result& r) -> const DepthErrors& { return r.views[view]; }, draws);
+    return MeanFigures(
+        results, [view](const Result& r) -> const DepthErrors& { return r.views[view]; }, draws);
   };
   Json json;
   const std::vector<Figure> main = Named(of_view(0));
@@ -190,14 +201,17 @@ void Run(Arguments a, const GlobalOptions& globals) {
   std::vector<std::pair<std::string, std::string>> mistakes;
   for (size_t i = 0; i < results.size(); ++i) mistakes.emplace_back(files.pairs[i].prediction.string(), results[i].mistake);
   JudgeMistakes(mistakes, a.view.force, json);
-  if (Valid(results, 0) == 0) throw InputError(a.gt + ": no pixel has a truth above " + std::to_string(a.depth.min_depth) + " m" + (a.depth.max_depth < 1e300 ? " and up to " + std::to_string(a.depth.max_depth) + " m" : ""));
+  if (Valid(results, 0) == 0)
+    throw InputError(a.gt + ": no pixel has a truth above " + std::to_string(a.depth.min_depth) + " m" +
+                     (a.depth.max_depth < 1e300 ? " and up to " + std::to_string(a.depth.max_depth) + " m" : ""));
   AppendViews(json, a.view, [&](size_t view) {
     Json one = ToJson(Named(of_view(view)));
     one["valid"] = Valid(results, view);
     return one;
   });
   std::vector<std::vector<Figure>> turned;
-  for (size_t r = 0; r < turns.size(); ++r) turned.push_back(Named(MeanFigures(results, [r](const Result& one) -> const DepthErrors& { return one.rolled[r]; })));
+  for (size_t r = 0; r < turns.size(); ++r)
+    turned.push_back(Named(MeanFigures(results, [r](const Result& one) -> const DepthErrors& { return one.rolled[r]; })));
   AppendRolled(json, turns, turned, main);
   std::vector<std::string> names(kDepthFigures.begin(), kDepthFigures.end());
   AppendIntervals(json, a.report, globals.seed, results.size(), names, [&](std::span<const uint32_t> draws) { return of_view(0, draws); });
@@ -214,10 +228,14 @@ void Run(Arguments a, const GlobalOptions& globals) {
   int64_t not_positive = 0;
   for (const Result& r : results) not_positive += r.views[0].not_positive;
   if (not_positive > 0)
-    json["warnings"].push_back(std::to_string(not_positive) + " predictions are not above 0: they have no logarithm, so rmselog, log10 and silog are infinite (null); --clip MIN,MAX holds them");
+    json["warnings"].push_back(
+        std::to_string(not_positive) +
+        " predictions are not above 0: they have no logarithm, so rmselog, log10 and silog are infinite (null); --clip MIN,MAX holds them");
   if (!notes.empty()) json["notes"] = notes;
-  if (globals.json) PrintJson(json);
-  else PrintFigures(json);
+  if (globals.json)
+    PrintJson(json);
+  else
+    PrintFigures(json);
 }
 
 }  // namespace

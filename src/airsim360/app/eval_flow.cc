@@ -25,8 +25,8 @@ struct Arguments {
 Result MeasurePair(const FilePair& pair, const Arguments& a, ViewCache& cache) {
   const NumberPicture pred = ReadFlowPicture(pair.prediction, false), gt = ReadFlowPicture(pair.truth, a.visible);
   if (pred.width != gt.width || pred.height != gt.height)
-    throw InputError(pair.prediction.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " + pair.truth.string() + " has " +
-                     std::to_string(gt.width) + "x" + std::to_string(gt.height));
+    throw InputError(pair.prediction.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " +
+                     pair.truth.string() + " has " + std::to_string(gt.width) + "x" + std::to_string(gt.height));
   Result result;
   for (const PixelView& view : *cache.Of(gt.width, gt.height)) {
     try {
@@ -70,7 +70,8 @@ Json ViewJson(const std::vector<Result>& results, size_t view) {
 
 void Run(const Arguments& a, const GlobalOptions& globals) {
   CheckViewOptions(a.view);
-  if (!a.view.rolled.empty() || !a.view.turned.empty()) throw InputError("--rolled and --turned are not for flow: it moves between pictures");
+  if (!a.view.rolled.empty() || !a.view.turned.empty())
+    throw InputError("--rolled and --turned are not for flow: it moves between pictures");
   const FilePairs files = PairFiles(a.pred, a.gt, {".flo", ".npy", ".exr", ".png"}, "flow");
   ViewCache cache(a.view);
   const auto results = MeasureAll<Result>("eval flow", files.pairs.size(), [&](size_t i) { return MeasurePair(files.pairs[i], a, cache); });
@@ -81,7 +82,8 @@ void Run(const Arguments& a, const GlobalOptions& globals) {
   json["projection"] = a.view.projection;
   AppendViews(json, a.view, [&](size_t view) { return ViewJson(results, view); });
   const std::vector<std::string> names(kFlowFigures.begin(), kFlowFigures.end());
-  AppendIntervals(json, a.report, globals.seed, results.size(), names, [&](std::span<const uint32_t> draws) { return MeanFigures(results, 0, draws); });
+  AppendIntervals(json, a.report, globals.seed, results.size(), names,
+                  [&](std::span<const uint32_t> draws) { return MeanFigures(results, 0, draws); });
   std::vector<std::vector<std::string>> rows = {{"picture", "valid"}};
   rows[0].insert(rows[0].end(), names.begin(), names.end());
   for (size_t i = 0; i < results.size(); ++i) {
@@ -92,8 +94,10 @@ void Run(const Arguments& a, const GlobalOptions& globals) {
   Json notes = files.notes;
   notes.push_back("figures of each picture, then their mean; in panoramas dx is taken the shorter way round");
   json["notes"] = notes;
-  if (globals.json) PrintJson(json);
-  else PrintFigures(json);
+  if (globals.json)
+    PrintJson(json);
+  else
+    PrintFigures(json);
 }
 
 }  // namespace

@@ -47,8 +47,10 @@ std::vector<double> LayoutMeans(const std::vector<LayoutErrors>& errors, std::sp
 void RunLayout(const LayoutArguments& a, const GlobalOptions& globals) {
   int width = 0, height = 0;
   char after = 0;
-  if (std::sscanf(a.size.c_str(), "%dx%d%c", &width, &height, &after) != 2 || width < 8 || width > kMostWidth || height != width / 2 || width % 2 != 0)
-    throw InputError("--size: '" + a.size + "' is no WIDTHxHEIGHT of a panorama, twice as wide as high, 8 to " + std::to_string(kMostWidth) + " columns");
+  if (std::sscanf(a.size.c_str(), "%dx%d%c", &width, &height, &after) != 2 || width < 8 || width > kMostWidth || height != width / 2 ||
+      width % 2 != 0)
+    throw InputError("--size: '" + a.size + "' is no WIDTHxHEIGHT of a panorama, twice as wide as high, 8 to " +
+                     std::to_string(kMostWidth) + " columns");
   const FilePairs files = PairFiles(a.pred, a.gt, {".txt", ".json"}, "layout");
   const auto errors = MeasureAll<LayoutErrors>("eval layout", files.pairs.size(), [&](size_t i) {
     const FilePair& pair = files.pairs[i];
@@ -63,7 +65,8 @@ void RunLayout(const LayoutArguments& a, const GlobalOptions& globals) {
   const std::vector<double> means = LayoutMeans(errors);
   for (size_t f = 0; f < names.size(); ++f) json[names[f]] = means[f];
   json["rooms"] = errors.size();
-  AppendIntervals(json, a.report, globals.seed, errors.size(), names, [&](std::span<const uint32_t> draws) { return LayoutMeans(errors, draws); });
+  AppendIntervals(json, a.report, globals.seed, errors.size(), names,
+                  [&](std::span<const uint32_t> draws) { return LayoutMeans(errors, draws); });
   std::vector<std::vector<std::string>> rows = {{"room"}};
   rows[0].insert(rows[0].end(), names.begin(), names.end());
   for (size_t i = 0; i < errors.size(); ++i) {
@@ -72,14 +75,20 @@ void RunLayout(const LayoutArguments& a, const GlobalOptions& globals) {
   }
   WriteCsv(a.report.csv, rows);
   Json notes = files.notes;
-  notes.push_back("definitions of HorizonNet's evaluation for a camera 1.6 m above the floor; surfaces are exact where that code joins rounded columns");
+  notes.push_back(
+      "definitions of HorizonNet's evaluation for a camera 1.6 m above the floor; surfaces are exact where that code joins rounded columns");
   json["notes"] = notes;
-  if (globals.json) PrintJson(json);
-  else PrintFigures(json);
+  if (globals.json)
+    PrintJson(json);
+  else
+    PrintFigures(json);
 }
 
 Json MpdeJson(const MpdeErrors& e) {
-  return {{"count", e.count}, {"distance_mae_m", e.distance_mae_m}, {"angle_mae_deg", e.angle_mae_deg}, {"angle_unwrapped_mae_deg", e.angle_unwrapped_mae_deg}};
+  return {{"count", e.count},
+          {"distance_mae_m", e.distance_mae_m},
+          {"angle_mae_deg", e.angle_mae_deg},
+          {"angle_unwrapped_mae_deg", e.angle_unwrapped_mae_deg}};
 }
 
 // A ratio near 100 or 1000 of most persons is a unit, no error.
@@ -92,13 +101,17 @@ void RefuseUnits(const PersonPairs& pairs, const std::string& path) {
     }
     if (2 * close > pairs.truth.size())
       throw InputError(path + ": distances are about " + NumberText(factor) + " times the truth: are they in " +
-                       (factor == 100 ? "centimetres" : factor == 1000 ? "millimetres" : "metres, and the truth is not") + "?");
+                       (factor == 100    ? "centimetres"
+                        : factor == 1000 ? "millimetres"
+                                         : "metres, and the truth is not") +
+                       "?");
   }
 }
 
 void RunMpde(const MpdeArguments& a, const GlobalOptions& globals) {
   if (!a.protocol.empty() && a.protocol != "monoloco")
-    throw InputError("--protocol: " + UnknownChoiceMessage("protocol of distances of people", a.protocol, std::vector<std::string>{"monoloco"}));
+    throw InputError("--protocol: " +
+                     UnknownChoiceMessage("protocol of distances of people", a.protocol, std::vector<std::string>{"monoloco"}));
   const PersonPairs pairs = ReadPersonFiles(a.pred, a.gt);
   RefuseUnits(pairs, a.pred);
   Json json = MpdeJson(MeasureMpde(pairs.prediction, pairs.truth));
@@ -116,11 +129,15 @@ void RunMpde(const MpdeArguments& a, const GlobalOptions& globals) {
   });
   std::vector<std::vector<std::string>> rows = {{"id", "distance_m", "true_distance_m", "distance_error_m", "angle_error_deg"}};
   for (size_t i = 0; i < single.size(); ++i)
-    rows.push_back({pairs.ids[i], NumberText(pairs.prediction[i].distance), NumberText(pairs.truth[i].distance), NumberText(single[i].distance_mae_m), NumberText(single[i].angle_mae_deg)});
+    rows.push_back({pairs.ids[i], NumberText(pairs.prediction[i].distance), NumberText(pairs.truth[i].distance),
+                    NumberText(single[i].distance_mae_m), NumberText(single[i].angle_mae_deg)});
   WriteCsv(a.report.csv, rows);
-  json["notes"].push_back("angle_mae_deg is the shorter way round; angle_unwrapped_mae_deg is MonoLoco's: angles are not wrapped after the difference, and degrees are rad * 180 / 3.14");
-  if (globals.json) PrintJson(json);
-  else PrintFigures(json);
+  json["notes"].push_back(
+      "angle_mae_deg is the shorter way round; angle_unwrapped_mae_deg is MonoLoco's: angles are not wrapped after the difference, and degrees are rad * 180 / 3.14");
+  if (globals.json)
+    PrintJson(json);
+  else
+    PrintFigures(json);
 }
 
 }  // namespace
@@ -128,7 +145,8 @@ void RunMpde(const MpdeArguments& a, const GlobalOptions& globals) {
 void AddEvalLayout(CLI::App& command, GlobalOptions& globals) {
   CLI::App* layout = command.add_subcommand("layout", "errors of room layouts: 2D and 3D IoU, corners, pixels");
   const auto a = std::make_shared<LayoutArguments>();
-  layout->add_option("pred", a->pred, "corners: .txt of lines \"x y\", ceiling and floor in turn, .json with uv, or a folder of them")->required();
+  layout->add_option("pred", a->pred, "corners: .txt of lines \"x y\", ceiling and floor in turn, .json with uv, or a folder of them")
+      ->required();
   layout->add_option("gt", a->gt, "the truth: the same, with the same names")->required();
   layout->add_option("--size", a->size, "WIDTHxHEIGHT of the panoramas (default 1024x512)");
   AddReportFlags(*layout, a->report, "a row a room");

@@ -31,7 +31,8 @@ struct Result {
   std::string mistake;
 };
 
-Counts Measure(const LabelPicture& pred, const LabelPicture& gt, const PanopticFrame& pred_frame, const PanopticFrame& gt_frame, const PixelView& view, size_t categories) {
+Counts Measure(const LabelPicture& pred, const LabelPicture& gt, const PanopticFrame& pred_frame, const PanopticFrame& gt_frame,
+               const PixelView& view, size_t categories) {
   Counts counts(categories);
   PanopticOverlap overlap;
   if (view.source.empty()) {
@@ -44,7 +45,8 @@ Counts Measure(const LabelPicture& pred, const LabelPicture& gt, const PanopticF
   return counts;
 }
 
-Result MeasureFrame(const PanopticInput& input, size_t i, const std::vector<PanopticInput>& rolled, const std::vector<Rolled>& turns, ViewCache& cache) {
+Result MeasureFrame(const PanopticInput& input, size_t i, const std::vector<PanopticInput>& rolled, const std::vector<Rolled>& turns,
+                    ViewCache& cache) {
   const size_t categories = input.truth.categories.size();
   const PanopticFrame &gt_frame = input.truth.frames[i], &pred_frame = input.Prediction(i);
   const auto [pred, gt] = input.Read(i);
@@ -86,7 +88,8 @@ std::vector<Figure> Flat(const Counts& counts, const std::vector<PanopticCategor
   std::vector<Figure> figures;
   for (const auto& [group, chosen] : PanopticGroups(categories)) {
     const PanopticQuality q = MeanQuality(counts, chosen);
-    for (const auto& [name, value] : {Figure{"pq", q.pq}, Figure{"sq", q.sq}, Figure{"rq", q.rq}}) figures.emplace_back(group + "." + name, value);
+    for (const auto& [name, value] : {Figure{"pq", q.pq}, Figure{"sq", q.sq}, Figure{"rq", q.rq}})
+      figures.emplace_back(group + "." + name, value);
   }
   return figures;
 }
@@ -97,8 +100,9 @@ void WriteTable(const std::string& path, const Counts& counts, const std::vector
   std::vector<std::vector<std::string>> rows = {{"category", "id", "thing", "pq", "sq", "rq", "tp", "fp", "fn"}};
   for (size_t c = 0; c < counts.size(); ++c) {
     const PanopticQuality q = QualityOf(counts[c]);
-    rows.push_back({categories[c].name, std::to_string(categories[c].id), categories[c].thing ? "1" : "0", NumberText(q.pq), NumberText(q.sq), NumberText(q.rq),
-                    std::to_string(counts[c].tp), std::to_string(counts[c].fp), std::to_string(counts[c].fn)});
+    rows.push_back({categories[c].name, std::to_string(categories[c].id), categories[c].thing ? "1" : "0", NumberText(q.pq),
+                    NumberText(q.sq), NumberText(q.rq), std::to_string(counts[c].tp), std::to_string(counts[c].fp),
+                    std::to_string(counts[c].fn)});
   }
   WriteCsv(path, rows);
 }
@@ -120,10 +124,12 @@ void Run(Arguments a, const GlobalOptions& globals) {
   std::vector<PanopticInput> rolled;
   for (const Rolled& turn : turns) rolled.emplace_back(PanopticPaths{turn.path, a.paths.gt, "", a.paths.gt_dir});
   ViewCache cache(a.view);
-  const auto results = MeasureAll<Result>("eval panoptic", input.truth.frames.size(), [&](size_t i) { return MeasureFrame(input, i, rolled, turns, cache); });
+  const auto results = MeasureAll<Result>("eval panoptic", input.truth.frames.size(),
+                                          [&](size_t i) { return MeasureFrame(input, i, rolled, turns, cache); });
 
   const auto of_view = [&](size_t view, std::span<const uint32_t> draws = {}) {
-    return Sum(results, categories.size(), [view](const Result& r) -> const Counts& { return r.views[view]; }, draws);
+    return Sum(
+        results, categories.size(), [view](const Result& r) -> const Counts& { return r.views[view]; }, draws);
   };
   Json json;
   std::vector<std::pair<std::string, std::string>> mistakes;
@@ -159,10 +165,13 @@ void Run(Arguments a, const GlobalOptions& globals) {
     const auto [pred, gt] = input.Read(i);
     return LabelStrip(pred, gt);
   });
-  json["notes"].push_back("areas are counted from the pictures, not read from the JSON; of several crowds of a category the last one excuses predictions, as in panopticapi");
+  json["notes"].push_back(
+      "areas are counted from the pictures, not read from the JSON; of several crowds of a category the last one excuses predictions, as in panopticapi");
   for (const std::string& note : input.notes) json["notes"].push_back(note);
-  if (globals.json) PrintJson(json);
-  else PrintPanoptic(json);
+  if (globals.json)
+    PrintJson(json);
+  else
+    PrintPanoptic(json);
 }
 
 }  // namespace
@@ -171,7 +180,10 @@ void AddEvalPanoptic(CLI::App& command, GlobalOptions& globals) {
   CLI::App* panoptic = command.add_subcommand("panoptic", "panoptic quality: PQ, SQ, RQ");
   const auto a = std::make_shared<Arguments>();
   AddPanopticPaths(*panoptic, a->paths);
-  panoptic->add_option("--open-world", a->held_out, "categories that training has not seen, by name or id: their quality beside that of the others")->delimiter(',');
+  panoptic
+      ->add_option("--open-world", a->held_out,
+                   "categories that training has not seen, by name or id: their quality beside that of the others")
+      ->delimiter(',');
   AddViewFlags(*panoptic, a->view);
   AddReportFlags(*panoptic, a->report, "a row a category");
   AddSheetFlags(*panoptic, a->sheet);

@@ -17,7 +17,8 @@ fs::path JsonPath(const std::string& path) { return fs::is_directory(path) ? fs:
 void AddPanopticPaths(CLI::App& command, PanopticPaths& paths) {
   command.add_option("pred", paths.pred, "COCO panoptic JSON, or a dataset of ours")->required();
   command.add_option("gt", paths.gt, "the truth: the same")->required();
-  command.add_option("--pred-dir", paths.pred_dir, "folder of the prediction's PNGs (default: named as the file, or entity beside it, or its own)");
+  command.add_option("--pred-dir", paths.pred_dir,
+                     "folder of the prediction's PNGs (default: named as the file, or entity beside it, or its own)");
   command.add_option("--gt-dir", paths.gt_dir, "folder of the truth's PNGs");
 }
 
@@ -40,8 +41,9 @@ PanopticInput::PanopticInput(const PanopticPaths& paths)
   }
   if (truth.frames.empty()) throw InputError(paths.gt + ": has no annotations");
   if (missing > 0)
-    throw InputError(paths.pred + ": has no annotation for " + std::to_string(missing) + " of " + std::to_string(truth.frames.size()) + " pictures, image_id " +
-                     std::to_string(first) + " first" + (missing == truth.frames.size() ? ": are pictures numbered otherwise?" : ""));
+    throw InputError(paths.pred + ": has no annotation for " + std::to_string(missing) + " of " + std::to_string(truth.frames.size()) +
+                     " pictures, image_id " + std::to_string(first) + " first" +
+                     (missing == truth.frames.size() ? ": are pictures numbered otherwise?" : ""));
   if (prediction_.frames.size() > truth.frames.size())
     notes.push_back(std::to_string(prediction_.frames.size() - truth.frames.size()) + " predicted pictures have no truth and are left out");
 }
@@ -50,8 +52,9 @@ std::pair<LabelPicture, LabelPicture> PanopticInput::Read(size_t i) const {
   const fs::path pred_path = pred_dir_ / Prediction(i).file, gt_path = gt_dir_ / truth.frames[i].file;
   LabelPicture pred = ReadIdPicture(pred_path), gt = ReadIdPicture(gt_path);
   if (pred.width != gt.width || pred.height != gt.height)
-    throw InputError(pred_path.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " + gt_path.string() + " has " +
-                     std::to_string(gt.width) + "x" + std::to_string(gt.height) + ": resize the predictions (nearest pixel)");
+    throw InputError(pred_path.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " +
+                     gt_path.string() + " has " + std::to_string(gt.width) + "x" + std::to_string(gt.height) +
+                     ": resize the predictions (nearest pixel)");
   return {std::move(pred), std::move(gt)};
 }
 
@@ -81,7 +84,8 @@ std::vector<std::pair<std::string, std::vector<bool>>> PanopticGroups(const std:
   return {{"all", all}, {"things", things}, {"stuff", stuff}};
 }
 
-std::vector<bool> ChooseCategories(const std::vector<PanopticCategory>& categories, const std::vector<std::string>& names, const char* flag) {
+std::vector<bool> ChooseCategories(const std::vector<PanopticCategory>& categories, const std::vector<std::string>& names,
+                                   const char* flag) {
   std::vector<bool> chosen(categories.size(), false);
   std::vector<std::string> known;
   for (const PanopticCategory& category : categories) known.push_back(category.name);
@@ -97,14 +101,22 @@ std::vector<bool> ChooseCategories(const std::vector<PanopticCategory>& categori
 
 nlohmann::ordered_json QualityJson(const PanopticQuality& q) { return {{"pq", q.pq}, {"sq", q.sq}, {"rq", q.rq}, {"n", q.categories}}; }
 
-void AppendPanoptic(nlohmann::ordered_json& json, const std::vector<PanopticCount>& counts, const std::vector<PanopticCategory>& categories, bool per_class) {
+void AppendPanoptic(nlohmann::ordered_json& json, const std::vector<PanopticCount>& counts, const std::vector<PanopticCategory>& categories,
+                    bool per_class) {
   for (const auto& [group, chosen] : PanopticGroups(categories)) json[group] = QualityJson(MeanQuality(counts, chosen));
   if (!per_class) return;
   json["per_class"] = nlohmann::ordered_json::object();
   for (size_t c = 0; c < counts.size(); ++c) {
     const PanopticQuality q = QualityOf(counts[c]);
-    json["per_class"][std::to_string(categories[c].id)] = {{"name", categories[c].name}, {"isthing", categories[c].thing}, {"pq", q.pq},           {"sq", q.sq},          {"rq", q.rq},
-                                                          {"iou", counts[c].iou},        {"tp", counts[c].tp},             {"fp", counts[c].fp}, {"fn", counts[c].fn}};
+    json["per_class"][std::to_string(categories[c].id)] = {{"name", categories[c].name},
+                                                           {"isthing", categories[c].thing},
+                                                           {"pq", q.pq},
+                                                           {"sq", q.sq},
+                                                           {"rq", q.rq},
+                                                           {"iou", counts[c].iou},
+                                                           {"tp", counts[c].tp},
+                                                           {"fp", counts[c].fp},
+                                                           {"fn", counts[c].fn}};
   }
 }
 

@@ -44,10 +44,12 @@ std::vector<uint32_t> CategoriesOf(const LabelPicture& ids, const PanopticFrame&
 /// "all", "things" and "stuff" with a flag a category.
 std::vector<std::pair<std::string, std::vector<bool>>> PanopticGroups(const std::vector<PanopticCategory>& categories);
 /// A flag a category, true where it is named (by name or id); InputError naming the flag otherwise.
-std::vector<bool> ChooseCategories(const std::vector<PanopticCategory>& categories, const std::vector<std::string>& names, const char* flag);
+std::vector<bool> ChooseCategories(const std::vector<PanopticCategory>& categories, const std::vector<std::string>& names,
+                                   const char* flag);
 nlohmann::ordered_json QualityJson(const PanopticQuality& quality);
 /// `all`, `things`, `stuff` with pq, sq, rq, n; and `per_class` by id.
-void AppendPanoptic(nlohmann::ordered_json& json, const std::vector<PanopticCount>& counts, const std::vector<PanopticCategory>& categories, bool per_class);
+void AppendPanoptic(nlohmann::ordered_json& json, const std::vector<PanopticCount>& counts, const std::vector<PanopticCategory>& categories,
+                    bool per_class);
 void PrintPanoptic(const nlohmann::ordered_json& json);
 
 }  // namespace airsim360

@@ -61,20 +61,23 @@ std::vector<uint16_t> ClassesOf(const LabelPicture& picture, const ClassIndex& i
 LabelPicture ReadPrediction(const std::filesystem::path& path, const LabelPicture& gt, const std::filesystem::path& gt_path) {
   LabelPicture pred = ReadLabelPicture(path);
   if (pred.width != gt.width || pred.height != gt.height)
-    throw InputError(path.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " + gt_path.string() + " has " +
-                     std::to_string(gt.width) + "x" + std::to_string(gt.height) + ": resize the predictions (nearest pixel)");
+    throw InputError(path.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " +
+                     gt_path.string() + " has " + std::to_string(gt.width) + "x" + std::to_string(gt.height) +
+                     ": resize the predictions (nearest pixel)");
   return pred;
 }
 
 Confusion Measure(const std::vector<uint16_t>& pred, const std::vector<uint16_t>& gt, const PixelView& view, size_t classes) {
   Confusion confusion(classes);
-  if (view.source.empty()) confusion.Add(pred, gt, view.weights);
-  else confusion.Add(Take<uint16_t>(pred, view), Take<uint16_t>(gt, view), view.weights);
+  if (view.source.empty())
+    confusion.Add(pred, gt, view.weights);
+  else
+    confusion.Add(Take<uint16_t>(pred, view), Take<uint16_t>(gt, view), view.weights);
   return confusion;
 }
 
-Result MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, const std::vector<Rolled>& turns, size_t i, const ClassIndex& truths, const ClassIndex& index,
-                   size_t classes, ViewCache& cache) {
+Result MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, const std::vector<Rolled>& turns, size_t i,
+                   const ClassIndex& truths, const ClassIndex& index, size_t classes, ViewCache& cache) {
   const LabelPicture gt = ReadLabelPicture(pair.truth), pred = ReadPrediction(pair.prediction, gt, pair.truth);
   const auto views = cache.Of(gt.width, gt.height);
   const std::vector<uint16_t> gt_classes = ClassesOf(gt, truths), pred_classes = ClassesOf(pred, index);
@@ -90,8 +93,11 @@ Result MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, c
 }
 
 std::vector<Figure> FiguresOf(const Confusion& c) {
-  return {{"miou", c.MeanIou()},          {"miou_present", c.MeanIouOfPresent()}, {"pixel_accuracy", c.PixelAccuracy()},
-          {"macc", c.MeanAccuracy()},     {"fwiou", c.FrequencyWeightedIou()}};
+  return {{"miou", c.MeanIou()},
+          {"miou_present", c.MeanIouOfPresent()},
+          {"pixel_accuracy", c.PixelAccuracy()},
+          {"macc", c.MeanAccuracy()},
+          {"fwiou", c.FrequencyWeightedIou()}};
 }
 
 template <class Of>
@@ -107,14 +113,16 @@ Confusion Sum(const std::vector<Result>& results, size_t classes, const Of& of, 
 Json PerClass(const Confusion& c, const std::vector<LabelClass>& classes) {
   Json list = Json::object();
   for (size_t k = 0; k < classes.size(); ++k)
-    list[classes[k].name] = {{"id", classes[k].id}, {"iou", c.Iou(k)}, {"acc", c.Accuracy(k)}, {"truth", c.True(k)}, {"predicted", c.Predicted(k)}};
+    list[classes[k].name] = {
+        {"id", classes[k].id}, {"iou", c.Iou(k)}, {"acc", c.Accuracy(k)}, {"truth", c.True(k)}, {"predicted", c.Predicted(k)}};
   return list;
 }
 
 void WriteTable(const std::string& path, const Confusion& c, const std::vector<LabelClass>& classes) {
   std::vector<std::vector<std::string>> rows = {{"class", "id", "iou", "acc", "truth", "predicted"}};
   for (size_t k = 0; k < classes.size(); ++k)
-    rows.push_back({classes[k].name, std::to_string(classes[k].id), NumberText(c.Iou(k)), NumberText(c.Accuracy(k)), NumberText(c.True(k)), NumberText(c.Predicted(k))});
+    rows.push_back({classes[k].name, std::to_string(classes[k].id), NumberText(c.Iou(k)), NumberText(c.Accuracy(k)), NumberText(c.True(k)),
+                    NumberText(c.Predicted(k))});
   WriteCsv(path, rows);
 }
 
@@ -132,8 +140,11 @@ Json OpenWorld(const Confusion& c, const std::vector<LabelClass>& classes, const
 }
 
 void Check(Arguments& a) {
-  if (a.protocol == "wildpass") a.view.resize_width = 1024, a.view.resize_height = 512;
-  else if (!a.protocol.empty()) throw InputError("--protocol: " + UnknownChoiceMessage("protocol of semantic pictures", a.protocol, std::vector<std::string>{"wildpass"}));
+  if (a.protocol == "wildpass")
+    a.view.resize_width = 1024, a.view.resize_height = 512;
+  else if (!a.protocol.empty())
+    throw InputError("--protocol: " +
+                     UnknownChoiceMessage("protocol of semantic pictures", a.protocol, std::vector<std::string>{"wildpass"}));
   CheckViewOptions(a.view);
   CheckSheetOptions(a.sheet);
   if (a.view.resize_width > 0 && (a.view.weights != "pixel" || a.view.projection != "erp"))
@@ -142,11 +153,13 @@ void Check(Arguments& a) {
 
 Json Notes(const Arguments& a, const FilePairs& files, const std::vector<Result>& results) {
   Json notes = files.notes;
-  notes.push_back("one confusion table of all pictures; classes that neither truth nor prediction has are left out of means, truths that are no class are ignored");
+  notes.push_back(
+      "one confusion table of all pictures; classes that neither truth nor prediction has are left out of means, truths that are no class are ignored");
   if (!a.protocol.empty()) notes.push_back(kWildpassQuirk);
   int64_t unknown = 0;
   for (const Result& r : results) unknown += r.unknown;
-  if (unknown > 0) notes.push_back(std::to_string(unknown) + " predicted pixels are of no class of the file: where the truth has one they are wrong");
+  if (unknown > 0)
+    notes.push_back(std::to_string(unknown) + " predicted pixels are of no class of the file: where the truth has one they are wrong");
   return notes;
 }
 
@@ -165,10 +178,12 @@ void Run(Arguments a, const GlobalOptions& globals) {
   for (const Rolled& turn : turns) rolled.push_back(PairFiles(turn.path, a.gt, endings, "semantic"));
   ViewCache cache(a.view);
   const size_t n = classes.size();
-  const auto results = MeasureAll<Result>("eval semantic", files.pairs.size(), [&](size_t i) { return MeasurePair(files.pairs[i], rolled, turns, i, truths, index, n, cache); });
+  const auto results = MeasureAll<Result>("eval semantic", files.pairs.size(),
+                                          [&](size_t i) { return MeasurePair(files.pairs[i], rolled, turns, i, truths, index, n, cache); });
 
   const auto of_view = [&](size_t view, std::span<const uint32_t> draws = {}) {
-    return Sum(results, n, [view](const Result& r) -> const Confusion& { return r.views[view]; }, draws);
+    return Sum(
+        results, n, [view](const Result& r) -> const Confusion& { return r.views[view]; }, draws);
   };
   Json json;
   std::vector<std::pair<std::string, std::string>> mistakes;
@@ -185,7 +200,8 @@ void Run(Arguments a, const GlobalOptions& globals) {
   if (!a.held_out.empty()) json["open_world"] = OpenWorld(whole, classes, a.held_out);
   AppendViews(json, a.view, [&](size_t view) { return ToJson(FiguresOf(of_view(view))); });
   std::vector<std::vector<Figure>> turned;
-  for (size_t r = 0; r < turns.size(); ++r) turned.push_back(FiguresOf(Sum(results, n, [r](const Result& one) -> const Confusion& { return one.rolled[r]; })));
+  for (size_t r = 0; r < turns.size(); ++r)
+    turned.push_back(FiguresOf(Sum(results, n, [r](const Result& one) -> const Confusion& { return one.rolled[r]; })));
   AppendRolled(json, turns, turned, main);
   std::vector<std::string> names;
   for (const Figure& figure : main) names.push_back(figure.first);
@@ -197,7 +213,8 @@ void Run(Arguments a, const GlobalOptions& globals) {
   WriteTable(a.report.csv, whole, classes);
   std::vector<SheetItem> items;
   for (size_t i = 0; i < results.size(); ++i) items.push_back({i, files.pairs[i].name, 1 - results[i].views[0].PixelAccuracy()});
-  AppendWorst(json, a.sheet, items, "pixel_error", [&](size_t i) { return LabelStrip(ReadLabelPicture(files.pairs[i].prediction), ReadLabelPicture(files.pairs[i].truth)); });
+  AppendWorst(json, a.sheet, items, "pixel_error",
+              [&](size_t i) { return LabelStrip(ReadLabelPicture(files.pairs[i].prediction), ReadLabelPicture(files.pairs[i].truth)); });
   json["notes"] = Notes(a, files, results);
   if (globals.json) {
     PrintJson(json);
@@ -212,11 +229,15 @@ void Run(Arguments a, const GlobalOptions& globals) {
 void AddEvalSemantic(CLI::App& command, GlobalOptions& globals) {
   CLI::App* semantic = command.add_subcommand("semantic", "mIoU of label pictures");
   const auto a = std::make_shared<Arguments>();
-  semantic->add_option("pred", a->pred, "label .png (gray or palette) or .npy, a folder of them, or a dataset of ours (its semantic)")->required();
+  semantic->add_option("pred", a->pred, "label .png (gray or palette) or .npy, a folder of them, or a dataset of ours (its semantic)")
+      ->required();
   semantic->add_option("gt", a->gt, "the truth: the same, with the same names")->required();
-  semantic->add_option("--classes", a->classes, "classes and their ids: .json (a list of id and name, or meta.json) or lines \"id name\"")->required();
+  semantic->add_option("--classes", a->classes, "classes and their ids: .json (a list of id and name, or meta.json) or lines \"id name\"")
+      ->required();
   semantic->add_option("--ignore", a->ignore, "classes whose truths do not count, by name or id")->delimiter(',');
-  semantic->add_option("--open-world", a->held_out, "classes that training has not seen, by name or id: their mIoU beside that of the others")->delimiter(',');
+  semantic
+      ->add_option("--open-world", a->held_out, "classes that training has not seen, by name or id: their mIoU beside that of the others")
+      ->delimiter(',');
   semantic->add_option("--protocol", a->protocol, "wildpass: as that benchmark measures");
   AddViewFlags(*semantic, a->view);
   AddReportFlags(*semantic, a->report, "a row a class");

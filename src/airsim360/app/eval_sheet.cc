@@ -35,12 +35,14 @@ void WriteSheet(const std::string& path, const Image<Rgb8>& sheet) {
 
 void AddSheetFlags(CLI::App& command, SheetOptions& options) {
   command.add_option("--worst", options.worst, "also name so many pictures on which predictions do worst");
-  command.add_option("--sheet", options.file, "draw them, truth, prediction and difference side by side: .png or .jpg (20 unless --worst says)");
+  command.add_option("--sheet", options.file,
+                     "draw them, truth, prediction and difference side by side: .png or .jpg (20 unless --worst says)");
 }
 
 void CheckSheetOptions(SheetOptions& options) {
   if (!options.file.empty() && options.worst == 0) options.worst = kUsualWorst;
-  if (options.worst < 0 || options.worst > kMostWorst) throw InputError("--worst " + std::to_string(options.worst) + ": must be 1 to " + std::to_string(kMostWorst));
+  if (options.worst < 0 || options.worst > kMostWorst)
+    throw InputError("--worst " + std::to_string(options.worst) + ": must be 1 to " + std::to_string(kMostWorst));
   if (options.file.empty()) return;
   for (const char* ending : {".png", ".jpg", ".jpeg"}) {
     if (options.file.ends_with(ending)) return;

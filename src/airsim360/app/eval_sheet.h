@@ -13,8 +13,8 @@
 namespace airsim360 {
 
 struct SheetOptions {
-  int worst = 0;      ///< how many; 0 = none (20 with a file)
-  std::string file;   ///< .png or .jpg of them; "" = none
+  int worst = 0;     ///< how many; 0 = none (20 with a file)
+  std::string file;  ///< .png or .jpg of them; "" = none
 };
 void AddSheetFlags(CLI::App& command, SheetOptions& options);
 void CheckSheetOptions(SheetOptions& options);

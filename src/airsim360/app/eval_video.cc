@@ -90,7 +90,8 @@ Video StepVideo(const Arguments& a) {
 struct Labels {
   std::vector<uint32_t> category, instance;
 };
-Labels LabelsOf(const LabelPicture& picture, const std::vector<PanopticSegment>& segments, const std::vector<bool>& things, const std::string& name) {
+Labels LabelsOf(const LabelPicture& picture, const std::vector<PanopticSegment>& segments, const std::vector<bool>& things,
+                const std::string& name) {
   std::unordered_map<uint32_t, std::pair<uint32_t, uint32_t>> of_id = {{0, {TrackingQuality::kVoid, 0}}};
   for (const PanopticSegment& s : segments) of_id[s.id] = {static_cast<uint32_t>(s.category), things[s.category] && !s.crowd ? s.id : 0};
   Labels labels;
@@ -109,7 +110,8 @@ Labels LabelsOf(const LabelPicture& picture, const std::vector<PanopticSegment>&
 void MergeSegments(const std::vector<PanopticSegment>& more, std::map<uint32_t, PanopticSegment>& all, const char* whose) {
   for (const PanopticSegment& s : more) {
     const auto [at, fresh] = all.emplace(s.id, s);
-    if (!fresh && at->second.category != s.category) throw InputError(std::string(whose) + " segment " + std::to_string(s.id) + " changes its category within a window of video");
+    if (!fresh && at->second.category != s.category)
+      throw InputError(std::string(whose) + " segment " + std::to_string(s.id) + " changes its category within a window of video");
     at->second.crowd |= s.crowd;
   }
 }
@@ -204,12 +206,14 @@ double MeanVpq(const Scores& scores, const std::vector<bool>& chosen) {
 
 std::vector<Figure> FiguresOf(const Scores& scores, const std::vector<PanopticCategory>& categories) {
   std::vector<Figure> figures = {{"stq", scores.tracking.stq}, {"aq", scores.tracking.aq}, {"sq", scores.tracking.sq}};
-  for (const auto& [group, chosen] : PanopticGroups(categories)) figures.emplace_back(group == "all" ? "vpq" : "vpq_" + group, MeanVpq(scores, chosen));
+  for (const auto& [group, chosen] : PanopticGroups(categories))
+    figures.emplace_back(group == "all" ? "vpq" : "vpq_" + group, MeanVpq(scores, chosen));
   return figures;
 }
 
 void Run(const Arguments& a, const GlobalOptions& globals) {
-  if (!a.protocol.empty() && a.protocol != "step") throw InputError("--protocol: " + UnknownChoiceMessage("protocol of video", a.protocol, std::vector<std::string>{"step"}));
+  if (!a.protocol.empty() && a.protocol != "step")
+    throw InputError("--protocol: " + UnknownChoiceMessage("protocol of video", a.protocol, std::vector<std::string>{"step"}));
   std::set<int> windows;
   for (const int window : a.windows) {
     if (window < 1 || window > 1000) throw InputError("--windows: " + std::to_string(window) + " frames; must be 1 to 1000");
@@ -222,7 +226,8 @@ void Run(const Arguments& a, const GlobalOptions& globals) {
   ViewCache cache(view);
   const bool pictures = fs::is_directory(a.paths.gt) && !fs::exists(fs::path(a.paths.gt) / "panoptic.json");
   const Video video = pictures ? StepVideo(a) : PanopticVideo(a);
-  const auto results = MeasureAll<Result>("eval video", video.sequences.size(), [&](size_t i) { return MeasureSequence(video.sequences[i], a, video.categories, cache); });
+  const auto results = MeasureAll<Result>("eval video", video.sequences.size(),
+                                          [&](size_t i) { return MeasureSequence(video.sequences[i], a, video.categories, cache); });
 
   const Scores scores = Pool(results, video.categories.size());
   const std::vector<Figure> main = FiguresOf(scores, video.categories);
@@ -230,12 +235,15 @@ void Run(const Arguments& a, const GlobalOptions& globals) {
   json["tubes"] = scores.tracking.tubes;
   json["frames"] = scores.tracking.frames;
   json["weights"] = a.weights;
-  for (const auto& [window, counts] : scores.windows) AppendPanoptic(json["windows"][std::to_string(window)], counts, video.categories, false);
+  for (const auto& [window, counts] : scores.windows)
+    AppendPanoptic(json["windows"][std::to_string(window)], counts, video.categories, false);
   std::vector<std::vector<std::string>> rows = {{"sequence", "frames", "tubes", "stq", "aq", "sq"}};
   for (size_t i = 0; i < results.size(); ++i) {
     const TrackingScore s = results[i].tracking->Score();
-    json["per_sequence"].push_back({{"sequence", video.sequences[i].name}, {"stq", s.stq}, {"aq", s.aq}, {"sq", s.sq}, {"frames", s.frames}, {"tubes", s.tubes}});
-    rows.push_back({video.sequences[i].name, std::to_string(s.frames), std::to_string(s.tubes), NumberText(s.stq), NumberText(s.aq), NumberText(s.sq)});
+    json["per_sequence"].push_back(
+        {{"sequence", video.sequences[i].name}, {"stq", s.stq}, {"aq", s.aq}, {"sq", s.sq}, {"frames", s.frames}, {"tubes", s.tubes}});
+    rows.push_back({video.sequences[i].name, std::to_string(s.frames), std::to_string(s.tubes), NumberText(s.stq), NumberText(s.aq),
+                    NumberText(s.sq)});
   }
   std::vector<std::string> names;
   for (const Figure& figure : main) names.push_back(figure.first);
@@ -245,11 +253,15 @@ void Run(const Arguments& a, const GlobalOptions& globals) {
     return values;
   });
   WriteCsv(a.report.csv, rows);
-  json["notes"].push_back("step: tubes and confusions of all sequences are pooled; where a class is predicted as void, void is a class of IoU 0, as in STEP's code; crowds of the truth do not count for AQ");
-  json["notes"].push_back("vpq: mean over --windows of the panoptic quality of windows of so many frames, each taken as one large picture (Kim et al., CVPR 2020)");
+  json["notes"].push_back(
+      "step: tubes and confusions of all sequences are pooled; where a class is predicted as void, void is a class of IoU 0, as in STEP's code; crowds of the truth do not count for AQ");
+  json["notes"].push_back(
+      "vpq: mean over --windows of the panoptic quality of windows of so many frames, each taken as one large picture (Kim et al., CVPR 2020)");
   for (const std::string& note : video.notes) json["notes"].push_back(note);
-  if (globals.json) PrintJson(json);
-  else PrintFigures(json);
+  if (globals.json)
+    PrintJson(json);
+  else
+    PrintFigures(json);
 }
 
 }  // namespace
@@ -258,7 +270,8 @@ void AddEvalVideo(CLI::App& command, GlobalOptions& globals) {
   CLI::App* video = command.add_subcommand("video", "segmentation and tracking of panoptic video: STQ, AQ, SQ, VPQ");
   const auto a = std::make_shared<Arguments>();
   AddPanopticPaths(*video, a->paths);
-  video->get_option("pred")->description("COCO panoptic JSON whose ids are the same over frames (images may have video_id), a dataset of ours, or a folder of STEP's PNGs");
+  video->get_option("pred")->description(
+      "COCO panoptic JSON whose ids are the same over frames (images may have video_id), a dataset of ours, or a folder of STEP's PNGs");
   video->add_option("--windows", a->windows, "N,…: lengths of windows for VPQ, frames (default 1,2,3,4)")->delimiter(',');
   video->add_option("--protocol", a->protocol, "step: its figures are always among those given");
   video->add_option("--weights", a->weights, "what a pixel counts: pixel (1, the default) or solid_angle (its steradians, panoramas)");

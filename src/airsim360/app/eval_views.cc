@@ -24,17 +24,23 @@ void CheckChoice(const char* flag, const std::string& text, const std::vector<st
 }  // namespace
 
 void AddReportFlags(CLI::App& command, ReportOptions& options, const char* csv_rows) {
-  command.add_option("--bootstrap", options.bootstrap, "95 % intervals from so many draws of the pictures with replacement, by --seed; 0 = none");
+  command.add_option("--bootstrap", options.bootstrap,
+                     "95 % intervals from so many draws of the pictures with replacement, by --seed; 0 = none");
   command.add_option("--csv", options.csv, std::string("also write a table, ") + csv_rows);
 }
 
 void AddViewFlags(CLI::App& command, ViewOptions& options) {
-  command.add_option("--weights", options.weights, "what a pixel counts: pixel (1, the default) or solid_angle (its steradians, panoramas)");
-  command.add_option("--projection", options.projection, "where pixels are counted: erp (as they are, the default), cube or tangent (the nearest pixels of a panorama)");
+  command.add_option("--weights", options.weights,
+                     "what a pixel counts: pixel (1, the default) or solid_angle (its steradians, panoramas)");
+  command.add_option("--projection", options.projection,
+                     "where pixels are counted: erp (as they are, the default), cube or tangent (the nearest pixels of a panorama)");
   command.add_option("--seam", options.seam, "also within so many columns of the panorama's seam, and apart from it");
   command.add_option("--latitude-bands", options.bands, "also in so many bands of equal latitude");
-  command.add_option("--rolled", options.rolled, "COLUMNS=PRED: also predictions made of pictures whose columns were moved so far to the right; several may be given");
-  command.add_option("--turned", options.turned, "YAW,PITCH,ROLL=PRED: also predictions made of panoramas of a camera that was turned so (degrees: right, up, clockwise); several may be given");
+  command.add_option("--rolled", options.rolled,
+                     "COLUMNS=PRED: also predictions made of pictures whose columns were moved so far to the right; several may be given");
+  command.add_option(
+      "--turned", options.turned,
+      "YAW,PITCH,ROLL=PRED: also predictions made of panoramas of a camera that was turned so (degrees: right, up, clockwise); several may be given");
   command.add_flag("--force", options.force, "measure in spite of what looks like a mistake of units, axes or orientation");
 }
 
@@ -42,9 +48,11 @@ void CheckViewOptions(const ViewOptions& options) {
   const PixelWeight weight = ParsePixelWeight(options.weights);
   CheckChoice("--projection", options.projection, {"erp", "cube", "tangent"});
   if (options.projection != "erp" && weight != PixelWeight::kPixel)
-    throw InputError("--weights " + options.weights + " and --projection " + options.projection + " exclude each other: both say what a direction counts");
+    throw InputError("--weights " + options.weights + " and --projection " + options.projection +
+                     " exclude each other: both say what a direction counts");
   if (options.seam < 0) throw InputError("--seam " + std::to_string(options.seam) + ": must be at least 1");
-  if (options.bands < 0 || options.bands > kMostBands) throw InputError("--latitude-bands " + std::to_string(options.bands) + ": must be 1 to " + std::to_string(kMostBands));
+  if (options.bands < 0 || options.bands > kMostBands)
+    throw InputError("--latitude-bands " + std::to_string(options.bands) + ": must be 1 to " + std::to_string(kMostBands));
   ParseRolled(options);
 }
 
@@ -108,7 +116,8 @@ void AppendViews(nlohmann::ordered_json& json, const ViewOptions& options, const
   }
 }
 
-void AppendRolled(nlohmann::ordered_json& json, std::span<const Rolled> rolled, const std::vector<std::vector<Figure>>& figures, const std::vector<Figure>& main) {
+void AppendRolled(nlohmann::ordered_json& json, std::span<const Rolled> rolled, const std::vector<std::vector<Figure>>& figures,
+                  const std::vector<Figure>& main) {
   if (rolled.empty()) return;
   std::vector<Figure> spread;
   for (size_t f = 0; f < main.size(); ++f) {
@@ -130,7 +139,8 @@ void AppendRolled(nlohmann::ordered_json& json, std::span<const Rolled> rolled, 
   json["spread"] = ToJson(spread);
 }
 
-void AppendIntervals(nlohmann::ordered_json& json, const ReportOptions& options, uint64_t seed, size_t items, const std::vector<std::string>& names,
+void AppendIntervals(nlohmann::ordered_json& json, const ReportOptions& options, uint64_t seed, size_t items,
+                     const std::vector<std::string>& names,
                      const std::function<std::vector<double>(std::span<const uint32_t>)>& statistic) {
   if (options.bootstrap == 0) return;
   const std::vector<Interval> intervals = BootstrapIntervals(items, options.bootstrap, seed, statistic);
@@ -145,7 +155,8 @@ void JudgeMistakes(const std::vector<std::pair<std::string, std::string>>& files
   }
   if (2 * count <= files_and_mistakes.size()) return;
   std::string text = files_and_mistakes[first].first + ": " + files_and_mistakes[first].second;
-  if (files_and_mistakes.size() > 1) text += " (" + std::to_string(count) + " of " + std::to_string(files_and_mistakes.size()) + " pictures)";
+  if (files_and_mistakes.size() > 1)
+    text += " (" + std::to_string(count) + " of " + std::to_string(files_and_mistakes.size()) + " pictures)";
   if (!force) throw InputError(text + "; --force measures it as it is");
   json["warnings"].push_back(text);
 }
@@ -182,7 +193,8 @@ void PrintParts(const nlohmann::ordered_json& json) {
   if (json.contains("latitude_bands")) {
     for (const auto& band : json["latitude_bands"]) {
       char name[48];
-      std::snprintf(name, sizeof(name), "latitude %.4g to %.4g", band["latitude_deg"][0].get<double>(), band["latitude_deg"][1].get<double>());
+      std::snprintf(name, sizeof(name), "latitude %.4g to %.4g", band["latitude_deg"][0].get<double>(),
+                    band["latitude_deg"][1].get<double>());
       PrintPart(name, band);
     }
   }
@@ -214,7 +226,8 @@ void PrintFigures(const nlohmann::ordered_json& json) {
   PrintParts(json);
   for (const char* list : {"notes", "warnings"}) {
     if (!json.contains(list)) continue;
-    for (const auto& text : json[list]) std::printf("%s %s\n", std::string_view(list) == "notes" ? "note:" : "warning:", text.get<std::string>().c_str());
+    for (const auto& text : json[list])
+      std::printf("%s %s\n", std::string_view(list) == "notes" ? "note:" : "warning:", text.get<std::string>().c_str());
   }
 }
 

@@ -78,12 +78,14 @@ std::vector<Rolled> ParseRolled(const ViewOptions& options);
 /// Figures of one view, by name.
 using Figure = std::pair<std::string, double>;
 /// Appends what `of_view` says of the views after the first: `seam` with `near` and `far`, and `latitude_bands` from north to south.
-void AppendViews(nlohmann::ordered_json& json, const ViewOptions& options, const std::function<nlohmann::ordered_json(size_t view)>& of_view);
+void AppendViews(nlohmann::ordered_json& json, const ViewOptions& options,
+                 const std::function<nlohmann::ordered_json(size_t view)>& of_view);
 /// `rolled` and `turned` with the figures of each, and `spread`: largest less smallest of each figure over all of them and the main ones.
-void AppendRolled(nlohmann::ordered_json& json, std::span<const Rolled> rolled, const std::vector<std::vector<Figure>>& figures, const std::vector<Figure>& main);
+void AppendRolled(nlohmann::ordered_json& json, std::span<const Rolled> rolled, const std::vector<std::vector<Figure>>& figures,
+                  const std::vector<Figure>& main);
 /// `intervals`: [low, high] of each figure.
-void AppendIntervals(nlohmann::ordered_json& json, const ReportOptions& options, uint64_t seed, size_t items, const std::vector<std::string>& names,
-                     const std::function<std::vector<double>(std::span<const uint32_t>)>& statistic);
+void AppendIntervals(nlohmann::ordered_json& json, const ReportOptions& options, uint64_t seed, size_t items,
+                     const std::vector<std::string>& names, const std::function<std::vector<double>(std::span<const uint32_t>)>& statistic);
 
 /// What most pictures show (texts that are not "") is refused by an InputError that names the first of them, or a warning in `json` if `force`.
 void JudgeMistakes(const std::vector<std::pair<std::string, std::string>>& files_and_mistakes, bool force, nlohmann::ordered_json& json);

@@ -62,11 +62,14 @@ void Run(const Arguments& a, const GlobalOptions& globals) {
   double collisions = 0;
   for (const auto& one : episodes) collisions += one.episode.collided;
   json["collision_rate"] = collisions / static_cast<double>(episodes.size());
-  AppendIntervals(json, a.report, globals.seed, scores.size(), names, [&](std::span<const uint32_t> draws) { return MeanFigures(scores, draws); });
+  AppendIntervals(json, a.report, globals.seed, scores.size(), names,
+                  [&](std::span<const uint32_t> draws) { return MeanFigures(scores, draws); });
   json["notes"].push_back(std::string(protocol.name) + ": " + std::string(protocol.quirk));
   WriteTable(a.report.csv, episodes, scores);
-  if (globals.json) PrintJson(json);
-  else PrintFigures(json);
+  if (globals.json)
+    PrintJson(json);
+  else
+    PrintFigures(json);
 }
 
 }  // namespace

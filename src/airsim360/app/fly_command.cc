@@ -11,9 +11,9 @@
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/fly_run.h"
 #include "airsim360/app/people_arguments.h"
-#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/session.h"
+#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/video_arguments.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
@@ -35,8 +35,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FlyArguments {
-  std::string world, drone = "hummingbird", controller = "indi", waypoints, script, mission, pose, sensors, wind, out,
-                     size = "1024x512", video;
+  std::string world, drone = "hummingbird", controller = "indi", waypoints, script, mission, pose, sensors, wind, out, size = "1024x512",
+                     video;
   double vmax = 4, amax = 4, speed = 0, longest = 600, fps = VideoOptions{}.frame_rate;
   int64_t frames = 0;
   bool record = false;
@@ -67,22 +67,17 @@ SensorSet ReadSensors(const std::string& file) {
   return file.empty() ? sensors : ReadSensorSet(file, sensors);
 }
 
-std::vector<FlyTask> TasksOf(const FlyArguments& arguments,
-                             const std::shared_ptr<const PolynomialTrajectory>& trajectory) {
+std::vector<FlyTask> TasksOf(const FlyArguments& arguments, const std::shared_ptr<const PolynomialTrajectory>& trajectory) {
   if (!arguments.mission.empty()) return {};
-  if (!trajectory)
-    return ParseFlyScript(arguments.script.empty() ? "takeoff 2; hover 3; land" : arguments.script);
+  if (!trajectory) return ParseFlyScript(arguments.script.empty() ? "takeoff 2; hover 3; land" : arguments.script);
   const Vec3d way = trajectory->At(std::min(1.0, trajectory->duration())).p - trajectory->At(0).p;
-  const auto reference =
-      std::make_shared<const PlannedReference>(trajectory, std::nullopt, std::atan2(way.y, way.x));
+  const auto reference = std::make_shared<const PlannedReference>(trajectory, std::nullopt, std::atan2(way.y, way.x));
   constexpr double kSettle = 1;  // seconds to come to rest after it
-  return {{"waypoints", TrajectoryCommand{reference}, trajectory->duration() + kSettle},
-          {"hover 1", HoverCommand{}, 1}};
+  return {{"waypoints", TrajectoryCommand{reference}, trajectory->duration() + kSettle}, {"hover 1", HoverCommand{}, 1}};
 }
 
 // Where the drone begins: hovering at the first waypoint, or standing under the pose.
-void SetStart(const FlyArguments& arguments, const Scene& scene, const PolynomialTrajectory* trajectory,
-              DroneSetup& setup) {
+void SetStart(const FlyArguments& arguments, const Scene& scene, const PolynomialTrajectory* trajectory, DroneSetup& setup) {
   constexpr double kRadians = std::numbers::pi / 180;
   if (trajectory != nullptr) {
     const Vec3d way = trajectory->At(std::min(1.0, trajectory->duration())).p - trajectory->At(0).p;
@@ -92,8 +87,7 @@ void SetStart(const FlyArguments& arguments, const Scene& scene, const Polynomia
     const PoseArgument pose = ParsePose(arguments.pose);
     setup.X_WB = BodyPose(pose.p, pose.yaw_deg * kRadians, 0, 0);
   } else {
-    setup.X_WB = BodyPose(VecCast<double>(FirstViewpoint(scene)),
-                          scene.spawn_yaw_deg * kRadians, 0, 0);
+    setup.X_WB = BodyPose(VecCast<double>(FirstViewpoint(scene)), scene.spawn_yaw_deg * kRadians, 0, 0);
   }
 }
 
@@ -104,13 +98,13 @@ std::string MissionResult(const MissionProgress& mission) {
 }
 
 nlohmann::ordered_json MissionJson(const FlyResult& r) {
-  nlohmann::ordered_json json = {{"result", MissionResult(*r.mission)}, {"log", r.mission->log}, {"captures", nlohmann::ordered_json::object()}};
+  nlohmann::ordered_json json = {
+      {"result", MissionResult(*r.mission)}, {"log", r.mission->log}, {"captures", nlohmann::ordered_json::object()}};
   for (const MissionCapture& capture : r.captures) json["captures"][capture.to] = json["captures"].value(capture.to, 0) + 1;
   return json;
 }
 
-nlohmann::ordered_json ResultJson(const FlyArguments& arguments, const DroneModel& drone, const FlyResult& r,
-                                  const Scene& scene) {
+nlohmann::ordered_json ResultJson(const FlyArguments& arguments, const DroneModel& drone, const FlyResult& r, const Scene& scene) {
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
   for (const SimEvent& event : r.events) {
     nlohmann::ordered_json json = {{"t_s", static_cast<double>(event.t_ns) * 1e-9},
@@ -158,25 +152,24 @@ std::string FileSum(const std::string& file) { return file.empty() ? "" : "sha25
 // All that the flight follows from; frames have a description of their own. Files count by what they hold.
 std::string DescribeFlight(const FlyArguments& arguments, const GlobalOptions& globals, const Environment& environment) {
   const bool is_file = fs::is_regular_file(arguments.drone);
-  nlohmann::ordered_json json = {
-      {"format", "airsim360-flight-1"},
-      {"generator", std::string("airsim360 ") + kVersion},
-      {"parameters",
-       {{"world", arguments.world},
-        {"seed", globals.seed},
-        {"labels", DescribeLabels(globals)},
-        {"drone", is_file ? FileSum(arguments.drone) : arguments.drone},
-        {"controller", arguments.controller},
-        {"waypoints", FileSum(arguments.waypoints)},
-        {"script", arguments.script},
-        {"pose", arguments.pose},
-        {"vmax", arguments.vmax},
-        {"amax", arguments.amax},
-        {"sensors", FileSum(arguments.sensors)},
-        {"wind", FileSum(arguments.wind)},
-        {"people", arguments.people.Describe()},
-        {"traffic", arguments.traffic.Describe()},
-        {"environment", DescribeEnvironment(environment)}}}};
+  nlohmann::ordered_json json = {{"format", "airsim360-flight-1"},
+                                 {"generator", std::string("airsim360 ") + kVersion},
+                                 {"parameters",
+                                  {{"world", arguments.world},
+                                   {"seed", globals.seed},
+                                   {"labels", DescribeLabels(globals)},
+                                   {"drone", is_file ? FileSum(arguments.drone) : arguments.drone},
+                                   {"controller", arguments.controller},
+                                   {"waypoints", FileSum(arguments.waypoints)},
+                                   {"script", arguments.script},
+                                   {"pose", arguments.pose},
+                                   {"vmax", arguments.vmax},
+                                   {"amax", arguments.amax},
+                                   {"sensors", FileSum(arguments.sensors)},
+                                   {"wind", FileSum(arguments.wind)},
+                                   {"people", arguments.people.Describe()},
+                                   {"traffic", arguments.traffic.Describe()},
+                                   {"environment", DescribeEnvironment(environment)}}}};
   if (!arguments.mission.empty()) {
     json["parameters"]["mission"] = FileSum(arguments.mission);
     json["parameters"]["longest"] = arguments.longest;
@@ -243,7 +236,8 @@ std::optional<VideoResult> WriteVideo(const FlyArguments& arguments, const Globa
   const DatasetSpec spec = SpecOf(arguments, globals, true);
   Flight flight;
   flight.shots = std::move(result.video);
-  return FilmFlight(InputOf(stage, spec, flight, {}), stage.renderer(spec.tier), arguments.video, arguments.encoding.Options(arguments.fps));
+  return FilmFlight(InputOf(stage, spec, flight, {}), stage.renderer(spec.tier), arguments.video,
+                    arguments.encoding.Options(arguments.fps));
 }
 
 // Everything that can be wrong with a video, before anything is loaded.
@@ -260,26 +254,28 @@ void CheckMissionResult(const FlyArguments& arguments, const FlyResult& result) 
   if (!result.mission || result.mission->result == MissionProgress::Result::kSuccess) return;
   const std::string last = result.mission->log.empty() ? "" : "; last: " + result.mission->log.back();
   if (result.mission->result == MissionProgress::Result::kRunning)
-    throw RuntimeError(arguments.mission + ": the mission was stopped after " + std::to_string(std::lround(arguments.longest)) + " s (--longest)" + last);
+    throw RuntimeError(arguments.mission + ": the mission was stopped after " + std::to_string(std::lround(arguments.longest)) +
+                       " s (--longest)" + last);
   throw RuntimeError(arguments.mission + ": the mission has failed" + last);
 }
 
 void PrintFlight(const FlyArguments& arguments, const FlyResult& result, const std::optional<VideoResult>& video) {
   const std::string clearance = result.least_clearance ? Metres(*result.least_clearance) : "not flown";
-  std::printf("%s: %.1f s of flight, %zu events, least clearance in the air %s, %.1f times real time\n",
-              arguments.out.c_str(), result.pace.simulated, result.events.size(), clearance.c_str(),
-              result.pace.real_time_factor);
+  std::printf("%s: %.1f s of flight, %zu events, least clearance in the air %s, %.1f times real time\n", arguments.out.c_str(),
+              result.pace.simulated, result.events.size(), clearance.c_str(), result.pace.real_time_factor);
   if (video)
     std::printf("%s: %lld pictures, %.2f s (%s)\n", arguments.video.c_str(), static_cast<long long>(video->pictures), video->seconds,
                 video->encoder.c_str());
-  if (result.tracking_rms >= 0)
-    std::printf("tracking error %.3f m rms, %.3f m at most\n", result.tracking_rms, result.tracking_max);
+  if (result.tracking_rms >= 0) std::printf("tracking error %.3f m rms, %.3f m at most\n", result.tracking_rms, result.tracking_max);
   if (result.mission) std::printf("mission: %s, %zu captures\n", MissionResult(*result.mission).c_str(), result.captures.size());
 }
 
 nlohmann::ordered_json VideoJson(const FlyArguments& arguments, const VideoResult& video) {
-  return {{"file", arguments.video}, {"pictures", video.pictures}, {"seconds", video.seconds},
-          {"encoder", video.encoder}, {"render_ms", video.render_ms / static_cast<double>(video.pictures)}};
+  return {{"file", arguments.video},
+          {"pictures", video.pictures},
+          {"seconds", video.seconds},
+          {"encoder", video.encoder},
+          {"render_ms", video.render_ms / static_cast<double>(video.pictures)}};
 }
 
 /// What follows from the flags alone. Everything that can be wrong with them is found here, before a world is loaded.
@@ -365,37 +361,29 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand("fly", "fly one drone through a world, with dynamics and sensors");
   auto arguments = std::make_shared<FlyArguments>();
   command
-      ->add_option(
-          "--world", arguments->world,
-          "name (airsim360 worlds) or path of a .glb, .gltf, .obj, .city.json, .osm, .osm.pbf or world .yaml")
+      ->add_option("--world", arguments->world,
+                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj, .city.json, .osm, .osm.pbf or world .yaml")
       ->required();
   command->add_option("--out", arguments->out, "folder of trajectory.csv, sensors/ and frames/")->required();
-  command->add_option("--drone", arguments->drone,
-                      "name of the catalogue, a drone .yaml, or words in quotes (default hummingbird)");
-  command->add_option("--controller", arguments->controller,
-                      "simple_flight, px4, se3 or indi (default indi)");
-  command->add_option("--waypoints", arguments->waypoints,
-                      "CSV x,y,z: minimum-snap flight through them, begun hovering at the first");
+  command->add_option("--drone", arguments->drone, "name of the catalogue, a drone .yaml, or words in quotes (default hummingbird)");
+  command->add_option("--controller", arguments->controller, "simple_flight, px4, se3 or indi (default indi)");
+  command->add_option("--waypoints", arguments->waypoints, "CSV x,y,z: minimum-snap flight through them, begun hovering at the first");
   command->add_option("--script", arguments->script,
                       "tasks: takeoff [HEIGHT]; hover SECONDS; goto X,Y,Z[,SPEED]; velocity X,Y,Z,SECONDS; "
                       "return; land (default \"takeoff 2; hover 3; land\")");
-  command->add_option("--mission", arguments->mission, "behaviour tree in XML (docs/guide/missions.md); its captures become datasets in --out");
-  command->add_option("--longest", arguments->longest, "seconds after which a mission is stopped (default 600)")->check(CLI::Range(0.1, 86400.0));
+  command->add_option("--mission", arguments->mission,
+                      "behaviour tree in XML (docs/guide/missions.md); its captures become datasets in --out");
+  command->add_option("--longest", arguments->longest, "seconds after which a mission is stopped (default 600)")
+      ->check(CLI::Range(0.1, 86400.0));
   command->add_option("--pose", arguments->pose,
                       "x,y,z[,yaw_deg] above where it stands; in maps also 60.1708N,24.9375E for x,y (default: the spawn)");
-  command->add_option("--vmax", arguments->vmax, "m/s of --waypoints (default 4)")
-      ->check(CLI::Range(0.01, 100.0));
-  command->add_option("--amax", arguments->amax, "m/s^2 of --waypoints (default 4)")
-      ->check(CLI::Range(0.01, 100.0));
-  command->add_option("--sensors", arguments->sensors,
-                      "sensor file (docs/reference/sensors.md): all that it names is written to sensors/");
+  command->add_option("--vmax", arguments->vmax, "m/s of --waypoints (default 4)")->check(CLI::Range(0.01, 100.0));
+  command->add_option("--amax", arguments->amax, "m/s^2 of --waypoints (default 4)")->check(CLI::Range(0.01, 100.0));
+  command->add_option("--sensors", arguments->sensors, "sensor file (docs/reference/sensors.md): all that it names is written to sensors/");
   AddWindFlag(*command, arguments->wind);
-  command
-      ->add_option("--speed", arguments->speed,
-                   "simulated seconds a second, 0 = as fast as possible (default)")
+  command->add_option("--speed", arguments->speed, "simulated seconds a second, 0 = as fast as possible (default)")
       ->check(CLI::Range(0.0, 1000.0));
-  command
-      ->add_option("--frames", arguments->frames, "panoramas spread over the flight, in frames/ (default 0)")
+  command->add_option("--frames", arguments->frames, "panoramas spread over the flight, in frames/ (default 0)")
       ->check(CLI::Range(int64_t{0}, int64_t{1000000}));
   command->add_option("--size", arguments->size, "WxH of the panoramas (default 1024x512)");
   arguments->picture.AddTo(*command);

@@ -22,8 +22,7 @@ double Seconds(int64_t t_ns) { return static_cast<double>(t_ns) * 1e-9; }
 /// Flies one task after the other and notes what happens.
 class Pilot {
  public:
-  Pilot(const FlyJob& job, FlyResult& result)
-      : job_(job), result_(result), loop_(job.model), pacer_(loop_, job.speed) {
+  Pilot(const FlyJob& job, FlyResult& result) : job_(job), result_(result), loop_(job.model), pacer_(loop_, job.speed) {
     if (!job.record_note.empty()) loop_.StartRecording(job.record_note);
     Note(*loop_.Snapshot());
     NotePicture();
@@ -60,8 +59,7 @@ class Pilot {
       Compare(task, *state);
       for (const SimEvent& event : loop_.TakeEvents()) {
         const bool finished = event.kind == SimEvent::Kind::kCommandDone;
-        done |= task.until_done && (finished || event.kind == SimEvent::Kind::kCommandRefused ||
-                                    event.kind == SimEvent::Kind::kCrash);
+        done |= task.until_done && (finished || event.kind == SimEvent::Kind::kCommandRefused || event.kind == SimEvent::Kind::kCrash);
         if (!finished) job_.log(DescribeEvent(event, job_.model->tracer->scene()));
         result_.events.push_back(event);
       }
@@ -117,8 +115,7 @@ class Pilot {
     result_.flight.trajectory.push_back({state.t_ns, drone.motion, drone.a_WB});
     if (job_.frames > 0) samples_.push_back(ShotOf(state));
     if (!IsEnRoute(drone)) return;
-    const float clearance =
-        job_.model->tracer->Clearance(VecCast<float>(drone.motion.X_WB.p), kClearanceRange);
+    const float clearance = job_.model->tracer->Clearance(VecCast<float>(drone.motion.X_WB.p), kClearanceRange);
     result_.least_clearance = std::min<double>(result_.least_clearance.value_or(kClearanceRange), clearance);
   }
 
@@ -153,8 +150,7 @@ FlyResult RunFlight(const FlyJob& job) {
   const auto& trajectory = result.flight.trajectory;
   for (int64_t i = 0; i < job.frames; ++i) {
     const size_t last = trajectory.size() - 1;
-    const size_t at =
-        job.frames > 1 ? static_cast<size_t>(i) * last / static_cast<size_t>(job.frames - 1) : last;
+    const size_t at = job.frames > 1 ? static_cast<size_t>(i) * last / static_cast<size_t>(job.frames - 1) : last;
     Shot shot = pilot.samples()[at];
     shot.t_ns = trajectory[at].t_ns;
     shot.body = trajectory[at].body;
@@ -165,8 +161,7 @@ FlyResult RunFlight(const FlyJob& job) {
 
 std::string DescribeEvent(const SimEvent& event, const Scene& scene) {
   char text[160];
-  std::snprintf(text, sizeof(text), "t %.3f s: %s", Seconds(event.t_ns),
-                kSimEventNames[static_cast<size_t>(event.kind)]);
+  std::snprintf(text, sizeof(text), "t %.3f s: %s", Seconds(event.t_ns), kSimEventNames[static_cast<size_t>(event.kind)]);
   std::string description = text;
   if (event.collision.count > 0) {
     const EntityId id = event.collision.entity;

@@ -17,8 +17,8 @@ namespace airsim360 {
 struct FlyJob {
   std::shared_ptr<const SimModel> model;  ///< with one drone
   std::vector<FlyTask> tasks;
-  std::shared_ptr<const Mission> mission;  ///< flown instead of tasks; null: none
-  double longest = 0;                      ///< seconds that a mission may take
+  std::shared_ptr<const Mission> mission;       ///< flown instead of tasks; null: none
+  double longest = 0;                           ///< seconds that a mission may take
   double speed = 0;                             ///< of the clock, 0 = as fast as the machine can
   int64_t frames = 0;                           ///< pictures, spread evenly over the flight once it is known
   double video_fps = 0;                         ///< of the shots for a video, from the start on; 0 = none

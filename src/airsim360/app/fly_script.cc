@@ -12,8 +12,8 @@ namespace {
 constexpr double kLongest = 600;  // seconds that a task may take that ends by itself
 
 constexpr std::pair<std::string_view, std::string_view> kForms[] = {
-    {"takeoff", "takeoff [HEIGHT]"}, {"hover", "hover SECONDS"}, {"goto", "goto X,Y,Z[,SPEED]"},
-    {"velocity", "velocity X,Y,Z,SECONDS"}, {"return", "return"}, {"land", "land"}};
+    {"takeoff", "takeoff [HEIGHT]"},        {"hover", "hover SECONDS"}, {"goto", "goto X,Y,Z[,SPEED]"},
+    {"velocity", "velocity X,Y,Z,SECONDS"}, {"return", "return"},       {"land", "land"}};
 
 // How the task is written that begins with the same word.
 std::string FormOf(std::string_view task) {
@@ -24,9 +24,7 @@ std::string FormOf(std::string_view task) {
   return {};
 }
 
-[[noreturn]] void Fail(const std::string& task, const std::string& what) {
-  throw InputError("--script: '" + task + "': " + what);
-}
+[[noreturn]] void Fail(const std::string& task, const std::string& what) { throw InputError("--script: '" + task + "': " + what); }
 
 std::string Trimmed(const std::string& text) {
   const size_t begin = text.find_first_not_of(" \t\n");
@@ -69,9 +67,7 @@ FlyTask ParseTask(const std::string& task) {
   if (word == "goto") {
     const auto n = numbers(3, 4);
     const double speed = n.size() > 3 ? Positive(task, n[3]) : 0;
-    return {task,
-            PositionCommand{.p_W = {n[0], n[1], n[2]}, .speed = speed, .yaw = {YawTarget::Mode::kForward}},
-            kLongest, true};
+    return {task, PositionCommand{.p_W = {n[0], n[1], n[2]}, .speed = speed, .yaw = {YawTarget::Mode::kForward}}, kLongest, true};
   }
   if (word == "velocity") {
     const auto n = numbers(4, 4);

@@ -27,10 +27,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr size_t kMostAnswer = size_t{256} << 20;
 constexpr int kDeepest = 12;
-constexpr double kPatience = 10, kFirstPatience = 3;        // seconds
-constexpr double kShortest = 0.05, kLongest = 0.5;          // seconds of a move
+constexpr double kPatience = 10, kFirstPatience = 3;  // seconds
+constexpr double kShortest = 0.05, kLongest = 0.5;    // seconds of a move
 constexpr double kNear = 0.5, kFar = 200, kMostSpeed = 15, kTurnRateDeg = 86;
-constexpr std::chrono::milliseconds kPause{100};            // between looks at an episode that stands still
+constexpr std::chrono::milliseconds kPause{100};  // between looks at an episode that stands still
 
 std::string UrlOf(const std::string& address, const std::string& path) { return "http://" + address + path; }
 
@@ -95,11 +95,11 @@ struct FollowedAgent::Impl {
 
   FollowOptions options;
   std::string world;
-  std::mutex mutex;  // of what follows
-  std::string shown;        // the episode of the last picture
+  std::mutex mutex;   // of what follows
+  std::string shown;  // the episode of the last picture
   int64_t shown_moment = -1;
   int shown_width = 0;
-  SocketMessage last;       // picture
+  SocketMessage last;  // picture
   Clock::time_point moved_at = {};
   int64_t next_number = 1;
   FollowedPictures pictures;
@@ -115,7 +115,8 @@ Json FollowedAgent::Impl::Get(const std::string& path) const {
 std::optional<std::string> FollowedAgent::Impl::Newest() const {
   const Json list = Get("/v1/episodes");
   int64_t newest = -1;
-  for (const Json& entry : list.at("episodes")) newest = std::max<int64_t>(newest, std::atoll(entry.at("episode").get<std::string>().c_str() + 1));
+  for (const Json& entry : list.at("episodes"))
+    newest = std::max<int64_t>(newest, std::atoll(entry.at("episode").get<std::string>().c_str() + 1));
   if (newest < 0) return std::nullopt;
   return "e" + std::to_string(newest);
 }
@@ -136,8 +137,12 @@ void FollowedAgent::Impl::Fly(const std::string& episode, const Json& input) {
   const auto now = Clock::now();
   const double passed = std::clamp(std::chrono::duration<double>(now - moved_at).count(), kShortest, kLongest);
   moved_at = now;
-  const Json action{{"type", "velocity"}, {"v", {ahead * kMostSpeed, left * kMostSpeed, up * kMostSpeed}}, {"yaw_rate_deg", turn * kTurnRateDeg}, {"duration", passed}};
-  const HttpAnswer answer = PostJson(UrlOf(options.address, "/v1/episodes/" + episode + "/step"), "", Json{{"action", action}}.dump(), kPatience, kMostAnswer);
+  const Json action{{"type", "velocity"},
+                    {"v", {ahead * kMostSpeed, left * kMostSpeed, up * kMostSpeed}},
+                    {"yaw_rate_deg", turn * kTurnRateDeg},
+                    {"duration", passed}};
+  const HttpAnswer answer =
+      PostJson(UrlOf(options.address, "/v1/episodes/" + episode + "/step"), "", Json{{"action", action}}.dump(), kPatience, kMostAnswer);
   if (answer.status == 0) throw RuntimeError("the server at " + options.address + " is gone: " + answer.fault);
   // Busy with its agent, or over: the picture says so.
 }
@@ -145,11 +150,21 @@ void FollowedAgent::Impl::Fly(const std::string& episode, const Json& input) {
 // Pose, time and task, as fields of the header.
 std::string FollowedAgent::Impl::HeaderOf(const Json& watched) const {
   const Json &observation = watched.at("observation"), &pose = observation.at("pose"), &p = pose.at("p");
-  const RigidTransform X_WC = BodyPose({p[0].get<double>(), p[1].get<double>(), p[2].get<double>()}, pose.at("yaw_deg").get<double>() * std::numbers::pi / 180, 0, 0) * CameraInBody();
+  const RigidTransform X_WC = BodyPose({p[0].get<double>(), p[1].get<double>(), p[2].get<double>()},
+                                       pose.at("yaw_deg").get<double>() * std::numbers::pi / 180, 0, 0) *
+                              CameraInBody();
   const Quaternion q = ToQuaternion(X_WC.R);
-  Json fields{{"number", next_number}, {"t", observation.at("t")}, {"p", p}, {"q", {q.w, q.x, q.y, q.z}}, {"v", observation.at("velocity").at("v")},
-              {"episode", watched.at("episode")}, {"instruction", watched.at("task").at("instruction")}, {"goal", watched.at("task").at("goal")},
-              {"step", observation.at("step")}, {"end", observation.at("end")}, {"distance", observation.at("distance_to_goal")}};
+  Json fields{{"number", next_number},
+              {"t", observation.at("t")},
+              {"p", p},
+              {"q", {q.w, q.x, q.y, q.z}},
+              {"v", observation.at("velocity").at("v")},
+              {"episode", watched.at("episode")},
+              {"instruction", watched.at("task").at("instruction")},
+              {"goal", watched.at("task").at("goal")},
+              {"step", observation.at("step")},
+              {"end", observation.at("end")},
+              {"distance", observation.at("distance_to_goal")}};
   if (watched.contains("score")) fields["score"] = watched["score"];
   const std::string text = fields.dump(-1, ' ', false, Json::error_handler_t::replace);
   return text.substr(1, text.size() - 2);
@@ -157,14 +172,16 @@ std::string FollowedAgent::Impl::HeaderOf(const Json& watched) const {
 
 SocketMessage FollowedAgent::Impl::Picture(const Json& message, bool may_fly) {
   const std::lock_guard lock(mutex);
-  const int width = std::clamp(message.contains("width") && message["width"].is_number_integer() ? message["width"].get<int>() : 1024, 128, 4096);
+  const int width =
+      std::clamp(message.contains("width") && message["width"].is_number_integer() ? message["width"].get<int>() : 1024, 128, 4096);
   const std::string episode = Episode();
   if (options.lease && message.contains("input")) {
     if (!may_fly) throw InputError("token: flying needs the page's token");
     Fly(episode, message["input"]);
   }
   const bool known = episode == shown && width == shown_width;
-  const Json watched = Get("/v1/episodes/" + episode + "/watch?labels=1&width=" + std::to_string(width) + "&since=" + std::to_string(known ? shown_moment : -1));
+  const Json watched = Get("/v1/episodes/" + episode + "/watch?labels=1&width=" + std::to_string(width) +
+                           "&since=" + std::to_string(known ? shown_moment : -1));
   if (!watched.contains("panorama")) {
     std::this_thread::sleep_for(kPause);
     return last;
@@ -213,8 +230,15 @@ FollowedAgent::FollowedAgent(const FollowOptions& options) : impl_(std::make_uni
 FollowedAgent::~FollowedAgent() = default;
 
 std::string FollowedAgent::DescriptionJson() const {
-  return Json{{"world", impl_->world + ", agents at " + impl_->options.address}, {"products", {"range", "entity"}}, {"scale", {kNear, kFar}}, {"weathers", Json::array()},
-              {"keeps", false}, {"flies", impl_->options.lease}, {"follows", true}, {"resets", impl_->options.lease}, {"categories", Json::array()}}
+  return Json{{"world", impl_->world + ", agents at " + impl_->options.address},
+              {"products", {"range", "entity"}},
+              {"scale", {kNear, kFar}},
+              {"weathers", Json::array()},
+              {"keeps", false},
+              {"flies", impl_->options.lease},
+              {"follows", true},
+              {"resets", impl_->options.lease},
+              {"categories", Json::array()}}
       .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

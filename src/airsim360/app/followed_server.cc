@@ -78,7 +78,8 @@ Mat3d CameraRotation(const Mat3d& R_WB) {
 bool IsAirSimServer(const std::string& address) {
   RpcClient client(address);
   try {
-    client.Call("ping", 0, [](WireWriter&) {}, [](const WireValue&) {});
+    client.Call(
+        "ping", 0, [](WireWriter&) {}, [](const WireValue&) {});
     return true;
   } catch (const InputError&) {
     return true;  // it answers, if only that it does not know the call
@@ -105,14 +106,16 @@ struct FollowedServer::Impl {
 };
 
 void FollowedServer::Impl::Control(bool enabled) {
-  client.Call("enableApiControl", 2, [&](WireWriter& w) { w.Bool(enabled), w.String(options.vehicle); }, [](const WireValue&) {});
+  client.Call(
+      "enableApiControl", 2, [&](WireWriter& w) { w.Bool(enabled), w.String(options.vehicle); }, [](const WireValue&) {});
 }
 
 void FollowedServer::Impl::Fly(const Json& input) {
   const auto [ahead, left, up, turn] = SticksOf(input);
   if (ahead == 0 && left == 0 && up == 0 && turn == 0) return;
   moves.Post("moveByVelocityBodyFrame", 7, [&](WireWriter& w) {
-    w.Float(static_cast<float>(ahead * kMostSpeed)), w.Float(static_cast<float>(-left * kMostSpeed)), w.Float(static_cast<float>(-up * kMostSpeed));
+    w.Float(static_cast<float>(ahead * kMostSpeed)), w.Float(static_cast<float>(-left * kMostSpeed)),
+        w.Float(static_cast<float>(-up * kMostSpeed));
     w.Float(kMoveSeconds), w.Int(0);
     w.MapHeader(2), w.String("is_rate"), w.Bool(true), w.String("yaw_or_rate"), w.Float(static_cast<float>(-turn * kTurnRateDeg));
     w.String(options.vehicle);
@@ -128,7 +131,10 @@ std::string FollowedServer::Impl::HeaderOf(const WireValue& image) {
   if (const WireValue* t = image.Find("time_stamp")) FromWire(*t, stamp);
   const RigidTransform X_WB = airsim::FromPose(pose, {});
   const Quaternion q = ToQuaternion(CameraRotation(X_WB.R));
-  const Json fields{{"number", next_number}, {"t", 1e-9 * static_cast<double>(stamp)}, {"p", {X_WB.p.x, X_WB.p.y, X_WB.p.z}}, {"q", {q.w, q.x, q.y, q.z}}};
+  const Json fields{{"number", next_number},
+                    {"t", 1e-9 * static_cast<double>(stamp)},
+                    {"p", {X_WB.p.x, X_WB.p.y, X_WB.p.z}},
+                    {"q", {q.w, q.x, q.y, q.z}}};
   const std::string text = fields.dump();
   return text.substr(1, text.size() - 2);
 }
@@ -137,22 +143,26 @@ SocketMessage FollowedServer::Impl::Picture() {
   PlaneMessage planes;
   SocketMessage answer;
   Frame next;
-  client.Call("simGetImages", 3, [&](WireWriter& w) { WriteRequests(w, options.vehicle); }, [&](const WireValue& images) {
-    if (images.items.size() != std::size(kCameras)) throw RuntimeError("the server's pictures are not understood");
-    next.rgb = ColorsOf(PanoramaOf(images.items[0], "image_data_uint8", 3));
-    const Panorama range = PanoramaOf(images.items[1], "image_data_float", sizeof(float)), entity = PanoramaOf(images.items[2], "image_data_uint8", 3);
-    next.range = Image<float>(range.width, range.height);
-    std::memcpy(next.range.pixels().data(), range.bytes.data(), range.bytes.size());
-    const Image<Rgb8> ids = ColorsOf(entity);
-    next.entity = Image<EntityId>(entity.width, entity.height);
-    for (size_t i = 0; i < ids.size(); ++i) next.entity.pixels()[i] = ids.pixels()[i].r + 256U * ids.pixels()[i].g + 65536U * ids.pixels()[i].b;
-    const std::lock_guard lock(mutex);
-    planes.AddPicture(next.rgb);
-    planes.AddProduct(next, "range");
-    planes.AddProduct(next, "entity");
-    answer = {planes.Finish(HeaderOf(images.items[0])), true};
-    pictures.Add(next_number++, std::move(next));
-  });
+  client.Call(
+      "simGetImages", 3, [&](WireWriter& w) { WriteRequests(w, options.vehicle); },
+      [&](const WireValue& images) {
+        if (images.items.size() != std::size(kCameras)) throw RuntimeError("the server's pictures are not understood");
+        next.rgb = ColorsOf(PanoramaOf(images.items[0], "image_data_uint8", 3));
+        const Panorama range = PanoramaOf(images.items[1], "image_data_float", sizeof(float)),
+                       entity = PanoramaOf(images.items[2], "image_data_uint8", 3);
+        next.range = Image<float>(range.width, range.height);
+        std::memcpy(next.range.pixels().data(), range.bytes.data(), range.bytes.size());
+        const Image<Rgb8> ids = ColorsOf(entity);
+        next.entity = Image<EntityId>(entity.width, entity.height);
+        for (size_t i = 0; i < ids.size(); ++i)
+          next.entity.pixels()[i] = ids.pixels()[i].r + 256U * ids.pixels()[i].g + 65536U * ids.pixels()[i].b;
+        const std::lock_guard lock(mutex);
+        planes.AddPicture(next.rgb);
+        planes.AddProduct(next, "range");
+        planes.AddProduct(next, "entity");
+        answer = {planes.Finish(HeaderOf(images.items[0])), true};
+        pictures.Add(next_number++, std::move(next));
+      });
   return answer;
 }
 
@@ -174,13 +184,16 @@ SocketMessage FollowedServer::Impl::Do(const Json& message, bool may_fly) {
 }
 
 FollowedServer::FollowedServer(const FollowOptions& options) : impl_(std::make_unique<Impl>(options)) {
-  impl_->client.Call("listVehicles", 0, [](WireWriter&) {}, [&](const WireValue& names) {
-    std::vector<std::string> all;
-    for (const WireValue& name : names.items) all.emplace_back(name.text);
-    if (all.empty()) throw InputError("--connect: the server at " + options.address + " has no vehicles");
-    if (impl_->options.vehicle.empty()) impl_->options.vehicle = all.front();
-    if (std::ranges::find(all, impl_->options.vehicle) == all.end()) throw InputError("--vehicle: " + UnknownChoiceMessage("vehicle", impl_->options.vehicle, all));
-  });
+  impl_->client.Call(
+      "listVehicles", 0, [](WireWriter&) {},
+      [&](const WireValue& names) {
+        std::vector<std::string> all;
+        for (const WireValue& name : names.items) all.emplace_back(name.text);
+        if (all.empty()) throw InputError("--connect: the server at " + options.address + " has no vehicles");
+        if (impl_->options.vehicle.empty()) impl_->options.vehicle = all.front();
+        if (std::ranges::find(all, impl_->options.vehicle) == all.end())
+          throw InputError("--vehicle: " + UnknownChoiceMessage("vehicle", impl_->options.vehicle, all));
+      });
   if (options.lease) impl_->Control(true);
 }
 
@@ -194,22 +207,32 @@ FollowedServer::~FollowedServer() {
 }
 
 std::string FollowedServer::DescriptionJson() const {
-  return Json{{"world", impl_->options.vehicle + " at " + impl_->options.address}, {"products", {"range", "entity"}}, {"scale", {kNear, kFar}}, {"weathers", Json::array()},
-              {"keeps", false}, {"flies", impl_->options.lease}, {"follows", true}, {"categories", Json::array()}}
+  return Json{{"world", impl_->options.vehicle + " at " + impl_->options.address},
+              {"products", {"range", "entity"}},
+              {"scale", {kNear, kFar}},
+              {"weathers", Json::array()},
+              {"keeps", false},
+              {"flies", impl_->options.lease},
+              {"follows", true},
+              {"categories", Json::array()}}
       .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string FollowedServer::EntitiesJson() const {
   Json entities = Json::object();
-  impl_->client.Call("simListInstanceSegmentationObjects", 0, [](WireWriter&) {}, [&](const WireValue& names) {
-    for (size_t i = 0; i < names.items.size(); ++i) entities[std::to_string(i + 1)] = {{"name", names.items[i].text}, {"category_path", ""}, {"kind", "thing"}};
-  });
+  impl_->client.Call(
+      "simListInstanceSegmentationObjects", 0, [](WireWriter&) {},
+      [&](const WireValue& names) {
+        for (size_t i = 0; i < names.items.size(); ++i)
+          entities[std::to_string(i + 1)] = {{"name", names.items[i].text}, {"category_path", ""}, {"kind", "thing"}};
+      });
   return entities.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 SocketMessage FollowedServer::Answer(std::string_view text, const std::string& token) {
   const bool tangled = std::ranges::count(text, '[') + std::ranges::count(text, '{') > 16;
-  return AnswerMessage<Json>(tangled ? "" : text, {}, token, [&](const Json& message, bool may_fly) { return impl_->Do(message, may_fly); });
+  return AnswerMessage<Json>(tangled ? "" : text, {}, token,
+                             [&](const Json& message, bool may_fly) { return impl_->Do(message, may_fly); });
 }
 
 }  // namespace airsim360

@@ -18,21 +18,17 @@ size_t Length(std::string_view text) {
 std::string Entry(const std::string& name, std::string_view description) {
   std::string text = "  " + name;
   const size_t length = Length(text);
-  text += length + 2 > kNameColumns ? "\n" + std::string(kNameColumns, ' ')
-                                    : std::string(kNameColumns - length, ' ');
+  text += length + 2 > kNameColumns ? "\n" + std::string(kNameColumns, ' ') : std::string(kNameColumns - length, ' ');
   return text + Wrapped(description, kColumns - kNameColumns, kNameColumns) + "\n";
 }
 
 class GroupedHelp : public CLI::Formatter {
  public:
-  std::string make_description(const CLI::App* app) const override {
-    return Wrapped(app->get_description(), kColumns, 0) + "\n\n";
-  }
+  std::string make_description(const CLI::App* app) const override { return Wrapped(app->get_description(), kColumns, 0) + "\n\n"; }
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     std::string text = make_description(app) + make_usage(app, name) + make_positionals(app);
     for (const std::string_view group : FlagGroups()) {
-      const auto flags = app->get_options(
-          [&](const CLI::Option* flag) { return flag->get_group() == group && flag->nonpositional(); });
+      const auto flags = app->get_options([&](const CLI::Option* flag) { return flag->get_group() == group && flag->nonpositional(); });
       if (!flags.empty()) text += make_group(std::string(group), false, flags);
     }
     text += make_subcommands(app, mode);
@@ -40,20 +36,16 @@ class GroupedHelp : public CLI::Formatter {
     return examples.empty() ? text : text + "\n" + examples;
   }
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
-    return Entry(make_option_name(option, is_positional) + make_option_opts(option),
-                 make_option_desc(option));
+    return Entry(make_option_name(option, is_positional) + make_option_opts(option), make_option_desc(option));
   }
-  std::string make_subcommand(const CLI::App* command) const override {
-    return Entry(command->get_name(), command->get_description());
-  }
+  std::string make_subcommand(const CLI::App* command) const override { return Entry(command->get_name(), command->get_description()); }
 };
 
 std::string ExamplesText(const std::string& command) {
   std::string text;
   for (const CommandExample& example : CommandExamples()) {
     if (example.command != command) continue;
-    text += (text.empty() ? "Examples:\n  " : "\n  ") + std::string(example.line) + "\n      " +
-            Wrapped(example.what, kColumns - 6, 6);
+    text += (text.empty() ? "Examples:\n  " : "\n  ") + std::string(example.line) + "\n      " + Wrapped(example.what, kColumns - 6, 6);
   }
   return text;
 }
@@ -61,11 +53,9 @@ std::string ExamplesText(const std::string& command) {
 void Arrange(CLI::App& command, const std::shared_ptr<GroupedHelp>& help) {
   command.formatter(help);
   for (CLI::Option* option : command.get_options()) {
-    if (option->nonpositional() && !option->get_group().empty())
-      option->group(std::string(GroupOfFlag(option->get_name())));
+    if (option->nonpositional() && !option->get_group().empty()) option->group(std::string(GroupOfFlag(option->get_name())));
   }
-  if (const std::string examples = ExamplesText(CommandPath(command)); !examples.empty())
-    command.footer(examples);
+  if (const std::string examples = ExamplesText(CommandPath(command)); !examples.empty()) command.footer(examples);
   for (CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; })) Arrange(*inner, help);
 }
 

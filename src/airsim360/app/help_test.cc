@@ -123,8 +123,8 @@ TEST(Help, FlagsAreInGroupsAndRequiredOnesSaySo) {
   Program program;
   const std::string help = HelpOf(*program.app().get_subcommand("collect"));
   size_t last = 0;
-  for (const char* heading : {"\nWorld:\n", "\nRoute:\n", "\nCamera:\n", "\nQuality:\n", "\nPeople:\n",
-                              "\nWeather:\n", "\nOutput:\n", "\nMachine:\n", "\nExamples:\n"}) {
+  for (const char* heading : {"\nWorld:\n", "\nRoute:\n", "\nCamera:\n", "\nQuality:\n", "\nPeople:\n", "\nWeather:\n", "\nOutput:\n",
+                              "\nMachine:\n", "\nExamples:\n"}) {
     const size_t at = help.find(heading);
     ASSERT_NE(at, std::string::npos) << heading;
     EXPECT_GT(at, last);
@@ -151,8 +151,7 @@ TEST(Help, WrappedTextKeepsItsWords) {
 TEST(Help, ChoicesAreTaken) {
   // What completion offers parses; a name that no flag takes is none.
   for (const std::string& tier : ChoicesOf("render", "--tier"))
-    EXPECT_NO_THROW(
-        Parser().Parse({"airsim360", "render", "--world", "box_room", "--out", "x", "--tier", tier}));
+    EXPECT_NO_THROW(Parser().Parse({"airsim360", "render", "--world", "box_room", "--out", "x", "--tier", tier}));
   EXPECT_FALSE(ChoicesOf("render", "--world").empty());
   EXPECT_TRUE(ChoicesOf("render", "--pose").empty());
 }

@@ -69,14 +69,21 @@ void Make(MakeArguments& a, const GlobalOptions& globals) {
   const std::filesystem::path out(a.out);
   Json files = {a.out}, types = Json::object();
   for (const std::string& layout : a.layouts)
-    for (const auto& written : WriteLanguageLayout(out, layout, std::filesystem::path(out).replace_extension(""))) files.push_back(written.string());
+    for (const auto& written : WriteLanguageLayout(out, layout, std::filesystem::path(out).replace_extension("")))
+      files.push_back(written.string());
   if (a.pictures) DrawPictures(stage, PicturesOf(out), a.picture, out.parent_path());
   for (const auto& [type, count] : made.by_type) types[type] = count;
   if (globals.json) {
-    PrintJson({{"out", a.out}, {"items", made.items}, {"types", types}, {"pictures", made.pictures}, {"lookouts", made.lookouts}, {"files", files}});
+    PrintJson({{"out", a.out},
+               {"items", made.items},
+               {"types", types},
+               {"pictures", made.pictures},
+               {"lookouts", made.lookouts},
+               {"files", files}});
     return;
   }
-  std::printf("%lld items on %lld pictures in %s\n", static_cast<long long>(made.items), static_cast<long long>(made.pictures), a.out.c_str());
+  std::printf("%lld items on %lld pictures in %s\n", static_cast<long long>(made.items), static_cast<long long>(made.pictures),
+              a.out.c_str());
   for (const auto& [type, count] : made.by_type) std::printf("%-16s %8lld\n", type.c_str(), static_cast<long long>(count));
 }
 
@@ -108,8 +115,11 @@ void Check(const std::string& file, const GlobalOptions& globals) {
     list.push_back({{"id", c.id}, {"what", c.what}});
     if (!globals.json) std::printf("%s: %s\n", c.id.c_str(), c.what.c_str());
   }
-  if (globals.json) PrintJson({{"items", check.items}, {"not_unique", ambiguous}, {"wrong", check.complaints.size()}, {"complaints", list}});
-  else std::printf("%lld items: %zu not unique, %zu otherwise wrong\n", static_cast<long long>(check.items), ambiguous, check.complaints.size() - ambiguous);
+  if (globals.json)
+    PrintJson({{"items", check.items}, {"not_unique", ambiguous}, {"wrong", check.complaints.size()}, {"complaints", list}});
+  else
+    std::printf("%lld items: %zu not unique, %zu otherwise wrong\n", static_cast<long long>(check.items), ambiguous,
+                check.complaints.size() - ambiguous);
   std::fflush(stdout);
   if (!check.complaints.empty()) throw RuntimeError("language check: " + check.complaints[0].id + ": " + check.complaints[0].what);
 }
@@ -124,7 +134,8 @@ void AddCheck(CLI::App& parent, GlobalOptions& globals) {
 }  // namespace
 
 void AddLanguageCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command = app.add_subcommand("language", "language data with proofs: captions, referring expressions, questions (docs/guide/language.md)");
+  CLI::App* command =
+      app.add_subcommand("language", "language data with proofs: captions, referring expressions, questions (docs/guide/language.md)");
   command->require_subcommand(1);
   AddMake(*command, globals);
   AddCheck(*command, globals);

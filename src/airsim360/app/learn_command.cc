@@ -47,8 +47,8 @@ void RunPython(const std::vector<std::string>& words) {
 }  // namespace
 
 void AddLearnCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "learn", "train on our worlds to see: classes, range, attitude (Python: python3-torch, python3-opencv)");
+  CLI::App* command =
+      app.add_subcommand("learn", "train on our worlds to see: classes, range, attitude (Python: python3-torch, python3-opencv)");
   command->prefix_command();  // what follows is for Python
   command->callback([command] {
     const std::vector<std::string> words = command->remaining();

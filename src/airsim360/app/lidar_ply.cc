@@ -23,10 +23,9 @@ void Append(std::string& bytes, Values... values) {
 
 std::string LidarPly(const LidarScan& scan) {
   constexpr size_t kPointBytes = 34;
-  std::string bytes =
-      "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(scan.points.size());
-  for (const char* property : {"float x", "float y", "float z", "float range", "float intensity",
-                               "float time", "ushort category", "uint entity", "uint shot"})
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(scan.points.size());
+  for (const char* property :
+       {"float x", "float y", "float z", "float range", "float intensity", "float time", "ushort category", "uint entity", "uint shot"})
     bytes += std::string("\nproperty ") + property;
   bytes += "\nend_header\n";
   bytes.reserve(bytes.size() + kPointBytes * scan.points.size());

@@ -22,8 +22,7 @@ uint32_t CodePoint(std::string_view text, size_t& i) {
   const auto first = static_cast<unsigned char>(text[i]);
   const int more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : 1;
   uint32_t code = first & (0x3Fu >> more);
-  for (int k = 0; k < more && i + 1 < text.size(); ++k)
-    code = code << 6 | (static_cast<unsigned char>(text[++i]) & 0x3Fu);
+  for (int k = 0; k < more && i + 1 < text.size(); ++k) code = code << 6 | (static_cast<unsigned char>(text[++i]) & 0x3Fu);
   return code;
 }
 
@@ -67,11 +66,9 @@ std::string PageName(const CLI::App& command) {
 std::string Synopsis(const CLI::App& command) {
   const std::string path = CommandPath(command);
   std::string text = ".B airsim360" + (path.empty() ? "" : " " + Roff(path)) + "\n";
-  if (!command.get_subcommands([](const CLI::App*) { return true; }).empty())
-    return text + ".I COMMAND\n.RI [ FLAGS ]\n";
+  if (!command.get_subcommands([](const CLI::App*) { return true; }).empty()) return text + ".I COMMAND\n.RI [ FLAGS ]\n";
   for (const CLI::Option* option : command.get_options()) {
-    if (option->nonpositional() && option->get_required())
-      text += ".B " + Roff(option->get_name()) + "\n.I VALUE\n";
+    if (option->nonpositional() && option->get_required()) text += ".B " + Roff(option->get_name()) + "\n.I VALUE\n";
   }
   text += ".RI [ FLAGS ]\n";
   for (const CLI::Option* option : command.get_options()) {
@@ -102,26 +99,22 @@ std::string Options(const CLI::App& command) {
   };
   add("Arguments", [](const CLI::Option& option) { return !option.nonpositional(); });
   for (const std::string_view group : FlagGroups())
-    add(group,
-        [&](const CLI::Option& option) { return option.nonpositional() && option.get_group() == group; });
+    add(group, [&](const CLI::Option& option) { return option.nonpositional() && option.get_group() == group; });
   return text;
 }
 
 std::string Page(const CLI::App& command) {
   std::string title = PageName(command);
-  std::ranges::transform(title, title.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  std::string text = ".TH " + title + " 1 \"\" \"airsim360 " + kVersion + "\" \"AirSim360\"\n.SH NAME\n" +
-                     Roff(PageName(command)) + " \\- " + Roff(command.get_description()) +
-                     "\n.SH SYNOPSIS\n" + Synopsis(command) + ".SH OPTIONS\n" + Options(command);
+  std::ranges::transform(title, title.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::string text = ".TH " + title + " 1 \"\" \"airsim360 " + kVersion + "\" \"AirSim360\"\n.SH NAME\n" + Roff(PageName(command)) +
+                     " \\- " + Roff(command.get_description()) + "\n.SH SYNOPSIS\n" + Synopsis(command) + ".SH OPTIONS\n" +
+                     Options(command);
   const auto inner = command.get_subcommands([](const CLI::App*) { return true; });
   if (!inner.empty()) text += ".SH COMMANDS\n";
-  for (const CLI::App* one : inner)
-    text += ".TP\n.BR " + Roff(PageName(*one)) + " (1)\n" + Roff(one->get_description()) + "\n";
+  for (const CLI::App* one : inner) text += ".TP\n.BR " + Roff(PageName(*one)) + " (1)\n" + Roff(one->get_description()) + "\n";
   std::string examples;
   for (const CommandExample& example : CommandExamples()) {
-    if (example.command == CommandPath(command))
-      examples += ".TP\n.B " + Roff(example.line) + "\n" + Roff(example.what) + "\n";
+    if (example.command == CommandPath(command)) examples += ".TP\n.B " + Roff(example.line) + "\n" + Roff(example.what) + "\n";
   }
   if (!examples.empty()) text += ".SH EXAMPLES\n" + examples;
   return text + ".SH EXIT STATUS\n0 done, 1 failed at run time, 2 bad input.\n";
@@ -145,9 +138,7 @@ void WritePages(const CLI::App& program, const std::string& folder) {
 void AddManCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("man", "writes the manual pages of all commands");
   const auto folder = std::make_shared<std::string>();
-  command->add_option(
-      "DIR", *folder,
-      "folder of the pages, for example ~/.local/share/man/man1 (default: one page to stdout)");
+  command->add_option("DIR", *folder, "folder of the pages, for example ~/.local/share/man/man1 (default: one page to stdout)");
   command->callback([&app, folder] { WritePages(app, *folder); });
 }
 

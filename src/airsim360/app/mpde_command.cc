@@ -63,8 +63,13 @@ void RunTrain(TrainArguments arguments, const GlobalOptions& globals) {
                   static_cast<unsigned long long>(arguments.training.steps), last);
     LogInfo(line);
   });
-  Json training = {{"data", list}, {"views", arguments.views}, {"convention", arguments.convention}, {"seed", globals.seed},
-                   {"steps", arguments.training.steps}, {"batch", arguments.training.batch}, {"rate", arguments.training.rate}};
+  Json training = {{"data", list},
+                   {"views", arguments.views},
+                   {"convention", arguments.convention},
+                   {"seed", globals.seed},
+                   {"steps", arguments.training.steps},
+                   {"batch", arguments.training.batch},
+                   {"rate", arguments.training.rate}};
   model.training = training.dump(-1, ' ', false, Json::error_handler_t::replace);
   WriteMpdeModel(model, arguments.out);
   size_t numbers = 0;
@@ -102,8 +107,10 @@ void RunEval(const EvalArguments& arguments, const GlobalOptions& globals) {
   std::vector<MpdeModel> models;
   for (const std::string& file : arguments.models) models.push_back(ReadMpdeModel(file));
   const std::vector<MpdePrediction> predictions = PredictTogether(models, samples);
-  WritePersons(predictions, [](const MpdePrediction& p) -> const PersonPose& { return p.pose; }, arguments.out);
-  WritePersons(samples, [](const MpdeSample& s) -> const PersonPose& { return s.truth; }, arguments.truth);
+  WritePersons(
+      predictions, [](const MpdePrediction& p) -> const PersonPose& { return p.pose; }, arguments.out);
+  WritePersons(
+      samples, [](const MpdeSample& s) -> const PersonPose& { return s.truth; }, arguments.truth);
   const MpdeReport report = Judge(predictions, samples, globals.seed);
   if (globals.json) {
     Json json = ErrorsJson(report.errors), groups = Json::array();
@@ -122,14 +129,18 @@ void RunEval(const EvalArguments& arguments, const GlobalOptions& globals) {
   const char* names[] = {"below 10 m", "10 to 20 m", "20 to 30 m", "above 30 m"};
   for (size_t i = 0; i < report.groups.size(); ++i) {
     if (report.groups[i].count > 0)
-      std::printf("  %s: %lld persons, %.3f m, %.1f deg\n", names[i], static_cast<long long>(report.groups[i].count), report.groups[i].distance_mae_m, report.groups[i].angle_mae_deg);
+      std::printf("  %s: %lld persons, %.3f m, %.1f deg\n", names[i], static_cast<long long>(report.groups[i].count),
+                  report.groups[i].distance_mae_m, report.groups[i].angle_mae_deg);
   }
-  std::printf("without learning: %.3f m by a stature of 1.72 m, %.3f m by a trunk of 0.5 m\n", report.constant_height_mae_m, report.constant_trunk_mae_m);
+  std::printf("without learning: %.3f m by a stature of 1.72 m, %.3f m by a trunk of 0.5 m\n", report.constant_height_mae_m,
+              report.constant_trunk_mae_m);
 }
 
 Json CellJson(const MpdeCell& cell) {
   const auto pair = [](const Spread& s) { return Json{{"mean", s.mean}, {"deviation", s.deviation}}; };
-  return {{"distance_mae_m", pair(cell.distance_m)}, {"angle_mae_deg", pair(cell.angle_deg)}, {"angle_unwrapped_mae_deg", pair(cell.angle_unwrapped_deg)}};
+  return {{"distance_mae_m", pair(cell.distance_m)},
+          {"angle_mae_deg", pair(cell.angle_deg)},
+          {"angle_unwrapped_mae_deg", pair(cell.angle_unwrapped_deg)}};
 }
 
 Json TableJson(const MpdeTable& table) {
@@ -137,7 +148,9 @@ Json TableJson(const MpdeTable& table) {
   for (size_t i = 0; i < kMpdeTests.size(); ++i) {
     const bool simulated = !kMpdeTests[i].published && !table.test_is_real[i];
     tests.push_back({{"name", kMpdeTests[i].name},
-                     {"data", table.test_is_real[i] ? "real" : simulated ? "simulated" : "stand-in"},
+                     {"data", table.test_is_real[i] ? "real"
+                              : simulated           ? "simulated"
+                                                    : "stand-in"},
                      {"real", table.test_is_real[i] || simulated ? Json(nullptr) : Json("not run")},
                      {"count", table.test_count[i]},
                      {"weight", kMpdeTests[i].weight},
@@ -152,7 +165,8 @@ Json TableJson(const MpdeTable& table) {
 }
 
 void PrintCell(const MpdeCell& cell) {
-  std::printf(" | %5.3f ± %.3f m, %4.1f (%4.1f)°", cell.distance_m.mean, cell.distance_m.deviation, cell.angle_deg.mean, cell.angle_unwrapped_deg.mean);
+  std::printf(" | %5.3f ± %.3f m, %4.1f (%4.1f)°", cell.distance_m.mean, cell.distance_m.deviation, cell.angle_deg.mean,
+              cell.angle_unwrapped_deg.mean);
 }
 
 // Markdown, to be pasted.
@@ -194,29 +208,42 @@ void RunSplits(const std::string& folder, const GlobalOptions& globals) {
   if (globals.json) {
     Json splits = Json::array();
     for (const SplitLeaks::Split& split : leaks.splits)
-      splits.push_back({{"split", split.name}, {"subsets", split.subsets}, {"pictures", split.pictures}, {"persons", split.persons}, {"characters", split.characters}});
-    PrintJson({{"splits", splits}, {"shared_places", leaks.places}, {"shared_characters", leaks.characters}, {"shared_seconds", leaks.seconds}, {"example", leaks.example}});
+      splits.push_back({{"split", split.name},
+                        {"subsets", split.subsets},
+                        {"pictures", split.pictures},
+                        {"persons", split.persons},
+                        {"characters", split.characters}});
+    PrintJson({{"splits", splits},
+               {"shared_places", leaks.places},
+               {"shared_characters", leaks.characters},
+               {"shared_seconds", leaks.seconds},
+               {"example", leaks.example}});
   } else {
     for (const SplitLeaks::Split& split : leaks.splits) {
-      std::printf("%s: %lld subsets, %lld pictures, %lld persons of %lld characters\n", split.name.c_str(), static_cast<long long>(split.subsets),
-                  static_cast<long long>(split.pictures), static_cast<long long>(split.persons), static_cast<long long>(split.characters));
+      std::printf("%s: %lld subsets, %lld pictures, %lld persons of %lld characters\n", split.name.c_str(),
+                  static_cast<long long>(split.subsets), static_cast<long long>(split.pictures), static_cast<long long>(split.persons),
+                  static_cast<long long>(split.characters));
     }
-    std::printf("shared: %lld places, %lld characters, %lld seconds\n", static_cast<long long>(leaks.places), static_cast<long long>(leaks.characters),
-                static_cast<long long>(leaks.seconds));
+    std::printf("shared: %lld places, %lld characters, %lld seconds\n", static_cast<long long>(leaks.places),
+                static_cast<long long>(leaks.characters), static_cast<long long>(leaks.seconds));
   }
   if (!leaks.ok()) throw RuntimeError("splits of " + folder + " are not apart: " + leaks.example);
 }
 
 void AddViewFlags(CLI::App& command, std::string& views, std::string& convention) {
-  command.add_option("--views", views,
-                     "virtual cameras instead of the pictures' own: of kitti, nuscenes, freeman, drone0, drone20, apart by commas, or a YAML file");
-  command.add_option("--convention", convention, "keypoints of virtual cameras: anatomy (the skeleton's joints), or annotators (where people mark them)");
+  command.add_option(
+      "--views", views,
+      "virtual cameras instead of the pictures' own: of kitti, nuscenes, freeman, drone0, drone20, apart by commas, or a YAML file");
+  command.add_option("--convention", convention,
+                     "keypoints of virtual cameras: anatomy (the skeleton's joints), or annotators (where people mark them)");
 }
 
 void AddTrain(CLI::App& mpde, GlobalOptions& globals) {
   CLI::App* command = mpde.add_subcommand("train", "a network that tells distance and orientation of people by their keypoints");
   auto arguments = std::make_shared<TrainArguments>();
-  command->add_option("DATA", arguments->data, "PATH[:SPLIT][#PERSONS][@SHARE]: folders of datasets with people, files in MonoLoco's layout")->required();
+  command
+      ->add_option("DATA", arguments->data, "PATH[:SPLIT][#PERSONS][@SHARE]: folders of datasets with people, files in MonoLoco's layout")
+      ->required();
   command->add_option("--out", arguments->out, "file of the network, .safetensors")->required();
   AddViewFlags(*command, arguments->views, arguments->convention);
   AddConfigFlags(*command, [arguments](ConfigVisitor& v) { arguments->training.Visit(v); });
@@ -226,7 +253,8 @@ void AddTrain(CLI::App& mpde, GlobalOptions& globals) {
 void AddEval(CLI::App& mpde, GlobalOptions& globals) {
   CLI::App* command = mpde.add_subcommand("eval", "errors of a network, or of several together");
   auto arguments = std::make_shared<EvalArguments>();
-  command->add_option("DATA", arguments->data, "PATH[:SPLIT][#PERSONS] to test on; split test of folders, val of files, unless named")->required();
+  command->add_option("DATA", arguments->data, "PATH[:SPLIT][#PERSONS] to test on; split test of folders, val of files, unless named")
+      ->required();
   command->add_option("--networks", arguments->models, "files of `mpde train`; the mean of several counts")->required();
   AddViewFlags(*command, arguments->views, arguments->convention);
   command->add_option("--views-count", arguments->count, "views to draw, with --views (default 4000)")->check(CLI::Range(1, 10'000'000));
@@ -239,17 +267,21 @@ void AddTable(CLI::App& mpde, GlobalOptions& globals) {
   CLI::App* command = mpde.add_subcommand("table", "the paper's table: four training sets, four test sets, several seeds");
   auto arguments = std::make_shared<TableArguments>();
   command->add_option("DIR", arguments->options.people, "folder of `collect --recipe`, with subsets.json")->required();
-  command->add_option("--real", arguments->real, "NAME=FILE: real data in MonoLoco's layout as nuscenes, kitti or freeman; stand-ins without");
+  command->add_option("--real", arguments->real,
+                      "NAME=FILE: real data in MonoLoco's layout as nuscenes, kitti or freeman; stand-ins without");
   command->add_option("--seeds", arguments->options.seeds, "networks of each row (default 3)");
-  command->add_option("--our-share", arguments->options.our_share, "of the batches, relative to the base (default 1)")->check(CLI::Range(0.001, 1000.0));
-  command->add_option("--views-count", arguments->options.test_samples, "views of each stand-in's test (default 4000)")->check(CLI::Range(1, 10'000'000));
+  command->add_option("--our-share", arguments->options.our_share, "of the batches, relative to the base (default 1)")
+      ->check(CLI::Range(0.001, 1000.0));
+  command->add_option("--views-count", arguments->options.test_samples, "views of each stand-in's test (default 4000)")
+      ->check(CLI::Range(1, 10'000'000));
   command->add_option("--out", arguments->out, "the table as JSON");
   AddConfigFlags(*command, [arguments](ConfigVisitor& v) { arguments->options.training.Visit(v); });
   command->callback([arguments, &globals] { RunTable(*arguments, globals); });
 }
 
 void AddSplits(CLI::App& mpde, GlobalOptions& globals) {
-  CLI::App* command = mpde.add_subcommand("splits", "whether train, val and test share a place, a character or a second; exit status 1 if so");
+  CLI::App* command =
+      mpde.add_subcommand("splits", "whether train, val and test share a place, a character or a second; exit status 1 if so");
   auto folder = std::make_shared<std::string>();
   command->add_option("DIR", *folder, "folder of `collect --recipe`")->required();
   command->callback([folder, &globals] { RunSplits(*folder, globals); });

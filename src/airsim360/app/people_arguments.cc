@@ -25,8 +25,7 @@ void PeopleArguments::AddTo(CLI::App& command) {
   command.add_option("--people", people, "people in the world: how many, or a people.yaml (docs/guide/people_behaviour.md)");
   command.add_option("--people-warmup", warm_up, "seconds that people live before the first frame (default 15)")
       ->check(CLI::Range(0.0, 3600.0));
-  command.add_option("--people-level", level, "detail of all bodies, 0 = finest (default: by their distance)")
-      ->check(CLI::Range(0, 3));
+  command.add_option("--people-level", level, "detail of all bodies, 0 = finest (default: by their distance)")->check(CLI::Range(0, 3));
   command.add_option("--people-reserve", reserve, "people who can be spawned later (default 0)")
       ->check(CLI::Range(0, static_cast<int>(kMostPeople)));
   command.add_option("--sockets", sockets, "further keypoints, fixed to joints (docs/guide/people_labels.md)");

@@ -51,11 +51,14 @@ struct TreesArguments {
 
 // The file in the form in which editors and hands agree: a line a node, attributes as they were.
 void RunTrees(const TreesArguments& arguments, bool json) {
-  if (arguments.mission && arguments.file.empty()) throw InputError("--mission: give the file of one; docs/guide/missions.md begins with one");
+  if (arguments.mission && arguments.file.empty())
+    throw InputError("--mission: give the file of one; docs/guide/missions.md begins with one");
   const std::string text = arguments.file.empty() ? DefaultPeopleTrees() : ReadTextFile(arguments.file, kMostXml);
   std::vector<std::string> names;
-  if (arguments.mission) CheckMission(text, arguments.file);
-  else names = CheckPeopleTrees(text, arguments.file.empty() ? "the default trees" : arguments.file);
+  if (arguments.mission)
+    CheckMission(text, arguments.file);
+  else
+    names = CheckPeopleTrees(text, arguments.file.empty() ? "the default trees" : arguments.file);
   const std::string written = behaviour::WriteXml(behaviour::ReadXml(text, arguments.file));
   if (!arguments.out.empty()) WriteFileAtomically(arguments.out, written);
   if (json) return PrintJson({{"trees", names}, {"xml", written}});
@@ -65,7 +68,8 @@ void RunTrees(const TreesArguments& arguments, bool json) {
 }  // namespace
 
 void AddPeopleCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* people = app.add_subcommand("people", "nodes and trees by which people behave and missions are flown (docs/guide/people_behaviour.md)");
+  CLI::App* people =
+      app.add_subcommand("people", "nodes and trees by which people behave and missions are flown (docs/guide/people_behaviour.md)");
   people->require_subcommand(1);
   CLI::App* nodes = people->add_subcommand("nodes", "the nodes that trees may have, with their ports");
   auto n = std::make_shared<NodesArguments>();

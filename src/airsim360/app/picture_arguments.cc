@@ -23,8 +23,7 @@ void PictureArguments::AddTo(CLI::App& command) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command.add_flag("--normal", normal_, "the same as --products normal");
-  command.add_flag("--radiance", radiance_,
-                   "the same as --products radiance: linear light, radiance/STEM.exr, half float");
+  command.add_flag("--radiance", radiance_, "the same as --products radiance: linear light, radiance/STEM.exr, half float");
 }
 
 DatasetSpec PictureArguments::Spec() const {
@@ -32,8 +31,7 @@ DatasetSpec PictureArguments::Spec() const {
   spec.products = WithProducts(spec.products, products_, "--products");
   spec.products.normal |= normal_;
   spec.products.radiance |= radiance_;
-  if (spec.products.radiance && spec.tier == Tier::kLabels)
-    throw InputError("--radiance: tier 'labels' has no light; use --tier fast");
+  if (spec.products.radiance && spec.tier == Tier::kLabels) throw InputError("--radiance: tier 'labels' has no light; use --tier fast");
   return spec;
 }
 
@@ -46,8 +44,7 @@ void PictureArguments::Check(const DatasetSpec& spec) {
 }
 
 const std::vector<std::string>& PictureFlagNames() {
-  static const std::vector<std::string> names =
-      ConfigFlagNames([](ConfigVisitor& v) { DatasetSpec().Visit(v); });
+  static const std::vector<std::string> names = ConfigFlagNames([](ConfigVisitor& v) { DatasetSpec().Visit(v); });
   return names;
 }
 

@@ -8,22 +8,22 @@
 #include <numbers>
 
 #include "airsim360/app/arguments.h"
-#include "airsim360/app/session.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/plan_dataset.h"
 #include "airsim360/app/plan_limits.h"
 #include "airsim360/app/plan_output.h"
 #include "airsim360/app/plan_waypoints.h"
+#include "airsim360/app/session.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/math/coordinate_limit.h"
-#include "airsim360/stage/stage.h"
 #include "airsim360/planning/arc_length.h"
 #include "airsim360/planning/knots.h"
 #include "airsim360/planning/point_to_point.h"
 #include "airsim360/routes/world_clearance.h"
+#include "airsim360/stage/stage.h"
 
 namespace airsim360 {
 namespace {
@@ -38,17 +38,13 @@ struct PlanArguments {
   bool avoid = false;
 };
 
-double Seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double Seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 GeoPoint ParseOrigin(const std::string& text) {
   GeoPoint p;
   char rest;
-  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.latitude_deg, &p.longitude_deg, &p.altitude, &rest) !=
-          3 ||
-      !(std::fabs(p.latitude_deg) <= 90) || !(std::fabs(p.longitude_deg) <= 180) ||
-      !(std::fabs(p.altitude) <= 1e5))
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.latitude_deg, &p.longitude_deg, &p.altitude, &rest) != 3 ||
+      !(std::fabs(p.latitude_deg) <= 90) || !(std::fabs(p.longitude_deg) <= 180) || !(std::fabs(p.altitude) <= 1e5))
     throw InputError("--origin: '" + text + "' is not latitude,longitude,altitude in degrees and metres");
   return p;
 }
@@ -61,8 +57,7 @@ YawRule ParseYaw(const std::string& text) {
   char rest;
   if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.x, &p.y, &p.z, &rest) == 3 && std::isfinite(Norm(p)))
     return YawTowards{CheckedPlace("--yaw", p)};
-  if (std::sscanf(text.c_str(), "%lf%c", &p.x, &rest) == 1 && std::isfinite(p.x))
-    return ConstantYaw{p.x * std::numbers::pi / 180};
+  if (std::sscanf(text.c_str(), "%lf%c", &p.x, &rest) == 1 && std::isfinite(p.x)) return ConstantYaw{p.x * std::numbers::pi / 180};
   throw InputError("--yaw: '" + text + "' is neither degrees nor 'velocity' nor a point x,y,z");
 }
 
@@ -91,11 +86,9 @@ void MapAround(PlanWorld& world, const std::vector<Vec3d>& points) {
 // Times given with the waypoints: the limits are only reported.
 AllocatedTrajectory WithGivenTimes(const PlanWaypoints& waypoints, SplineKind kind) {
   std::vector<double> durations;
-  for (size_t i = 1; i < waypoints.points.size(); ++i)
-    durations.push_back(waypoints.points[i].t - waypoints.points[i - 1].t);
+  for (size_t i = 1; i < waypoints.points.size(); ++i) durations.push_back(waypoints.points[i].t - waypoints.points[i - 1].t);
   const std::vector<Vec3d> positions = waypoints.Positions();
-  PolynomialTrajectory path =
-      SolveMinimumSnap({.waypoints = positions, .durations = durations, .kind = kind});
+  PolynomialTrajectory path = SolveMinimumSnap({.waypoints = positions, .durations = durations, .kind = kind});
   const TrajectoryPeaks peaks = CertifiedPeaks(path);
   return {std::move(path), peaks, 0, 0};
 }
@@ -119,8 +112,7 @@ struct Planned {
 // --order and --minimise.
 SplineKind ParseKind(const PlanArguments& arguments) {
   const int order = arguments.order;
-  if (order != 0 && order != 5 && order != 7)
-    throw InputError("--order: " + std::to_string(order) + " is not 5 or 7; did you mean 7?");
+  if (order != 0 && order != 5 && order != 7) throw InputError("--order: " + std::to_string(order) + " is not 5 or 7; did you mean 7?");
   const std::vector<std::string> quantities = {"snap", "jerk"};
   ParseChoice("quantity", arguments.minimise, quantities, "--minimise");
   if (arguments.minimise == "snap") return order == 5 ? SplineKind::kPaperQuintic : SplineKind::kMinimumSnap;
@@ -135,19 +127,16 @@ void CheckWaypointsAreFree(const PlanWaypoints& waypoints, const PlanWorld& worl
     const double clearance = world.space->clearance().Clearance(p, radius + 1);
     if (clearance >= radius) continue;
     char text[200];
-    std::snprintf(text, sizeof(text),
-                  ": waypoint %zu (%.2f, %.2f, %.2f) is only %.3g m from a surface; --clearance is %g m",
-                  i + 1, p.x, p.y, p.z, clearance, radius);
+    std::snprintf(text, sizeof(text), ": waypoint %zu (%.2f, %.2f, %.2f) is only %.3g m from a surface; --clearance is %g m", i + 1, p.x,
+                  p.y, p.z, clearance, radius);
     throw InputError(waypoints.sources[i] + text);
   }
 }
 
-Planned Plan(const PlanArguments& arguments, const TrajectoryLimits& limits, const PlanWaypoints& waypoints,
-             const PlanWorld& world) {
+Planned Plan(const PlanArguments& arguments, const TrajectoryLimits& limits, const PlanWaypoints& waypoints, const PlanWorld& world) {
   const SplineKind kind = ParseKind(arguments);
-  const FlightOptions options{.limits = limits,
-                              .allocation = {.kind = kind, .sample_interval = arguments.dt, .split = true},
-                              .radius = arguments.clearance};
+  const FlightOptions options{
+      .limits = limits, .allocation = {.kind = kind, .sample_interval = arguments.dt, .split = true}, .radius = arguments.clearance};
   const bool timed = waypoints.points.front().has_time;
   if (arguments.avoid) {
     try {
@@ -159,9 +148,8 @@ Planned Plan(const PlanArguments& arguments, const TrajectoryLimits& limits, con
       Rethrow(error, waypoints);
     }
   }
-  AllocatedTrajectory flight = timed
-                                   ? WithGivenTimes(waypoints, kind)
-                                   : AllocateTimes(waypoints.Positions(), options.limits, options.allocation);
+  AllocatedTrajectory flight =
+      timed ? WithGivenTimes(waypoints, kind) : AllocateTimes(waypoints.Positions(), options.limits, options.allocation);
   std::optional<Certificate> certificate;
   if (world.bounded) {
     CheckWaypointsAreFree(waypoints, world, arguments.clearance);
@@ -213,12 +201,10 @@ void Report(const TrajectoryLimits& limits, const Planned& planned, const PlanRe
     PrintJson(out);
     return;
   }
-  std::printf("%zu segments, %.2f m in %.3f s; at most %.4f m/s and %.4f m/s^2%s\n", path.segments(), length,
-              path.duration(), record.peaks.speed.value, record.peaks.acceleration.value,
-              within ? "" : " (beyond the limits)");
+  std::printf("%zu segments, %.2f m in %.3f s; at most %.4f m/s and %.4f m/s^2%s\n", path.segments(), length, path.duration(),
+              record.peaks.speed.value, record.peaks.acceleration.value, within ? "" : " (beyond the limits)");
   if (record.certificate && record.certificate->certified)
-    std::printf("proved free of collisions with a radius of %g m; %zu waypoints added\n", record.radius,
-                planned.added);
+    std::printf("proved free of collisions with a radius of %g m; %zu waypoints added\n", record.radius, planned.added);
   for (const auto& file : files) std::printf("%s\n", file.c_str());
 }
 
@@ -229,8 +215,9 @@ PlanOutput ReadOutput(const PlanArguments& arguments) {
   FormatsToWrite(output);
   if (!arguments.origin.empty()) output.origin = ParseOrigin(arguments.origin);
   if (arguments.origin.empty() && std::ranges::count(FormatsToWrite(output), "qgc") > 0)
-    throw InputError("--origin: the format qgc is in latitude and longitude: give those and the altitude of the world's "
-                     "origin, for example 47.397742,8.545594,488 (where PX4's simulator starts)");
+    throw InputError(
+        "--origin: the format qgc is in latitude and longitude: give those and the altitude of the world's "
+        "origin, for example 47.397742,8.545594,488 (where PX4's simulator starts)");
   CheckSources(arguments.waypoints);
   ParseKind(arguments);
   if (arguments.dt != 0) CheckPositive("--dt", arguments.dt);
@@ -242,8 +229,7 @@ PlanOutput ReadOutput(const PlanArguments& arguments) {
 // The waypoints, and around them the world if there is one.
 PlanWaypoints OpenWorld(const PlanArguments& arguments, const GlobalOptions& globals, TrajectoryLimits& limits, PlanWorld& world) {
   PlanWaypoints waypoints;
-  if (!NeedsWorld(arguments.waypoints))
-    waypoints = FindWaypoints(arguments.waypoints, nullptr, globals.seed, arguments.clearance);
+  if (!NeedsWorld(arguments.waypoints)) waypoints = FindWaypoints(arguments.waypoints, nullptr, globals.seed, arguments.clearance);
   if (!waypoints.points.empty()) CheckWaypoints(waypoints);
   const bool timed = waypoints.timed();
   if (timed && arguments.avoid) throw InputError("--avoid: the waypoints have times; remove the column t");
@@ -278,8 +264,7 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
   const double start = Seconds();
   Planned planned = Plan(arguments, limits, waypoints, world);
   const double plan_ms = 1e3 * (Seconds() - start);
-  if (planned.certificate)
-    planned.certificate->least_clearance = LeastClearance(planned, *world.bounded);
+  if (planned.certificate) planned.certificate->least_clearance = LeastClearance(planned, *world.bounded);
   const PolynomialTrajectory& path = planned.flight.trajectory;
   const PlanRecord record{.trajectory = path,
                           .peaks = planned.flight.peaks,
@@ -290,8 +275,8 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
                           .radius = arguments.clearance,
                           .certificate = planned.certificate,
                           .waypoints = planned.waypoints};
-  output.plot.title = "degree " + std::to_string(path.degree()) + ", " + std::to_string(path.segments()) +
-                      " segments" + (arguments.world.empty() ? "" : ", " + arguments.world);
+  output.plot.title = "degree " + std::to_string(path.degree()) + ", " + std::to_string(path.segments()) + " segments" +
+                      (arguments.world.empty() ? "" : ", " + arguments.world);
   output.plot.max_speed = arguments.limits.vmax;
   output.plot.max_acceleration = arguments.limits.amax;
   Report(limits, planned, record, WritePlan(record, output), plan_ms, globals.json);
@@ -300,20 +285,15 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
 }  // namespace
 
 void AddPlanCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command = app.add_subcommand(
-      "plan", "a smooth flight through waypoints within limits of speed and acceleration, around obstacles");
+  CLI::App* command =
+      app.add_subcommand("plan", "a smooth flight through waypoints within limits of speed and acceleration, around obstacles");
   auto a = std::make_shared<PlanArguments>();
   WaypointArguments& w = a->waypoints;
-  command
-      ->add_option("--out", a->out, "file (several formats: its name without extension); --dataset: folder")
-      ->required();
-  command->add_option("--waypoints", w.file,
-                      "CSV x,y,z[,t] (metres east-north-up, seconds), YAML, GPX or KML");
+  command->add_option("--out", a->out, "file (several formats: its name without extension); --dataset: folder")->required();
+  command->add_option("--waypoints", w.file, "CSV x,y,z[,t] (metres east-north-up, seconds), YAML, GPX or KML");
   AddLimitFlags(*command, a->limits);
-  command->add_option("--dt", a->dt,
-                      "seconds between samples; the flight takes a multiple of it (default: 0.1, any)");
-  command->add_option("--order", a->order,
-                      "degree: 7, the true minimum of snap (default), or 5, as in the paper");
+  command->add_option("--dt", a->dt, "seconds between samples; the flight takes a multiple of it (default: 0.1, any)");
+  command->add_option("--order", a->order, "degree: 7, the true minimum of snap (default), or 5, as in the paper");
   command->add_option("--minimise", a->minimise, "snap (default) or jerk (then of degree 5)");
   command->add_option("--world", a->world, "name or file of a world: the flight is checked against it");
   AddBoxFlag(*command, globals);
@@ -323,28 +303,23 @@ void AddPlanCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--to", w.to, "x,y,z: its end");
   command->add_option("--route", w.route, "coverage, orbit, road or random: waypoints of that kind");
   command->add_option("--area", w.area, "coverage: x0,y0,x1,y1");
-  command->add_option("--height", w.height,
-                      "coverage: z; road: above the road; orbit --entity: above its middle (20)");
+  command->add_option("--height", w.height, "coverage: z; road: above the road; orbit --entity: above its middle (20)");
   command->add_option("--spacing", w.spacing, "coverage: metres between lanes (10)");
-  command->add_option("--heading", w.heading_deg,
-                      "coverage: of the lanes; orbit: of the start; degrees from east (0)");
+  command->add_option("--heading", w.heading_deg, "coverage: of the lanes; orbit: of the start; degrees from east (0)");
   command->add_option("--center", w.center, "orbit: x,y,z");
   command->add_option("--entity", w.entity, "orbit: around this entity of the world");
   command->add_option("--radius", w.radius, "orbit: metres (10)");
   command->add_option("--turns", w.turns, "orbit: counter-clockwise, negative for clockwise (1)");
   command->add_option("--length", w.length, "random: MIN,MAX metres (50,150)");
-  command->add_option(
-      "--format", a->format,
-      "csv, json, npz, yaml, crazyflie, crazyflie-compressed, qgc, mavlink, svg; several with "
-      "commas (default: by the extension of --out)");
+  command->add_option("--format", a->format,
+                      "csv, json, npz, yaml, crazyflie, crazyflie-compressed, qgc, mavlink, svg; several with "
+                      "commas (default: by the extension of --out)");
   command->add_option("--yaw", a->yaw,
                       "heading of the drone in exports: degrees anticlockwise from east (0), 'velocity' (the "
                       "way it flies) or x,y,z (towards a point)");
   command->add_option("--origin", a->origin, "qgc, which cannot do without: latitude,longitude,altitude of the origin of the world");
-  command->add_option("--dataset", a->set.dataset,
-                      "waypoint: the Omni360-WayPoint set, into the folder --out");
-  command->add_option("--routes", a->set.routes,
-                      "dataset: at most this many routes of each world (default: the paper's)");
+  command->add_option("--dataset", a->set.dataset, "waypoint: the Omni360-WayPoint set, into the folder --out");
+  command->add_option("--routes", a->set.routes, "dataset: at most this many routes of each world (default: the paper's)");
   command->add_option("--worlds", a->set.worlds, "dataset: only these worlds");
   command->add_option("--shard", a->set.shard, "dataset: I/N, only parts with number % N == I (default 0/1)");
   command->callback([a, &globals] { RunPlan(*a, globals); });

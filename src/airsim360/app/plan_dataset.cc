@@ -13,10 +13,8 @@ namespace airsim360 {
 
 void RunWaypointSet(const WaypointSetArguments& arguments, const GlobalOptions& globals) {
   if (arguments.dataset != "waypoint")
-    throw InputError("--dataset: " + UnknownChoiceMessage("dataset", arguments.dataset,
-                                                          std::vector<std::string>{"waypoint"}));
-  if (arguments.routes < 0)
-    throw InputError("--routes: " + std::to_string(arguments.routes) + " is below zero");
+    throw InputError("--dataset: " + UnknownChoiceMessage("dataset", arguments.dataset, std::vector<std::string>{"waypoint"}));
+  if (arguments.routes < 0) throw InputError("--routes: " + std::to_string(arguments.routes) + " is below zero");
   const Shard shard = ParseShard(arguments.shard);
   WaypointSetOptions options{.out = arguments.out,
                              .seed = globals.seed,
@@ -46,9 +44,8 @@ void RunWaypointSet(const WaypointSetArguments& arguments, const GlobalOptions& 
                {"planning_s", result.planning_s}});
     return;
   }
-  std::printf("%s: %lld flights of this shard, %lld written now in %.1f s after %.1f s of preparing%s\n",
-              arguments.out.c_str(), static_cast<long long>(result.flights),
-              static_cast<long long>(result.written), result.planning_s, result.preparing_s,
+  std::printf("%s: %lld flights of this shard, %lld written now in %.1f s after %.1f s of preparing%s\n", arguments.out.c_str(),
+              static_cast<long long>(result.flights), static_cast<long long>(result.written), result.planning_s, result.preparing_s,
               result.complete ? "; the set is complete" : "");
 }
 

@@ -26,8 +26,7 @@ PlannedPath FromJson(const std::string& text, const std::string& name) {
     }
     std::optional<double> yaw;
     if (json.contains("yaw")) yaw = json["yaw"].get<double>();
-    return {PolynomialTrajectory(json.at("order").get<int>(), json.at("durations").get<std::vector<double>>(),
-                                 std::move(coefficients)),
+    return {PolynomialTrajectory(json.at("order").get<int>(), json.at("durations").get<std::vector<double>>(), std::move(coefficients)),
             yaw};
   } catch (const nlohmann::json::exception& error) {
     throw InputError(name + ": " + error.what());
@@ -37,8 +36,7 @@ PlannedPath FromJson(const std::string& text, const std::string& name) {
 double Number(const std::string& text, const std::string& where) {
   double value;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw InputError(where + ": '" + text.substr(0, 64) + "' is not a number");
+  if (error != std::errc() || end != text.data() + text.size()) throw InputError(where + ": '" + text.substr(0, 64) + "' is not a number");
   return value;
 }
 

@@ -13,9 +13,7 @@ namespace {
 /// Of the controllers whose limits on body rate a plan keeps to.
 constexpr double kControlPeriod = 0.002;
 
-double Limit(const char* flag, double value) {
-  return value == 0 ? TrajectoryLimits::kNone : CheckPositive(flag, value);
-}
+double Limit(const char* flag, double value) { return value == 0 ? TrajectoryLimits::kNone : CheckPositive(flag, value); }
 
 Vec3d AxisLimit(const char* flag, const std::string& text) {
   if (text.empty()) return {TrajectoryLimits::kNone, TrajectoryLimits::kNone, TrajectoryLimits::kNone};
@@ -33,9 +31,7 @@ void AddLimitFlags(CLI::App& command, LimitArguments& a) {
   command.add_option("--axis-amax", a.axis_amax, "greatest acceleration along each axis, x,y,z in m/s^2");
   command.add_option("--climb", a.climb, "greatest vertical speed upwards, m/s");
   command.add_option("--descent", a.descent, "greatest vertical speed downwards, m/s");
-  command.add_option(
-      "--drone", a.drone,
-      "keep to the thrust and body rates of a drone of the catalogue, a .yaml, or words in quotes");
+  command.add_option("--drone", a.drone, "keep to the thrust and body rates of a drone of the catalogue, a .yaml, or words in quotes");
 }
 
 TrajectoryLimits ParseLimits(const LimitArguments& a, bool timed) {
@@ -67,8 +63,7 @@ bool RespectsLimits(const PolynomialTrajectory& trajectory, const TrajectoryLimi
                                    .body_rate = limits.body_rate * kRounding});
 }
 
-void ReportDrone(const PolynomialTrajectory& trajectory, const TrajectoryLimits& limits,
-                 nlohmann::ordered_json& out) {
+void ReportDrone(const PolynomialTrajectory& trajectory, const TrajectoryLimits& limits, nlohmann::ordered_json& out) {
   if (!std::isfinite(limits.body_rate)) return;
   out["max_thrust"] = PeakThrust(trajectory).value;
   out["thrust_limit"] = limits.thrust_per_mass;

@@ -25,7 +25,6 @@ TrajectoryLimits ParseLimits(const LimitArguments& arguments, bool timed);
 bool RespectsLimits(const PolynomialTrajectory& trajectory, const TrajectoryLimits& limits);
 
 /// Adds the certified peaks of what a drone limits (max_thrust, m/s^2; max_body_rate, rad/s) if it does.
-void ReportDrone(const PolynomialTrajectory& trajectory, const TrajectoryLimits& limits,
-                 nlohmann::ordered_json& out);
+void ReportDrone(const PolynomialTrajectory& trajectory, const TrajectoryLimits& limits, nlohmann::ordered_json& out);
 
 }  // namespace airsim360

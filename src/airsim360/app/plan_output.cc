@@ -56,20 +56,18 @@ std::string Encode(const std::string& format, const PlanRecord& plan, const Plan
   if (format == "mavlink") return MavlinkSetpointsCsv(plan, kSetpointInterval);
   if (format == "svg") return PlotFlight(plan.trajectory, output.plot);
   if (format == "qgc")
-    return QgcPlan(plan.trajectory,
-                   {.origin = output.origin,
-                    .spacing = kMissionSpacing,
-                    .speed = plan.peaks.speed.value,
-                    .yaw = output.has_yaw ? std::optional(plan.yaw) : std::nullopt});
+    return QgcPlan(plan.trajectory, {.origin = output.origin,
+                                     .spacing = kMissionSpacing,
+                                     .speed = plan.peaks.speed.value,
+                                     .yaw = output.has_yaw ? std::optional(plan.yaw) : std::nullopt});
   if (format == "crazyflie") {
     const Poly4dRows rows = ToPoly4d(plan.trajectory, plan.yaw);
     if (rows.worst_error > 1e-3) {
-      LogWarning("crazyflie: in single precision the flight is off by up to " +
-                 std::to_string(rows.worst_error) + " m");
+      LogWarning("crazyflie: in single precision the flight is off by up to " + std::to_string(rows.worst_error) + " m");
     }
     if (rows.worst_yaw_error > 0.02) {
-      LogWarning("crazyflie: where the heading turns suddenly the polynomials are off by up to " +
-                 std::to_string(rows.worst_yaw_error) + " rad");
+      LogWarning("crazyflie: where the heading turns suddenly the polynomials are off by up to " + std::to_string(rows.worst_yaw_error) +
+                 " rad");
     }
     return Poly4dCsv(rows.rows);
   }
@@ -94,12 +92,9 @@ std::vector<std::string> FormatsToWrite(const PlanOutput& output) {
   const Format* best = nullptr;  // the longest extension that fits: .poly4d.csv before .csv
   for (const Format& format : kFormats) {
     const std::string extension = format.extension;
-    if (name.ends_with(extension) &&
-        (best == nullptr || extension.size() > std::string(best->extension).size()))
-      best = &format;
+    if (name.ends_with(extension) && (best == nullptr || extension.size() > std::string(best->extension).size())) best = &format;
   }
-  if (best == nullptr)
-    throw InputError("--out: the extension of '" + output.out.string() + "' names no format; give --format");
+  if (best == nullptr) throw InputError("--out: the extension of '" + output.out.string() + "' names no format; give --format");
   return {best->name};
 }
 
@@ -110,8 +105,7 @@ std::vector<fs::path> WritePlan(const PlanRecord& plan, const PlanOutput& output
   for (const std::string& format : formats) {
     fs::path file = output.out;
     if (formats.size() > 1) {
-      const auto found = std::find_if(std::begin(kFormats), std::end(kFormats),
-                                      [&](const Format& f) { return f.name == format; });
+      const auto found = std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) { return f.name == format; });
       file.replace_extension();
       file += found->extension;
     }

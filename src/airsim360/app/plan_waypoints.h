@@ -32,8 +32,7 @@ void CheckSources(const WaypointArguments& arguments);
 bool NeedsWorld(const WaypointArguments& arguments);
 
 /// InputError naming flag or file:line for what is wrong. `tracer` may be null where NeedsWorld says no.
-PlanWaypoints FindWaypoints(const WaypointArguments& arguments, std::shared_ptr<const RayTracer> tracer,
-                            uint64_t seed, double clearance);
+PlanWaypoints FindWaypoints(const WaypointArguments& arguments, std::shared_ptr<const RayTracer> tracer, uint64_t seed, double clearance);
 
 /// InputError unless there are two or more, neighbours differ, and all or none have times that grow.
 void CheckWaypoints(const PlanWaypoints& waypoints);

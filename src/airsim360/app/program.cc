@@ -32,8 +32,7 @@ void AddGlobalFlags(CLI::App& command, GlobalOptions& globals, std::unique_ptr<T
   command.add_flag("--json", globals.json, "machine-readable result on stdout")->group("Common");
   command
       .add_option_function<std::string>(
-          "--seed", [&](const std::string& seed) { globals.seed = ParseSeed(seed); },
-          "seed of everything random, 0 … 2^64 - 1 (default 0)")
+          "--seed", [&](const std::string& seed) { globals.seed = ParseSeed(seed); }, "seed of everything random, 0 … 2^64 - 1 (default 0)")
       ->group("Common");
   command
       .add_option_function<int>(
@@ -49,8 +48,7 @@ void AddGlobalFlags(CLI::App& command, GlobalOptions& globals, std::unique_ptr<T
       ->group("Common");
   command
       .add_flag_callback(
-          "--no-cache", [] { ::setenv("AIRSIM360_CACHE", "", 1); },
-          "build everything anew and keep nothing on disk")
+          "--no-cache", [] { ::setenv("AIRSIM360_CACHE", "", 1); }, "build everything anew and keep nothing on disk")
       ->group("Common");
   command
       .add_option_function<std::string>(
@@ -117,10 +115,8 @@ std::string UnknownArgumentMessage(const CLI::App& app, const CLI::ParseError& e
   for (const std::string& word : app.remaining(true)) {
     if (word == "--") continue;
     if (word.starts_with("-")) {
-      const std::string flag = word.substr(0, word.find('=')),
-                        question = DidYouMean(flag, FlagNames(*command));
-      return of + "unknown flag '" + flag + "'" + question + (question.empty() ? "; " : " ") +
-             HelpHint(*command);
+      const std::string flag = word.substr(0, word.find('=')), question = DidYouMean(flag, FlagNames(*command));
+      return of + "unknown flag '" + flag + "'" + question + (question.empty() ? "; " : " ") + HelpHint(*command);
     }
     // A command of commands: the word is a wrong one.
     const auto inner = command->get_subcommands(Any);
@@ -132,8 +128,7 @@ std::string UnknownArgumentMessage(const CLI::App& app, const CLI::ParseError& e
 
 // `airsim360 help [COMMAND]`.
 void AddHelpCommand(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("help", "what the program or one of its commands does, with its flags");
+  CLI::App* command = app.add_subcommand("help", "what the program or one of its commands does, with its flags");
   const auto words = std::make_shared<std::vector<std::string>>();
   command->add_option("command", *words, "one of those that 'airsim360 help' lists");
   command->callback([&app, words] {

@@ -12,9 +12,9 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
-#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/session.h"
+#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/scene/viewpoint.h"
@@ -89,11 +89,10 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   spec.environment = DescribeEnvironment(stage.environment());
   const SimModel model = stage.Model(kRouteStepNs);
   if (arguments.pose.empty()) pose = DefaultPose(model, spec);
-  spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," +
-               Number(pose.yaw_deg) + "," + Number(pose.pitch_deg) + "," + Number(pose.roll_deg);
+  spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," + Number(pose.yaw_deg) + "," +
+               Number(pose.pitch_deg) + "," + Number(pose.roll_deg);
   constexpr double kRadians = std::numbers::pi / 180;
-  Flight flight =
-      Hover(BodyPose(pose.p, pose.yaw_deg * kRadians, pose.pitch_deg * kRadians, pose.roll_deg * kRadians));
+  Flight flight = Hover(BodyPose(pose.p, pose.yaw_deg * kRadians, pose.pitch_deg * kRadians, pose.roll_deg * kRadians));
   if (stage.people()) flight.shots[0].people = stage.people()->start;
   if (stage.traffic()) flight.shots[0].traffic = stage.traffic()->start;
   CheckCameraPlaces(*model.tracer, spec, flight);
@@ -111,10 +110,9 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
                    "name (airsim360 worlds) or path of a .glb, .gltf, .obj, .city.json, .osm, .osm.pbf or world .yaml")
       ->required();
   command->add_option("--out", arguments->out, "folder of the dataset")->required();
-  command->add_option(
-      "--pose", arguments->pose,
-      "x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] in metres and degrees; in maps also 60.1708N,24.9375E for x,y (default: "
-      "the world's spawn, or near people)");
+  command->add_option("--pose", arguments->pose,
+                      "x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] in metres and degrees; in maps also 60.1708N,24.9375E for x,y (default: "
+                      "the world's spawn, or near people)");
   arguments->camera.AddTo(*command);
   arguments->picture.AddTo(*command);
   arguments->people.AddTo(*command);

@@ -55,7 +55,8 @@ void RpcClient::Connect() {
   addrinfo wanted{}, *found = nullptr;
   wanted.ai_family = AF_UNSPEC;
   wanted.ai_socktype = SOCK_STREAM;
-  if (::getaddrinfo(host_.c_str(), port_.c_str(), &wanted, &found) != 0) throw RuntimeError("--connect: '" + host_ + "' is no known machine");
+  if (::getaddrinfo(host_.c_str(), port_.c_str(), &wanted, &found) != 0)
+    throw RuntimeError("--connect: '" + host_ + "' is no known machine");
   for (const addrinfo* at = found; at != nullptr && socket_ < 0; at = at->ai_next) {
     socket_ = ::socket(at->ai_family, at->ai_socktype | SOCK_CLOEXEC, at->ai_protocol);
     if (socket_ < 0) continue;
@@ -66,7 +67,9 @@ void RpcClient::Connect() {
     if (::connect(socket_, at->ai_addr, at->ai_addrlen) != 0) Close();
   }
   ::freeaddrinfo(found);
-  if (socket_ < 0) throw RuntimeError("--connect: nobody answers at " + address_ + "; start 'airsim360 serve' or 'airsim360 agent' with --world W --port " + port_ + " first");
+  if (socket_ < 0)
+    throw RuntimeError("--connect: nobody answers at " + address_ +
+                       "; start 'airsim360 serve' or 'airsim360 agent' with --world W --port " + port_ + " first");
 }
 
 void RpcClient::Send(std::string_view bytes) {
@@ -90,7 +93,8 @@ std::string RpcClient::Receive() {
   }
 }
 
-void RpcClient::Call(std::string_view method, size_t count, const std::function<void(WireWriter&)>& arguments, const std::function<void(const WireValue&)>& read) {
+void RpcClient::Call(std::string_view method, size_t count, const std::function<void(WireWriter&)>& arguments,
+                     const std::function<void(const WireValue&)>& read) {
   const std::lock_guard lock(mutex_);
   WireWriter writer;
   writer.ArrayHeader(4);
@@ -104,8 +108,10 @@ void RpcClient::Call(std::string_view method, size_t count, const std::function<
     Send(writer.bytes());
     const std::string bytes = Receive();
     const WireValue answer = DecodeWire({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}, kAnswer);
-    if (answer.kind != WireValue::Kind::kArray || answer.items.size() != 4) throw RuntimeError("what answers at " + address_ + " is no AirSim server");
-    if (answer.items[2].kind != WireValue::Kind::kNil) throw InputError("the server at " + address_ + " says: " + std::string(answer.items[2].text));
+    if (answer.kind != WireValue::Kind::kArray || answer.items.size() != 4)
+      throw RuntimeError("what answers at " + address_ + " is no AirSim server");
+    if (answer.items[2].kind != WireValue::Kind::kNil)
+      throw InputError("the server at " + address_ + " says: " + std::string(answer.items[2].text));
     read(answer.items[3]);
   } catch (const InputError&) {
     throw;  // the connection is as good as before

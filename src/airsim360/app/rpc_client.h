@@ -26,7 +26,8 @@ class RpcClient {
   const std::string& address() const { return address_; }
   /// Calls `method` with `count` arguments that `arguments` writes, and has `read` read the result. RuntimeError with the
   /// server's words, or if it does not answer within ten seconds; answers have at most 512 MiB.
-  void Call(std::string_view method, size_t count, const std::function<void(WireWriter&)>& arguments, const std::function<void(const WireValue&)>& read);
+  void Call(std::string_view method, size_t count, const std::function<void(WireWriter&)>& arguments,
+            const std::function<void(const WireValue&)>& read);
   /// Calls without waiting for an answer, which the server then does not give.
   void Post(std::string_view method, size_t count, const std::function<void(WireWriter&)>& arguments);
 

@@ -33,8 +33,7 @@ void AddRow(std::string& csv, std::initializer_list<double> values) {
 }
 
 // A file of a sensor: when, its number, how many points it has (none: not told), and from where.
-void AddFileRow(std::string& csv, int64_t t_ns, int64_t file, std::optional<size_t> points,
-                const RigidTransform& X) {
+void AddFileRow(std::string& csv, int64_t t_ns, int64_t file, std::optional<size_t> points, const RigidTransform& X) {
   const Quaternion q = ToQuaternion(X.R);
   const double t = Seconds(t_ns), number = static_cast<double>(file);
   if (points) {
@@ -47,8 +46,7 @@ void AddFileRow(std::string& csv, int64_t t_ns, int64_t file, std::optional<size
 template <class Spec>
 void CheckKind(const char* kind, const std::vector<Named<Spec>>& sensors) {
   // The first goes without its name.
-  for (size_t i = 1; i < sensors.size(); ++i)
-    CheckFileName(std::string("--sensors: ") + kind, sensors[i].name);
+  for (size_t i = 1; i < sensors.size(); ++i) CheckFileName(std::string("--sensors: ") + kind, sensors[i].name);
 }
 
 template <class Spec>
@@ -57,11 +55,10 @@ void CheckFiles(const char* kind, double seconds, const std::vector<Named<Spec>>
     if (sensor.spec.rate_hz * seconds < static_cast<double>(kMaxSensorFiles)) continue;
     constexpr double kMax = static_cast<double>(kMaxSensorFiles);
     char text[200];
-    std::snprintf(
-        text, sizeof text,
-        "': at rate_hz %g it could write %.0f files in the %g s that the flight may take, more than "
-        "%.0f; the nearest rate_hz is %.3g",
-        sensor.spec.rate_hz, sensor.spec.rate_hz * seconds, seconds, kMax, 0.99 * kMax / seconds);
+    std::snprintf(text, sizeof text,
+                  "': at rate_hz %g it could write %.0f files in the %g s that the flight may take, more than "
+                  "%.0f; the nearest rate_hz is %.3g",
+                  sensor.spec.rate_hz, sensor.spec.rate_hz * seconds, seconds, kMax, 0.99 * kMax / seconds);
     throw InputError(std::string("--sensors: ") + kind + " '" + sensor.name.substr(0, 80) + text);
   }
 }
@@ -81,12 +78,10 @@ void CheckSensorLog(const SensorSet& set, double seconds) {
 }
 
 template <class Spec>
-std::vector<SensorLog::Track> SensorLog::Tracks(const char* kind, const char* columns,
-                                                const std::vector<Named<Spec>>& sensors) {
+std::vector<SensorLog::Track> SensorLog::Tracks(const char* kind, const char* columns, const std::vector<Named<Spec>>& sensors) {
   std::vector<Track> tracks;
   for (const auto& sensor : sensors) {
-    tracks.push_back(
-        {tracks.empty() ? kind : std::string(kind) + "_" + sensor.name, sensor.spec.rate_hz, columns});
+    tracks.push_back({tracks.empty() ? kind : std::string(kind) + "_" + sensor.name, sensor.spec.rate_hz, columns});
   }
   return tracks;
 }
@@ -110,8 +105,7 @@ SensorLog::SensorLog(std::shared_ptr<const SimModel> model, Stage& stage, fs::pa
       CreateWritableFolder(folder_ / track.name);
     }
   }
-  if (!range_finders_.empty() || !lidars_.empty() || !cameras_.empty())
-    snapshots_.emplace(model_, stage_.tracer());
+  if (!range_finders_.empty() || !lidars_.empty() || !cameras_.empty()) snapshots_.emplace(model_, stage_.tracer());
   // What cannot be had is found out on the ground.
   for (const auto& camera : set_.cameras) stage_.renderer(camera.spec.tier);
 }
@@ -119,8 +113,7 @@ SensorLog::SensorLog(std::shared_ptr<const SimModel> model, Stage& stage, fs::pa
 int64_t SensorLog::NextDue(int64_t t_ns) const {
   const int64_t dt_ns = model_->dt_ns;
   int64_t next_ns = std::numeric_limits<int64_t>::max();
-  for (const auto* tracks :
-       {&imus_, &gnss_, &barometers_, &magnetometers_, &range_finders_, &lidars_, &cameras_}) {
+  for (const auto* tracks : {&imus_, &gnss_, &barometers_, &magnetometers_, &range_finders_, &lidars_, &cameras_}) {
     for (const Track& track : *tracks) {
       // The sensor's next time, then the end of the step in which it lies: as SampleDue has it.
       const int64_t period_ns = std::max<int64_t>(1, std::llround(1e9 / track.rate_hz));
@@ -146,19 +139,16 @@ void SensorLog::NoteSampled(const SensorStates& states) {
   for (size_t i = 0; i < gnss_.size(); ++i) {
     const GnssReading& r = states.gnss[i].last;
     if (!is_new(r.t_ns, gnss_[i])) continue;
-    AddRow(gnss_[i].csv,
-           {Seconds(r.t_ns), Seconds(r.measured_ns), r.place.latitude_deg, r.place.longitude_deg,
-            r.place.altitude, r.v_WS.x, r.v_WS.y, r.v_WS.z, r.has_fix ? 1.0 : 0.0});
+    AddRow(gnss_[i].csv, {Seconds(r.t_ns), Seconds(r.measured_ns), r.place.latitude_deg, r.place.longitude_deg, r.place.altitude, r.v_WS.x,
+                          r.v_WS.y, r.v_WS.z, r.has_fix ? 1.0 : 0.0});
   }
   for (size_t i = 0; i < barometers_.size(); ++i) {
     const BarometerReading& r = states.barometers[i].last;
-    if (is_new(r.t_ns, barometers_[i]))
-      AddRow(barometers_[i].csv, {Seconds(r.t_ns), r.pressure, r.altitude, r.temperature});
+    if (is_new(r.t_ns, barometers_[i])) AddRow(barometers_[i].csv, {Seconds(r.t_ns), r.pressure, r.altitude, r.temperature});
   }
   for (size_t i = 0; i < magnetometers_.size(); ++i) {
     const MagnetometerReading& r = states.magnetometers[i].last;
-    if (is_new(r.t_ns, magnetometers_[i]))
-      AddRow(magnetometers_[i].csv, {Seconds(r.t_ns), r.field.x, r.field.y, r.field.z});
+    if (is_new(r.t_ns, magnetometers_[i])) AddRow(magnetometers_[i].csv, {Seconds(r.t_ns), r.field.x, r.field.y, r.field.z});
   }
 }
 
@@ -171,8 +161,8 @@ void SensorLog::NoteRays(const SimState& state) {
   for (size_t i = 0; i < range_finders_.size(); ++i) {
     if (!is_due(range_finders_[i])) continue;
     const RangeReading r = snapshots_->Range(state, 0, i);
-    AddRow(range_finders_[i].csv, {Seconds(r.t_ns), r.range, r.valid ? 1.0 : 0.0,
-                                   static_cast<double>(r.entity), static_cast<double>(r.category)});
+    AddRow(range_finders_[i].csv,
+           {Seconds(r.t_ns), r.range, r.valid ? 1.0 : 0.0, static_cast<double>(r.entity), static_cast<double>(r.category)});
   }
   for (size_t i = 0; i < lidars_.size(); ++i)
     if (is_due(lidars_[i])) NoteScan(state, i, lidars_[i]);
@@ -199,13 +189,11 @@ void SensorLog::NotePicture(const SimState& state, size_t i, Track& track) {
   const Products products{.rgb = colours, .range = false, .semantic = !colours, .entity = false};
   snapshots_->Camera(state, 0, i, products, stage_.renderer(tier), capture_);
   AddFileRow(track.csv, capture_.t_ns, track.files, std::nullopt, capture_.X_WC);
-  WriteFileAtomically(NextFile(track, "png"),
-                      colours ? EncodePng(capture_.frame.rgb) : EncodePng(capture_.frame.semantic));
+  WriteFileAtomically(NextFile(track, "png"), colours ? EncodePng(capture_.frame.rgb) : EncodePng(capture_.frame.semantic));
 }
 
 void SensorLog::WriteTables() const {
-  for (const auto* tracks :
-       {&imus_, &gnss_, &barometers_, &magnetometers_, &range_finders_, &lidars_, &cameras_}) {
+  for (const auto* tracks : {&imus_, &gnss_, &barometers_, &magnetometers_, &range_finders_, &lidars_, &cameras_}) {
     for (const Track& track : *tracks) WriteFileAtomically(folder_ / (track.name + ".csv"), track.csv);
   }
 }

@@ -8,9 +8,9 @@
 #include "airsim360/app/config_flags.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
-#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/app/stop_signals.h"
+#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
@@ -35,8 +35,7 @@ struct ServeArguments {
 // What can be wrong with the flags.
 void Check(const ServeArguments& arguments) {
   if (arguments.realtime && arguments.lockstep) {
-    throw InputError(
-        "--lockstep: time passes by the wall clock (--realtime) or by calls (--lockstep), not both");
+    throw InputError("--lockstep: time passes by the wall clock (--realtime) or by calls (--lockstep), not both");
   }
   if (arguments.port && (*arguments.port < 0 || *arguments.port > 65535)) {
     throw InputError("--port: " + std::to_string(*arguments.port) + " is not in 0 (any free one) ... 65535");
@@ -46,8 +45,8 @@ void Check(const ServeArguments& arguments) {
 // Shapes, and props of our worlds that need no pictures: what simSpawnObject can make.
 std::vector<SpawnAsset> AssetsOf(uint64_t seed) {
   std::vector<SpawnAsset> assets = ShapeAssets();
-  for (const char* name : {"bench_wood", "dining_chair", "dining_table", "fire_hydrant", "mailbox", "trash_can",
-                           "traffic_barrel", "road_block", "car", "van"}) {
+  for (const char* name : {"bench_wood", "dining_chair", "dining_table", "fire_hydrant", "mailbox", "trash_can", "traffic_barrel",
+                           "road_block", "car", "van"}) {
     const PropKind& kind = FindPropKind(name);
     Model model = MakeProp(kind, 0, seed, nullptr);
     if (model.textures.empty()) assets.push_back({name, std::string(kind.category), std::move(model)});
@@ -71,9 +70,8 @@ ServerOptions OptionsOf(const ServeArguments& arguments, const GlobalOptions& gl
 void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   Check(arguments);
   const ServerOptions options = OptionsOf(arguments, globals);
-  StageOptions world =
-      StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed),
-                             arguments.traffic.Request(globals.seed));
+  StageOptions world = StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed),
+                                      arguments.traffic.Request(globals.seed));
   world.wind = ReadWindFile(arguments.wind);
   world.bodies = ServedBodies(options);
   const auto stage = std::make_shared<Stage>(world);
@@ -86,8 +84,7 @@ void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   if (globals.json) {
     PrintJson({{"address", options.address}, {"port", server.port()}, {"functions", server.Methods()}});
   } else {
-    std::printf("listening on %s:%d\n", options.address.empty() ? "0.0.0.0" : options.address.c_str(),
-                server.port());
+    std::printf("listening on %s:%d\n", options.address.empty() ? "0.0.0.0" : options.address.c_str(), server.port());
   }
   std::fflush(stdout);
   stop.Wait();
@@ -100,10 +97,8 @@ void AddServeCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand("serve", "a server that AirSim's clients can fly in (docs/guide/airsim_server.md)");
   auto arguments = std::make_shared<ServeArguments>();
   command->add_option("--world", arguments->world, "name or file of the world")->required();
-  command->add_option("--settings", arguments->settings,
-                      "AirSim's settings.json: vehicles, cameras, sensors, …");
-  command->add_option("--port", arguments->port,
-                      "TCP port, 0 = any free one (default: of the settings, 41451)");
+  command->add_option("--settings", arguments->settings, "AirSim's settings.json: vehicles, cameras, sensors, …");
+  command->add_option("--port", arguments->port, "TCP port, 0 = any free one (default: of the settings, 41451)");
   command->add_option("--host", arguments->host, "IPv4 address to listen on (default 127.0.0.1)");
   arguments->people.AddTo(*command);
   arguments->traffic.AddTo(*command);

@@ -31,21 +31,21 @@ CollectInput InputOf(Stage& stage, const DatasetSpec& spec, const Flight& flight
 namespace {
 
 // What is worth knowing of the people of a dataset; warns where hardly anybody is to be seen.
-nlohmann::ordered_json ReportPeople(const Stage& stage, const CollectResult& result, const std::filesystem::path& out,
-                                    bool json) {
+nlohmann::ordered_json ReportPeople(const Stage& stage, const CollectResult& result, const std::filesystem::path& out, bool json) {
   const PeopleTotals totals = DatasetIndex(out, DatasetIndex::Mode::kRead).CountPeople();
   const size_t people = stage.people()->cast.size();
   if (!json) {
-    std::printf("people: %lld of %zu have pixels, %lld of them %lld or more in some picture; %lld of %lld labelled views of a "
-                "person have pixels\n",
-                static_cast<long long>(totals.persons_seen), people, static_cast<long long>(totals.persons_large),
-                static_cast<long long>(kLargePerson), static_cast<long long>(totals.views_seen),
-                static_cast<long long>(totals.views));
+    std::printf(
+        "people: %lld of %zu have pixels, %lld of them %lld or more in some picture; %lld of %lld labelled views of a "
+        "person have pixels\n",
+        static_cast<long long>(totals.persons_seen), people, static_cast<long long>(totals.persons_large),
+        static_cast<long long>(kLargePerson), static_cast<long long>(totals.views_seen), static_cast<long long>(totals.views));
   }
   // Fewer than one a frame, or nobody large enough to be recognised.
   if (totals.views_seen < result.frames || totals.persons_large == 0) {
-    LogWarning("few people are in these pictures: leave out --route and --pose, which then are chosen near people, or have "
-               "more with --people");
+    LogWarning(
+        "few people are in these pictures: leave out --route and --pose, which then are chosen near people, or have "
+        "more with --people");
   }
   return {{"people_seen", totals.persons_seen},
           {"people_seen_100px", totals.persons_large},
@@ -55,14 +55,12 @@ nlohmann::ordered_json ReportPeople(const Stage& stage, const CollectResult& res
 
 }  // namespace
 
-void ReportRun(const Stage& stage, const DatasetSpec& spec, const CollectResult& result,
-               const std::filesystem::path& out, bool json) {
+void ReportRun(const Stage& stage, const DatasetSpec& spec, const CollectResult& result, const std::filesystem::path& out, bool json) {
   // Means of the frames that this run wrote.
   const double written = result.written > 0 ? static_cast<double>(result.written) : 1;
   const double render_ms = result.render_ms / written, write_ms = result.write_ms / written;
   const double rendered_fps = render_ms > 0 ? 1000 / render_ms : 0;
-  const double written_fps =
-      result.wall_ms > 0 ? 1000 * static_cast<double>(result.written) / result.wall_ms : 0;
+  const double written_fps = result.wall_ms > 0 ? 1000 * static_cast<double>(result.written) / result.wall_ms : 0;
   const SceneCounts counts = stage.scene().Count();
   const bool peopled = stage.people() && !stage.people()->refs.empty();
   if (json) {
@@ -86,15 +84,13 @@ void ReportRun(const Stage& stage, const DatasetSpec& spec, const CollectResult&
     return;
   }
   if (result.already_complete) {
-    std::printf("%s is complete already: %lld frames; nothing changed\n", out.c_str(),
-                static_cast<long long>(result.frames));
+    std::printf("%s is complete already: %lld frames; nothing changed\n", out.c_str(), static_cast<long long>(result.frames));
     return;
   }
   std::printf(
       "%s: %lld frames (%lld written now), %.1f ms rendering a frame (%.2f frames/s), %.2f frames/s "
       "written\n",
-      out.c_str(), static_cast<long long>(result.frames), static_cast<long long>(result.written), render_ms,
-      rendered_fps, written_fps);
+      out.c_str(), static_cast<long long>(result.frames), static_cast<long long>(result.written), render_ms, rendered_fps, written_fps);
   if (peopled) ReportPeople(stage, result, out, json);
   std::printf("contact sheet: %s\n", (out / "contact_sheet.png").c_str());
 }

@@ -19,7 +19,6 @@ CollectInput InputOf(Stage& stage, const DatasetSpec& spec, const Flight& flight
                      std::string trajectory_json = {});
 
 /// Prints what a run did: JSON or a few lines of text.
-void ReportRun(const Stage& stage, const DatasetSpec& spec, const CollectResult& result,
-               const std::filesystem::path& out, bool json);
+void ReportRun(const Stage& stage, const DatasetSpec& spec, const CollectResult& result, const std::filesystem::path& out, bool json);
 
 }  // namespace airsim360

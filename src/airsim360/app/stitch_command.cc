@@ -28,17 +28,14 @@ struct StitchOptions {
 Image<Rgb8> DecodeRgb8(const Bytes& bytes, const std::string& name) {
   const Image<Rgba8> rgba = DecodeRgba8(bytes, name);
   Image<Rgb8> rgb(rgba.width(), rgba.height());
-  std::transform(rgba.pixels().begin(), rgba.pixels().end(), rgb.pixels().begin(), [](Rgba8 p) {
-    return Rgb8{p.r, p.g, p.b};
-  });
+  std::transform(rgba.pixels().begin(), rgba.pixels().end(), rgb.pixels().begin(), [](Rgba8 p) { return Rgb8{p.r, p.g, p.b}; });
   return rgb;
 }
 
 Image<uint8_t> DecodeGray8(const Bytes& bytes, const std::string& name) {
   const Image<uint16_t> wide = DecodeGrayPng(bytes, name);
   Image<uint8_t> gray(wide.width(), wide.height());
-  std::transform(wide.pixels().begin(), wide.pixels().end(), gray.pixels().begin(),
-                 [](uint16_t v) { return static_cast<uint8_t>(v); });
+  std::transform(wide.pixels().begin(), wide.pixels().end(), gray.pixels().begin(), [](uint16_t v) { return static_cast<uint8_t>(v); });
   return gray;
 }
 
@@ -64,8 +61,7 @@ Equirectangular TargetOf(const StitchOptions& options, int face_size) {
 
 /// Decodes six faces, stitches them and encodes the picture.
 template <class Pixel, class Decode, class Stitch, class Encode>
-Result Run(const StitchOptions& options, const CubeFolder& folder, const Decode& decode, const Stitch& stitch,
-           const Encode& encode) {
+Result Run(const StitchOptions& options, const CubeFolder& folder, const Decode& decode, const Stitch& stitch, const Encode& encode) {
   CubeFaces<Pixel> faces;
   std::array<std::string, 6> names;
   for (size_t f = 0; f < 6; ++f) names[f] = folder.files[f].string();
@@ -83,9 +79,7 @@ Result Run(const StitchOptions& options, const CubeFolder& folder, const Decode&
 }
 
 Result StitchFolder(const StitchOptions& options, const CubeFolder& folder, bool nearest) {
-  const auto pick = [](const auto& faces, const Equirectangular& target) {
-    return StitchNearest(faces, target);
-  };
+  const auto pick = [](const auto& faces, const Equirectangular& target) { return StitchNearest(faces, target); };
   const auto colors = [&](const auto& faces, const Equirectangular& target) {
     return nearest ? StitchNearest(faces, target) : StitchFiltered(faces, target);
   };
@@ -96,27 +90,22 @@ Result StitchFolder(const StitchOptions& options, const CubeFolder& folder, bool
   const auto photograph = [&](const Image<Rgb8>& picture) {
     // A filtered picture is for viewers; labels stay bare.
     const auto gpano = nearest ? std::nullopt : std::optional(GPano{});
-    return LowerCaseExtension(options.out) == ".png" ? EncodePng(picture, gpano)
-                                                     : EncodeJpeg(picture, 95, gpano);
+    return LowerCaseExtension(options.out) == ".png" ? EncodePng(picture, gpano) : EncodeJpeg(picture, 95, gpano);
   };
   switch (folder.kind) {
     case FaceKind::kGray8:
       return Run<uint8_t>(options, folder, DecodeGray8, pick, png);
     case FaceKind::kPalette: {
-      const auto decode = [](const Bytes& bytes, const std::string& name) {
-        return DecodePalettePng(bytes, name).indices;
-      };
+      const auto decode = [](const Bytes& bytes, const std::string& name) { return DecodePalettePng(bytes, name).indices; };
       const std::vector<Rgb8> palette = DecodePalettePng(folder.bytes[0], folder.files[0].string()).palette;
-      return Run<uint8_t>(options, folder, decode, pick,
-                          [&](const auto& picture) { return EncodePalettePng(picture, palette); });
+      return Run<uint8_t>(options, folder, decode, pick, [&](const auto& picture) { return EncodePalettePng(picture, palette); });
     }
     case FaceKind::kGray16:
       return Run<uint16_t>(options, folder, DecodeGrayPng, pick, png);
     case FaceKind::kColor16:
       return Run<Rgb16>(options, folder, DecodeRgb16Png, colors, png);
     case FaceKind::kRange:
-      return Run<float>(options, folder, DecodeExr, ranges,
-                        [](const auto& picture) { return EncodeExr(picture); });
+      return Run<float>(options, folder, DecodeExr, ranges, [](const auto& picture) { return EncodeExr(picture); });
     case FaceKind::kColor8:
       break;
   }
@@ -126,11 +115,10 @@ Result StitchFolder(const StitchOptions& options, const CubeFolder& folder, bool
 /// Whether nearest pixels are taken: as asked, else for everything but colour.
 bool UseNearest(const StitchOptions& options, FaceKind kind) {
   const bool color = kind == FaceKind::kColor8 || kind == FaceKind::kColor16;
-  if (options.nearest && options.filter == "linear")
-    throw InputError("--nearest contradicts --filter linear");
+  if (options.nearest && options.filter == "linear") throw InputError("--nearest contradicts --filter linear");
   if (options.filter == "linear" && !color) {
-    throw InputError(std::string("--filter: 'linear' would mix ") +
-                     (kind == FaceKind::kRange ? "ranges" : "label ids") + " of neighbours; use 'nearest'");
+    throw InputError(std::string("--filter: 'linear' would mix ") + (kind == FaceKind::kRange ? "ranges" : "label ids") +
+                     " of neighbours; use 'nearest'");
   }
   return options.nearest || options.filter == "nearest" || !color;
 }
@@ -150,8 +138,8 @@ void CheckOut(const StitchOptions& options, FaceKind kind, bool nearest) {
   if (kind == FaceKind::kRange) fitting = {".exr"};
   if (kind == FaceKind::kColor8 && !nearest) fitting = {".png", ".jpg", ".jpeg"};
   if (std::find(fitting.begin(), fitting.end(), extension) != fitting.end()) return;
-  throw InputError("--out: '" + options.out + "': faces of " + kFaceKindNames[static_cast<int>(kind)] +
-                   (nearest ? " (nearest)" : "") + " are written as " + fitting.front());
+  throw InputError("--out: '" + options.out + "': faces of " + kFaceKindNames[static_cast<int>(kind)] + (nearest ? " (nearest)" : "") +
+                   " are written as " + fitting.front());
 }
 
 void RunStitch(const StitchOptions& options, const GlobalOptions& globals) {
@@ -164,14 +152,13 @@ void RunStitch(const StitchOptions& options, const GlobalOptions& globals) {
                      "; planar depth is read from .exr files");
   }
   const Result result = StitchFolder(options, faces, nearest);
-  if (const fs::path parent = fs::path(options.out).parent_path(); !parent.empty())
-    CreateWritableFolder(parent);
+  if (const fs::path parent = fs::path(options.out).parent_path(); !parent.empty()) CreateWritableFolder(parent);
   WriteFileAtomically(options.out, result.bytes);
 
   // The report.
   if (!globals.json) {
-    std::printf("%s: %dx%d from six faces of %d pixels\n", options.out.c_str(), result.target.width,
-                result.target.height, result.face_size);
+    std::printf("%s: %dx%d from six faces of %d pixels\n", options.out.c_str(), result.target.width, result.target.height,
+                result.face_size);
     return;
   }
   nlohmann::ordered_json names;
@@ -198,12 +185,9 @@ void AddStitchCommand(CLI::App& app, GlobalOptions& globals) {
       ->required();
   command->add_option("--out", options->out, "picture to write: .png or .jpg, .exr for a range")->required();
   command->add_option("--size", options->size, "WxH of the picture (default: 4 x 2 faces)");
-  command->add_flag("--depth-z", options->depth_z,
-                    "the .exr faces hold planar depth along each face's axis: write range");
-  command->add_flag("--nearest", options->nearest,
-                    "take nearest pixels: for labels in colour, as entity ids");
-  command->add_option("--filter", options->filter,
-                      "linear or nearest (default: linear for colour, else nearest)");
+  command->add_flag("--depth-z", options->depth_z, "the .exr faces hold planar depth along each face's axis: write range");
+  command->add_flag("--nearest", options->nearest, "take nearest pixels: for labels in colour, as entity ids");
+  command->add_option("--filter", options->filter, "linear or nearest (default: linear for colour, else nearest)");
   command->add_option("--axes", options->axes,
                       "frame of the face names: camera (+X right, +Y down, +Z forward; default), body (+X "
                       "forward, +Y left, +Z up) or opengl (+X right, +Y up, +Z forward)");

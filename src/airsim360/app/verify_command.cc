@@ -42,9 +42,8 @@ void RunVerify(const std::string& folder, bool json) {
 }  // namespace
 
 void AddVerifyCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command = app.add_subcommand(
-      "verify",
-      "re-hash a dataset: every damaged, missing or extra file; exit status 1 if any is damaged or missing");
+  CLI::App* command =
+      app.add_subcommand("verify", "re-hash a dataset: every damaged, missing or extra file; exit status 1 if any is damaged or missing");
   auto folder = std::make_shared<std::string>();
   command->add_option("DIR", *folder, "folder of the dataset")->required();
   command->callback([folder, &globals] { RunVerify(*folder, globals.json); });

@@ -42,9 +42,7 @@ struct ViewArguments {
 
 constexpr std::chrono::milliseconds kLastJob{800};  // that a picture has to end when the server is stopped
 
-double SteadySeconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double SteadySeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // The next folder of a record that is not there yet: DIR/000, DIR/001, …
 fs::path NextFolder(const fs::path& record) {
@@ -56,7 +54,8 @@ fs::path NextFolder(const fs::path& record) {
 }
 
 // What was kept in the browser becomes a dataset like any other.
-std::string Save(Stage& stage, const ViewArguments& arguments, const GlobalOptions& globals, const Flight& kept, const Environment& environment) {
+std::string Save(Stage& stage, const ViewArguments& arguments, const GlobalOptions& globals, const Flight& kept,
+                 const Environment& environment) {
   DatasetSpec spec;
   static_cast<RenderSettings&>(spec) = arguments.picture;
   spec.command = "view";
@@ -92,9 +91,13 @@ std::shared_ptr<LiveWorld> OpenLive(const std::shared_ptr<const ViewArguments>& 
 // Flights of language navigation, which need the episodes that were flown.
 void UnderstandRun(ViewArguments& arguments) {
   const std::string& file = arguments.what;
-  if (arguments.episodes.empty()) throw InputError("--episodes: '" + file + "' holds flights of 'vln run'; give the episodes.jsonl that was flown (a CityJSON world: --world)");
-  for (const auto& [flag, value] : {std::pair{"--compare", &arguments.compare}, {"--export", &arguments.out}, {"--record", &arguments.record}})
-    if (!value->empty()) throw InputError(std::string(flag) + ": '" + file + "' holds flights, whose pictures are drawn when they are looked at");
+  if (arguments.episodes.empty())
+    throw InputError("--episodes: '" + file +
+                     "' holds flights of 'vln run'; give the episodes.jsonl that was flown (a CityJSON world: --world)");
+  for (const auto& [flag, value] :
+       {std::pair{"--compare", &arguments.compare}, {"--export", &arguments.out}, {"--record", &arguments.record}})
+    if (!value->empty())
+      throw InputError(std::string(flag) + ": '" + file + "' holds flights, whose pictures are drawn when they are looked at");
   arguments.is_run = true;
 }
 
@@ -104,18 +107,26 @@ void Understand(ViewArguments& arguments) {
     throw InputError("--port: " + std::to_string(arguments.port) + " is not in 0 (any free one) ... 65535");
   if (!arguments.follow.address.empty()) {
     if (!arguments.what.empty() || !arguments.world.empty()) throw InputError("--connect: give a server, or a dataset or world, not both");
-    for (const auto& [flag, value] : {std::pair{"--compare", &arguments.compare}, {"--export", &arguments.out}, {"--record", &arguments.record}})
-      if (!value->empty()) throw InputError(std::string(flag) + ": the world is in the server at " + arguments.follow.address + "; it cannot be given with --connect");
+    for (const auto& [flag, value] :
+         {std::pair{"--compare", &arguments.compare}, {"--export", &arguments.out}, {"--record", &arguments.record}})
+      if (!value->empty())
+        throw InputError(std::string(flag) + ": the world is in the server at " + arguments.follow.address +
+                         "; it cannot be given with --connect");
     return;
   }
-  for (const auto& [flag, given] : {std::pair{"--lease", arguments.follow.lease}, {"--vehicle", !arguments.follow.vehicle.empty()}, {"--episode", !arguments.follow.episode.empty()}})
+  for (const auto& [flag, given] : {std::pair{"--lease", arguments.follow.lease},
+                                    {"--vehicle", !arguments.follow.vehicle.empty()},
+                                    {"--episode", !arguments.follow.episode.empty()}})
     if (given) throw InputError(std::string(flag) + ": it goes with --connect HOST:PORT");
   if (!arguments.what.empty() && !arguments.world.empty()) throw InputError("--world: give a dataset or a world, not both");
   if (arguments.what.ends_with(".jsonl") && !arguments.what.ends_with(".city.jsonl")) return UnderstandRun(arguments);
   if (!arguments.episodes.empty()) throw InputError("--episodes: it goes with results.jsonl of 'airsim360 vln run'");
   if (arguments.what.ends_with(".json") && !arguments.what.ends_with(".city.json")) {
     if (!arguments.compare.empty()) throw InputError("--compare: compares datasets; '" + arguments.what + "' is a plan");
-    if (!arguments.out.empty()) throw InputError("--export: '" + arguments.what + "' is a plan, whose frames are drawn when they are looked at; make a dataset of it with 'airsim360 dataset run' first");
+    if (!arguments.out.empty())
+      throw InputError(
+          "--export: '" + arguments.what +
+          "' is a plan, whose frames are drawn when they are looked at; make a dataset of it with 'airsim360 dataset run' first");
     arguments.is_plan = true;
     return;
   }
@@ -129,10 +140,12 @@ void Understand(ViewArguments& arguments) {
 
 std::shared_ptr<LiveSource> Follow(const FollowOptions& options) {
   if (IsAirSimServer(options.address)) {
-    if (!options.episode.empty()) throw InputError("--episode: 'airsim360 serve' answers at " + options.address + ", which has no episodes; give --vehicle");
+    if (!options.episode.empty())
+      throw InputError("--episode: 'airsim360 serve' answers at " + options.address + ", which has no episodes; give --vehicle");
     return std::make_shared<FollowedServer>(options);
   }
-  if (!IsAgentServer(options.address)) throw RuntimeError("--connect: what answers at " + options.address + " is neither 'airsim360 serve' nor 'airsim360 agent'");
+  if (!IsAgentServer(options.address))
+    throw RuntimeError("--connect: what answers at " + options.address + " is neither 'airsim360 serve' nor 'airsim360 agent'");
   return std::make_shared<FollowedAgent>(options);
 }
 
@@ -144,7 +157,9 @@ ViewSite SiteOf(const std::shared_ptr<ViewArguments>& arguments, const GlobalOpt
     options.open = [&globals](const std::string& world, uint64_t seed, int64_t people) {
       GlobalOptions of_seed = globals;
       of_seed.seed = seed;
-      return std::make_shared<Stage>(StageOptionsOf(world, of_seed, {}, PeopleRequest{.count = people > 0 ? std::optional(static_cast<size_t>(people)) : std::nullopt, .seed = seed}));
+      return std::make_shared<Stage>(
+          StageOptionsOf(world, of_seed, {},
+                         PeopleRequest{.count = people > 0 ? std::optional(static_cast<size_t>(people)) : std::nullopt, .seed = seed}));
     };
     return ViewSite(std::make_shared<ViewedRun>(arguments->what, std::move(options)));
   }
@@ -157,8 +172,10 @@ ViewSite SiteOf(const std::shared_ptr<ViewArguments>& arguments, const GlobalOpt
 void Serve(const ViewSite& site, const ViewArguments& arguments, bool json) {
   HttpHandlers handlers{.request = [&site](const HttpRequest& request) { return site.Answer(request); }};
   HttpServerOptions options = ViewServerOptions(arguments.port);
-  if (arguments.world.empty() && arguments.follow.address.empty()) options.socket_target.clear();
-  else handlers.message = [&site](const std::string& message) { return site.AnswerMessage(message); };
+  if (arguments.world.empty() && arguments.follow.address.empty())
+    options.socket_target.clear();
+  else
+    handlers.message = [&site](const std::string& message) { return site.AnswerMessage(message); };
   // Not before the world is there: until then Ctrl-C ends the program at once.
   const StopSignals stop;
   const HttpServer server(std::move(handlers), options);
@@ -180,8 +197,10 @@ void RunView(const std::shared_ptr<ViewArguments>& arguments, const GlobalOption
   const ViewSite site = SiteOf(arguments, globals);
   if (arguments->out.empty()) return Serve(site, *arguments, globals.json);
   site.Write(arguments->out);
-  if (globals.json) PrintJson({{"out", arguments->out}});
-  else std::printf("%s\n", (fs::path(arguments->out) / "index.html").c_str());
+  if (globals.json)
+    PrintJson({{"out", arguments->out}});
+  else
+    std::printf("%s\n", (fs::path(arguments->out) / "index.html").c_str());
 }
 
 }  // namespace
@@ -189,13 +208,18 @@ void RunView(const std::shared_ptr<ViewArguments>& arguments, const GlobalOption
 void AddViewCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand("view", "datasets and worlds in the browser (docs/guide/viewer.md)");
   auto arguments = std::make_shared<ViewArguments>();
-  command->add_option("WHAT", arguments->what, "folder of a dataset or of a flight, a plan (.json), flights of 'vln run' (.jsonl), or a file of a world (.glb, .osm, .yaml, …)");
+  command->add_option(
+      "WHAT", arguments->what,
+      "folder of a dataset or of a flight, a plan (.json), flights of 'vln run' (.jsonl), or a file of a world (.glb, .osm, .yaml, …)");
   command->add_option("--compare", arguments->compare, "folder of a second dataset, side by side");
   command->add_option("--world", arguments->world, "name or file of a world to fly in");
-  command->add_option("--connect", arguments->follow.address, "HOST:PORT of a running 'airsim360 serve' or 'airsim360 agent', to look at its world");
-  command->add_flag("--lease", arguments->follow.lease, "with --connect: take the drone and fly it from the page; an AirSim server gets API control back at the end");
+  command->add_option("--connect", arguments->follow.address,
+                      "HOST:PORT of a running 'airsim360 serve' or 'airsim360 agent', to look at its world");
+  command->add_flag("--lease", arguments->follow.lease,
+                    "with --connect: take the drone and fly it from the page; an AirSim server gets API control back at the end");
   command->add_option("--vehicle", arguments->follow.vehicle, "with --connect to an AirSim server: whose eyes (default: the first)");
-  command->add_option("--episode", arguments->follow.episode, "with --connect to an agent server: which episode, e1 (default: always the newest)");
+  command->add_option("--episode", arguments->follow.episode,
+                      "with --connect to an agent server: which episode, e1 (default: always the newest)");
   command->add_option("--episodes", arguments->episodes, "with results.jsonl of 'vln run': the episodes that were flown");
   command->add_option("--port", arguments->port, "TCP port, 0 = any free one (default 8360)");
   command->add_option("--export", arguments->out, "write the page and the datasets into this new folder, for any server of files, and end");

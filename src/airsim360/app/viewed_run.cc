@@ -65,13 +65,15 @@ struct ViewedRun::World {
 
   std::shared_ptr<const SceneState> MovedAt(double seconds) {
     if (!stage->people() && !stage->traffic()) return stage->StartState();
-    if (!loop || 1e-9 * static_cast<double>(loop->t_ns()) > seconds + 1e-6) loop = std::make_unique<SimLoop>(std::make_shared<const SimModel>(stage->Model()));
+    if (!loop || 1e-9 * static_cast<double>(loop->t_ns()) > seconds + 1e-6)
+      loop = std::make_unique<SimLoop>(std::make_shared<const SimModel>(stage->Model()));
     loop->Advance(std::max<int64_t>(0, (std::llround(seconds * 1e9) - loop->t_ns()) / loop->model().dt_ns));
     return SceneStateOf(loop->model(), loop->state(), kNobody);
   }
 };
 
-ViewedRun::ViewedRun(const fs::path& results, ViewedRunOptions options) : name_(ResultsOf(results).filename().string()), options_(std::move(options)) {
+ViewedRun::ViewedRun(const fs::path& results, ViewedRunOptions options)
+    : name_(ResultsOf(results).filename().string()), options_(std::move(options)) {
   CheckRenderSettings(options_.picture, "--");
   results_ = ReadResults(ResultsOf(results));
   std::map<std::string, const LanguageEpisode*> by_id;
@@ -80,12 +82,14 @@ ViewedRun::ViewedRun(const fs::path& results, ViewedRunOptions options) : name_(
   first_.push_back(0);
   for (const VlnResult& r : results_) {
     const auto found = by_id.find(r.id);
-    if (found == by_id.end()) throw InputError(ResultsOf(results).string() + ": flight '" + r.id + "' is no episode of " + options_.episodes.string());
+    if (found == by_id.end())
+      throw InputError(ResultsOf(results).string() + ": flight '" + r.id + "' is no episode of " + options_.episodes.string());
     episodes_.push_back(*found->second);
     first_.push_back(first_.back() + static_cast<int64_t>(r.pred.size()));
   }
   if (first_.back() > kMostPlaces)
-    throw InputError(ResultsOf(results).string() + ": its flights have " + std::to_string(first_.back()) + " places; at most " + std::to_string(kMostPlaces) + " are shown");
+    throw InputError(ResultsOf(results).string() + ": its flights have " + std::to_string(first_.back()) + " places; at most " +
+                     std::to_string(kMostPlaces) + " are shown");
   ReadTranscript(TranscriptOf(ResultsOf(results)));
 }
 
@@ -122,23 +126,46 @@ std::string ViewedRun::Index() const {
     Json log = Json::array();
     for (const VlnStep& step : r.log) {
       const auto frame = std::min<int64_t>(std::llround(step.t * 1e9) / kPathEveryNs, static_cast<int64_t>(r.pred.size()) - 1);
-      Json& said = log.emplace_back(Json{{"frame", first_[i] + frame}, {"t", step.t}, {"p", PointJson(step.p)}, {"said", step.said}, {"told", step.told}});
+      Json& said = log.emplace_back(
+          Json{{"frame", first_[i] + frame}, {"t", step.t}, {"p", PointJson(step.p)}, {"said", step.said}, {"told", step.told}});
       const auto exchange = exchanges_.find(r.id + "#" + std::to_string(log.size() - 1));
       if (exchange != exchanges_.end()) said["model"] = Json::parse(exchange->second);
     }
-    flights.push_back({{"id", r.id}, {"first", first_[i]}, {"last", first_[i + 1] - 1}, {"instruction", e.instruction}, {"agent", r.agent}, {"view", r.view},
-                       {"goal", PointJson(e.goal)}, {"radius", r.radius}, {"parts", PointsJson(r.parts)}, {"ref", PointsJson(r.ref)}, {"pred", PointsJson(r.pred)},
-                       {"success", r.success}, {"end", r.end}, {"explanation", r.explanation}, {"distance", r.distance}, {"path_length", r.path_length},
-                       {"geodesic_length", r.geodesic_length}, {"seconds", r.seconds}, {"decisions", log}});
+    flights.push_back({{"id", r.id},
+                       {"first", first_[i]},
+                       {"last", first_[i + 1] - 1},
+                       {"instruction", e.instruction},
+                       {"agent", r.agent},
+                       {"view", r.view},
+                       {"goal", PointJson(e.goal)},
+                       {"radius", r.radius},
+                       {"parts", PointsJson(r.parts)},
+                       {"ref", PointsJson(r.ref)},
+                       {"pred", PointsJson(r.pred)},
+                       {"success", r.success},
+                       {"end", r.end},
+                       {"explanation", r.explanation},
+                       {"distance", r.distance},
+                       {"path_length", r.path_length},
+                       {"geodesic_length", r.geodesic_length},
+                       {"seconds", r.seconds},
+                       {"decisions", log}});
     for (size_t k = 0; k < r.pred.size(); ++k) {
       stems.push_back(FrameStem(first_[i] + static_cast<int64_t>(k)));
       times.push_back(std::min(1e-9 * static_cast<double>(kPathEveryNs) * static_cast<double>(k), r.seconds));
       worlds.push_back(r.world);
     }
   }
-  return Json{{"name", name_}, {"planned", true}, {"world", results_.front().world}, {"seed", episodes_.front().world_seed}, {"people", false}, {"products", products},
-              {"categories", Json::parse(CategoriesJson(SemanticTree()))}, {"frames", {{"stem", stems}, {"t", times}, {"range", Json::array()}, {"world", worlds}}},
-              {"views", {{{"suffix", ""}, {"projection", "erp"}}}}, {"flights", flights}}
+  return Json{{"name", name_},
+              {"planned", true},
+              {"world", results_.front().world},
+              {"seed", episodes_.front().world_seed},
+              {"people", false},
+              {"products", products},
+              {"categories", Json::parse(CategoriesJson(SemanticTree()))},
+              {"frames", {{"stem", stems}, {"t", times}, {"range", Json::array()}, {"world", worlds}}},
+              {"views", {{{"suffix", ""}, {"projection", "erp"}}}},
+              {"flights", flights}}
       .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -149,7 +176,8 @@ std::string ViewedRun::Entities() {
   const Scene& scene = worlds_.front().stage->scene();
   for (const Entity& entity : scene.entities) {
     const Category& category = scene.tree[entity.category];
-    entities[std::to_string(entity.id)] = {{"name", entity.name}, {"category_path", category.path}, {"kind", category.thing ? "thing" : "stuff"}};
+    entities[std::to_string(entity.id)] = {
+        {"name", entity.name}, {"category_path", category.path}, {"kind", category.thing ? "thing" : "stuff"}};
   }
   return entities.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -167,8 +195,9 @@ ViewedRun::World& ViewedRun::Enter(const LanguageEpisode& e) {
   }
   World& world = worlds_.front();
   if (!world.renderer || world.weather != e.weather) {
-    world.renderer = e.weather.empty() ? world.stage->NewRenderer(options_.picture.tier)
-                                       : world.stage->NewRenderer(options_.picture.tier, ApplyFlags({.weather = e.weather}, world.stage->environment()));
+    world.renderer = e.weather.empty()
+                         ? world.stage->NewRenderer(options_.picture.tier)
+                         : world.stage->NewRenderer(options_.picture.tier, ApplyFlags({.weather = e.weather}, world.stage->environment()));
     world.weather = e.weather;
   }
   return world;

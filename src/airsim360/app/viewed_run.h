@@ -47,11 +47,11 @@ class ViewedRun : public DrawnFrames {
   std::string name_;
   ViewedRunOptions options_;
   std::vector<VlnResult> results_;
-  std::vector<LanguageEpisode> episodes_;  // of results_
-  std::vector<int64_t> first_;             // frame of each flight, and the end of the last
+  std::vector<LanguageEpisode> episodes_;         // of results_
+  std::vector<int64_t> first_;                    // frame of each flight, and the end of the last
   std::map<std::string, std::string> exchanges_;  // EPISODE#STEP -> JSON: model, tokens, seconds, cost
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;         // of what follows
   std::list<World> worlds_;  // the last used first
 };
 

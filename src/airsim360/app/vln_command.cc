@@ -62,7 +62,8 @@ void PrintMade(const VlnMade& made, const std::string& out, const GlobalOptions&
   std::printf("%zu episodes in %s (%d easy, %d medium, %d hard)\n", made.episodes.size(), out.c_str(), difficulty["easy"].get<int>(),
               difficulty["medium"].get<int>(), difficulty["hard"].get<int>());
   for (const Unbound& u : made.unbound)
-    std::printf("not bound: %s, start %d, seed %llu: %s\n", u.template_id.c_str(), u.start, static_cast<unsigned long long>(u.world_seed), u.why.c_str());
+    std::printf("not bound: %s, start %d, seed %llu: %s\n", u.template_id.c_str(), u.start, static_cast<unsigned long long>(u.world_seed),
+                u.why.c_str());
 }
 
 // What a recipe makes, with the seed, people, weather and limit of the flags.
@@ -101,8 +102,12 @@ void AddMake(CLI::App& parent, GlobalOptions& globals) {
   CLI::App* command = parent.add_subcommand("make", "episodes: instructions bound to a world, each with the proof that it means one thing");
   const auto a = std::make_shared<MakeArguments>();
   command->add_option("--world", a->options.world, "name or file of the world");
-  CLI::Option* recipe = command->add_option("--recipe", a->recipe, "instead of a world, many: omni360-vln, over 10,000 episodes in all of them");
-  command->add_option("--templates", a->options.templates, "paper37, any (the same style over whatever a world has), or a JSON file (default paper37)")->excludes(recipe);
+  CLI::Option* recipe =
+      command->add_option("--recipe", a->recipe, "instead of a world, many: omni360-vln, over 10,000 episodes in all of them");
+  command
+      ->add_option("--templates", a->options.templates,
+                   "paper37, any (the same style over whatever a world has), or a JSON file (default paper37)")
+      ->excludes(recipe);
   command->add_option("--starts", a->options.starts, "starts of each instruction (default 3)")->excludes(recipe);
   command->add_option("--seeds", a->options.seeds, "worlds, of the seeds from --seed on (default 1)")->excludes(recipe);
   command->add_option("--people", a->options.people, "people in the world when episodes are flown (default 0)");
@@ -126,7 +131,11 @@ void Check(const std::string& file, const GlobalOptions& globals) {
     if (!globals.json) std::printf("%s: %s\n", c.id.c_str(), c.what.c_str());
   }
   if (globals.json)
-    PrintJson({{"episodes", episodes.size()}, {"not_unique", ambiguous}, {"not_reachable", unreachable}, {"wrong", complaints.size()}, {"complaints", list}});
+    PrintJson({{"episodes", episodes.size()},
+               {"not_unique", ambiguous},
+               {"not_reachable", unreachable},
+               {"wrong", complaints.size()},
+               {"complaints", list}});
   else
     std::printf("%zu episodes: %zu not unique, %zu not reachable, %zu otherwise wrong\n", episodes.size(), ambiguous, unreachable,
                 complaints.size() - ambiguous - unreachable);
@@ -135,7 +144,8 @@ void Check(const std::string& file, const GlobalOptions& globals) {
 }
 
 void AddCheck(CLI::App& parent, GlobalOptions& globals) {
-  CLI::App* command = parent.add_subcommand("check", "proves episodes again by a second, brute-force method; exit status 1 if one is wrong");
+  CLI::App* command =
+      parent.add_subcommand("check", "proves episodes again by a second, brute-force method; exit status 1 if one is wrong");
   const auto file = std::make_shared<std::string>();
   command->add_option("file", *file, "episodes.jsonl")->required();
   command->callback([file, &globals] { Check(*file, globals); });
@@ -150,7 +160,8 @@ void AddTemplates(CLI::App& parent, GlobalOptions& globals) {
     }
     for (const InstructionTemplate& t : PaperTemplates()) {
       std::string predicates;
-      for (const Predicate& p : t.query.predicates) predicates += (predicates.empty() ? "" : ", ") + std::string(kPredicateNames[static_cast<int>(p.kind)]);
+      for (const Predicate& p : t.query.predicates)
+        predicates += (predicates.empty() ? "" : ", ") + std::string(kPredicateNames[static_cast<int>(p.kind)]);
       std::printf("%s  %s\n            %s\n", t.id.c_str(), t.text.c_str(), predicates.c_str());
     }
   });
@@ -167,15 +178,19 @@ void Import(const ExchangeArguments& a, const GlobalOptions& globals) {
   std::string text;
   for (const LanguageEpisode& e : episodes) text += EpisodeLine(e) + "\n";
   WriteFileAtomically(a.out, text);
-  if (globals.json) PrintJson({{"out", a.out}, {"episodes", episodes.size()}});
-  else std::printf("%zu episodes in %s\n", episodes.size(), a.out.c_str());
+  if (globals.json)
+    PrintJson({{"out", a.out}, {"episodes", episodes.size()}});
+  else
+    std::printf("%zu episodes in %s\n", episodes.size(), a.out.c_str());
 }
 
 void Export(const ExchangeArguments& a, const GlobalOptions& globals) {
   const auto episodes = ReadEpisodes(a.file);
   WriteFileAtomically(a.out, ExportEpisodes(episodes, a.format));
-  if (globals.json) PrintJson({{"out", a.out}, {"episodes", episodes.size()}});
-  else std::printf("%zu episodes in %s\n", episodes.size(), a.out.c_str());
+  if (globals.json)
+    PrintJson({{"out", a.out}, {"episodes", episodes.size()}});
+  else
+    std::printf("%zu episodes in %s\n", episodes.size(), a.out.c_str());
 }
 
 void AddImportAndExport(CLI::App& parent, GlobalOptions& globals) {
@@ -186,14 +201,15 @@ void AddImportAndExport(CLI::App& parent, GlobalOptions& globals) {
   import->add_option("--format", a->format, formats)->required();
   import->add_option("--world", a->world, "name or file of the world that they are to be flown in")->required();
   import->add_option("--out", a->out, "episodes.jsonl")->required();
-  import->callback([a, &globals] { Import(*a, globals); });
-  CLI::App* exported = parent.add_subcommand("export", "episodes in the form of a public benchmark");
-  const auto b = std::make_shared<ExchangeArguments>();
-  exported->add_option("file", b->file, "episodes.jsonl")->required();
-  exported->add_option("--format", b->format, formats)->required();
-  exported->add_option("--out", b->out, "JSON of the benchmark")->required();
-  exported->callback([b, &globals] { Export(*b, globals); });
-}
+  import->callback([a, &globals] { Import(*a, globals);
+});
+CLI::App* exported = parent.add_subcommand("export", "episodes in the form of a public benchmark");
+const auto b = std::make_shared<ExchangeArguments>();
+exported->add_option("file", b->file, "episodes.jsonl")->required();
+exported->add_option("--format", b->format, formats)->required();
+exported->add_option("--out", b->out, "JSON of the benchmark")->required();
+exported->callback([b, &globals] { Export(*b, globals); });
+}  // namespace
 
 // ------------------------------------------------------------------------------------------------ run
 
@@ -206,7 +222,8 @@ template <class Kind, size_t kCount>
 Kind ChoiceOf(const char* flag, const std::string& text, const char* const (&names)[kCount]) {
   for (size_t i = 0; i < kCount; ++i)
     if (text == names[i]) return static_cast<Kind>(i);
-  throw InputError(std::string(flag) + ": " + UnknownChoiceMessage("choice", text, std::vector<std::string>(std::begin(names), std::end(names))));
+  throw InputError(std::string(flag) + ": " +
+                   UnknownChoiceMessage("choice", text, std::vector<std::string>(std::begin(names), std::end(names))));
 }
 
 void PrintScores(const std::vector<VlnResult>& results, const std::string& out, const GlobalOptions& globals) {
@@ -216,11 +233,12 @@ void PrintScores(const std::vector<VlnResult>& results, const std::string& out, 
     PrintJson(scores);
     return;
   }
-  std::printf("%zu episodes, %s, %s, %s, %s\n", results.size(), results[0].agent.c_str(), results[0].view.c_str(), results[0].decisions_by.c_str(),
-              results[0].protocol.c_str());
+  std::printf("%zu episodes, %s, %s, %s, %s\n", results.size(), results[0].agent.c_str(), results[0].view.c_str(),
+              results[0].decisions_by.c_str(), results[0].protocol.c_str());
   for (const auto& [name, interval] : scores["intervals"].items())
     if (scores[name].is_number() && interval[0].is_number())
-      std::printf("%-20s %10.4f   [%.4f, %.4f]\n", name.c_str(), scores[name].get<double>(), interval[0].get<double>(), interval[1].get<double>());
+      std::printf("%-20s %10.4f   [%.4f, %.4f]\n", name.c_str(), scores[name].get<double>(), interval[0].get<double>(),
+                  interval[1].get<double>());
 }
 
 void Run(RunArguments& a, const GlobalOptions& globals) {
@@ -248,7 +266,8 @@ void Run(RunArguments& a, const GlobalOptions& globals) {
   }
   options.exec.seconds = options.chat.seconds;
   if (!(options.chat.seconds > 0 && options.chat.seconds <= 3600)) throw InputError("--timeout: is not in 0 … 3600 s");
-  if (options.chat.tries < 1 || options.chat.tries > 20) throw InputError("--tries: " + std::to_string(options.chat.tries) + " is not in 1 … 20");
+  if (options.chat.tries < 1 || options.chat.tries > 20)
+    throw InputError("--tries: " + std::to_string(options.chat.tries) + " is not in 1 … 20");
   if (!(options.chat.first_wait >= 0 && options.chat.first_wait <= 60)) throw InputError("--retry-wait: is not in 0 … 60 s");
   if (!(options.chat.per_minute >= 0 && options.chat.per_minute <= 1e6)) throw InputError("--per-minute: is not in 0 … 1000000");
   options.open = [&](const std::string& world, uint64_t seed, int64_t people) { return Open(globals, world, seed, people); };
@@ -256,7 +275,8 @@ void Run(RunArguments& a, const GlobalOptions& globals) {
 }
 
 void AddRun(CLI::App& parent, GlobalOptions& globals) {
-  CLI::App* command = parent.add_subcommand("run", "flies episodes with an agent and scores it; the same line again goes on after an interruption");
+  CLI::App* command =
+      parent.add_subcommand("run", "flies episodes with an agent and scores it; the same line again goes on after an interruption");
   const auto a = std::make_shared<RunArguments>();
   command->add_option("file", a->file, "episodes.jsonl")->required();
   command->add_option("--agent", a->agent, "oracle, random, forward, heuristic, mask, exec or openai (default oracle)");
@@ -300,7 +320,8 @@ void Demos(DemoArguments& a, const GlobalOptions& globals) {
 }
 
 void AddDemos(CLI::App& parent, GlobalOptions& globals) {
-  CLI::App* command = parent.add_subcommand("demos", "flights of the oracle for models that act: panoramas, states and actions ten times a second");
+  CLI::App* command =
+      parent.add_subcommand("demos", "flights of the oracle for models that act: panoramas, states and actions ten times a second");
   const auto a = std::make_shared<DemoArguments>();
   command->add_option("file", a->file, "episodes.jsonl")->required();
   command->add_option("--layout", a->options.layouts, "jsonl, rlds or lerobot, or several (default jsonl)")->delimiter(',');
@@ -330,8 +351,10 @@ void Report(ReportArguments& a, const GlobalOptions& globals) {
   const std::string stem = std::filesystem::path(a.out).replace_extension("").string();
   WriteFileAtomically(stem + ".html", ReportHtml(runs, pictures));
   WriteFileAtomically(stem + ".md", ReportMarkdown(runs));
-  if (globals.json) PrintJson({{"html", stem + ".html"}, {"markdown", stem + ".md"}, {"runs", runs.size()}, {"panoramas", pictures.size()}});
-  else std::printf("%s.html\n%s.md\n", stem.c_str(), stem.c_str());
+  if (globals.json)
+    PrintJson({{"html", stem + ".html"}, {"markdown", stem + ".md"}, {"runs", runs.size()}, {"panoramas", pictures.size()}});
+  else
+    std::printf("%s.html\n%s.md\n", stem.c_str(), stem.c_str());
 }
 
 void AddReport(CLI::App& parent, GlobalOptions& globals) {
@@ -362,8 +385,10 @@ void Submit(const SubmitArguments& a, const GlobalOptions& globals) {
     }
   }
   WriteFileAtomically(a.out, PackSubmission(a.episodes, a.results, a.transcript, facts));
-  if (globals.json) PrintJson({{"out", a.out}});
-  else std::printf("%s\n", a.out.c_str());
+  if (globals.json)
+    PrintJson({{"out", a.out}});
+  else
+    std::printf("%s\n", a.out.c_str());
 }
 
 void AddSubmit(CLI::App& parent, GlobalOptions& globals) {
@@ -385,7 +410,8 @@ struct VerifyArguments {
 
 // The same flights once more.
 std::vector<VlnResult> FlyAgain(const std::vector<LanguageEpisode>& episodes, const VlnResult& like, const GlobalOptions& globals) {
-  if (like.agent == "exec" || like.agent == "openai") throw InputError("--fly: agent '" + like.agent + "' is not part of the program; its flights are scored again alone");
+  if (like.agent == "exec" || like.agent == "openai")
+    throw InputError("--fly: agent '" + like.agent + "' is not part of the program; its flights are scored again alone");
   VlnRunOptions options;
   options.agent = like.agent;
   options.view = ChoiceOf<VlnView>("view", like.view, kViewNames);
@@ -399,8 +425,10 @@ void Verify(const VerifyArguments& a, const GlobalOptions& globals) {
   std::function<std::vector<VlnResult>(const std::vector<LanguageEpisode>&, const VlnResult&)> fly;
   if (a.fly) fly = [&](const std::vector<LanguageEpisode>& episodes, const VlnResult& like) { return FlyAgain(episodes, like, globals); };
   const std::vector<std::string> problems = VerifySubmission(a.submission, a.episodes, a.signer, fly);
-  if (globals.json) PrintJson({{"submission", a.submission}, {"flown_again", a.fly}, {"problems", problems}});
-  else if (problems.empty()) std::printf("%s: all holds\n", a.submission.c_str());
+  if (globals.json)
+    PrintJson({{"submission", a.submission}, {"flown_again", a.fly}, {"problems", problems}});
+  else if (problems.empty())
+    std::printf("%s: all holds\n", a.submission.c_str());
   for (const std::string& problem : problems)
     if (!globals.json) std::printf("%s\n", problem.c_str());
   std::fflush(stdout);
@@ -417,7 +445,7 @@ void AddVerify(CLI::App& parent, GlobalOptions& globals) {
   command->callback([a, &globals] { Verify(*a, globals); });
 }
 
-}  // namespace
+}  // namespace airsim360
 
 void AddVlnCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand("vln", "vision-and-language navigation: episodes with proofs, agents, scores (docs/guide/vln.md)");

@@ -54,9 +54,8 @@ void RunExport(const ExportArguments& arguments, const GlobalOptions& globals) {
                {"triangles", counts.unique_triangles}});
     return;
   }
-  std::printf("%s: %.1f MB, %llu entities, %llu instances, %llu triangles\n", out.c_str(),
-              static_cast<double>(bytes) / 1e6, static_cast<unsigned long long>(counts.entities),
-              static_cast<unsigned long long>(counts.instances),
+  std::printf("%s: %.1f MB, %llu entities, %llu instances, %llu triangles\n", out.c_str(), static_cast<double>(bytes) / 1e6,
+              static_cast<unsigned long long>(counts.entities), static_cast<unsigned long long>(counts.instances),
               static_cast<unsigned long long>(counts.unique_triangles));
 }
 
@@ -87,10 +86,14 @@ Json BuildingsJson(const OsmReport& report, bool list) {
                       {"height_from", building.source},
                       {"area_m2", building.area}});
   }
-  Json json{{"nodes", kinds["node"]},         {"ways", kinds["way"]},
-            {"relations", kinds["relation"]}, {"parts_outside_buildings", parts},
-            {"without_shape", shapeless},     {"heights_from_tag", sources["tag"]},
-            {"heights_from_levels", sources["levels"]}, {"heights_guessed", sources["guess"]}};
+  Json json{{"nodes", kinds["node"]},
+            {"ways", kinds["way"]},
+            {"relations", kinds["relation"]},
+            {"parts_outside_buildings", parts},
+            {"without_shape", shapeless},
+            {"heights_from_tag", sources["tag"]},
+            {"heights_from_levels", sources["levels"]},
+            {"heights_guessed", sources["guess"]}};
   if (list) json["list"] = std::move(rows);
   return json;
 }
@@ -167,7 +170,9 @@ void RunImport(ImportArguments arguments, const GlobalOptions& globals) {
             {"triangles", counts.unique_triangles},
             {"instanced_triangles", counts.instanced_triangles}};
   if (map) {
-    json["origin"] = {{"latitude_deg", report.origin.latitude_deg}, {"longitude_deg", report.origin.longitude_deg}, {"altitude_m", report.origin.altitude}};
+    json["origin"] = {{"latitude_deg", report.origin.latitude_deg},
+                      {"longitude_deg", report.origin.longitude_deg},
+                      {"altitude_m", report.origin.altitude}};
     json["extent_m"] = {report.width, report.depth};
     json["buildings"] = BuildingsJson(report, arguments.buildings);
   }
@@ -180,8 +185,7 @@ void RunImport(ImportArguments arguments, const GlobalOptions& globals) {
   if (map)
     std::printf("  %.0f x %.0f m around %.6f, %.6f; buildings %s\n", report.width, report.depth, report.origin.latitude_deg,
                 report.origin.longitude_deg, BuildingsJson(report, false).dump().c_str());
-  for (const auto& entry : json["categories"].items())
-    std::printf("  %6d %s\n", entry.value().get<int>(), entry.key().c_str());
+  for (const auto& entry : json["categories"].items()) std::printf("  %6d %s\n", entry.value().get<int>(), entry.key().c_str());
   if (out.extension() == ".yaml") std::printf("use it as --world %s\n", out.c_str());
   if (out.empty()) std::printf("use it as --world %s\n", arguments.file.c_str());
 }
@@ -222,8 +226,8 @@ void RunEntities(const EntitiesArguments& arguments, const GlobalOptions& global
     std::printf("id,name,category,category_path,kind,x,y,z,qw,qx,qy,qz,min_x,min_y,min_z,max_x,max_y,max_z\n");
     for (const EntityRow& row : rows) {
       const Quaternion q = ToQuaternion(row.X_WE.R);
-      std::printf("%u,%s,%u,%s,%s,%.3f,%.3f,%.3f,%.5f,%.5f,%.5f,%.5f", row.id, CsvText(row.name).c_str(), row.category,
-                  row.path.c_str(), row.thing ? "thing" : "stuff", row.X_WE.p.x, row.X_WE.p.y, row.X_WE.p.z, q.w, q.x, q.y, q.z);
+      std::printf("%u,%s,%u,%s,%s,%.3f,%.3f,%.3f,%.5f,%.5f,%.5f,%.5f", row.id, CsvText(row.name).c_str(), row.category, row.path.c_str(),
+                  row.thing ? "thing" : "stuff", row.X_WE.p.x, row.X_WE.p.y, row.X_WE.p.z, q.w, q.x, q.y, q.z);
       if (row.has_box)
         std::printf(",%.3f,%.3f,%.3f,%.3f,%.3f,%.3f\n", static_cast<double>(row.box.min.x), static_cast<double>(row.box.min.y),
                     static_cast<double>(row.box.min.z), static_cast<double>(row.box.max.x), static_cast<double>(row.box.max.y),
@@ -246,13 +250,15 @@ void RunRooms(const std::string& world, const GlobalOptions& globals) {
     return;
   }
   for (const RoomOutline& room : building->rooms)
-    std::printf("%4u  %-20s storey %d  %8.1f m2  height %.2f m  x %.2f … %.2f  y %.2f … %.2f\n", room.id, room.name.c_str(), room.storey, room.area_m2,
-                static_cast<double>(room.ceiling_z - room.floor_z), static_cast<double>(room.corners[0].x), static_cast<double>(room.corners[2].x),
-                static_cast<double>(room.corners[0].y), static_cast<double>(room.corners[2].y));
+    std::printf("%4u  %-20s storey %d  %8.1f m2  height %.2f m  x %.2f … %.2f  y %.2f … %.2f\n", room.id, room.name.c_str(), room.storey,
+                room.area_m2, static_cast<double>(room.ceiling_z - room.floor_z), static_cast<double>(room.corners[0].x),
+                static_cast<double>(room.corners[2].x), static_cast<double>(room.corners[0].y), static_cast<double>(room.corners[2].y));
   const auto name = [&](uint32_t id) { return id == 0 ? "outside" : building->rooms[id - 1].name.c_str(); };
   for (const RoomDoor& door : building->doors)
-    std::printf("%-12s %3u  %-6s %.2f x %.2f m at %.2f,%.2f,%.2f  %s - %s\n", door.kind.c_str(), door.id, door.open > 0.5 ? "open" : "closed", static_cast<double>(door.width),
-                static_cast<double>(door.height), static_cast<double>(door.center.x), static_cast<double>(door.center.y), static_cast<double>(door.center.z), name(door.rooms[0]), name(door.rooms[1]));
+    std::printf("%-12s %3u  %-6s %.2f x %.2f m at %.2f,%.2f,%.2f  %s - %s\n", door.kind.c_str(), door.id,
+                door.open > 0.5 ? "open" : "closed", static_cast<double>(door.width), static_cast<double>(door.height),
+                static_cast<double>(door.center.x), static_cast<double>(door.center.y), static_cast<double>(door.center.z),
+                name(door.rooms[0]), name(door.rooms[1]));
 }
 
 constexpr const char* kWorldHelp = "name (airsim360 worlds) or path of a model, map or world .yaml";
@@ -260,8 +266,8 @@ constexpr const char* kWorldHelp = "name (airsim360 worlds) or path of a model, 
 }  // namespace
 
 void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command = app.add_subcommand(
-      "world", "worlds in and out: world export, world import, world entities, world rooms, world sheet, world make");
+  CLI::App* command =
+      app.add_subcommand("world", "worlds in and out: world export, world import, world entities, world rooms, world sheet, world make");
   command->require_subcommand(1);
   CLI::App* to_file = command->add_subcommand("export", "write a world with its names and labels as binary glTF");
   auto arguments = std::make_shared<ExportArguments>();
@@ -270,8 +276,7 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   AddWorldFlags(*to_file, globals);
   to_file->callback([arguments, &globals] { RunExport(*arguments, globals); });
 
-  CLI::App* from_file = command->add_subcommand(
-      "import", "read a map, city model or 3D model, and say what it holds");
+  CLI::App* from_file = command->add_subcommand("import", "read a map, city model or 3D model, and say what it holds");
   auto importing = std::make_shared<ImportArguments>();
   from_file->add_option("file", importing->file, "the file")->required();
   from_file->add_option("--out", importing->out, "FILE.glb: write it as glTF; NAME or FILE.yaml: write a world file that names it");
@@ -296,11 +301,10 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   rooms->add_option("world", *of, kWorldHelp)->required();
   AddWorldFlags(*rooms, globals);
   rooms->callback([of, &globals] { RunRooms(*of, globals); });
-  CLI::App* sheet = command->add_subcommand(
-      "sheet", "a contact sheet: panoramas from many places and heights, with brightness and label figures");
+  CLI::App* sheet =
+      command->add_subcommand("sheet", "a contact sheet: panoramas from many places and heights, with brightness and label figures");
   auto view = std::make_shared<SheetArguments>();
-  sheet->add_option("world", view->world, "name (airsim360 worlds) or path of a model or world .yaml")
-      ->required();
+  sheet->add_option("world", view->world, "name (airsim360 worlds) or path of a model or world .yaml")->required();
   sheet->add_option("--out", view->out, "the .jpg or .png file to write")->required();
   sheet->add_option("--poses", view->poses, "places, 1 … 64 (16)");
   sheet->add_option("--heights", view->heights, "metres above the ground (1.6,12,40,100)")->delimiter(',');

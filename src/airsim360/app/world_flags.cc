@@ -18,7 +18,8 @@ bool HasCut(const GlobalOptions& globals) { return !globals.bbox.empty() || !glo
 }  // namespace
 
 void AddBoxFlag(CLI::App& command, GlobalOptions& globals) {
-  command.add_option("--bbox", globals.bbox, "maps: only this piece, SOUTH,WEST,NORTH,EAST in degrees (also in OpenStreetMap's order WEST,SOUTH,EAST,NORTH)");
+  command.add_option("--bbox", globals.bbox,
+                     "maps: only this piece, SOUTH,WEST,NORTH,EAST in degrees (also in OpenStreetMap's order WEST,SOUTH,EAST,NORTH)");
 }
 
 void AddWorldFlags(CLI::App& command, GlobalOptions& globals) {
@@ -44,16 +45,19 @@ std::string WithPlace(const char* flag, const std::string& text, const WorldRequ
   const size_t comma = text.find(','), next = comma == std::string::npos ? comma : text.find(',', comma + 1);
   if (comma == std::string::npos) return text;
   const std::string place = text.substr(0, next);
-  const auto on_earth = ParseLatitudeLongitude(text.substr(0, comma), text.substr(comma + 1, next == std::string::npos ? next : next - comma - 1),
-                                               std::string(flag) + ": '" + place + "'");
+  const auto on_earth =
+      ParseLatitudeLongitude(text.substr(0, comma), text.substr(comma + 1, next == std::string::npos ? next : next - comma - 1),
+                             std::string(flag) + ": '" + place + "'");
   if (!on_earth) return text;
   const std::optional<GeoPoint> origin = OriginOfWorld(request);
   if (!origin)
-    throw InputError(std::string(flag) + ": '" + place + "': the world '" + request.world + "' has no place on the Earth (maps have); give x,y in metres");
+    throw InputError(std::string(flag) + ": '" + place + "': the world '" + request.world +
+                     "' has no place on the Earth (maps have); give x,y in metres");
   const Vec3d p = GeoFrame({origin->latitude_deg, origin->longitude_deg, 0}).ToWorld(*on_earth);
   char numbers[160];
   if (!(std::hypot(p.x, p.y) <= kFarthest) || p.z < -kFarthest) {
-    std::snprintf(numbers, sizeof(numbers), "' lies more than %.0f km from the middle of the map, %.6f,%.6f", kFarthest / 1000, origin->latitude_deg, origin->longitude_deg);
+    std::snprintf(numbers, sizeof(numbers), "' lies more than %.0f km from the middle of the map, %.6f,%.6f", kFarthest / 1000,
+                  origin->latitude_deg, origin->longitude_deg);
     throw InputError(std::string(flag) + ": '" + place + numbers);
   }
   std::snprintf(numbers, sizeof(numbers), "%.4f,%.4f", p.x, p.y);

@@ -50,7 +50,8 @@ std::string WorldText(const std::string& words, const TownRequest& request, cons
 void RunWorldMake(const MakeArguments& arguments, const GlobalOptions& globals) {
   const fs::path out = arguments.out;
   if (out.extension() != ".yaml" && out.extension() != ".yml")
-    throw InputError("--out: '" + arguments.out + "': a world file is a .yaml; did you mean '" + fs::path(out).replace_extension(".yaml").string() + "'?");
+    throw InputError("--out: '" + arguments.out + "': a world file is a .yaml; did you mean '" +
+                     fs::path(out).replace_extension(".yaml").string() + "'?");
   // Of a building from inside, else of a town.
   const std::optional<BuildingRequest> building = BuildingFromWords(arguments.words);
   TownRequest request;
@@ -63,7 +64,8 @@ void RunWorldMake(const MakeArguments& arguments, const GlobalOptions& globals) 
   fs::path people;
   if (request.people > 0) {
     people = fs::path(out).replace_extension(".people.yaml");
-    WriteFileAtomically(people, std::string_view(std::string("areas:\n  - name: ") + (building ? "building" : "town") + "\n    count: " + std::to_string(request.people) + "\n"));
+    WriteFileAtomically(people, std::string_view(std::string("areas:\n  - name: ") + (building ? "building" : "town") +
+                                                 "\n    count: " + std::to_string(request.people) + "\n"));
   }
   const std::string text = building ? BuildingText(arguments.words, *building, people.filename().string(), globals.seed)
                                     : WorldText(arguments.words, request, people.filename().string(), globals.seed);

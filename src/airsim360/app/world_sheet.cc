@@ -41,8 +41,7 @@ std::vector<Vec3f> ChoosePlaces(Stage& stage, const SheetArguments& arguments, u
   std::vector<Vec3f> places;
   for (int tries = 0; tries < 4000 && static_cast<int>(places.size()) < arguments.poses; ++tries) {
     const double reach = 25 + 110.0 * static_cast<double>(places.size()) / arguments.poses;
-    const Vec3f p{spawn.x + static_cast<float>(rng.Uniform(-reach, reach)),
-                  spawn.y + static_cast<float>(rng.Uniform(-reach, reach)), 0};
+    const Vec3f p{spawn.x + static_cast<float>(rng.Uniform(-reach, reach)), spawn.y + static_cast<float>(rng.Uniform(-reach, reach)), 0};
     const auto below = stage.tracer()->Intersect({p.x, p.y, spawn.z + 300}, {0, 0, -1});
     if (!below) continue;
     const float ground = spawn.z + 300 - below->distance;
@@ -52,8 +51,7 @@ std::vector<Vec3f> ChoosePlaces(Stage& stage, const SheetArguments& arguments, u
       const float room = h < 3 ? 0.9f : 2.5f;
       return stage.tracer()->Clearance({p.x, p.y, ground + static_cast<float>(h)}, room) >= room;
     });
-    const bool apart = std::all_of(places.begin(), places.end(),
-                                   [&](Vec3f q) { return std::hypot(p.x - q.x, p.y - q.y) > 9; });
+    const bool apart = std::all_of(places.begin(), places.end(), [&](Vec3f q) { return std::hypot(p.x - q.x, p.y - q.y) > 9; });
     if (clear && apart) places.push_back({p.x, p.y, ground});
   }
   return places;
@@ -75,8 +73,7 @@ struct PictureFigures {
       for (int x = 0; x < frame.rgb.width(); ++x) {
         const Rgb8 c = frame.rgb(x, y);
         weight += w;
-        luminance +=
-            w * (0.2126 * SrgbToLinear(c.r) + 0.7152 * SrgbToLinear(c.g) + 0.0722 * SrgbToLinear(c.b));
+        luminance += w * (0.2126 * SrgbToLinear(c.r) + 0.7152 * SrgbToLinear(c.g) + 0.0722 * SrgbToLinear(c.b));
         dark += w * (std::max({c.r, c.g, c.b}) < 5);
         bright += w * (std::max({c.r, c.g, c.b}) > 250);
         void_pixels += frame.semantic(x, y) == kVoid || frame.entity(x, y) == kNoEntity;
@@ -106,10 +103,8 @@ struct PictureFigures {
 };
 
 void CheckSheet(const SheetArguments& arguments, bool jpeg) {
-  if (!jpeg && fs::path(arguments.out).extension() != ".png")
-    throw InputError("--out: '" + arguments.out + "': give a .jpg or .png file");
-  if (arguments.poses < 1 || arguments.poses > 64)
-    throw InputError("--poses: " + std::to_string(arguments.poses) + " is not in 1 … 64");
+  if (!jpeg && fs::path(arguments.out).extension() != ".png") throw InputError("--out: '" + arguments.out + "': give a .jpg or .png file");
+  if (arguments.poses < 1 || arguments.poses > 64) throw InputError("--poses: " + std::to_string(arguments.poses) + " is not in 1 … 64");
   if (arguments.width < 128 || arguments.width > 2048 || arguments.width % 4)
     throw InputError("--width: " + std::to_string(arguments.width) + " is not a multiple of 4 in 128 … 2048");
   CheckRenderSettings(arguments.picture, "--");
@@ -129,8 +124,7 @@ struct Sheet {
     std::map<CategoryId, std::set<EntityId>> seen;
     for (int y = 0; y < frame.semantic.height(); ++y)
       for (int x = 0; x < frame.semantic.width(); ++x) seen[frame.semantic(x, y)].insert(frame.entity(x, y));
-    for (const auto& [category, entities] : seen)
-      most_visible[category] = std::max(most_visible[category], entities.size());
+    for (const auto& [category, entities] : seen) most_visible[category] = std::max(most_visible[category], entities.size());
   }
 };
 
@@ -145,8 +139,7 @@ Sheet DrawSheet(Stage& stage, const SheetArguments& arguments, const std::vector
     for (int column = 0; column < columns; ++column) {
       const Vec3f p = places[static_cast<size_t>(row)];
       const double z = p.z + arguments.heights[static_cast<size_t>(column)];
-      RenderRequest request{arguments.picture, Equirectangular{w, h},
-                            BodyPose({p.x, p.y, z}, 0.6 * row, 0, 0) * CameraInBody()};
+      RenderRequest request{arguments.picture, Equirectangular{w, h}, BodyPose({p.x, p.y, z}, 0.6 * row, 0, 0) * CameraInBody()};
       request.products.albedo = true;
       request.seed = seed;
       sheet.render_ms += stage.renderer(request.tier).Render(request, frame).render_ms;
@@ -205,10 +198,8 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
                {"peak_rss_mib", PeakRssMib()}});
     return;
   }
-  std::printf("%s: %zu places, %.0f ms a frame, world ready in %.1f s\n", out.c_str(), places.size(), render_ms,
-              stage.load_seconds());
-  for (const auto& [height, figure] : by_height.items())
-    std::printf("  %s m: %s\n", height.c_str(), figure.dump().c_str());
+  std::printf("%s: %zu places, %.0f ms a frame, world ready in %.1f s\n", out.c_str(), places.size(), render_ms, stage.load_seconds());
+  for (const auto& [height, figure] : by_height.items()) std::printf("  %s m: %s\n", height.c_str(), figure.dump().c_str());
 }
 
 }  // namespace airsim360

@@ -24,8 +24,8 @@ void PrintWorlds(bool json) {
                       {"categories", world.categories},
                       {"description", world.description}});
     } else {
-      std::printf("%-16s %-8s %9.0f m2  %3zu categories  %s\n", world.name.c_str(), world.setting.c_str(),
-                  world.area_m2, world.categories.size(), world.description.c_str());
+      std::printf("%-16s %-8s %9.0f m2  %3zu categories  %s\n", world.name.c_str(), world.setting.c_str(), world.area_m2,
+                  world.categories.size(), world.description.c_str());
     }
   }
   if (json) PrintJson(list);
@@ -67,19 +67,16 @@ void PrintCounts(const std::string& name, const GlobalOptions& globals) {
   for (const auto& row : counts["floor"])
     std::printf("  %-3s %-34s %s of %s\n", row["reached"].get<bool>() ? "ok" : "LOW", row["item"].get<std::string>().c_str(),
                 row["measured"].dump().c_str(), row["at_least"].dump().c_str());
-  for (const auto& [path, count] : counts["entities_by_category"].items())
-    std::printf("  %-48s %s\n", path.c_str(), count.dump().c_str());
+  for (const auto& [path, count] : counts["entities_by_category"].items()) std::printf("  %-48s %s\n", path.c_str(), count.dump().c_str());
 }
 
 }  // namespace
 
 void AddWorldsCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command =
-      app.add_subcommand("worlds", "list the built-in worlds: name, setting, area, categories");
+  CLI::App* command = app.add_subcommand("worlds", "list the built-in worlds: name, setting, area, categories");
   auto count = std::make_shared<std::string>();
   command->add_option("--count", *count, "builds this world and counts what it holds");
-  command->callback(
-      [&globals, count] { count->empty() ? PrintWorlds(globals.json) : PrintCounts(*count, globals); });
+  command->callback([&globals, count] { count->empty() ? PrintWorlds(globals.json) : PrintCounts(*count, globals); });
 }
 
 }  // namespace airsim360

@@ -58,8 +58,7 @@ class CityReader {
   void ReadHead(JsonRef root) {
     if (root.TextOr("type", "") != "CityJSON") root.Fail("not CityJSON: \"type\" is not \"CityJSON\"");
     const std::string version = root.TextOr("version", "");
-    if (!version.starts_with("1.") && !version.starts_with("2."))
-      root.At("version").Fail("CityJSON 1.0, 1.1 and 2.0 are read");
+    if (!version.starts_with("1.") && !version.starts_with("2.")) root.At("version").Fail("CityJSON 1.0, 1.1 and 2.0 are read");
     if (const auto transform = root.Find("transform")) {
       const std::vector<double> scale = transform->At("scale").Numbers(3), move = transform->At("translate").Numbers(3);
       scale_ = {scale[0], scale[1], scale[2]};
@@ -226,8 +225,7 @@ class CityReader {
     ReadGeometry(owner, source, kind, template_vertices_, place);
   }
 
-  void ReadGeometry(const Owner& owner, JsonRef g, const std::string& kind, const std::vector<Vec3d>& vertices,
-                    const Placement& place) {
+  void ReadGeometry(const Owner& owner, JsonRef g, const std::string& kind, const std::vector<Vec3d>& vertices, const Placement& place) {
     int depth = 0;  // of lists of surfaces
     if (kind == "MultiSurface" || kind == "CompositeSurface") depth = 1;
     if (kind == "Solid") depth = 2;
@@ -314,7 +312,8 @@ class CityReader {
     std::vector<Vec2d> flat;
     for (Vec3d p : points) flat.push_back({Dot(p - points[0], u), Dot(p - points[0], v)});
     for (uint32_t index : TriangulateRings(flat, sizes)) corners.push_back(points[index]);
-    if ((triangle_total_ += points.size()) > limits_.max_triangles) rings.Fail("more than " + std::to_string(limits_.max_triangles) + " triangles");
+    if ((triangle_total_ += points.size()) > limits_.max_triangles)
+      rings.Fail("more than " + std::to_string(limits_.max_triangles) + " triangles");
   }
 
   const std::string& file_name_;
@@ -369,7 +368,8 @@ void CheckIsCityJson(const std::string& file, std::string_view text) {
   // A stream's first line is its head.
   const size_t begin = std::min(text.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), text.size());
   OutermostMembers outermost;
-  nlohmann::json::sax_parse(text.begin() + static_cast<std::ptrdiff_t>(begin), text.end(), &outermost, nlohmann::json::input_format_t::json, false);
+  nlohmann::json::sax_parse(text.begin() + static_cast<std::ptrdiff_t>(begin), text.end(), &outermost, nlohmann::json::input_format_t::json,
+                            false);
   if (outermost.damaged) return;
   if (outermost.type == "CityJSON") return;
   const auto has = [&](std::string_view key) { return outermost.keys.contains(std::string(key)); };
@@ -377,9 +377,12 @@ void CheckIsCityJson(const std::string& file, std::string_view text) {
     throw InputError(file + ": a stream of CityJSON features without the line of \"type\": \"CityJSON\" before them");
   const bool features = outermost.type == "Feature" || outermost.type == "FeatureCollection";
   if (features && (has("conformsTo") || has("coordRefSys") || has("featureType") || has("geometryDimension")))
-    throw InputError(file + ": JSON-FG (OGC Features and Geometries) is not read; CityJSON of the same city is (citygml4j's citygml-tools and FME convert)");
+    throw InputError(
+        file +
+        ": JSON-FG (OGC Features and Geometries) is not read; CityJSON of the same city is (citygml4j's citygml-tools and FME convert)");
   if (features) throw InputError(file + ": GeoJSON is not read; buildings as CityJSON or OpenStreetMap data (.osm, .osm.pbf) are");
-  throw InputError(file + ": not CityJSON: " + (outermost.type.empty() ? "its outermost object has no \"type\"" : "\"type\" is \"" + outermost.type + "\""));
+  throw InputError(file + ": not CityJSON: " +
+                   (outermost.type.empty() ? "its outermost object has no \"type\"" : "\"type\" is \"" + outermost.type + "\""));
 }
 
 ImportedFile ReadCityJson(const std::string& file, std::string_view text, const ImportLimits& limits) {

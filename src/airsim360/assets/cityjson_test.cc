@@ -69,7 +69,8 @@ TEST(CityJson, AreasAndHeightsAreThoseOfTheSolid) {
     boxes[node.name] = BoxOf(file, node);
     all.Add(boxes[node.name]);
     // Its place is the middle of its foot.
-    EXPECT_LT(Norm(node.X_WM.p - Vec3f{boxes[node.name].center().x, boxes[node.name].center().y, boxes[node.name].min.z}), 1e-4f) << node.name;
+    EXPECT_LT(Norm(node.X_WM.p - Vec3f{boxes[node.name].center().x, boxes[node.name].center().y, boxes[node.name].min.z}), 1e-4f)
+        << node.name;
   }
   // Two slopes over half of 6 m, rising 3 m; the floor with its hole; long walls, gables.
   EXPECT_NEAR(AreaOf(*meshes.at("house-1/roof"), false), 2 * 10 * std::hypot(3, 3), 1e-3);
@@ -94,8 +95,10 @@ TEST(CityJson, TheWholeFileIsAWorld) {
 }
 
 TEST(CityJson, AStreamOfFeaturesIsTheSame) {
-  const std::string head = R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},"CityObjects":{},"vertices":[]})";
-  const std::string feature = R"({"type":"CityJSONFeature","id":"a","CityObjects":{"a":{"type":"LandUse","geometry":[{"type":"MultiSurface","lod":"1","boundaries":[[[0,1,2]]]}]}},"vertices":[[0,0,0],[2,0,0],[0,2,0]]})";
+  const std::string head =
+      R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},"CityObjects":{},"vertices":[]})";
+  const std::string feature =
+      R"({"type":"CityJSONFeature","id":"a","CityObjects":{"a":{"type":"LandUse","geometry":[{"type":"MultiSurface","lod":"1","boundaries":[[[0,1,2]]]}]}},"vertices":[[0,0,0],[2,0,0],[0,2,0]]})";
   const ImportedFile file = ReadCityJson("s.city.jsonl", head + "\n" + feature + "\n");
   ASSERT_EQ(file.nodes.size(), 1u);
   EXPECT_NEAR(AreaOf(file.meshes[0], false), 2, 1e-6);
@@ -106,7 +109,8 @@ std::string Squares(int count, const std::string& members, const std::string& ki
   std::string boundaries;
   for (int i = 0; i < count; ++i) {
     const int n = 4 * i;
-    boundaries += (i ? "," : "") + std::string("[[") + std::to_string(n) + "," + std::to_string(n + 1) + "," + std::to_string(n + 2) + "," + std::to_string(n + 3) + "]]";
+    boundaries += (i ? "," : "") + std::string("[[") + std::to_string(n) + "," + std::to_string(n + 1) + "," + std::to_string(n + 2) + "," +
+                  std::to_string(n + 3) + "]]";
   }
   if (kind == "Solid") boundaries = "[" + boundaries + "]";
   return R"({"type":")" + kind + R"(","boundaries":[)" + boundaries + "]," + members + "}";
@@ -128,30 +132,43 @@ std::map<std::string, double> AreasByName(const ImportedFile& file) {
 
 TEST(CityJson, PartsAreOfOneEntityWithTheirBuilding) {
   const std::string part = R"({"type":"BuildingPart","parents":["b"],"geometry":[)" + Squares(1, R"("lod":"2")") + "]}";
-  const ImportedFile file = ReadCityJson("p.city.json", City(R"("b":{"type":"Building","children":["p","q"],"geometry":[]},"p":)" + part + R"(,"q":)" + part));
+  const ImportedFile file =
+      ReadCityJson("p.city.json", City(R"("b":{"type":"Building","children":["p","q"],"geometry":[]},"p":)" + part + R"(,"q":)" + part));
   EXPECT_EQ(AreasByName(file), (std::map<std::string, double>{{"b", 2}}));
   EXPECT_NE(ErrorOf(City(R"("p":)" + part)).find("/CityObjects/p/parents/0: there is no such object"), std::string::npos);
 }
 
 TEST(CityJson, TheHighestLevelOfDetailCountsTemplatesIncluded) {
-  const std::string instance = R"({"type":"GeometryInstance","template":0,"boundaries":[0],"transformationMatrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]})";
+  const std::string instance =
+      R"({"type":"GeometryInstance","template":0,"boundaries":[0],"transformationMatrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]})";
   const auto templates = [](const std::string& lod) {
-    return R"("geometry-templates":{"templates":[{"type":"MultiSurface","lod":)" + lod + R"(,"boundaries":[[[0,1,2]]]}],"vertices-templates":[[0,0,0],[1,0,0],[0,1,0]]},)";
+    return R"("geometry-templates":{"templates":[{"type":"MultiSurface","lod":)" + lod +
+           R"(,"boundaries":[[[0,1,2]]]}],"vertices-templates":[[0,0,0],[1,0,0],[0,1,0]]},)";
   };
-  const std::string object = R"("t":{"type":"CityFurniture","geometry":[)" + Squares(1, R"("lod":"1")") + "," + Squares(3, R"("lod":"2.2")") + "," + Squares(2, R"("lod":2)") + "," + instance + "]}";
+  const std::string object = R"("t":{"type":"CityFurniture","geometry":[)" + Squares(1, R"("lod":"1")") + "," +
+                             Squares(3, R"("lod":"2.2")") + "," + Squares(2, R"("lod":2)") + "," + instance + "]}";
   EXPECT_NEAR(AreasByName(ReadCityJson("l.city.json", City(object, templates("1")))).at("t"), 3, 1e-6);
   EXPECT_NEAR(AreasByName(ReadCityJson("l.city.json", City(object, templates("\"3\"")))).at("t"), 0.5, 1e-6);
   for (const char* lod : {"\"high\"", "\"2,2\"", "\"2.2 \"", "\"\"", "\"1e999\"", "-1", "\"10\"", "null", "[2]"})
-    EXPECT_NE(ErrorOf(City(R"("t":{"type":"Road","geometry":[)" + Squares(1, R"("lod":)" + std::string(lod)) + "]}")).find("/CityObjects/t/geometry/0/lod: "), std::string::npos) << lod;
+    EXPECT_NE(ErrorOf(City(R"("t":{"type":"Road","geometry":[)" + Squares(1, R"("lod":)" + std::string(lod)) + "]}"))
+                  .find("/CityObjects/t/geometry/0/lod: "),
+              std::string::npos)
+        << lod;
 }
 
 TEST(CityJson, MaterialsOfTheFileColourItsSurfaces) {
-  const std::string appearance = R"("appearance":{"default-theme-material":"second","materials":[{"name":"red","diffuseColor":[1,0,0]},{"name":"blue","diffuseColor":[0,0,1]}]},)";
+  const std::string appearance =
+      R"("appearance":{"default-theme-material":"second","materials":[{"name":"red","diffuseColor":[1,0,0]},{"name":"blue","diffuseColor":[0,0,1]}]},)";
   const auto object = [](const std::string& material) {
     return R"("h":{"type":"Building","geometry":[)" +
-           Squares(3, R"("lod":"2","semantics":{"surfaces":[{"type":"WallSurface"},{"type":"Window"}],"values":[[0,0,1]]},"material":)" + material, "Solid") + "]}";
+           Squares(
+               3,
+               R"("lod":"2","semantics":{"surfaces":[{"type":"WallSurface"},{"type":"Window"}],"values":[[0,0,1]]},"material":)" + material,
+               "Solid") +
+           "]}";
   };
-  const ImportedFile file = ReadCityJson("m.city.json", City(object(R"({"first":{"value":0},"second":{"values":[[0,1,null]]}})"), appearance));
+  const ImportedFile file =
+      ReadCityJson("m.city.json", City(object(R"({"first":{"value":0},"second":{"values":[[0,1,null]]}})"), appearance));
   std::map<std::string, double> areas;
   for (const Mesh& mesh : file.meshes)
     for (const MeshPart& part : mesh.parts) areas[file.materials[part.material].name] += part.triangle_count / 2.0;
@@ -164,12 +181,14 @@ TEST(CityJson, MaterialsOfTheFileColourItsSurfaces) {
       EXPECT_EQ(material.kind, SurfaceKind::kGlass);
     }
   }
-  EXPECT_NE(ErrorOf(City(object(R"({"second":{"values":[[0,7,null]]}})"), appearance)).find("there are 2 materials (7)"), std::string::npos);
+  EXPECT_NE(ErrorOf(City(object(R"({"second":{"values":[[0,7,null]]}})"), appearance)).find("there are 2 materials (7)"),
+            std::string::npos);
 }
 
 TEST(CityJson, DamageNamesThePlace) {
   const std::string good = ReadTextFile(kHouse);
-  EXPECT_NE(ErrorOf(Replaced(good, "[0, 1, 5, 4]", "[0, 1, 99, 4]")).find("/CityObjects/house-1/geometry/1/boundaries/0/1/0/2"), std::string::npos);
+  EXPECT_NE(ErrorOf(Replaced(good, "[0, 1, 5, 4]", "[0, 1, 99, 4]")).find("/CityObjects/house-1/geometry/1/boundaries/0/1/0/2"),
+            std::string::npos);
   EXPECT_NE(ErrorOf(Replaced(good, "\"2.0\"", "\"9.0\"")).find("/version"), std::string::npos);
   EXPECT_NE(ErrorOf(Replaced(good, "[[0, 1, 1, 1, 1, 2, 2]]", "[[0, 1, 1, 1, 7, 2, 2]]")).find("semantic"), std::string::npos);
   EXPECT_NE(ErrorOf(Replaced(good, "\"template\": 0", "\"template\": 3")).find("/template"), std::string::npos);

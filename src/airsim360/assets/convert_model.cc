@@ -22,8 +22,8 @@ std::vector<std::string> BlenderWords(const fs::path& file, const ForeignFormat&
                              "bpy.ops.wm.read_factory_settings(use_empty=True)\n" + std::string(format.blender) +
                              "\nbpy.ops.export_scene.gltf(filepath=out, export_format='GLB', export_extras=True)\n";
   // Scripts inside .blend files do not run.
-  return {"blender", "--background", "--factory-startup", "--disable-autoexec", "--python-exit-code", "1",
-          "--python-expr", script, "--", fs::absolute(file).string(), out.string()};
+  return {"blender", "--background", "--factory-startup",         "--disable-autoexec", "--python-exit-code", "1", "--python-expr",
+          script,    "--",           fs::absolute(file).string(), out.string()};
 }
 
 // The last words of a program's output that speak of an error, or the last words.
@@ -88,16 +88,16 @@ ConvertedModel ConvertModel(const fs::path& file, const ForeignFormat& format) {
     const ScratchFolder scratch("model");
     const fs::path glb = scratch.path() / "model.glb", log = scratch.path() / "log";
     LogInfo(file.string() + ": converting through " + tool);
-    const auto words = is_blender ? BlenderWords(file, format, glb)
-                                  : std::vector<std::string>{tool, "export", fs::absolute(file).string(), glb.string()};
+    const auto words =
+        is_blender ? BlenderWords(file, format, glb) : std::vector<std::string>{tool, "export", fs::absolute(file).string(), glb.string()};
     const auto end = RunProgram(words, {.out = log, .complaints = log, .seconds = kSeconds});
     if (end && !end->timed_out && end->status == 0 && fs::is_regular_file(glb)) {
       out.glb = ReadFile(glb);
       if (!cache.folder().empty()) cache.Store(key, out.glb);
       return out;
     }
-    complaints += (complaints.empty() ? "" : "; ") + tool +
-                  (end && end->timed_out ? " took longer than 300 s" : " failed: " + Complaint(log));
+    complaints +=
+        (complaints.empty() ? "" : "; ") + tool + (end && end->timed_out ? " took longer than 300 s" : " failed: " + Complaint(log));
   }
   if (complaints.empty()) throw InputError(UnreadMessage(file));
   throw InputError(file.string() + ": cannot be converted: " + complaints);

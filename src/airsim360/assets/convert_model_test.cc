@@ -51,8 +51,8 @@ class ConvertTest : public testing::Test {
 };
 
 TEST_F(ConvertTest, AFileOfAKnownFormatThatIsNotReadSaysWhatItIsAndTheWayRound) {
-  for (const char* extension : {"fbx", "usd", "usda", "usdc", "usdz", "las", "laz", "pnts", "stl", "dae", "3ds", "blend",
-                                "x3d", "ifc", "3mf", "off", "hgt", "tif", "geojson", "kml", "shp", "gml", "skp", "zip"}) {
+  for (const char* extension : {"fbx", "usd", "usda", "usdc", "usdz", "las", "laz",     "pnts", "stl", "dae", "3ds", "blend",
+                                "x3d", "ifc", "3mf",  "off",  "hgt",  "tif", "geojson", "kml",  "shp", "gml", "skp", "zip"}) {
     const std::string name = std::string("thing.") + extension, error = ErrorOf(Write(name, "x"));
     EXPECT_TRUE(Contains(error, {name, "(." + std::string(extension) + ")", ".glb", ".osm.pbf"})) << error;
     EXPECT_EQ(error.find("did you mean"), std::string::npos) << error;
@@ -85,7 +85,8 @@ TEST_F(ConvertTest, AnInstalledProgramConvertsAndItsResultIsRead) {
 TEST_F(ConvertTest, BlenderComesFirstAndAssimpWhereItFails) {
   Write("made.glb", GltfDocument::Triangle().Glb());
   Install("assimp", "cp " + scratch_.path().string() + "/made.glb \"$3\"\n");
-  Install("blender", "for last; do :; done; echo \"$@\" > " + scratch_.path().string() + "/words; echo 'Error: no such operator'; exit 1\n");
+  Install("blender",
+          "for last; do :; done; echo \"$@\" > " + scratch_.path().string() + "/words; echo 'Error: no such operator'; exit 1\n");
   EXPECT_EQ(ImportScene(Write("a.dae", "x"))->entities.size(), 2u);
   const std::string words = ReadTextFile(scratch_.path() / "words");
   EXPECT_TRUE(Contains(words, {"--background", "--disable-autoexec", "collada_import", "use_empty=True"})) << words;
@@ -122,8 +123,7 @@ TEST_F(ConvertTest, TheUnitOfAnFbxFileIsReadFromItsHeader) {
 TEST_F(ConvertTest, RealProgramsConvertABox) {
   // A box of 2 x 4 x 6 above z = 1, as an OFF and an STL file.
   std::string off = "OFF\n8 6 0\n", stl = "solid box\n";
-  for (int i = 0; i < 8; ++i)
-    off += std::string(i & 1 ? "2 " : "0 ") + (i & 2 ? "4 " : "0 ") + (i & 4 ? "7\n" : "1\n");
+  for (int i = 0; i < 8; ++i) off += std::string(i & 1 ? "2 " : "0 ") + (i & 2 ? "4 " : "0 ") + (i & 4 ? "7\n" : "1\n");
   for (const char* face : {"0 2 3 1", "4 5 7 6", "0 1 5 4", "2 6 7 3", "0 4 6 2", "1 3 7 5"}) off += std::string("4 ") + face + "\n";
   for (const char* corners : {"0 0 1|2 0 1|0 4 7", "2 0 1|2 4 7|0 4 7"}) {
     stl += "facet normal 0 0 0\nouter loop\nvertex " + std::string(corners) + "\nendloop\nendfacet\n";

@@ -11,7 +11,7 @@ namespace {
 constexpr int kLongestCode = 16;
 
 // Distances of the four tones of a block from its colour, by intensity (ETC1).
-constexpr int kTones[8][4] = {{-8, -2, 2, 8},     {-17, -5, 5, 17},   {-29, -9, 9, 29},    {-42, -13, 13, 42},
+constexpr int kTones[8][4] = {{-8, -2, 2, 8},     {-17, -5, 5, 17},   {-29, -9, 9, 29},     {-42, -13, 13, 42},
                               {-60, -18, 18, 60}, {-80, -24, 24, 80}, {-106, -33, 33, 106}, {-183, -47, 47, 183}};
 
 // Where the endpoint of a block comes from.
@@ -175,8 +175,13 @@ struct Etc1sCodebooks::SliceReader {
   uint32_t repeat = 0, predicted = 0, codes = 0, endpoint = 0, run = 0, rover;
 
   SliceReader(const Etc1sCodebooks& codebooks, std::span<const std::byte> slice, uint32_t columns)
-      : books(codebooks), bits(slice, codebooks.where_), above(columns), here(columns), history(codebooks.history_size_),
-        lower(columns), rover(codebooks.history_size_ / 2) {}
+      : books(codebooks),
+        bits(slice, codebooks.where_),
+        above(columns),
+        here(columns),
+        history(codebooks.history_size_),
+        lower(columns),
+        rover(codebooks.history_size_ / 2) {}
 
   /// How the endpoint of block (x, y) follows from its neighbours: one symbol says it for two by two blocks.
   uint32_t Prediction(uint32_t x, uint32_t y) {

@@ -25,12 +25,9 @@ ordered_json ToJson(Vec3f v) { return {v.x, v.y, v.z}; }
 // The colour channels alone where alpha says nothing: smaller, and viewers need not blend.
 Bytes EncodePicture(const Image<Rgba8>& image) {
   const auto pixels = image.pixels();
-  if (std::any_of(pixels.begin(), pixels.end(), [](const Rgba8& p) { return p.a != 255; }))
-    return EncodePng(image);
+  if (std::any_of(pixels.begin(), pixels.end(), [](const Rgba8& p) { return p.a != 255; })) return EncodePng(image);
   Image<Rgb8> rgb(image.width(), image.height());
-  std::transform(pixels.begin(), pixels.end(), rgb.pixels().begin(), [](const Rgba8& p) {
-    return Rgb8{p.r, p.g, p.b};
-  });
+  std::transform(pixels.begin(), pixels.end(), rgb.pixels().begin(), [](const Rgba8& p) { return Rgb8{p.r, p.g, p.b}; });
   return EncodePng(rgb);
 }
 
@@ -46,8 +43,7 @@ class Exporter {
     AddSun();
     ordered_json nodes = ordered_json::array();
     for (size_t i = 0; i < writer_.json["nodes"].size(); ++i) nodes.push_back(i);
-    ordered_json extras = {
-        {kExtraSun, {scene_.environment.sun_azimuth_deg, scene_.environment.sun_elevation_deg}}};
+    ordered_json extras = {{kExtraSun, {scene_.environment.sun_azimuth_deg, scene_.environment.sun_elevation_deg}}};
     if (scene_.spawn) extras[kExtraSpawn] = ToJson(*scene_.spawn);
     extras[kExtraWorld] = WriteWorld(scene_, seen_);
     writer_.Append("scenes", {{"name", scene_.name}, {"nodes", nodes}, {"extras", extras}});
@@ -86,13 +82,11 @@ class Exporter {
 void Exporter::AddTexture(const Texture& texture) {
   static constexpr int kWrapModes[] = {10497, 33648, 33071};  // repeat, mirrored, clamp
   const size_t view = writer_.AddView(EncodePicture(texture.levels[0]));
-  const size_t image =
-      writer_.Append("images", {{"name", texture.name}, {"bufferView", view}, {"mimeType", "image/png"}});
-  const size_t sampler =
-      writer_.Append("samplers", {{"magFilter", 9729},  // linear; smaller: linear between levels
-                                  {"minFilter", 9987},
-                                  {"wrapS", kWrapModes[static_cast<int>(texture.wrap_u)]},
-                                  {"wrapT", kWrapModes[static_cast<int>(texture.wrap_v)]}});
+  const size_t image = writer_.Append("images", {{"name", texture.name}, {"bufferView", view}, {"mimeType", "image/png"}});
+  const size_t sampler = writer_.Append("samplers", {{"magFilter", 9729},  // linear; smaller: linear between levels
+                                                     {"minFilter", 9987},
+                                                     {"wrapS", kWrapModes[static_cast<int>(texture.wrap_u)]},
+                                                     {"wrapT", kWrapModes[static_cast<int>(texture.wrap_v)]}});
   writer_.Append("textures", {{"name", texture.name}, {"sampler", sampler}, {"source", image}});
 }
 
@@ -100,9 +94,8 @@ ordered_json Exporter::TextureInfo(TextureId id, const Material& m) {
   ordered_json info = {{"index", id}};
   if (m.uv_scale == Vec2f{1, 1} && m.uv_offset == Vec2f{} && m.uv_rotation == 0) return info;
   writer_.Use("KHR_texture_transform");
-  info["extensions"]["KHR_texture_transform"] = {{"offset", {m.uv_offset.x, m.uv_offset.y}},
-                                                 {"rotation", m.uv_rotation},
-                                                 {"scale", {m.uv_scale.x, m.uv_scale.y}}};
+  info["extensions"]["KHR_texture_transform"] = {
+      {"offset", {m.uv_offset.x, m.uv_offset.y}}, {"rotation", m.uv_rotation}, {"scale", {m.uv_scale.x, m.uv_scale.y}}};
   return info;
 }
 
@@ -123,14 +116,11 @@ ordered_json Exporter::MaterialExtras(const Material& m) const {
 
 void Exporter::AddMaterial(const Material& m) {
   const auto unit = [](float v) { return std::clamp(v, 0.0f, 1.0f); };
-  ordered_json pbr = {
-      {"baseColorFactor",
-       {unit(m.base_color.x), unit(m.base_color.y), unit(m.base_color.z), unit(m.base_alpha)}},
-      {"metallicFactor", unit(m.metallic)},
-      {"roughnessFactor", unit(m.roughness)}};
+  ordered_json pbr = {{"baseColorFactor", {unit(m.base_color.x), unit(m.base_color.y), unit(m.base_color.z), unit(m.base_alpha)}},
+                      {"metallicFactor", unit(m.metallic)},
+                      {"roughnessFactor", unit(m.roughness)}};
   if (m.base_color_texture != kNoTexture) pbr["baseColorTexture"] = TextureInfo(m.base_color_texture, m);
-  if (m.metallic_roughness_texture != kNoTexture)
-    pbr["metallicRoughnessTexture"] = TextureInfo(m.metallic_roughness_texture, m);
+  if (m.metallic_roughness_texture != kNoTexture) pbr["metallicRoughnessTexture"] = TextureInfo(m.metallic_roughness_texture, m);
   ordered_json out = {{"name", m.name}, {"pbrMetallicRoughness", pbr}, {"doubleSided", true}};
   if (m.normal_texture != kNoTexture) {
     out["normalTexture"] = TextureInfo(m.normal_texture, m);
@@ -163,8 +153,7 @@ void Exporter::AddMaterial(const Material& m) {
 }
 
 // The triangles named, with the vertices they use.
-ordered_json Exporter::Primitive(const Mesh& mesh, const std::vector<uint32_t>& triangles,
-                                 MaterialId material) {
+ordered_json Exporter::Primitive(const Mesh& mesh, const std::vector<uint32_t>& triangles, MaterialId material) {
   constexpr uint32_t kUnused = UINT32_MAX;
   std::vector<uint32_t> moved(mesh.positions.size(), kUnused), indices;
   std::vector<Vec3f> positions, normals;
@@ -197,8 +186,7 @@ size_t Exporter::AddSubMesh(const Mesh& mesh, EntityId entity) {
   std::vector<std::pair<MaterialId, std::vector<uint32_t>>> groups;
   for (const MeshPart& part : mesh.parts) {
     if (part.entity != entity) continue;
-    auto group =
-        std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.first == part.material; });
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.first == part.material; });
     if (group == groups.end()) group = groups.insert(groups.end(), {part.material, {}});
     for (uint32_t i = 0; i < part.triangle_count; ++i) group->second.push_back(part.first_triangle + i);
   }
@@ -235,8 +223,7 @@ void Exporter::AddInstances() {
     for (const SubMesh& sub : SubMeshesOf(instance.mesh)) {
       const EntityId id = sub.entity != kNoEntity ? sub.entity : instance.entity;
       ordered_json node = {{"name", scene_.entity(id).name}, {"mesh", sub.mesh}};
-      if (!(instance.X_WM == AffineTransform()))
-        node["matrix"] = {x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, p.x, p.y, p.z, 1};
+      if (!(instance.X_WM == AffineTransform())) node["matrix"] = {x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, p.x, p.y, p.z, 1};
       node["extras"] = {{kExtraEntity, id}, {kExtraCategory, scene_.tree[scene_.entity(id).category].path}};
       if (!(instance.tint == Vec3f{1, 1, 1})) node["extras"][kExtraTint] = ToJson(instance.tint);
       if (!(instance.glow == Vec3f{1, 1, 1})) node["extras"][kExtraGlow] = ToJson(instance.glow);
@@ -245,8 +232,7 @@ void Exporter::AddInstances() {
       nodes.emplace_back(id, std::move(node));
     }
   }
-  std::stable_sort(nodes.begin(), nodes.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (auto& [id, node] : nodes) {
     if (const std::string& name = scene_.entity(id).name; name.size() > kBlenderName) node["extras"][kExtraName] = name;
     writer_.Append("nodes", std::move(node));
@@ -257,22 +243,16 @@ void Exporter::AddInstances() {
 void Exporter::AddSun() {
   if (scene_.sky_entity == kNoEntity) return;
   constexpr double kDegrees = std::numbers::pi / 180;
-  const double azimuth = scene_.environment.sun_azimuth_deg * kDegrees,
-               elevation = scene_.environment.sun_elevation_deg * kDegrees;
-  const Vec3d to_sun = ToG(Vec3d{std::sin(azimuth) * std::cos(elevation),
-                                 std::cos(azimuth) * std::cos(elevation), std::sin(elevation)});
+  const double azimuth = scene_.environment.sun_azimuth_deg * kDegrees, elevation = scene_.environment.sun_elevation_deg * kDegrees;
+  const Vec3d to_sun = ToG(Vec3d{std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation), std::sin(elevation)});
   const Vec3d side = std::abs(to_sun.y) < 0.999 ? Normalized(Cross(Vec3d{0, 1, 0}, to_sun)) : Vec3d{1, 0, 0};
   const Vec3d up = Cross(to_sun, side);
   writer_.Use("KHR_lights_punctual");
   constexpr double kClearNoonLux = 100000;
-  writer_.json["extensions"]["KHR_lights_punctual"]["lights"] = {
-      {{"type", "directional"}, {"name", "sun"}, {"intensity", kClearNoonLux}}};
-  writer_.Append(
-      "nodes",
-      {{"name", "sun"},
-       {"matrix",
-        {side.x, side.y, side.z, 0, up.x, up.y, up.z, 0, to_sun.x, to_sun.y, to_sun.z, 0, 0, 0, 0, 1}},
-       {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  writer_.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}, {"name", "sun"}, {"intensity", kClearNoonLux}}};
+  writer_.Append("nodes", {{"name", "sun"},
+                           {"matrix", {side.x, side.y, side.z, 0, up.x, up.y, up.z, 0, to_sun.x, to_sun.y, to_sun.z, 0, 0, 0, 0, 1}},
+                           {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
 }
 
 }  // namespace

@@ -55,8 +55,7 @@ std::shared_ptr<const Scene> Everything() {
                                                .clear_coat_roughness = 0.0625f,
                                                .lamp = true,
                                                .macro_variation = 0.125f});
-  const MaterialId pane =
-      builder.AddMaterial({.name = "pane", .kind = SurfaceKind::kGlass, .interior = true});
+  const MaterialId pane = builder.AddMaterial({.name = "pane", .kind = SurfaceKind::kGlass, .interior = true});
   const CategoryId tree = builder.tree().At("vegetation/tree"), car = builder.tree().At("vehicle/car");
   const EntityId first = builder.AddEntity("first", tree), second = builder.AddEntity("second", car),
                  third = builder.AddEntity("third", car);
@@ -75,8 +74,8 @@ std::shared_ptr<const Scene> Everything() {
 /// The scene after a way out and back in.
 std::shared_ptr<const Scene> RoundTrip(const Scene& scene) {
   // Tests run side by side: a file for each.
-  const auto file = std::filesystem::path(testing::TempDir()) /
-                    (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".glb");
+  const auto file =
+      std::filesystem::path(testing::TempDir()) / (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".glb");
   WriteFileAtomically(file, EncodeGlb(scene));
   const auto back = ImportScene(file);
   std::filesystem::remove(file);
@@ -110,9 +109,8 @@ TEST(EncodeGlb, ComesBackWithTheSameTrianglesNamesAndCategories) {
 
 TEST(EncodeGlb, KeepsTintsOfInstances) {
   const auto scene = Everything(), back = RoundTrip(*scene);
-  const auto tinted = std::find_if(back->instances.begin(), back->instances.end(), [&](const Instance& i) {
-    return back->entity(i.entity).name == "second";
-  });
+  const auto tinted = std::find_if(back->instances.begin(), back->instances.end(),
+                                   [&](const Instance& i) { return back->entity(i.entity).name == "second"; });
   ASSERT_NE(tinted, back->instances.end());
   EXPECT_EQ(tinted->tint, (Vec3f{0.5f, 1, 0.25f}));
 }
@@ -121,8 +119,8 @@ TEST(EncodeGlb, KeepsMaterials) {
   const auto scene = Everything();
   const auto back = RoundTrip(*scene);
   for (const Material& before : scene->materials) {
-    const auto after = std::find_if(back->materials.begin(), back->materials.end(),
-                                    [&](const Material& m) { return m.name == before.name; });
+    const auto after =
+        std::find_if(back->materials.begin(), back->materials.end(), [&](const Material& m) { return m.name == before.name; });
     ASSERT_NE(after, back->materials.end()) << before.name;
     EXPECT_EQ(after->kind, before.kind);
     EXPECT_EQ(after->alpha_mode, before.alpha_mode);
@@ -139,8 +137,7 @@ TEST(EncodeGlb, KeepsMaterials) {
     EXPECT_EQ(after->lamp, before.lamp);
     ASSERT_EQ(after->base_color_texture == kNoTexture, before.base_color_texture == kNoTexture);
     if (before.base_color_texture == kNoTexture) continue;
-    EXPECT_EQ(back->textures[after->base_color_texture].levels[0],
-              scene->textures[before.base_color_texture].levels[0]);
+    EXPECT_EQ(back->textures[after->base_color_texture].levels[0], scene->textures[before.base_color_texture].levels[0]);
   }
 }
 
@@ -160,9 +157,16 @@ std::shared_ptr<const Scene> Street() {
                  house = builder.AddEntity("house", category("construction/house"));
   static_cast<void>(lost), static_cast<void>(odd);
   const TextureId checker = builder.AddTexture(Checker());
-  const MaterialId asphalt = builder.AddMaterial({.name = "asphalt", .emission = {3.3f, 1.1f, 0.7f}, .macro_variation = 0.2f, .base_color_texture = checker,
-                                                  .uv_scale = {0.3f, 0.7f}, .uv_offset = {0.1f, 0.2f}, .uv_rotation = 0.4f,
-                                                  .ground = GroundWear::kCarriageway, .blend_tiles = true, .units = {3, 5}});
+  const MaterialId asphalt = builder.AddMaterial({.name = "asphalt",
+                                                  .emission = {3.3f, 1.1f, 0.7f},
+                                                  .macro_variation = 0.2f,
+                                                  .base_color_texture = checker,
+                                                  .uv_scale = {0.3f, 0.7f},
+                                                  .uv_offset = {0.1f, 0.2f},
+                                                  .uv_rotation = 0.4f,
+                                                  .ground = GroundWear::kCarriageway,
+                                                  .blend_tiles = true,
+                                                  .units = {3, 5}});
   Mesh flat = Square(asphalt, asphalt), round = Square(asphalt, asphalt);
   flat.normals.clear();
   const MeshId a = builder.AddMesh(flat), b = builder.AddMesh(round);
@@ -262,7 +266,8 @@ TEST(EncodeGlb, CopiesMadeInAnEditorAreThingsOfTheirOwnAndLongNamesComeBack) {
   }
   nodes[1]["name"] = "lamp.001";
   nodes[2]["name"] = long_name.substr(0, 63);
-  json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + internal::EncodeBase64(Bytes(container.binary.begin(), container.binary.end()));
+  json["buffers"][0]["uri"] =
+      "data:application/octet-stream;base64," + internal::EncodeBase64(Bytes(container.binary.begin(), container.binary.end()));
   const auto file = std::filesystem::path(testing::TempDir()) / "copies_made_in_an_editor.gltf";
   WriteFileAtomically(file, std::string_view(json.dump()));
   const auto scene = ImportScene(file);

@@ -8,8 +8,7 @@ namespace {
 
 constexpr std::string_view kUsd = "bpy.ops.wm.usd_import(filepath=f)";
 constexpr std::string_view kX3d = "bpy.ops.import_scene.x3d(filepath=f)";
-constexpr std::string_view kStl =
-    "(bpy.ops.wm.stl_import if bpy.app.version >= (4, 2) else bpy.ops.import_mesh.stl)(filepath=f)";
+constexpr std::string_view kStl = "(bpy.ops.wm.stl_import if bpy.app.version >= (4, 2) else bpy.ops.import_mesh.stl)(filepath=f)";
 constexpr std::string_view kPoints =
     "it holds points without surfaces: make a mesh of it (MeshLab, CloudCompare: Poisson reconstruction) and save "
     "that as .ply or .glb";
@@ -17,8 +16,7 @@ constexpr std::string_view kSplats = "Gaussian splats have no surfaces; export a
 constexpr std::string_view kRaster =
     "heights of the ground go beside a map: 'world import MAP.osm.pbf --heights FILE.tif' (GDAL's gdal_translate "
     "makes a GeoTIFF of them)";
-constexpr std::string_view kVector =
-    "maps are read as OpenStreetMap extracts (.osm, .osm.pbf), city models as CityJSON (.city.json)";
+constexpr std::string_view kVector = "maps are read as OpenStreetMap extracts (.osm, .osm.pbf), city models as CityJSON (.city.json)";
 constexpr std::string_view kOwnProgram = "export it as .glb from the program that made it";
 constexpr std::string_view kCad = "FreeCAD opens it and exports .gltf or .obj";
 constexpr std::string_view kPacked = "unpack it first and name the model inside";
@@ -96,14 +94,13 @@ std::string Join(const std::string& a, std::string_view b) { return a + std::str
 
 std::string LowerExtension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
 }
 
 const ForeignFormat* FindForeignFormat(std::string_view extension) {
-  const auto* found = std::find_if(std::begin(kForeign), std::end(kForeign),
-                                   [&](const ForeignFormat& format) { return format.extension == extension; });
+  const auto* found =
+      std::find_if(std::begin(kForeign), std::end(kForeign), [&](const ForeignFormat& format) { return format.extension == extension; });
   return found == std::end(kForeign) ? nullptr : found;
 }
 
@@ -119,12 +116,12 @@ std::string UnreadMessage(const std::filesystem::path& file) {
            " is no format of models or maps that is known; read are " + ReadFormats();
   }
   if (!format->advice.empty()) {
-    return Join(Join(name, format->what), " (" + extension + ") is not read; ") + std::string(format->advice) +
-           "; read are " + ReadFormats();
+    return Join(Join(name, format->what), " (" + extension + ") is not read; ") + std::string(format->advice) + "; read are " +
+           ReadFormats();
   }
   const bool blender = !format->blender.empty();
-  std::string tools = blender && format->assimp ? "Blender or assimp, neither of which is"
-                                                : std::string(blender ? "Blender" : "assimp") + ", which is not";
+  std::string tools =
+      blender && format->assimp ? "Blender or assimp, neither of which is" : std::string(blender ? "Blender" : "assimp") + ", which is not";
   std::string install;
   if (format->assimp) install += "'apt install assimp-utils'";
   if (blender) install += std::string(install.empty() ? "" : " or ") + "'apt install blender'";

@@ -40,8 +40,7 @@ double Area(const std::vector<Vec3f>& p, const std::vector<Vec3u>& triangles, Ve
 
 TEST(Polygon, TrianglesTileAConcavePolygonExactly) {
   // A "U" of 7 unit squares; signed areas add up to its own only if no triangle turns over or overlaps.
-  const std::vector<Vec3f> u = {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0},
-                                {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
+  const std::vector<Vec3f> u = {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
   const std::vector<Vec3u> triangles = TriangulateFace(u);
   EXPECT_EQ(triangles.size(), 6u);
   EXPECT_NEAR(Area(u, triangles, {0, 0, 1}), 7, 1e-6);
@@ -96,8 +95,7 @@ TEST(Merge, MirroredMeshesTurnTheirTriangles) {
   X.A.m = {{{-2, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   TransformMesh(mesh, X);
   for (Vec3u t : mesh.triangles) {
-    const Vec3f face = Normalized(
-        Cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]));
+    const Vec3f face = Normalized(Cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]));
     EXPECT_NEAR(Dot(face, mesh.normals[t.x]), 1, 1e-5);
   }
 }

@@ -20,8 +20,8 @@ void AppendUint32(Bytes& out, uint64_t value) {
 
 GlbWriter::GlbWriter() {
   json["asset"] = {{"version", "2.0"}, {"generator", "airsim360 world export"}};
-  for (const char* array : {"scenes", "nodes", "meshes", "materials", "textures", "images", "samplers",
-                            "accessors", "bufferViews", "buffers"}) {
+  for (const char* array :
+       {"scenes", "nodes", "meshes", "materials", "textures", "images", "samplers", "accessors", "bufferViews", "buffers"}) {
     json[array] = nlohmann::ordered_json::array();
   }
 }
@@ -43,12 +43,10 @@ size_t GlbWriter::AddView(std::span<const std::byte> bytes) {
   return Append("bufferViews", {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes.size()}});
 }
 
-size_t GlbWriter::AddAccessor(std::span<const std::byte> bytes, int target, int component_type,
-                              const char* type, size_t count) {
+size_t GlbWriter::AddAccessor(std::span<const std::byte> bytes, int target, int component_type, const char* type, size_t count) {
   const size_t view = AddView(bytes);
   if (target != kNoTarget) json["bufferViews"][view]["target"] = target;
-  return Append("accessors",
-                {{"bufferView", view}, {"componentType", component_type}, {"count", count}, {"type", type}});
+  return Append("accessors", {{"bufferView", view}, {"componentType", component_type}, {"count", count}, {"type", type}});
 }
 
 size_t GlbWriter::AddVectors(std::span<const Vec3f> vectors) {
@@ -64,9 +62,7 @@ size_t GlbWriter::AddPositions(std::span<const Vec3f> positions) {
   return accessor;
 }
 
-size_t GlbWriter::AddUvs(std::span<const Vec2f> uvs) {
-  return AddAccessor(std::as_bytes(uvs), kVertices, kFloat, "VEC2", uvs.size());
-}
+size_t GlbWriter::AddUvs(std::span<const Vec2f> uvs) { return AddAccessor(std::as_bytes(uvs), kVertices, kFloat, "VEC2", uvs.size()); }
 
 size_t GlbWriter::AddColors(std::span<const VertexColor> colors) {
   const size_t accessor = AddAccessor(std::as_bytes(colors), kVertices, kUint16, "VEC4", colors.size());
@@ -93,8 +89,7 @@ Bytes GlbWriter::Finish() {
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const uint64_t size = 12 + 8 + text.size() + 8 + binary_.size();
   if (size > UINT32_MAX) {
-    throw InputError("the scene needs " + std::to_string(size >> 20) +
-                     " MiB as .glb, more than the 4096 MiB that the format allows");
+    throw InputError("the scene needs " + std::to_string(size >> 20) + " MiB as .glb, more than the 4096 MiB that the format allows");
   }
   Bytes out;
   out.reserve(size);

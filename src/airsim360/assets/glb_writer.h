@@ -36,8 +36,7 @@ class GlbWriter {
   Bytes Finish();
 
  private:
-  size_t AddAccessor(std::span<const std::byte> bytes, int target, int component_type, const char* type,
-                     size_t count);
+  size_t AddAccessor(std::span<const std::byte> bytes, int target, int component_type, const char* type, size_t count);
 
   Bytes binary_;
 };

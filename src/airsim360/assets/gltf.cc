@@ -1,9 +1,9 @@
 #include "airsim360/assets/gltf.h"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <map>
 #include <utility>
 
 #include "airsim360/assets/gltf_extras.h"
@@ -43,8 +43,7 @@ bool IsKnownExtension(const std::string& name) {
 
 class GltfReader {
  public:
-  GltfReader(const JsonRef& root, std::span<const std::byte> binary, const ResourceLoader& load,
-             const ImportLimits& limits)
+  GltfReader(const JsonRef& root, std::span<const std::byte> binary, const ResourceLoader& load, const ImportLimits& limits)
       : root_(root),
         limits_(limits),
         buffers_(root, binary, load, limits),
@@ -89,11 +88,10 @@ void GltfReader::CheckVersion() {
 }
 
 void GltfReader::CheckNames() {
-  for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images",
-                            "materials", "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
+  for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials", "meshes", "nodes",
+                            "samplers", "scenes", "skins", "textures"}) {
     const auto elements = root_.Find(array);
-    for (size_t i = 0; elements && i < elements->size(); ++i)
-      static_cast<void>((*elements)[i].TextOr("name", ""));
+    for (size_t i = 0; elements && i < elements->size(); ++i) static_cast<void>((*elements)[i].TextOr("name", ""));
   }
 }
 
@@ -110,8 +108,7 @@ std::vector<uint32_t> GltfReader::SceneRoots() {
     const auto list = scene.Find("nodes");
     for (size_t i = 0; list && i < list->size(); ++i) {
       const uint64_t node = (*list)[i].Uint();
-      if (node >= nodes_.size())
-        (*list)[i].Fail("there are only " + std::to_string(nodes_.size()) + " nodes");
+      if (node >= nodes_.size()) (*list)[i].Fail("there are only " + std::to_string(nodes_.size()) + " nodes");
       roots.push_back(static_cast<uint32_t>(node));
     }
     return roots;
@@ -161,8 +158,7 @@ void GltfReader::AddNode(uint32_t i, int32_t parent) {
     if (!skinned) out_.nodes.back().p_exact = FromG(X.p);
     ReadNodeExtras(json, out_.nodes.back(), copies_);
   }
-  if (out_.nodes.size() > limits_.max_nodes)
-    json.Fail("at most " + std::to_string(limits_.max_nodes) + " nodes and instances allowed");
+  if (out_.nodes.size() > limits_.max_nodes) json.Fail("at most " + std::to_string(limits_.max_nodes) + " nodes and instances allowed");
 }
 
 void GltfReader::AddTree(uint32_t root) {
@@ -193,8 +189,7 @@ ImportedFile GltfReader::Read() {
 
 }  // namespace
 
-ImportedFile ReadGltf(const std::string& file, std::span<const std::byte> bytes, const ResourceLoader& load,
-                      const ImportLimits& limits) {
+ImportedFile ReadGltf(const std::string& file, std::span<const std::byte> bytes, const ResourceLoader& load, const ImportLimits& limits) {
   const GltfContainer container = OpenGltfContainer(file, bytes);
   const nlohmann::json json = ParseJson(file, container.json);
   const JsonRef root(file, json);

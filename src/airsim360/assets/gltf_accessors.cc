@@ -82,8 +82,7 @@ GltfBuffers::Accessor GltfBuffers::Describe(const JsonRef& index, int components
   a.type = static_cast<uint32_t>(a.json.At("componentType").Uint(kF32));
   a.component_size = SizeOf(a.type, a.json.At("componentType"));
   a.normalized = a.json.BoolOr("normalized", false);
-  if (a.json.At("type").Text() != TypeName(components))
-    a.json.At("type").Fail(std::string(TypeName(components)) + " expected");
+  if (a.json.At("type").Text() != TypeName(components)) a.json.At("type").Fail(std::string(TypeName(components)) + " expected");
 
   // Without a view all elements are zero (to be replaced by a sparse part): then the count has nothing to
   // hold it.
@@ -95,16 +94,14 @@ GltfBuffers::Accessor GltfBuffers::Describe(const JsonRef& index, int components
   const ViewBytes view = ReadView(*view_index);
   const uint64_t element = a.component_size * static_cast<uint64_t>(components);
   a.stride = view.stride == 0 ? element : view.stride;
-  if (a.stride < element)
-    a.json.Fail("elements of " + std::to_string(element) + " bytes at a stride of " +
-                std::to_string(a.stride));
+  if (a.stride < element) a.json.Fail("elements of " + std::to_string(element) + " bytes at a stride of " + std::to_string(a.stride));
 
   // count <= 2^27 and stride <= 2^16: no overflow.
   const uint64_t offset = a.json.UintOr("byteOffset", 0);
   const uint64_t needed = a.count == 0 ? 0 : (a.count - 1) * a.stride + element;
   if (offset > view.bytes.size() || needed > view.bytes.size() - offset) {
-    a.json.Fail(std::to_string(a.count) + " elements need " + std::to_string(needed) + " bytes at offset " +
-                std::to_string(offset) + ", the buffer view has " + std::to_string(view.bytes.size()));
+    a.json.Fail(std::to_string(a.count) + " elements need " + std::to_string(needed) + " bytes at offset " + std::to_string(offset) +
+                ", the buffer view has " + std::to_string(view.bytes.size()));
   }
   a.bytes = view.bytes.subspan(static_cast<size_t>(offset));
   return a;
@@ -130,13 +127,11 @@ std::vector<Out> GltfBuffers::Read(const Accessor& a, const JsonRef& where, Conv
   const JsonRef values = sparse->At("values");
   const auto index_type = static_cast<uint32_t>(indices.At("componentType").Uint());
   const uint64_t index_size = SizeOf(index_type, indices.At("componentType"));
-  if (index_type != kU8 && index_type != kU16 && index_type != kU32)
-    indices.At("componentType").Fail("an unsigned type expected");
+  if (index_type != kU8 && index_type != kU16 && index_type != kU32) indices.At("componentType").Fail("an unsigned type expected");
   const auto bytes_of = [&](const JsonRef& part, uint64_t size) {
     const std::span<const std::byte> view = View(part.At("bufferView"));
     const uint64_t offset = part.UintOr("byteOffset", 0);
-    if (offset > view.size() || count * size > view.size() - offset)
-      part.Fail(std::to_string(count) + " elements are not there");
+    if (offset > view.size() || count * size > view.size() - offset) part.Fail(std::to_string(count) + " elements are not there");
     return view.data() + offset;
   };
   const std::byte* index = bytes_of(indices, index_size);
@@ -157,8 +152,7 @@ std::vector<float> GltfBuffers::Floats(const JsonRef& index, int components) {
 
 std::vector<uint32_t> GltfBuffers::Uints(const JsonRef& index, int components) {
   const Accessor a = Describe(index, components);
-  if ((a.type != kU8 && a.type != kU16 && a.type != kU32) || a.normalized)
-    a.json.Fail("plain unsigned integers expected");
+  if ((a.type != kU8 && a.type != kU16 && a.type != kU32) || a.normalized) a.json.Fail("plain unsigned integers expected");
   return Read<uint32_t>(a, index, [&](const std::byte* p) { return ToUint(p, a.type); });
 }
 

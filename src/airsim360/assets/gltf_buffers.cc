@@ -62,8 +62,7 @@ std::span<const std::byte> GltfBuffers::Slice(const JsonRef& object) {
   const uint64_t offset = object.UintOr("byteOffset", 0);
   const uint64_t length = object.At("byteLength").Uint();
   if (offset > buffer.size() || length > buffer.size() - offset) {
-    object.Fail("bytes " + std::to_string(offset) + " + " + std::to_string(length) + " of a buffer of " +
-                std::to_string(buffer.size()));
+    object.Fail("bytes " + std::to_string(offset) + " + " + std::to_string(length) + " of a buffer of " + std::to_string(buffer.size()));
   }
   return buffer.subspan(static_cast<size_t>(offset), static_cast<size_t>(length));
 }

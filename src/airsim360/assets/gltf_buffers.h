@@ -17,8 +17,7 @@ namespace airsim360::internal {
 class GltfBuffers {
  public:
   /// `root` and `glb` (the binary chunk of a .glb, else empty) must outlive the object.
-  GltfBuffers(const JsonRef& root, std::span<const std::byte> glb, const ResourceLoader& load,
-              const ImportLimits& limits)
+  GltfBuffers(const JsonRef& root, std::span<const std::byte> glb, const ResourceLoader& load, const ImportLimits& limits)
       : root_(root), glb_(glb), load_(load), limits_(limits) {}
 
   /// Element of the root array `array` whose index stands at `index`.

@@ -57,8 +57,8 @@ GltfDocument Draco(const Sheet& sheet, int speed, int bits) {
   const int attribute = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
   const auto corner = [&](size_t i) { return &sheet.positions[3 * sheet.indices[i]]; };
   for (size_t f = 0; f < sheet.indices.size() / 3; ++f) {
-    builder.SetAttributeValuesForFace(attribute, draco::FaceIndex(static_cast<uint32_t>(f)), corner(3 * f),
-                                      corner(3 * f + 1), corner(3 * f + 2));
+    builder.SetAttributeValuesForFace(attribute, draco::FaceIndex(static_cast<uint32_t>(f)), corner(3 * f), corner(3 * f + 1),
+                                      corner(3 * f + 2));
   }
   draco::Encoder encoder;
   encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, bits);
@@ -68,13 +68,12 @@ GltfDocument Draco(const Sheet& sheet, int speed, int bits) {
 
   GltfDocument doc;
   const size_t view = doc.AddView(std::vector<char>(encoded.data(), encoded.data() + encoded.size()));
-  doc.json["accessors"] =
-      json::array({{{"componentType", 5126}, {"count", Sheet::kSide * Sheet::kSide}, {"type", "VEC3"}},
-                   {{"componentType", 5125}, {"count", sheet.indices.size()}, {"type", "SCALAR"}}});
+  doc.json["accessors"] = json::array({{{"componentType", 5126}, {"count", Sheet::kSide * Sheet::kSide}, {"type", "VEC3"}},
+                                       {{"componentType", 5125}, {"count", sheet.indices.size()}, {"type", "SCALAR"}}});
   AddMeshAndNode(doc);
   doc.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-  doc.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
-      {"bufferView", view}, {"attributes", {{"POSITION", 0}}}};
+  doc.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", view},
+                                                                                        {"attributes", {{"POSITION", 0}}}};
   return doc;
 }
 
@@ -91,18 +90,14 @@ GltfDocument Meshopt(const Sheet& sheet) {
   doc.AddView(i);
   const auto describe = [&](size_t view, size_t stride, size_t count, const char* mode) {
     json& object = doc.json["bufferViews"][view];
-    object["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
-                                                       {"byteOffset", object["byteOffset"]},
-                                                       {"byteLength", object["byteLength"]},
-                                                       {"byteStride", stride},
-                                                       {"count", count},
-                                                       {"mode", mode}};
+    object["extensions"]["EXT_meshopt_compression"] = {
+        {"buffer", 0}, {"byteOffset", object["byteOffset"]}, {"byteLength", object["byteLength"]}, {"byteStride", stride}, {"count", count},
+        {"mode", mode}};
   };
   describe(0, 12, vertices, "ATTRIBUTES");
   describe(1, 4, sheet.indices.size(), "TRIANGLES");
-  doc.json["accessors"] = json::array(
-      {{{"bufferView", 0}, {"componentType", 5126}, {"count", vertices}, {"type", "VEC3"}},
-       {{"bufferView", 1}, {"componentType", 5125}, {"count", sheet.indices.size()}, {"type", "SCALAR"}}});
+  doc.json["accessors"] = json::array({{{"bufferView", 0}, {"componentType", 5126}, {"count", vertices}, {"type", "VEC3"}},
+                                       {{"bufferView", 1}, {"componentType", 5125}, {"count", sheet.indices.size()}, {"type", "SCALAR"}}});
   AddMeshAndNode(doc);
   return doc;
 }

@@ -25,16 +25,14 @@ GltfContainer OpenGltfContainer(const std::string& file, std::span<const std::by
   if (LoadU32(bytes, 4) != 2) fail("GLB version " + std::to_string(LoadU32(bytes, 4)) + ": only 2 is read");
   const uint64_t length = LoadU32(bytes, 8);
   if (length > bytes.size() || length < 20) {
-    fail("GLB header says " + std::to_string(length) + " bytes, the file has " +
-         std::to_string(bytes.size()));
+    fail("GLB header says " + std::to_string(length) + " bytes, the file has " + std::to_string(bytes.size()));
   }
   GltfContainer out;
   for (uint64_t at = 12; at + 8 <= length;) {
     const uint64_t size = LoadU32(bytes, at);
     const uint32_t type = LoadU32(bytes, at + 4);
     at += 8;
-    if (size > length - at)
-      fail("GLB chunk of " + std::to_string(size) + " bytes at byte " + std::to_string(at) + " is cut short");
+    if (size > length - at) fail("GLB chunk of " + std::to_string(size) + " bytes at byte " + std::to_string(at) + " is cut short");
     const std::span<const std::byte> chunk = bytes.subspan(at, size);
     if (type == kJson && out.json.empty()) out.json = AsText(chunk);
     if (type == kBinary && out.binary.empty()) out.binary = chunk;

@@ -19,8 +19,8 @@ bool ClaimedSizes(std::span<const std::byte> stream, uint64_t& points, uint64_t&
   char magic[5];
   uint8_t major = 0, minor = 0, type = 0, method = 0, traversal = 0;
   uint16_t flags = 0;
-  const bool header = buffer.Decode(magic, 5) && buffer.Decode(&major) && buffer.Decode(&minor) &&
-                      buffer.Decode(&type) && buffer.Decode(&method) && buffer.Decode(&flags);
+  const bool header = buffer.Decode(magic, 5) && buffer.Decode(&major) && buffer.Decode(&minor) && buffer.Decode(&type) &&
+                      buffer.Decode(&method) && buffer.Decode(&flags);
   if (!header || !std::equal(magic, magic + 5, "DRACO") || type != 1 || method > 1) return false;
   buffer.set_bitstream_version(static_cast<uint16_t>((major << 8) | minor));
   if (major != 2 || minor < 2) return false;
@@ -38,18 +38,15 @@ bool ClaimedSizes(std::span<const std::byte> stream, uint64_t& points, uint64_t&
   return true;
 }
 
-std::vector<float> ReadAttribute(const draco::Mesh& mesh, const draco::PointAttribute& attribute,
-                                 int components, const JsonRef& where) {
+std::vector<float> ReadAttribute(const draco::Mesh& mesh, const draco::PointAttribute& attribute, int components, const JsonRef& where) {
   std::vector<float> out(size_t{mesh.num_points()} * static_cast<size_t>(components));
   float value[4] = {};
   for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
     const draco::AttributeValueIndex index = attribute.mapped_index(point);
-    if (index.value() >= attribute.size() ||
-        !attribute.ConvertValue<float>(index, static_cast<int8_t>(components), value)) {
+    if (index.value() >= attribute.size() || !attribute.ConvertValue<float>(index, static_cast<int8_t>(components), value)) {
       where.Fail("damaged Draco attribute");
     }
-    std::copy(value, value + components,
-              out.begin() + static_cast<std::ptrdiff_t>(point.value()) * components);
+    std::copy(value, value + components, out.begin() + static_cast<std::ptrdiff_t>(point.value()) * components);
   }
   return out;
 }
@@ -62,8 +59,8 @@ DracoMesh DecodeDraco(std::span<const std::byte> stream, const JsonRef& where, c
   if (!ClaimedSizes(stream, points, faces)) where.Fail("not a Draco 2.2 mesh");
   const uint64_t most = std::min({limits.max_triangles, limits.max_vertices, uint64_t{stream.size()} * 1000});
   if (points > most || faces > most) {
-    where.Fail("claims " + std::to_string(points) + " points and " + std::to_string(faces) + " faces in " +
-               std::to_string(stream.size()) + " bytes");
+    where.Fail("claims " + std::to_string(points) + " points and " + std::to_string(faces) + " faces in " + std::to_string(stream.size()) +
+               " bytes");
   }
 
   std::unique_ptr<draco::Mesh> mesh;
@@ -81,19 +78,16 @@ DracoMesh DecodeDraco(std::span<const std::byte> stream, const JsonRef& where, c
 
   DracoMesh out;
   out.vertices = mesh->num_points();
-  if (out.vertices > limits.max_vertices || mesh->num_faces() > limits.max_triangles)
-    where.Fail("too many vertices or faces");
+  if (out.vertices > limits.max_vertices || mesh->num_faces() > limits.max_triangles) where.Fail("too many vertices or faces");
   for (draco::FaceIndex face(0); face < mesh->num_faces(); ++face) {
     for (const draco::PointIndex& point : mesh->face(face)) out.indices.push_back(point.value());
   }
   for (const std::string& name : attributes.Keys()) {
     const auto wanted = components.find(name);
     const JsonRef id = attributes.At(name);
-    const draco::PointAttribute* attribute =
-        mesh->GetAttributeByUniqueId(static_cast<uint32_t>(id.Uint(UINT32_MAX)));
+    const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(static_cast<uint32_t>(id.Uint(UINT32_MAX)));
     if (!attribute) id.Fail("the Draco data has no such attribute");
-    if (wanted != components.end())
-      out.attributes[name] = ReadAttribute(*mesh, *attribute, wanted->second, id);
+    if (wanted != components.end()) out.attributes[name] = ReadAttribute(*mesh, *attribute, wanted->second, id);
   }
   return out;
 }

@@ -28,8 +28,8 @@ inline constexpr char kExtraBlendTiles[] = "airsim360_blend_tiles";
 inline constexpr char kExtraUnits[] = "airsim360_units";
 // Times the base colour factor, which glTF keeps below 1; ours lightens dark pictures beyond it.
 inline constexpr char kExtraBaseGain[] = "airsim360_base_gain";
-inline constexpr const char* kGroundWearNames[] = {"none", "asphalt", "carriageway", "paving",    "lawn",
-                                                   "gravel", "soil",  "roof",        "roof_rolls"};
+inline constexpr const char* kGroundWearNames[] = {"none",   "asphalt", "carriageway", "paving",    "lawn",
+                                                   "gravel", "soil",    "roof",        "roof_rolls"};
 inline constexpr const char* kSurfaceKindNames[] = {"standard", "foliage", "glass", "water"};
 
 // Of meshes without normals: every triangle is flat.

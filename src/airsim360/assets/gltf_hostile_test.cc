@@ -28,28 +28,23 @@ std::string ErrorAfter(const std::string& pointer, const json& value) {
 }
 
 TEST(HostileGltf, BrokenJsonNamesLineAndColumn) {
-  EXPECT_TRUE(
-      Contains(ErrorOf("{\n  \"asset\": {\n    \"version\" \"2.0\"}}"), {"test.gltf:3:19: not valid JSON"}));
+  EXPECT_TRUE(Contains(ErrorOf("{\n  \"asset\": {\n    \"version\" \"2.0\"}}"), {"test.gltf:3:19: not valid JSON"}));
   EXPECT_TRUE(Contains(ErrorOf("{\"asset\": "), {"ends too early"}));
   EXPECT_TRUE(Contains(ErrorOf(""), {"test.gltf:1:1"}));
   EXPECT_TRUE(Contains(ErrorOf("[1]"), {"an object expected"}));
 }
 
-TEST(HostileGltf, DeepNestingOfJsonIsNoRecursion) {
-  EXPECT_TRUE(Contains(ErrorOf(std::string(1000000, '[')), {"not valid JSON"}));
-}
+TEST(HostileGltf, DeepNestingOfJsonIsNoRecursion) { EXPECT_TRUE(Contains(ErrorOf(std::string(1000000, '[')), {"not valid JSON"})); }
 
 TEST(HostileGltf, EveryTruncationOfAGlbIsAnError) {
   const std::string glb = GltfDocument::Triangle().Glb();
   EXPECT_EQ(ErrorOf(glb), "no error");
-  for (size_t size = 0; size < glb.size(); ++size)
-    EXPECT_NE(ErrorOf(glb.substr(0, size)), "no error") << size;
+  for (size_t size = 0; size < glb.size(); ++size) EXPECT_NE(ErrorOf(glb.substr(0, size)), "no error") << size;
 }
 
 TEST(HostileGltf, WrongTypesNameTheirPlaceAndValue) {
   EXPECT_TRUE(Contains(ErrorAfter("/scene", "hello"), {"/scene", "\"hello\""}));
-  EXPECT_TRUE(
-      Contains(ErrorAfter("/meshes/0/primitives", 3), {"/meshes/0/primitives: an array expected (3)"}));
+  EXPECT_TRUE(Contains(ErrorAfter("/meshes/0/primitives", 3), {"/meshes/0/primitives: an array expected (3)"}));
   EXPECT_TRUE(Contains(ErrorAfter("/nodes/0/mesh", -1), {"/nodes/0/mesh"}));
   EXPECT_TRUE(Contains(ErrorAfter("/nodes/0/translation", {1, 2}), {"3 numbers expected"}));
   EXPECT_TRUE(Contains(ErrorAfter("/nodes/0/name", 42), {"/nodes/0/name: a string expected (42)"}));
@@ -58,8 +53,7 @@ TEST(HostileGltf, WrongTypesNameTheirPlaceAndValue) {
 
 TEST(HostileGltf, IndicesOutOfRangeNameTheCount) {
   EXPECT_TRUE(Contains(ErrorAfter("/nodes/0/mesh", 7), {"there are only 1 meshes (7)"}));
-  EXPECT_TRUE(
-      Contains(ErrorAfter("/meshes/0/primitives/0/attributes/POSITION", 9), {"there are only 2 accessors"}));
+  EXPECT_TRUE(Contains(ErrorAfter("/meshes/0/primitives/0/attributes/POSITION", 9), {"there are only 2 accessors"}));
   EXPECT_TRUE(Contains(ErrorAfter("/accessors/0/bufferView", 5), {"there are only 2 bufferViews"}));
   EXPECT_TRUE(Contains(ErrorAfter("/bufferViews/0/buffer", 5), {"there are only 1 buffers"}));
   EXPECT_TRUE(Contains(ErrorAfter("/meshes/0/primitives/0/material", 5), {"there are only 0 materials"}));
@@ -71,19 +65,14 @@ TEST(HostileGltf, IndicesOutOfRangeNameTheCount) {
 
 TEST(HostileGltf, HugeCountsAreRefusedBeforeMemoryIsTaken) {
   EXPECT_TRUE(Contains(ErrorAfter("/accessors/0/count", 4294967295u), {"/accessors/0/count"}));
-  EXPECT_TRUE(
-      Contains(ErrorAfter("/accessors/0/count", uint64_t{18446744073709551615u}), {"/accessors/0/count"}));
+  EXPECT_TRUE(Contains(ErrorAfter("/accessors/0/count", uint64_t{18446744073709551615u}), {"/accessors/0/count"}));
   EXPECT_TRUE(Contains(ErrorAfter("/accessors/0/count", 100000000), {"the buffer view has 36"}));
-  EXPECT_TRUE(Contains(ErrorAfter("/accessors/0/byteOffset", uint64_t{18446744073709551610u}),
-                       {"the buffer view has 36"}));
-  EXPECT_TRUE(
-      Contains(ErrorAfter("/bufferViews/0/byteLength", uint64_t{18446744073709551615u}), {"of a buffer of"}));
-  EXPECT_TRUE(
-      Contains(ErrorAfter("/bufferViews/0/byteOffset", uint64_t{18446744073709551615u}), {"of a buffer of"}));
+  EXPECT_TRUE(Contains(ErrorAfter("/accessors/0/byteOffset", uint64_t{18446744073709551610u}), {"the buffer view has 36"}));
+  EXPECT_TRUE(Contains(ErrorAfter("/bufferViews/0/byteLength", uint64_t{18446744073709551615u}), {"of a buffer of"}));
+  EXPECT_TRUE(Contains(ErrorAfter("/bufferViews/0/byteOffset", uint64_t{18446744073709551615u}), {"of a buffer of"}));
   EXPECT_TRUE(Contains(ErrorAfter("/buffers/0/byteLength", uint64_t{4} << 30), {"bytes are there"}));
   GltfDocument doc = GltfDocument::Triangle();
-  doc.json["accessors"][0] = {
-      {"componentType", 5126}, {"count", 100000000}, {"type", "VEC3"}};  // zeros from nowhere
+  doc.json["accessors"][0] = {{"componentType", 5126}, {"count", 100000000}, {"type", "VEC3"}};  // zeros from nowhere
   EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"/accessors/0/count"}));
 }
 
@@ -99,9 +88,8 @@ TEST(HostileGltf, SparseIndicesAreChecked) {
   GltfDocument doc = GltfDocument::Triangle();
   const size_t index = doc.AddView<uint8_t>({3});
   const size_t value = doc.AddView<float>({4, 0, 0});
-  doc.json["accessors"][0]["sparse"] = {{"count", 1},
-                                        {"indices", {{"bufferView", index}, {"componentType", 5121}}},
-                                        {"values", {{"bufferView", value}}}};
+  doc.json["accessors"][0]["sparse"] = {
+      {"count", 1}, {"indices", {{"bufferView", index}, {"componentType", 5121}}}, {"values", {{"bufferView", value}}}};
   EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"/accessors/0/sparse/indices: index 3 of 3"}));
   doc.json["accessors"][0]["sparse"]["count"] = 4000000000u;
   EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"/accessors/0/sparse/count"}));
@@ -140,8 +128,7 @@ TEST(HostileGltf, NumbersThatAreNotFiniteAreRefused) {
 }
 
 TEST(HostileGltf, UnknownRequiredExtensionIsNamed) {
-  EXPECT_TRUE(Contains(ErrorAfter("/extensionsRequired", {"ACME_gizmo"}),
-                       {"/extensionsRequired/0", "ACME_gizmo"}));
+  EXPECT_TRUE(Contains(ErrorAfter("/extensionsRequired", {"ACME_gizmo"}), {"/extensionsRequired/0", "ACME_gizmo"}));
 }
 
 TEST(HostileGltf, MissingAndDamagedBuffersAreErrors) {
@@ -153,10 +140,10 @@ TEST(HostileGltf, MissingAndDamagedBuffersAreErrors) {
 TEST(HostileGltf, CompressedStreamsAreCheckedBeforeTheyAreDecoded) {
   GltfDocument doc = GltfDocument::Triangle();
   // A Draco head (sequential, 2.2) that claims 4 billion faces.
-  const size_t view = doc.AddView<uint8_t>({'D',  'R',  'A',  'C',  'O',  2,    2,    1,    0,    0,   0,
-                                            0xff, 0xff, 0xff, 0xff, 0x0f, 0xff, 0xff, 0xff, 0xff, 0x0f});
-  doc.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
-      {"bufferView", view}, {"attributes", {{"POSITION", 0}}}};
+  const size_t view =
+      doc.AddView<uint8_t>({'D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0, 0xff, 0xff, 0xff, 0xff, 0x0f, 0xff, 0xff, 0xff, 0xff, 0x0f});
+  doc.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", view},
+                                                                                        {"attributes", {{"POSITION", 0}}}};
   EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"claims 4294967295"}));
 
   GltfDocument packed = GltfDocument::Triangle();
@@ -179,8 +166,7 @@ TEST(HostileGltf, DamagedPicturesAreErrors) {
 
 TEST(HostileGltf, LimitsBoundWhatAFileMayAskFor) {
   GltfDocument doc = GltfDocument::Triangle();
-  for (int i = 0; i < 10; ++i)
-    doc.json["meshes"][0]["primitives"].push_back(doc.json["meshes"][0]["primitives"][0]);
+  for (int i = 0; i < 10; ++i) doc.json["meshes"][0]["primitives"].push_back(doc.json["meshes"][0]["primitives"][0]);
   ImportLimits limits;
   limits.max_triangles = 5;
   EXPECT_THROW(ReadText(doc.Text(), limits), InputError);

@@ -21,8 +21,7 @@ std::string Describe(const nlohmann::json& value) {
 }  // namespace
 
 void JsonRef::Fail(const std::string& what) const {
-  throw InputError(*file_ + ": " + (pointer_.empty() ? "/" : pointer_) + ": " + what + " (" +
-                   Describe(*value_) + ")");
+  throw InputError(*file_ + ": " + (pointer_.empty() ? "/" : pointer_) + ": " + what + " (" + Describe(*value_) + ")");
 }
 
 bool JsonRef::IsObject() const { return value_->is_object(); }
@@ -99,8 +98,7 @@ uint64_t JsonRef::Uint(uint64_t max) const {
   uint64_t number = 0;
   if (value_->is_number_unsigned()) {
     number = value_->get<uint64_t>();
-  } else if (value_->is_number_float() && Number() >= 0 && Number() < 9e15 &&
-             Number() == std::floor(Number())) {
+  } else if (value_->is_number_float() && Number() >= 0 && Number() < 9e15 && Number() == std::floor(Number())) {
     number = static_cast<uint64_t>(Number());
   } else {
     Fail("a whole number from 0 on expected");
@@ -150,8 +148,7 @@ nlohmann::json ParseJson(const std::string& file, std::string_view text) {
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const size_t line_start = before.rfind('\n') + 1;  // npos + 1 = 0
     const std::string near = CleanName(text.substr(std::min(before.size(), text.size()), 20));
-    throw InputError(file + ":" + std::to_string(line) + ":" +
-                     std::to_string(before.size() - line_start + 1) + ": not valid JSON" +
+    throw InputError(file + ":" + std::to_string(line) + ":" + std::to_string(before.size() - line_start + 1) + ": not valid JSON" +
                      (near.empty() ? ": the text ends too early" : " at \"" + near + "\""));
   } catch (const nlohmann::json::exception& error) {
     throw InputError(file + ": not valid JSON: " + CleanName(error.what()));

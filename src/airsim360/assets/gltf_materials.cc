@@ -32,12 +32,10 @@ float Brightness(Vec3f c) { return std::sqrt(0.299f * c.x * c.x + 0.587f * c.y *
 void GuessKind(Material& m) {
   const std::vector<std::string> words = SplitWords(m.name);
   if (m.kind != SurfaceKind::kStandard || m.metallic > 0.5f) return;
-  if (HasWord(words, {"leaf", "foliage", "needle", "hedge", "ivy", "bush"}) &&
-      !HasWord(words, {"trunk", "bark", "branch", "wood"})) {
+  if (HasWord(words, {"leaf", "foliage", "needle", "hedge", "ivy", "bush"}) && !HasWord(words, {"trunk", "bark", "branch", "wood"})) {
     m.kind = SurfaceKind::kFoliage;
     m.transmission = 0.3f;
-  } else if (HasWord(words, {"water", "lake", "ocean", "sea", "river", "pond"}) &&
-             m.base_color_texture == kNoTexture) {
+  } else if (HasWord(words, {"water", "lake", "ocean", "sea", "river", "pond"}) && m.base_color_texture == kNoTexture) {
     m.kind = SurfaceKind::kWater;
   }
 }
@@ -91,10 +89,8 @@ void GltfMaterials::ReadMetallicRoughness(const JsonRef& json, GltfMaterial& out
   m.base_alpha = Unit(base[3]);
   m.metallic = Unit(pbr->NumberOr("metallicFactor", 1));
   m.roughness = Unit(pbr->NumberOr("roughnessFactor", 1));
-  if (const auto info = pbr->Find("metallicRoughnessTexture"))
-    m.metallic_roughness_texture = ReadTexture(*info, false, &out.uv);
-  if (const auto info = pbr->Find("baseColorTexture"))
-    m.base_color_texture = ReadTexture(*info, true, &out.uv);
+  if (const auto info = pbr->Find("metallicRoughnessTexture")) m.metallic_roughness_texture = ReadTexture(*info, false, &out.uv);
+  if (const auto info = pbr->Find("baseColorTexture")) m.base_color_texture = ReadTexture(*info, true, &out.uv);
 }
 
 void GltfMaterials::ReadSpecularGlossiness(const JsonRef& json, GltfMaterial& out) {
@@ -109,15 +105,11 @@ void GltfMaterials::ReadSpecularGlossiness(const JsonRef& json, GltfMaterial& ou
   // With pictures the factors do not say what the surface is: keep the diffuse colour.
   const float strongest = std::max({specular.x, specular.y, specular.z});
   const bool pictures = m.base_color_texture != kNoTexture || json.Has("specularGlossinessTexture");
-  m.metallic = pictures ? 0
-                        : SolveMetallic(Brightness(ToColor(diffuse)), Brightness(specular),
-                                        1 - std::min(strongest, 1.0f));
-  const Vec3f from_diffuse =
-      ToColor(diffuse) * ((1 - std::min(strongest, 1.0f)) / 0.96f / std::max(1 - m.metallic, 1e-4f));
+  m.metallic = pictures ? 0 : SolveMetallic(Brightness(ToColor(diffuse)), Brightness(specular), 1 - std::min(strongest, 1.0f));
+  const Vec3f from_diffuse = ToColor(diffuse) * ((1 - std::min(strongest, 1.0f)) / 0.96f / std::max(1 - m.metallic, 1e-4f));
   const Vec3f from_specular = specular * (1 / std::max(m.metallic, 1e-4f));
   const float share = m.metallic * m.metallic;
-  m.base_color =
-      pictures ? ToColor(diffuse) : Min(from_diffuse * (1 - share) + from_specular * share, Vec3f{1, 1, 1});
+  m.base_color = pictures ? ToColor(diffuse) : Min(from_diffuse * (1 - share) + from_specular * share, Vec3f{1, 1, 1});
   if (json.Has("specularGlossinessTexture")) m.roughness = std::max(m.roughness, 0.6f);
 }
 
@@ -130,8 +122,7 @@ void MakePane(Material& m, double alpha) {
 void GltfMaterials::ReadAlpha(const JsonRef& json, GltfMaterial& out) {
   Material& m = out.material;
   const std::string mode = json.TextOr("alphaMode", "OPAQUE");
-  if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
-    json.At("alphaMode").Fail("OPAQUE, MASK or BLEND expected");
+  if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") json.At("alphaMode").Fail("OPAQUE, MASK or BLEND expected");
   m.alpha_cutoff = static_cast<float>(std::clamp(json.NumberOr("alphaCutoff", 0.5), 0.0, 1e3));
   if (mode == "MASK") m.alpha_mode = AlphaMode::kMask;
   if (mode != "BLEND") return;
@@ -154,10 +145,8 @@ GltfMaterial GltfMaterials::Read(const JsonRef& json) {
   Material& m = out.material;
   m.name = CleanName(json.TextOr("name", ""));
   ReadMetallicRoughness(json, out);
-  if (const auto glossy = GltfExtension(json, "KHR_materials_pbrSpecularGlossiness"))
-    ReadSpecularGlossiness(*glossy, out);
-  UvUse* const uv_if_first =
-      m.base_color_texture == kNoTexture && m.metallic_roughness_texture == kNoTexture ? &out.uv : nullptr;
+  if (const auto glossy = GltfExtension(json, "KHR_materials_pbrSpecularGlossiness")) ReadSpecularGlossiness(*glossy, out);
+  UvUse* const uv_if_first = m.base_color_texture == kNoTexture && m.metallic_roughness_texture == kNoTexture ? &out.uv : nullptr;
   if (const auto normal = json.Find("normalTexture")) {
     m.normal_texture = ReadTexture(*normal, false, uv_if_first);
     m.normal_scale = static_cast<float>(std::clamp(normal->NumberOr("scale", 1), -10.0, 10.0));
@@ -187,8 +176,7 @@ GltfMaterial GltfMaterials::Read(const JsonRef& json) {
     m.metallic = 0;
     m.roughness = 1;
   }
-  static_cast<void>(
-      json.BoolOr("doubleSided", false));  // every surface is seen from both sides here; still must be a bool
+  static_cast<void>(json.BoolOr("doubleSided", false));  // every surface is seen from both sides here; still must be a bool
   GuessKind(m);
   ReadExtras(json, out);
   return out;

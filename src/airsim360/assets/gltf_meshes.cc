@@ -33,8 +33,7 @@ MaterialId GltfMeshes::Covering(MaterialId material, const std::vector<VertexCol
   const double alpha = materials[material].base_alpha * high.a / 65535.0;
   if (low.a == VertexColor().a) return material;
   const bool pane = alpha < kOpaqueFrom;
-  const auto [it, is_new] =
-      covering_.try_emplace({material, pane ? high.a : VertexColor().a}, static_cast<MaterialId>(materials.size()));
+  const auto [it, is_new] = covering_.try_emplace({material, pane ? high.a : VertexColor().a}, static_cast<MaterialId>(materials.size()));
   if (is_new) {
     Material copy = materials[material];
     if (pane) {
@@ -53,8 +52,7 @@ std::vector<TransformG> GltfMeshes::JointTransforms(const JsonRef& skin) {
   if (const auto index = skin.Find("inverseBindMatrices")) {
     inverse = buffers_.Floats(*index, 16);
     if (inverse.size() / 16 < joints.size())
-      index->Fail(std::to_string(inverse.size() / 16) + " matrices for " + std::to_string(joints.size()) +
-                  " joints");
+      index->Fail(std::to_string(inverse.size() / 16) + " matrices for " + std::to_string(joints.size()) + " joints");
   }
   std::vector<TransformG> out;
   for (size_t i = 0; i < joints.size(); ++i) {
@@ -63,8 +61,7 @@ std::vector<TransformG> GltfMeshes::JointTransforms(const JsonRef& skin) {
     TransformG X = nodes_[static_cast<size_t>(node)].X_G;
     if (!inverse.empty()) {
       const float* m = inverse.data() + 16 * i;
-      X = X * TransformG{Mat3d::FromColumns({m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}),
-                         {m[12], m[13], m[14]}};
+      X = X * TransformG{Mat3d::FromColumns({m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}), {m[12], m[13], m[14]}};
     }
     out.push_back(X);
   }
@@ -92,12 +89,11 @@ void GltfMeshes::ApplySkin(const std::vector<TransformG>& joints, const JsonRef&
   }
 }
 
-void GltfMeshes::AppendPrimitive(const JsonRef& json, const std::vector<double>& weights,
-                                 const std::vector<TransformG>* joints, Mesh& mesh) {
+void GltfMeshes::AppendPrimitive(const JsonRef& json, const std::vector<double>& weights, const std::vector<TransformG>* joints,
+                                 Mesh& mesh) {
   MaterialId material_id = 0;
   const GltfMaterial& material = MaterialAt(json, material_id);
-  std::optional<GltfPrimitive> primitive =
-      ReadPrimitive(json, material.uv.set, weights, buffers_, limits_, warnings_);
+  std::optional<GltfPrimitive> primitive = ReadPrimitive(json, material.uv.set, weights, buffers_, limits_, warnings_);
   if (!primitive || primitive->triangles.empty()) return;
   if (material.blends && !primitive->colors.empty()) material_id = Covering(material_id, primitive->colors);
   if (joints) {
@@ -126,8 +122,8 @@ void GltfMeshes::AppendPrimitive(const JsonRef& json, const std::vector<double>&
     if (colors) mesh.colors.push_back(primitive->colors.empty() ? VertexColor{} : primitive->colors[i]);
     return moved[i];
   };
-  mesh.parts.push_back({static_cast<uint32_t>(mesh.triangles.size()),
-                        static_cast<uint32_t>(primitive->triangles.size()), material_id, kNoEntity});
+  mesh.parts.push_back(
+      {static_cast<uint32_t>(mesh.triangles.size()), static_cast<uint32_t>(primitive->triangles.size()), material_id, kNoEntity});
   for (const Vec3u& t : primitive->triangles) {
     const Vec3u triangle{vertex(t.x), vertex(t.y), vertex(t.z)};
     mesh.triangles.push_back(triangle);
@@ -136,8 +132,7 @@ void GltfMeshes::AppendPrimitive(const JsonRef& json, const std::vector<double>&
 
   vertices_ += mesh.positions.size() - base;
   triangles_ += primitive->triangles.size();
-  if (vertices_ > limits_.max_vertices || triangles_ > limits_.max_triangles)
-    json.Fail("the file has too many vertices or triangles");
+  if (vertices_ > limits_.max_vertices || triangles_ > limits_.max_triangles) json.Fail("the file has too many vertices or triangles");
 }
 
 int32_t GltfMeshes::ReadMesh(const JsonRef& json, const std::vector<TransformG>* joints) {

@@ -37,10 +37,8 @@ std::span<const std::byte> GltfBuffers::Decompress(const JsonRef& extension, uin
   if (vertices ? stride == 0 || stride % 4 != 0 : stride != 2 && stride != 4)
     extension.At("byteStride").Fail("a stride that the mode does not allow");
   if (mode == "TRIANGLES" && count % 3 != 0) extension.At("count").Fail("a multiple of three expected");
-  const uint64_t most = vertices ? uint64_t{source.size()} * 64 + 65536
-                                 : uint64_t{source.size()} * (mode == "TRIANGLES" ? 3 : 1) * stride;
-  if (count * stride > most)
-    extension.At("count").Fail("more than " + std::to_string(source.size()) + " compressed bytes can hold");
+  const uint64_t most = vertices ? uint64_t{source.size()} * 64 + 65536 : uint64_t{source.size()} * (mode == "TRIANGLES" ? 3 : 1) * stride;
+  if (count * stride > most) extension.At("count").Fail("more than " + std::to_string(source.size()) + " compressed bytes can hold");
   Charge(count * stride, extension);
 
   // The decoders check every read themselves and answer 0 when all went well.

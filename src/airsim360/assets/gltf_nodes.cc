@@ -7,16 +7,13 @@
 namespace airsim360::internal {
 namespace {
 
-Mat3d Scaled(Mat3d R, double x, double y, double z) {
-  return Mat3d::FromColumns(R.column(0) * x, R.column(1) * y, R.column(2) * z);
-}
+Mat3d Scaled(Mat3d R, double x, double y, double z) { return Mat3d::FromColumns(R.column(0) * x, R.column(1) * y, R.column(2) * z); }
 
 TransformG LocalTransform(const JsonRef& node) {
   if (const auto matrix = node.Find("matrix")) {
     // Column-major.
     const std::vector<double> m = matrix->Numbers(16);
-    return {Mat3d::FromColumns({m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}),
-            {m[12], m[13], m[14]}};
+    return {Mat3d::FromColumns({m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}), {m[12], m[13], m[14]}};
   }
   const std::vector<double> t = node.NumbersOr("translation", {0, 0, 0});
   const std::vector<double> q = node.NumbersOr("rotation", {0, 0, 0, 1});
@@ -51,8 +48,7 @@ Mat3d RotationOf(double x, double y, double z, double w, const JsonRef& where) {
 std::vector<GltfNode> ReadNodes(const JsonRef& root, const ImportLimits& limits) {
   const auto nodes = root.Find("nodes");
   if (!nodes) return {};
-  if (nodes->size() > limits.max_nodes)
-    nodes->Fail("at most " + std::to_string(limits.max_nodes) + " nodes allowed");
+  if (nodes->size() > limits.max_nodes) nodes->Fail("at most " + std::to_string(limits.max_nodes) + " nodes allowed");
   std::vector<GltfNode> out(nodes->size());
   LinkChildren(*nodes, out);
 
@@ -78,8 +74,7 @@ std::vector<GltfNode> ReadNodes(const JsonRef& root, const ImportLimits& limits)
   return out;
 }
 
-std::vector<TransformG> ReadGpuInstances(const JsonRef& extension, GltfBuffers& buffers,
-                                         const ImportLimits& limits) {
+std::vector<TransformG> ReadGpuInstances(const JsonRef& extension, GltfBuffers& buffers, const ImportLimits& limits) {
   const JsonRef attributes = extension.At("attributes");
   std::vector<float> t, r, s;
   size_t count = SIZE_MAX;
@@ -87,16 +82,14 @@ std::vector<TransformG> ReadGpuInstances(const JsonRef& extension, GltfBuffers& 
     const auto index = attributes.Find(name);
     if (!index) return;
     values = buffers.Floats(*index, static_cast<int>(components));
-    if (count != SIZE_MAX && values.size() / components != count)
-      index->Fail("the instance attributes differ in length");
+    if (count != SIZE_MAX && values.size() / components != count) index->Fail("the instance attributes differ in length");
     count = values.size() / components;
   };
   read("TRANSLATION", 3, t);
   read("ROTATION", 4, r);
   read("SCALE", 3, s);
   if (count == SIZE_MAX) return {};
-  if (count > limits.max_nodes)
-    attributes.Fail("at most " + std::to_string(limits.max_nodes) + " instances allowed");
+  if (count > limits.max_nodes) attributes.Fail("at most " + std::to_string(limits.max_nodes) + " instances allowed");
 
   std::vector<TransformG> out;
   for (size_t i = 0; i < count; ++i) {

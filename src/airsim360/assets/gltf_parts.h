@@ -45,8 +45,7 @@ GltfContainer OpenGltfContainer(const std::string& file, std::span<const std::by
 /// Reads one element of /materials.
 class GltfMaterials {
  public:
-  GltfMaterials(const JsonRef& root, GltfBuffers& buffers, TextureStore& textures, const ResourceLoader& load,
-                Warnings& warnings)
+  GltfMaterials(const JsonRef& root, GltfBuffers& buffers, TextureStore& textures, const ResourceLoader& load, Warnings& warnings)
       : root_(root), buffers_(buffers), textures_(textures), load_(load), warnings_(warnings) {}
   GltfMaterial Read(const JsonRef& json);
 
@@ -74,9 +73,8 @@ struct GltfPrimitive {
 
 /// Reads one primitive (triangles, strips, fans; plain or Draco); nullopt with a warning for points and
 /// lines. `weights` are those of the mesh's morph targets.
-std::optional<GltfPrimitive> ReadPrimitive(const JsonRef& json, uint64_t uv_set,
-                                           const std::vector<double>& morph_weights, GltfBuffers& buffers,
-                                           const ImportLimits& limits, Warnings& warnings);
+std::optional<GltfPrimitive> ReadPrimitive(const JsonRef& json, uint64_t uv_set, const std::vector<double>& morph_weights,
+                                           GltfBuffers& buffers, const ImportLimits& limits, Warnings& warnings);
 
 /// InputError at `where` for a position that is not finite or beyond kMaxCoordinate.
 void CheckPositions(const std::vector<Vec3f>& positions, const JsonRef& where);
@@ -91,14 +89,9 @@ struct GltfNode {
 /// Reads elements of /meshes, each once; skinned ones anew for each node, bound at rest.
 class GltfMeshes {
  public:
-  GltfMeshes(const JsonRef& root, GltfBuffers& buffers, GltfMaterials& reader,
-             const std::vector<GltfNode>& nodes, const ImportLimits& limits, Warnings& warnings)
-      : root_(root),
-        buffers_(buffers),
-        reader_(reader),
-        nodes_(nodes),
-        limits_(limits),
-        warnings_(warnings) {}
+  GltfMeshes(const JsonRef& root, GltfBuffers& buffers, GltfMaterials& reader, const std::vector<GltfNode>& nodes,
+             const ImportLimits& limits, Warnings& warnings)
+      : root_(root), buffers_(buffers), reader_(reader), nodes_(nodes), limits_(limits), warnings_(warnings) {}
 
   /// Index in `meshes` of what a node shows; -1 if it shows nothing.
   int32_t MeshOf(const JsonRef& node);
@@ -108,8 +101,7 @@ class GltfMeshes {
 
  private:
   int32_t ReadMesh(const JsonRef& json, const std::vector<TransformG>* joints);
-  void AppendPrimitive(const JsonRef& json, const std::vector<double>& weights,
-                       const std::vector<TransformG>* joints, Mesh& mesh);
+  void AppendPrimitive(const JsonRef& json, const std::vector<double>& weights, const std::vector<TransformG>* joints, Mesh& mesh);
   std::vector<TransformG> JointTransforms(const JsonRef& skin);
   void ApplySkin(const std::vector<TransformG>& joints, const JsonRef& where, GltfPrimitive& primitive);
   const GltfMaterial& MaterialAt(const JsonRef& primitive, MaterialId& id);
@@ -132,8 +124,7 @@ class GltfMeshes {
 std::vector<GltfNode> ReadNodes(const JsonRef& root, const ImportLimits& limits);
 
 /// Transforms of EXT_mesh_gpu_instancing of a node, relative to it.
-std::vector<TransformG> ReadGpuInstances(const JsonRef& extension, GltfBuffers& buffers,
-                                         const ImportLimits& limits);
+std::vector<TransformG> ReadGpuInstances(const JsonRef& extension, GltfBuffers& buffers, const ImportLimits& limits);
 
 /// Rotation of a quaternion in glTF's order (x, y, z, w), of any length but zero.
 Mat3d RotationOf(double x, double y, double z, double w, const JsonRef& where);

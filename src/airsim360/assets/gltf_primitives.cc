@@ -18,10 +18,9 @@ class Attributes {
     const auto draco = GltfExtension(primitive, "KHR_draco_mesh_compression");
     if (!draco) return;
     const std::map<std::string, int> wanted = {
-        {"POSITION", 3}, {"NORMAL", 3},    {"TEXCOORD_0", 2}, {"TEXCOORD_" + std::to_string(uv_set), 2},
+        {"POSITION", 3}, {"NORMAL", 3},    {"TEXCOORD_0", 2},           {"TEXCOORD_" + std::to_string(uv_set), 2},
         {"JOINTS_0", 4}, {"WEIGHTS_0", 4}, {"COLOR_0", ColorChannels()}};
-    draco_ =
-        DecodeDraco(buffers.View(draco->At("bufferView")), *draco, draco->At("attributes"), wanted, limits);
+    draco_ = DecodeDraco(buffers.View(draco->At("bufferView")), *draco, draco->At("attributes"), wanted, limits);
     buffers.Charge(draco_->indices.size() * 4 + draco_->vertices * uint64_t{64}, *draco);
   }
 
@@ -41,8 +40,7 @@ class Attributes {
     }
     const size_t count = values.size() / static_cast<size_t>(components);
     if (name == "POSITION") vertices_ = count;
-    if (count != vertices_)
-      index->Fail(std::to_string(count) + " elements for " + std::to_string(vertices_) + " vertices");
+    if (count != vertices_) index->Fail(std::to_string(count) + " elements for " + std::to_string(vertices_) + " vertices");
     return values;
   }
   const JsonRef& json() const { return json_; }
@@ -71,15 +69,13 @@ std::vector<VertexColor> ReadColors(Attributes& attributes) {
   const std::vector<float> values = attributes.Read("COLOR_0", static_cast<int>(stride));
   std::vector<VertexColor> colors;
   for (size_t i = 0; i + stride <= values.size(); i += stride) {
-    colors.push_back(
-        MakeVertexColor({values[i], values[i + 1], values[i + 2]}, stride == 4 ? values[i + 3] : 1.0f));
+    colors.push_back(MakeVertexColor({values[i], values[i + 1], values[i + 2]}, stride == 4 ? values[i + 3] : 1.0f));
   }
   return colors;
 }
 
 // Morph targets at rest: p += weight * target.
-void ApplyMorphs(const JsonRef& primitive, const std::vector<double>& weights, GltfBuffers& buffers,
-                 GltfPrimitive& out) {
+void ApplyMorphs(const JsonRef& primitive, const std::vector<double>& weights, GltfBuffers& buffers, GltfPrimitive& out) {
   const auto targets = primitive.Find("targets");
   for (size_t i = 0; targets && i < std::min(targets->size(), weights.size()); ++i) {
     if (weights[i] == 0) continue;
@@ -89,8 +85,7 @@ void ApplyMorphs(const JsonRef& primitive, const std::vector<double>& weights, G
       if (!index || base.empty()) continue;
       const std::vector<Vec3f> delta = ToVec3(buffers.Floats(*index, 3));
       if (delta.size() != base.size())
-        index->Fail(std::to_string(delta.size()) + " elements for " + std::to_string(base.size()) +
-                    " vertices");
+        index->Fail(std::to_string(delta.size()) + " elements for " + std::to_string(base.size()) + " vertices");
       for (size_t k = 0; k < base.size(); ++k) base[k] += delta[k] * static_cast<float>(weights[i]);
     }
   }
@@ -112,8 +107,7 @@ std::vector<Vec3u> MakeTriangles(uint64_t mode, const std::vector<uint32_t>& ind
   return triangles;
 }
 
-std::vector<uint32_t> ReadIndices(const JsonRef& primitive, Attributes& attributes, size_t vertices,
-                                  GltfBuffers& buffers) {
+std::vector<uint32_t> ReadIndices(const JsonRef& primitive, Attributes& attributes, size_t vertices, GltfBuffers& buffers) {
   std::vector<uint32_t> indices;
   const auto index = primitive.Find("indices");
   if (attributes.draco()) {
@@ -126,8 +120,7 @@ std::vector<uint32_t> ReadIndices(const JsonRef& primitive, Attributes& attribut
   for (size_t i = 0; i < indices.size(); ++i) {
     if (indices[i] >= vertices) {
       (index ? *index : primitive)
-          .Fail("element " + std::to_string(i) + " is vertex " + std::to_string(indices[i]) + " of " +
-                std::to_string(vertices));
+          .Fail("element " + std::to_string(i) + " is vertex " + std::to_string(indices[i]) + " of " + std::to_string(vertices));
     }
   }
   return indices;
@@ -139,16 +132,14 @@ void CheckPositions(const std::vector<Vec3f>& positions, const JsonRef& where) {
   for (size_t i = 0; i < positions.size(); ++i) {
     const Vec3f p = positions[i];
     // Written so that NaN fails too.
-    if (!(std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
-          std::abs(p.z) <= kMaxCoordinate)) {
+    if (!(std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate && std::abs(p.z) <= kMaxCoordinate)) {
       where.Fail("vertex " + std::to_string(i) + " is not finite or beyond 1e9");
     }
   }
 }
 
-std::optional<GltfPrimitive> ReadPrimitive(const JsonRef& json, uint64_t uv_set,
-                                           const std::vector<double>& morph_weights, GltfBuffers& buffers,
-                                           const ImportLimits& limits, Warnings& warnings) {
+std::optional<GltfPrimitive> ReadPrimitive(const JsonRef& json, uint64_t uv_set, const std::vector<double>& morph_weights,
+                                           GltfBuffers& buffers, const ImportLimits& limits, Warnings& warnings) {
   const uint64_t mode = json.UintOr("mode", kTriangles);
   if (mode > kFan) json.At("mode").Fail("a mode from 0 to 6 expected");
   if (mode < kTriangles) {

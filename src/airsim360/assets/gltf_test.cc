@@ -59,8 +59,7 @@ TEST(Gltf, TransformsComposeDownTheHierarchy) {
   const double s = std::sqrt(0.5);
   // Parent: a quarter turn about G's y and a step along x; child: twice the size.
   doc.json["nodes"] =
-      json::array({{{"children", {1}}, {"translation", {10, 0, 0}}, {"rotation", {0, s, 0, s}}},
-                   {{"mesh", 0}, {"scale", {2, 2, 2}}}});
+      json::array({{{"children", {1}}, {"translation", {10, 0, 0}}, {"rotation", {0, s, 0, s}}}, {{"mesh", 0}, {"scale", {2, 2, 2}}}});
   const ImportedFile file = ReadText(doc.Text());
   ASSERT_EQ(file.nodes.size(), 2u);
   EXPECT_EQ(file.nodes[1].parent, 0);
@@ -71,9 +70,8 @@ TEST(Gltf, TransformsComposeDownTheHierarchy) {
 
 TEST(Gltf, MatrixAndTrsNodesAgree) {
   GltfDocument doc = GltfDocument::Triangle();
-  doc.json["nodes"] = json::array(
-      {{{"mesh", 0}, {"translation", {1, 2, 3}}, {"rotation", {0, 0, 1, 0}}, {"scale", {2, 3, 4}}},
-       {{"mesh", 0}, {"matrix", {-2, 0, 0, 0, 0, -3, 0, 0, 0, 0, 4, 0, 1, 2, 3, 1}}}});
+  doc.json["nodes"] = json::array({{{"mesh", 0}, {"translation", {1, 2, 3}}, {"rotation", {0, 0, 1, 0}}, {"scale", {2, 3, 4}}},
+                                   {{"mesh", 0}, {"matrix", {-2, 0, 0, 0, 0, -3, 0, 0, 0, 0, 4, 0, 1, 2, 3, 1}}}});
   const ImportedFile file = ReadText(doc.Text());
   for (int i = 0; i < 3; ++i) {
     ExpectNear(file.nodes[0].X_WM.A.row(i), file.nodes[1].X_WM.A.row(i));
@@ -94,8 +92,7 @@ TEST(Gltf, GpuInstancingGivesANodeForEachInstance) {
   const size_t t = doc.AddAccessor<float>({0, 0, 0, 5, 0, 0, 0, 0, 7}, 5126, "VEC3");
   const size_t s = doc.AddAccessor<float>({1, 1, 1, 2, 2, 2, 3, 3, 3}, 5126, "VEC3");
   doc.json["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
-  doc.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", t},
-                                                                                 {"SCALE", s}};
+  doc.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", t}, {"SCALE", s}};
   const ImportedFile file = ReadText(doc.Text());
   ASSERT_EQ(file.nodes.size(), 4u);
   EXPECT_EQ(file.nodes[0].mesh, -1);
@@ -110,8 +107,7 @@ TEST(Gltf, StripsAndFansKeepTheirTurningSense) {
     const std::vector<float> strip = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
     const std::vector<float> fan = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     const size_t positions = doc.AddAccessor(mode == 5 ? strip : fan, 5126, "VEC3");
-    doc.json["meshes"].push_back(
-        {{"primitives", {{{"attributes", {{"POSITION", positions}}}, {"mode", mode}}}}});
+    doc.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", positions}}}, {"mode", mode}}}}});
     doc.json["nodes"].push_back({{"mesh", 0}});
     const ImportedFile file = ReadText(doc.Text());
     ASSERT_EQ(file.meshes[0].triangles.size(), 2u) << mode;
@@ -132,9 +128,8 @@ TEST(Gltf, SparseAccessorsReplaceElements) {
   GltfDocument doc = GltfDocument::Triangle();
   const size_t index = doc.AddView<uint8_t>({1});
   const size_t value = doc.AddView<float>({4, 0, 0});
-  doc.json["accessors"][0]["sparse"] = {{"count", 1},
-                                        {"indices", {{"bufferView", index}, {"componentType", 5121}}},
-                                        {"values", {{"bufferView", value}}}};
+  doc.json["accessors"][0]["sparse"] = {
+      {"count", 1}, {"indices", {{"bufferView", index}, {"componentType", 5121}}}, {"values", {{"bufferView", value}}}};
   const ImportedFile file = ReadText(doc.Text());
   ExpectNear(file.meshes[0].positions[1], {4, 0, 0});
   ExpectNear(file.meshes[0].positions[2], {0, 0, 1});
@@ -147,8 +142,7 @@ TEST(Gltf, QuantizedPositionsAndNormalisedIntegersAreExact) {
   const size_t uvs = doc.AddAccessor<uint8_t>({0, 0, 255, 0, 51, 255}, 5121, "VEC2");
   doc.json["accessors"][positions]["normalized"] = true;
   doc.json["accessors"][uvs]["normalized"] = true;
-  doc.json["meshes"].push_back(
-      {{"primitives", {{{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uvs}}}}}}});
+  doc.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uvs}}}}}}});
   doc.json["nodes"].push_back({{"mesh", 0}});
   const Mesh mesh = ReadText(doc.Text()).meshes[0];
   ExpectNear(mesh.positions[1], {1, 0, 0}, 0);
@@ -162,9 +156,9 @@ TEST(Gltf, InterleavedAttributesAreReadByStride) {
   // Position (3 floats) and uv (2 floats) in turn.
   const size_t view = doc.AddView<float>({0, 0, 0, 0.1f, 0.2f, 1, 0, 0, 0.3f, 0.4f, 0, 1, 0, 0.5f, 0.6f});
   doc.json["bufferViews"][view]["byteStride"] = 20;
-  doc.json["accessors"] = json::array(
-      {{{"bufferView", view}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
-       {{"bufferView", view}, {"byteOffset", 12}, {"componentType", 5126}, {"count", 3}, {"type", "VEC2"}}});
+  doc.json["accessors"] =
+      json::array({{{"bufferView", view}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
+                   {{"bufferView", view}, {"byteOffset", 12}, {"componentType", 5126}, {"count", 3}, {"type", "VEC2"}}});
   doc.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}}}}}});
   doc.json["nodes"].push_back({{"mesh", 0}});
   const Mesh mesh = ReadText(doc.Text()).meshes[0];
@@ -205,10 +199,8 @@ TEST(GltfMaterial, PictureSamplerAndDefaultsArrive) {
 TEST(GltfMaterial, TextureTransformIsTranslationTimesRotationTimesScale) {
   // The example of the extension's text: the lower left quadrant, turned.
   const double quarter = std::acos(0.0);
-  const json info = {
-      {"index", 0},
-      {"extensions",
-       {{"KHR_texture_transform", {{"offset", {0, 1}}, {"rotation", quarter}, {"scale", {0.5, 0.5}}}}}}};
+  const json info = {{"index", 0},
+                     {"extensions", {{"KHR_texture_transform", {{"offset", {0, 1}}, {"rotation", quarter}, {"scale", {0.5, 0.5}}}}}}};
   const Mesh mesh = ReadText(Textured(info).Text()).meshes[0];
   const Vec2f expected[] = {{0, 1}, {0, 0.5f}, {0.5f, 1}};
   for (int i = 0; i < 3; ++i) {
@@ -228,30 +220,25 @@ TEST(GltfMaterial, AlphaModesBecomeOpaqueMaskOrGlass) {
   const Material mask = read({{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}});
   EXPECT_EQ(mask.alpha_mode, AlphaMode::kMask);
   EXPECT_EQ(mask.alpha_cutoff, 0.25f);
-  const Material pane =
-      read({{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.3}}}}});
+  const Material pane = read({{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.3}}}}});
   EXPECT_EQ(pane.kind, SurfaceKind::kGlass);
-  const Material clear =
-      read({{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}});
+  const Material clear = read({{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}});
   EXPECT_EQ(clear.kind, SurfaceKind::kGlass);
   const Material lamp =
-      read({{"emissiveFactor", {1, 0.5, 0}},
-            {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}}}});
+      read({{"emissiveFactor", {1, 0.5, 0}}, {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}}}});
   EXPECT_EQ(lamp.emission, (Vec3f{4, 2, 0}));
-  const Material lacquer = read({{"extensions",
-                                  {{"KHR_materials_clearcoat",
-                                    {{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.125}}}}}});
+  const Material lacquer =
+      read({{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.125}}}}}});
   EXPECT_EQ(lacquer.clear_coat, 0.75f);
   EXPECT_EQ(lacquer.clear_coat_roughness, 0.125f);
 }
 
 TEST(GltfMaterial, BlackDiffuseWithBrightSpecularIsMetal) {
   GltfDocument doc = GltfDocument::Triangle();
-  doc.json["materials"] = json::array({{{"extensions",
-                                         {{"KHR_materials_pbrSpecularGlossiness",
-                                           {{"diffuseFactor", {0, 0, 0, 1}},
-                                            {"specularFactor", {0.9, 0.6, 0.3}},
-                                            {"glossinessFactor", 0.75}}}}}}});
+  doc.json["materials"] =
+      json::array({{{"extensions",
+                     {{"KHR_materials_pbrSpecularGlossiness",
+                       {{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {0.9, 0.6, 0.3}}, {"glossinessFactor", 0.75}}}}}}});
   doc.json["meshes"][0]["primitives"][0]["material"] = 0;
   const Material m = ReadText(doc.Text()).materials[0];
   EXPECT_GT(m.metallic, 0.95f);
@@ -276,9 +263,8 @@ TEST(Gltf, SkinsAreBoundAtRest) {
   doc.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = weights;
   doc.json["skins"] = json::array({{{"joints", {1, 2}}}});
   // The node's own place does not count; joint 2 stands 10 higher.
-  doc.json["nodes"] = json::array({{{"mesh", 0}, {"skin", 0}, {"translation", {99, 99, 99}}},
-                                   json::object(),
-                                   {{"translation", {0, 10, 0}}}});
+  doc.json["nodes"] =
+      json::array({{{"mesh", 0}, {"skin", 0}, {"translation", {99, 99, 99}}}, json::object(), {{"translation", {0, 10, 0}}}});
   const ImportedFile file = ReadText(doc.Text());
   const Mesh& mesh = file.meshes[0];
   ExpectNear(file.nodes[0].X_WM * mesh.positions[0], {0, 0, 0});
@@ -298,8 +284,7 @@ TEST(Gltf, UnusedVerticesAreDropped) {
   GltfDocument doc;
   const size_t positions = doc.AddAccessor<float>({9, 9, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0}, 5126, "VEC3");
   const size_t indices = doc.AddAccessor<uint32_t>({1, 2, 3}, 5125, "SCALAR");
-  doc.json["meshes"].push_back(
-      {{"primitives", {{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}}}});
+  doc.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}}}});
   doc.json["nodes"].push_back({{"mesh", 0}});
   EXPECT_EQ(ReadText(doc.Text()).meshes[0].positions.size(), 3u);
 }

@@ -16,8 +16,7 @@ inline std::string EncodeBase64(const Bytes& bytes) {
   std::string out;
   for (size_t i = 0; i < bytes.size(); i += 3) {
     uint32_t bits = 0;
-    for (size_t k = 0; k < 3; ++k)
-      bits = (bits << 8) | (i + k < bytes.size() ? std::to_integer<uint32_t>(bytes[i + k]) : 0);
+    for (size_t k = 0; k < 3; ++k) bits = (bits << 8) | (i + k < bytes.size() ? std::to_integer<uint32_t>(bytes[i + k]) : 0);
     for (size_t k = 0; k < 4; ++k) out += i + k > bytes.size() ? '=' : kDigits[(bits >> (18 - 6 * k)) & 63];
   }
   return out;
@@ -29,8 +28,7 @@ class GltfDocument {
   nlohmann::json json = {{"asset", {{"version", "2.0"}}}};
 
   GltfDocument() {
-    for (const char* key : {"buffers", "bufferViews", "accessors", "meshes", "nodes"})
-      json[key] = nlohmann::json::array();
+    for (const char* key : {"buffers", "bufferViews", "accessors", "meshes", "nodes"}) json[key] = nlohmann::json::array();
     json["buffers"].push_back({{"byteLength", 0}});
   }
 
@@ -39,18 +37,15 @@ class GltfDocument {
     const size_t offset = (bytes_.size() + 3) / 4 * 4;
     bytes_.resize(offset + values.size() * sizeof(T));
     if (!values.empty()) std::memcpy(bytes_.data() + offset, values.data(), values.size() * sizeof(T));
-    json["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", values.size() * sizeof(T)}});
+    json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", values.size() * sizeof(T)}});
     return json["bufferViews"].size() - 1;
   }
   template <class T>
   size_t AddAccessor(const std::vector<T>& values, int component_type, const std::string& type) {
     const size_t components = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : static_cast<size_t>(type[3] - '0');
     const size_t view = AddView(values);
-    json["accessors"].push_back({{"bufferView", view},
-                                 {"componentType", component_type},
-                                 {"count", values.size() / components},
-                                 {"type", type}});
+    json["accessors"].push_back(
+        {{"bufferView", view}, {"componentType", component_type}, {"count", values.size() / components}, {"type", type}});
     return json["accessors"].size() - 1;
   }
   /// The usual test shape: a right triangle in the plane z = 0 of G, facing +Z, as mesh 0 at node 0.
@@ -58,9 +53,7 @@ class GltfDocument {
     GltfDocument doc;
     const size_t positions = doc.AddAccessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, 5126, "VEC3");
     const size_t indices = doc.AddAccessor<uint16_t>({0, 1, 2}, 5123, "SCALAR");
-    doc.json["meshes"].push_back(
-        {{"name", "tri"},
-         {"primitives", {{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}}}});
+    doc.json["meshes"].push_back({{"name", "tri"}, {"primitives", {{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}}}});
     doc.json["nodes"].push_back({{"mesh", 0}, {"name", "node"}});
     return doc;
   }

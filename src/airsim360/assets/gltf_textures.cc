@@ -8,9 +8,7 @@
 namespace airsim360::internal {
 namespace {
 
-Wrap ToWrap(uint64_t code) {
-  return code == 33071 ? Wrap::kClamp : code == 33648 ? Wrap::kMirror : Wrap::kRepeat;
-}
+Wrap ToWrap(uint64_t code) { return code == 33071 ? Wrap::kClamp : code == 33648 ? Wrap::kMirror : Wrap::kRepeat; }
 
 }  // namespace
 
@@ -19,9 +17,7 @@ std::optional<JsonRef> GltfExtension(const JsonRef& json, const char* name) {
   return extensions ? extensions->Find(name) : std::nullopt;
 }
 
-bool UvUse::IsIdentity() const {
-  return offset[0] == 0 && offset[1] == 0 && scale[0] == 1 && scale[1] == 1 && rotation == 0;
-}
+bool UvUse::IsIdentity() const { return offset[0] == 0 && offset[1] == 0 && scale[0] == 1 && scale[1] == 1 && rotation == 0; }
 
 Vec2f UvUse::operator()(Vec2f uv) const {
   const double u = uv.x * scale[0];

@@ -32,8 +32,8 @@ namespace fs = std::filesystem;
 // What a reader made of a file.
 struct ReadModel {
   ImportedFile file;
-  std::string up = "y";   // axis of the file that the reader turned to +Z
-  bool metres = false;    // the format itself says what a unit is
+  std::string up = "y";  // axis of the file that the reader turned to +Z
+  bool metres = false;   // the format itself says what a unit is
 };
 
 ReadModel ReadByExtension(const fs::path& path, const std::string& extension) {
@@ -90,8 +90,8 @@ LabelRules FindRules(const fs::path& file, const ImportOptions& options) {
 
 // What the file is about: its name, or its folder's where the file is just called "model".
 std::string TitleOf(const fs::path& file) {
-  static const std::array<std::string, 9> kGeneric = {"model",    "scene", "mesh",   "object",
-                                                      "untitled", "index", "export", "source", "tileset"};
+  static const std::array<std::string, 9> kGeneric = {"model", "scene",  "mesh",   "object", "untitled",
+                                                      "index", "export", "source", "tileset"};
   const std::string stem = file.stem().string();
   const bool generic = std::find(kGeneric.begin(), kGeneric.end(), stem) != kGeneric.end();
   return CleanName(generic ? fs::absolute(file).parent_path().filename().string() : stem);
@@ -100,10 +100,10 @@ std::string TitleOf(const fs::path& file) {
 // Longest sides of kinds of things, metres, by the nearest path above.
 double UsualSize(std::string path) {
   static const std::map<std::string, double> kUsual = {
-      {"vehicle/car", 4.5},     {"vehicle/van", 5},      {"vehicle/bus", 11},           {"vehicle/truck", 8},
-      {"vehicle/bicycle", 1.8}, {"human/person", 1.75},  {"vegetation/tree", 9},        {"construction/house", 12},
+      {"vehicle/car", 4.5},          {"vehicle/van", 5},         {"vehicle/bus", 11},        {"vehicle/truck", 8},
+      {"vehicle/bicycle", 1.8},      {"human/person", 1.75},     {"vegetation/tree", 9},     {"construction/house", 12},
       {"construction/building", 25}, {"construction/door", 2.1}, {"furniture/seating", 1.1}, {"furniture/sofa", 2},
-      {"furniture/table", 1.5}, {"furniture/desk", 1.5}, {"furniture/bed", 2},          {"furniture/seating/bench", 1.7}};
+      {"furniture/table", 1.5},      {"furniture/desk", 1.5},    {"furniture/bed", 2},       {"furniture/seating/bench", 1.7}};
   for (;;) {
     if (const auto it = kUsual.find(path); it != kUsual.end()) return it->second;
     const size_t slash = path.rfind('/');
@@ -114,9 +114,7 @@ double UsualSize(std::string path) {
 
 // Says aloud what units a file is likely in, where they are not metres.
 void TellUnits(const Scene& scene, const std::string& file) {
-  const auto longest = [](const Box3f& box) {
-    return static_cast<double>(std::max({box.size().x, box.size().y, box.size().z}));
-  };
+  const auto longest = [](const Box3f& box) { return static_cast<double>(std::max({box.size().x, box.size().y, box.size().z})); };
   std::vector<KnownSize> sizes;
   for (const Entity& entity : scene.entities) {
     const std::string& path = scene.tree[entity.category].path;
@@ -143,8 +141,7 @@ std::shared_ptr<const Scene> ImportScene(const std::filesystem::path& file, cons
 Model ImportModel(const std::filesystem::path& file) {
   internal::ImportedFile imported = internal::ReadModelFile(file, {}).file;
   const std::string copyright = imported.copyright;
-  Model model = internal::MergeNodes(std::move(imported), internal::TitleOf(file),
-                                     internal::ImportLimits().max_triangles);
+  Model model = internal::MergeNodes(std::move(imported), internal::TitleOf(file), internal::ImportLimits().max_triangles);
   if (model.mesh.triangles.empty()) throw InputError(file.string() + ": has no triangles");
   internal::StandOnGround(model);
   model.attribution = copyright;

@@ -26,8 +26,7 @@ struct ImportOptions {
 /// where the placement asks for one. Every node with a mesh (glTF) or object/group (OBJ) is an entity; its category comes from the label
 /// file, else from keywords in the node, mesh, parents', material and file names, else "object". Sets a
 /// viewpoint. InputError if there is nothing to see.
-std::shared_ptr<const Scene> ImportScene(const std::filesystem::path& file,
-                                         const ImportOptions& options = {});
+std::shared_ptr<const Scene> ImportScene(const std::filesystem::path& file, const ImportOptions& options = {});
 
 /// The scene with the categories and names that a label file gives its entities by their names: for worlds that
 /// are not imported models. Patterns are held against the whole name ('/' is a character like any other);
@@ -37,8 +36,8 @@ std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, cons
 
 /// Categories of entities that differ from those of their scene.
 struct EntityLabels {
-  SemanticTree tree;                      ///< with paths of its own
-  std::vector<CategoryId> of_entity;      ///< by id; kVoid = as in the scene
+  SemanticTree tree;                  ///< with paths of its own
+  std::vector<CategoryId> of_entity;  ///< by id; kVoid = as in the scene
   CategoryId Of(EntityId entity, CategoryId otherwise) const {
     return entity < of_entity.size() && of_entity[entity] != kVoid ? of_entity[entity] : otherwise;
   }

@@ -46,8 +46,7 @@ double TotalArea(const Scene& scene) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     for (Vec3u t : mesh.triangles) {
       const Vec3f a = instance.X_WM * mesh.positions[t.x];
-      area +=
-          0.5 * Norm(Cross(instance.X_WM * mesh.positions[t.y] - a, instance.X_WM * mesh.positions[t.z] - a));
+      area += 0.5 * Norm(Cross(instance.X_WM * mesh.positions[t.y] - a, instance.X_WM * mesh.positions[t.z] - a));
     }
   }
   return area;
@@ -74,14 +73,13 @@ TEST_F(ImportTest, GltfAndObjOfOneShapeGiveTheSameScene) {
 TEST_F(ImportTest, FilesOutsideTheFolderAreRefused) {
   WriteFileAtomically(folder_ / "secret.bin", std::string(100, 'x'));
   fs::create_symlink(folder_ / "secret.bin", folder_ / "inside/link.bin");
-  for (const char* uri : {"../secret.bin", "/etc/passwd", "a/../../secret.bin", "%2e%2e/secret.bin",
-                          "file:///etc/passwd", "C:/x.bin", "link.bin"}) {
+  for (const char* uri :
+       {"../secret.bin", "/etc/passwd", "a/../../secret.bin", "%2e%2e/secret.bin", "file:///etc/passwd", "C:/x.bin", "link.bin"}) {
     GltfDocument doc = GltfDocument::Triangle();
     doc.json["buffers"][0] = {{"uri", uri}, {"byteLength", 42}};
     EXPECT_TRUE(Contains(ErrorOf(Write("inside/m.gltf", doc.json.dump())), {"m.gltf: refers to"})) << uri;
   }
-  EXPECT_TRUE(
-      Contains(ErrorOf(Write("inside/m.obj", "mtllib ../secret.bin\n")), {"leaves the model's folder"}));
+  EXPECT_TRUE(Contains(ErrorOf(Write("inside/m.obj", "mtllib ../secret.bin\n")), {"leaves the model's folder"}));
 }
 
 TEST_F(ImportTest, RulesBesideTheModelAreFound) {
@@ -117,8 +115,7 @@ TEST_F(ImportTest, PlacementsBeyondAllBoundsAreErrors) {
 std::vector<fs::path> ModelsBelow(const fs::path& folder, std::initializer_list<std::string> endings) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (std::find(endings.begin(), endings.end(), entry.path().extension()) != endings.end())
-      files.push_back(entry.path());
+    if (std::find(endings.begin(), endings.end(), entry.path().extension()) != endings.end()) files.push_back(entry.path());
   }
   return files;
 }
@@ -140,8 +137,7 @@ TEST(RealFiles, AssimpsGltfModelsLoadOrSayWhyNot) {
   for (const fs::path& file : ModelsBelow(folder, {".gltf", ".glb"})) {
     const std::string name = file.string();
     bool malformed = false;
-    for (const char* part : {"SchemaFailures", "wrongTypes", "IndexOutOfRange", "RecursiveNodes",
-                             "MissingBin", "BoxWithInfinites"}) {
+    for (const char* part : {"SchemaFailures", "wrongTypes", "IndexOutOfRange", "RecursiveNodes", "MissingBin", "BoxWithInfinites"}) {
       malformed = malformed || name.find(part) != std::string::npos;
     }
     try {
@@ -150,9 +146,7 @@ TEST(RealFiles, AssimpsGltfModelsLoadOrSayWhyNot) {
       ++loaded;
     } catch (const InputError& error) {
       // Files of points, lines or nothing have nothing to show.
-      EXPECT_TRUE(malformed || Contains(error.what(), {"no triangles"}) ||
-                  Contains(error.what(), {"0 scenes"}))
-          << error.what();
+      EXPECT_TRUE(malformed || Contains(error.what(), {"no triangles"}) || Contains(error.what(), {"0 scenes"})) << error.what();
     }
   }
   EXPECT_GE(loaded, 20);

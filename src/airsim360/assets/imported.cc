@@ -72,9 +72,7 @@ std::string Quoted(std::string_view raw) { return std::string("'").append(CleanN
 ResourceLoader FolderLoader(const std::string& model_name, const fs::path& folder) {
   return [=](const std::string& name) -> std::optional<Bytes> {
     // The name itself must be relative and plain.
-    const auto refuse = [&](const char* why) {
-      throw InputError(model_name + ": refers to " + Quoted(name) + ": " + why);
-    };
+    const auto refuse = [&](const char* why) { throw InputError(model_name + ": refers to " + Quoted(name) + ": " + why); };
     if (name.empty()) refuse("an empty file name");
     if (name.find('\0') != std::string::npos) refuse("a file name with a zero byte");
     if (name.find("://") != std::string::npos) refuse("only files beside the model are read, no addresses");

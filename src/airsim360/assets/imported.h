@@ -27,9 +27,9 @@ struct ImportedNode {
   std::string category = {};  ///< path; "" = not said
   uint64_t entity = 0;        ///< nodes with the same number and `copy` are one entity; 0 = not said
   uint64_t copy = 0;          ///< 0 = the node that was written; else of the copies made of it since
-  uint64_t number = 0;    ///< place among the world's instances; 0 = not said
+  uint64_t number = 0;        ///< place among the world's instances; 0 = not said
   Vec3f tint{1, 1, 1}, glow{1, 1, 1};
-  Vec3d p_exact = {};     ///< X_WM.p as glTF files have it, in double precision; zero = there is no more to it
+  Vec3d p_exact = {};  ///< X_WM.p as glTF files have it, in double precision; zero = there is no more to it
 };
 
 /// What a file written by `world export` says of the world beside its surfaces.

@@ -111,8 +111,9 @@ std::optional<Image<Rgba8>> DecodeKtx2(std::span<const std::byte> bytes, const s
   if (scheme == 0 && (rgb || rgba)) return DecodePlain(file, level, w, h, rgb ? 3 : 4);
   const uint64_t model = file.Number(file.U32(48) + uint64_t{12}, 1);
   if (vulkan_format == 0 && scheme == kBasisLz && model == kModelEtc1s) return DecodeBasisLz(file, where, level, w, h);
-  unread = model == kModelUastc ? "a KTX2 picture in UASTC"
-                                : "a KTX2 picture of Vulkan format " + std::to_string(vulkan_format) + ", supercompression " + std::to_string(scheme);
+  unread = model == kModelUastc
+               ? "a KTX2 picture in UASTC"
+               : "a KTX2 picture of Vulkan format " + std::to_string(vulkan_format) + ", supercompression " + std::to_string(scheme);
   return std::nullopt;
 }
 

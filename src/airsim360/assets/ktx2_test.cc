@@ -225,9 +225,9 @@ std::string Ktx2(const Picture& p, const std::string& color, const std::string& 
   const std::string endpoints = Codebooks(p, selectors, tables);
   std::string descriptor = Number(60, 4) + Number(0, 4) + Number(56u << 16 | 2, 4) + Number(163, 1) + std::string(15, '\0');
   for (uint32_t k : {0u, channel}) descriptor += Number(0, 3) + Number(k, 1) + std::string(12, '\0');
-  std::string global = Number(p.endpoints.size(), 2) + Number(p.selectors.size(), 2) + Number(endpoints.size(), 4) + Number(selectors.size(), 4) +
-                       Number(tables.size(), 4) + Number(0, 4) + Number(0, 4) + Number(0, 4) + Number(color.size(), 4) + Number(color.size(), 4) +
-                       Number(second.size(), 4) + endpoints + selectors + tables;
+  std::string global = Number(p.endpoints.size(), 2) + Number(p.selectors.size(), 2) + Number(endpoints.size(), 4) +
+                       Number(selectors.size(), 4) + Number(tables.size(), 4) + Number(0, 4) + Number(0, 4) + Number(0, 4) +
+                       Number(color.size(), 4) + Number(color.size(), 4) + Number(second.size(), 4) + endpoints + selectors + tables;
   const uint64_t at = 104, sgd = at + descriptor.size(), level = sgd + global.size();
   std::string out("\xabKTX 20\xbb\r\n\x1a\n", 12);
   for (uint32_t v : {0u, 1u, static_cast<uint32_t>(p.width), static_cast<uint32_t>(p.height), 0u, 0u, 1u, 1u, 1u}) out += Number(v, 4);

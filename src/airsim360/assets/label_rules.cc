@@ -13,8 +13,7 @@ namespace {
 constexpr size_t kMaxRules = 10000;
 
 [[noreturn]] void Fail(const std::string& file, const YAML::Mark& mark, const std::string& what) {
-  throw InputError(file + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1) + ": " +
-                   what);
+  throw InputError(file + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1) + ": " + what);
 }
 
 // The scalar text of a value, never empty.
@@ -25,15 +24,14 @@ std::string Text(const std::string& file, const std::string& key, const YAML::No
 
 bool Flag(const std::string& file, const std::string& key, const YAML::Node& node) {
   const std::string text = Text(file, key, node);
-  if (text != "true" && text != "false")
-    Fail(file, node.Mark(), key + ": " + Quoted(text) + " is neither true nor false");
+  if (text != "true" && text != "false") Fail(file, node.Mark(), key + ": " + Quoted(text) + " is neither true nor false");
   return text == "true";
 }
 
 // Calls visit(key, value) for each member of a mapping; keys must be among `choices`.
 template <size_t N, class Visit>
-void VisitMapping(const std::string& file, const YAML::Node& node, const std::array<std::string, N>& choices,
-                  const char* what, Visit visit) {
+void VisitMapping(const std::string& file, const YAML::Node& node, const std::array<std::string, N>& choices, const char* what,
+                  Visit visit) {
   if (!node.IsMap()) Fail(file, node.Mark(), std::string(what) + ": a mapping of keys to values expected");
   for (const auto& member : node) {
     const std::string key = Text(file, "key", member.first);
@@ -91,8 +89,7 @@ LabelRules ParseDocument(const std::string& file, const YAML::Node& root) {
     }
     if (key != "rules" || value.IsNull()) return;
     if (!value.IsSequence()) Fail(file, value.Mark(), "rules: a list expected");
-    if (value.size() > kMaxRules)
-      Fail(file, value.Mark(), "rules: at most " + std::to_string(kMaxRules) + " allowed");
+    if (value.size() > kMaxRules) Fail(file, value.Mark(), "rules: at most " + std::to_string(kMaxRules) + " allowed");
     for (const auto& rule : value) out.rules.push_back(ParseRule(file, rule));
   });
   return out;

@@ -12,11 +12,10 @@ namespace airsim360::internal {
 
 /// One rule: what matches gets this label.
 struct LabelRule {
-  std::vector<std::string>
-      match;             ///< globs: one for any name, two for node/mesh, three for node/mesh/material
-  std::string category;  ///< "" = keep what the keywords say
-  std::string name;      ///< of the entity; "" = the node's own
-  bool merge = false;    ///< everything that matches is one entity
+  std::vector<std::string> match;  ///< globs: one for any name, two for node/mesh, three for node/mesh/material
+  std::string category;            ///< "" = keep what the keywords say
+  std::string name;                ///< of the entity; "" = the node's own
+  bool merge = false;              ///< everything that matches is one entity
   int line = 0;
 };
 

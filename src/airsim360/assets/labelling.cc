@@ -20,8 +20,7 @@ class Keywords {
     for (size_t i = 0; i < file.nodes.size(); ++i) {
       const ImportedNode& node = file.nodes[i];
       nodes_[i] = Lookup(node.name, NameKind::kNode);
-      if (!nodes_[i] && node.mesh >= 0)
-        nodes_[i] = Lookup(file.meshes[static_cast<size_t>(node.mesh)].name, NameKind::kNode);
+      if (!nodes_[i] && node.mesh >= 0) nodes_[i] = Lookup(file.meshes[static_cast<size_t>(node.mesh)].name, NameKind::kNode);
       if (nodes_[i] && !nodes_[i]->part) ++found[nodes_[i]->category];
       if (nodes_[i] && nodes_[i]->part && nodes_[i]->category == kVehicle) ++vehicle_parts_;
 
@@ -83,8 +82,7 @@ class Keywords {
 
   static bool CanNameAFile(std::string_view category) {
     const std::string_view root = RootOf(category);
-    return category != "furniture/box" && root != "ground" && root != "water" && root != "nature" &&
-           root != "sky";
+    return category != "furniture/box" && root != "ground" && root != "water" && root != "nature" && root != "sky";
   }
 
   // One mesh for many things: materials that name grounds, plants, waters or buildings each make one; the
@@ -95,20 +93,18 @@ class Keywords {
     for (size_t i = 0; i < mesh.parts.size(); ++i) {
       const auto& match = materials_[mesh.parts[i].material];
       if (!match) continue;
-      const std::string_view category =
-          match->part ? CategoryOfPart(match->category, owner) : match->category;
+      const std::string_view category = match->part ? CategoryOfPart(match->category, owner) : match->category;
       labels[i] = category;
       triangles[category] += mesh.parts[i].triangle_count;
     }
     std::string_view fallback = owner;
-    const auto largest = std::max_element(triangles.begin(), triangles.end(),
-                                          [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto largest =
+        std::max_element(triangles.begin(), triangles.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     if (fallback.empty() && largest != triangles.end()) fallback = largest->first;
 
     const auto splits = [](std::string_view category) {
       const std::string_view root = RootOf(category);
-      return root == "ground" || root == "vegetation" || root == "water" || root == "nature" ||
-             root == "construction";
+      return root == "ground" || root == "vegetation" || root == "water" || root == "nature" || root == "construction";
     };
     for (std::string& label : labels) {
       const bool keep = !label.empty() && (owner.empty() || RootOf(label) == RootOf(owner)) && splits(label);
@@ -125,8 +121,7 @@ class Keywords {
   int vehicle_parts_ = 0;
 };
 
-int FindRule(const LabelRules& rules, std::string_view node, std::string_view mesh,
-             std::string_view material) {
+int FindRule(const LabelRules& rules, std::string_view node, std::string_view mesh, std::string_view material) {
   for (size_t i = 0; i < rules.rules.size(); ++i) {
     if (Matches(rules.rules[i], node, mesh, material)) return static_cast<int>(i);
   }
@@ -135,8 +130,7 @@ int FindRule(const LabelRules& rules, std::string_view node, std::string_view me
 
 }  // namespace
 
-std::vector<std::string> UnusedRules(const ImportedFile& file, const LabelRules& rules,
-                                     const std::vector<std::vector<PartLabel>>& labels) {
+std::vector<std::string> UnusedRules(const ImportedFile& file, const LabelRules& rules, const std::vector<std::vector<PartLabel>>& labels) {
   std::vector<bool> used(rules.rules.size());
   for (const auto& parts : labels) {
     for (const PartLabel& label : parts) {
@@ -158,8 +152,7 @@ std::vector<std::string> UnusedRules(const ImportedFile& file, const LabelRules&
   return warnings.Take();
 }
 
-std::vector<std::vector<PartLabel>> LabelNodes(const ImportedFile& file, const LabelRules& rules,
-                                               const std::string& title) {
+std::vector<std::vector<PartLabel>> LabelNodes(const ImportedFile& file, const LabelRules& rules, const std::string& title) {
   const std::string otherwise = rules.otherwise.empty() ? "object" : rules.otherwise;
   Keywords keywords(file, title);
   std::vector<std::vector<PartLabel>> out(file.nodes.size());
@@ -172,8 +165,7 @@ std::vector<std::vector<PartLabel>> LabelNodes(const ImportedFile& file, const L
       // A rule wins, then what the file itself says, then the keywords.
       PartLabel label{categories[k].empty() ? otherwise : categories[k], -1};
       if (!file.nodes[i].category.empty()) label.category = file.nodes[i].category;
-      label.rule =
-          FindRule(rules, file.nodes[i].name, mesh.name, file.materials[mesh.parts[k].material].name);
+      label.rule = FindRule(rules, file.nodes[i].name, mesh.name, file.materials[mesh.parts[k].material].name);
       if (label.rule >= 0 && !rules.rules[static_cast<size_t>(label.rule)].category.empty()) {
         label.category = rules.rules[static_cast<size_t>(label.rule)].category;
       }

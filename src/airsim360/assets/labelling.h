@@ -19,11 +19,9 @@ struct PartLabel {
 /// For each node (by index) the labels of its mesh's parts; empty for nodes without a mesh. `title` is what
 /// the file is called: it labels what has no telling name of its own, as long as it does not contradict the
 /// rest.
-std::vector<std::vector<PartLabel>> LabelNodes(const ImportedFile& file, const LabelRules& rules,
-                                               const std::string& title);
+std::vector<std::vector<PartLabel>> LabelNodes(const ImportedFile& file, const LabelRules& rules, const std::string& title);
 
 /// A warning for each rule that none of these labels comes from (the first 20).
-std::vector<std::string> UnusedRules(const ImportedFile& file, const LabelRules& rules,
-                                     const std::vector<std::vector<PartLabel>>& labels);
+std::vector<std::string> UnusedRules(const ImportedFile& file, const LabelRules& rules, const std::vector<std::vector<PartLabel>>& labels);
 
 }  // namespace airsim360::internal

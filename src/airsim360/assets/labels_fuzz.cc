@@ -13,8 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static_cast<void>(FindKeyword(text));
   try {
     const LabelRules rules = ParseLabelRules("fuzz", text);
-    for (const LabelRule& rule : rules.rules)
-      static_cast<void>(Matches(rule, "some node", "a mesh", "and material"));
+    for (const LabelRule& rule : rules.rules) static_cast<void>(Matches(rule, "some node", "a mesh", "and material"));
   } catch (const InputError&) {
   }
   return 0;

@@ -16,8 +16,7 @@ namespace {
 TEST(Words, NamesSplitAtCaseDigitsAndMarks) {
   EXPECT_EQ(SplitWords("streetLamps_03.Left"), (std::vector<std::string>{"street", "lamp", "left"}));
   EXPECT_EQ(SplitWords("HTMLTree"), (std::vector<std::string>{"html", "tree"}));
-  EXPECT_EQ(SplitWords("Leaves buses glass benches"),
-            (std::vector<std::string>{"leaf", "bus", "glass", "bench"}));
+  EXPECT_EQ(SplitWords("Leaves buses glass benches"), (std::vector<std::string>{"leaf", "bus", "glass", "bench"}));
 }
 
 std::string CategoryOf(const std::string& name) {
@@ -43,9 +42,7 @@ TEST(Keywords, NamesFindTheirCategory) {
 TEST(Keywords, OfNamesOfPublicModelsNoneIsToldWronglyAndFewAreMissed) {
   std::vector<std::string> wrong, missed;
   for (const LabelledName& labelled : kLabelledNames) {
-    const NameKind kind = labelled.kind == 'm'   ? NameKind::kMaterial
-                          : labelled.kind == 'f' ? NameKind::kFile
-                                                 : NameKind::kNode;
+    const NameKind kind = labelled.kind == 'm' ? NameKind::kMaterial : labelled.kind == 'f' ? NameKind::kFile : NameKind::kNode;
     const auto match = FindKeyword(labelled.name, kind);
     const std::string told = match ? std::string(match->category) : "", is = labelled.is;
     bool right = told.empty() && is.empty();
@@ -62,8 +59,7 @@ TEST(Keywords, OfNamesOfPublicModelsNoneIsToldWronglyAndFewAreMissed) {
 
 TEST(Keywords, AllLeadToWellFormedCategories) {
   SemanticTree tree;
-  for (const char* name : {"car", "well", "helicopter", "windmill", "wheel", "door", "leaf", "street light",
-                           "traffic light", "person"}) {
+  for (const char* name : {"car", "well", "helicopter", "windmill", "wheel", "door", "leaf", "street light", "traffic light", "person"}) {
     const auto match = FindKeyword(name);
     ASSERT_TRUE(match) << name;
     EXPECT_NO_THROW(tree.At(match->category)) << name;
@@ -93,8 +89,7 @@ ImportedFile MakeFile(const std::vector<TestNode>& nodes) {
       for (const std::string& material : node.materials) {
         const auto base = static_cast<uint32_t>(mesh.positions.size());
         mesh.positions.insert(mesh.positions.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-        mesh.parts.push_back({static_cast<uint32_t>(mesh.triangles.size()), 1,
-                              static_cast<MaterialId>(file.materials.size()), kNoEntity});
+        mesh.parts.push_back({static_cast<uint32_t>(mesh.triangles.size()), 1, static_cast<MaterialId>(file.materials.size()), kNoEntity});
         mesh.triangles.push_back({base, base + 1, base + 2});
         file.materials.emplace_back().name = material;
       }
@@ -107,29 +102,24 @@ ImportedFile MakeFile(const std::vector<TestNode>& nodes) {
   return file;
 }
 
-std::vector<std::string> Paths(const std::vector<TestNode>& nodes, const std::string& rules = "",
-                               const std::string& title = "file") {
+std::vector<std::string> Paths(const std::vector<TestNode>& nodes, const std::string& rules = "", const std::string& title = "file") {
   const auto scene = AssembleScene(MakeFile(nodes), ParseLabelRules("r.yaml", rules), title, "file.glb");
   std::vector<std::string> paths;
-  for (const Entity& entity : scene->entities)
-    paths.push_back(entity.name + ": " + scene->tree[entity.category].path);
+  for (const Entity& entity : scene->entities) paths.push_back(entity.name + ": " + scene->tree[entity.category].path);
   return paths;
 }
 
 using Lines = std::vector<std::string>;
 
 TEST(Labelling, NamelessChildrenAndPartsTakeTheirAncestorsCategory) {
-  EXPECT_EQ(
-      Paths({{"Old Truck", -1, {}}, {"Cube", 0, {"m"}}, {"wheel.L", 0, {"rubber"}}, {"stone", -1, {"m"}}}),
-      (Lines{"Cube: vehicle/truck", "wheel.L: vehicle/truck", "stone: nature/rock", "sky: sky"}));
+  EXPECT_EQ(Paths({{"Old Truck", -1, {}}, {"Cube", 0, {"m"}}, {"wheel.L", 0, {"rubber"}}, {"stone", -1, {"m"}}}),
+            (Lines{"Cube: vehicle/truck", "wheel.L: vehicle/truck", "stone: nature/rock", "sky: sky"}));
 }
 
 TEST(Labelling, TheFilesNameSpeaksForNamelessNodes) {
-  EXPECT_EQ(Paths({{"", -1, {"Material.001"}}}, "", "helicopter"),
-            (Lines{"helicopter: vehicle/helicopter", "sky: sky"}));
+  EXPECT_EQ(Paths({{"", -1, {"Material.001"}}}, "", "helicopter"), (Lines{"helicopter: vehicle/helicopter", "sky: sky"}));
   EXPECT_EQ(Paths({{"Sphere", -1, {"x"}}, {"tree", -1, {"x"}}, {"bench", -1, {"x"}}}, "", "car"),
-            (Lines{"Sphere: object", "tree: vegetation/tree/broadleaf/generic",
-                   "bench: furniture/seating/bench", "sky: sky"}));
+            (Lines{"Sphere: object", "tree: vegetation/tree/broadleaf/generic", "bench: furniture/seating/bench", "sky: sky"}));
 }
 
 TEST(Labelling, AFilesNameOfAmbiguousWordsSpeaksForNothing) {
@@ -141,10 +131,13 @@ TEST(Labelling, AFilesNameOfAmbiguousWordsSpeaksForNothing) {
 
 TEST(Labelling, PartsBelongToTheKindThatMostOfTheFileIs) {
   // A car of many meshes with a seat among them: its windows are no windows of a house.
-  EXPECT_EQ(Paths({{"Lamborghini_Body", -1, {"x"}}, {"Lamborghini Doors", -1, {"x"}}, {"Seat", -1, {"x"}},
-                   {"Wheel", -1, {"x"}}, {"WindowTransparent", -1, {"x"}}}),
-            (Lines{"Lamborghini_Body: vehicle/car", "Lamborghini Doors: vehicle/car", "Seat: furniture/seating/chair",
-                   "Wheel: vehicle/car", "WindowTransparent: vehicle/car", "sky: sky"}));
+  EXPECT_EQ(Paths({{"Lamborghini_Body", -1, {"x"}},
+                   {"Lamborghini Doors", -1, {"x"}},
+                   {"Seat", -1, {"x"}},
+                   {"Wheel", -1, {"x"}},
+                   {"WindowTransparent", -1, {"x"}}}),
+            (Lines{"Lamborghini_Body: vehicle/car", "Lamborghini Doors: vehicle/car", "Seat: furniture/seating/chair", "Wheel: vehicle/car",
+                   "WindowTransparent: vehicle/car", "sky: sky"}));
   // A street: the windows are those of houses.
   EXPECT_EQ(Paths({{"car", -1, {"x"}}, {"car 2", -1, {"x"}}, {"house", -1, {"x"}}, {"Window", -1, {"x"}}}).at(3),
             "Window: construction/window");
@@ -154,8 +147,9 @@ TEST(Labelling, PartsBelongToTheKindThatMostOfTheFileIs) {
 
 TEST(Labelling, RulesThatMatchNothingAreTold) {
   testing::internal::CaptureStderr();
-  Paths({{"tree", -1, {"m"}}}, "rules:\n  - {match: 'zzz*', category: object}\n  - {match: 'tr*', category: object}\n"
-                              "  - {match: 'a/b', name: x}\n  - {match: tree, name: y}\n");
+  Paths({{"tree", -1, {"m"}}},
+        "rules:\n  - {match: 'zzz*', category: object}\n  - {match: 'tr*', category: object}\n"
+        "  - {match: 'a/b', name: x}\n  - {match: tree, name: y}\n");
   const std::string told = testing::internal::GetCapturedStderr();
   EXPECT_TRUE(Contains(told, {"r.yaml:2: rule 1 ('zzz*') matches nothing\n", "r.yaml:4: rule 3 ('a/b') matches nothing\n",
                               "r.yaml:5: rule 4 ('tree') matches nothing that an earlier rule has not matched"}));
@@ -176,8 +170,7 @@ rules:
   - match: "*"
     category: object
 )";
-  EXPECT_EQ(Paths({{"Tree_1", -1, {"m"}}, {"car", -1, {"m"}}}, rules),
-            (Lines{"palm: vegetation/tree/palm", "car: object", "sky: sky"}));
+  EXPECT_EQ(Paths({{"Tree_1", -1, {"m"}}, {"car", -1, {"m"}}}, rules), (Lines{"palm: vegetation/tree/palm", "car: object", "sky: sky"}));
 }
 
 TEST(Labelling, MergedNodesAreOneEntityAndMaterialsCanBeSplitOff) {
@@ -190,8 +183,7 @@ TEST(Labelling, MergedNodesAreOneEntityAndMaterialsCanBeSplitOff) {
 
 TEST(Labelling, NewCategoriesInheritFromTheirParents) {
   const auto scene =
-      AssembleScene(MakeFile({{"a", -1, {"m"}}}),
-                    ParseLabelRules("r", "rules: [{match: a, category: ground/road/tarmac}]"), "t", "f");
+      AssembleScene(MakeFile({{"a", -1, {"m"}}}), ParseLabelRules("r", "rules: [{match: a, category: ground/road/tarmac}]"), "t", "f");
   const Category& category = scene->tree[scene->entities[0].category];
   EXPECT_EQ(category.path, "ground/road/tarmac");
   EXPECT_FALSE(category.thing);
@@ -199,8 +191,7 @@ TEST(Labelling, NewCategoriesInheritFromTheirParents) {
 }
 
 TEST(Labelling, KeywordsCanBeTurnedOff) {
-  EXPECT_EQ(Paths({{"car", -1, {"m"}}}, "keywords: false\ndefault: furniture/misc"),
-            (Lines{"car: furniture/misc", "sky: sky"}));
+  EXPECT_EQ(Paths({{"car", -1, {"m"}}}, "keywords: false\ndefault: furniture/misc"), (Lines{"car: furniture/misc", "sky: sky"}));
 }
 
 std::string RuleError(const std::string& text) {
@@ -218,8 +209,7 @@ TEST(LabelRules, MistakesNameLineColumnAndTheNearestChoice) {
   EXPECT_TRUE(Contains(RuleError("rules:\n  - match: a\n    entity: all"), {"r.yaml:3:13", "each, merge"}));
   EXPECT_TRUE(Contains(RuleError("rules:\n  - category: object"), {"r.yaml:2:5", "no match"}));
   EXPECT_TRUE(Contains(RuleError("rules: [{match: a, category: b"), {"r.yaml:1:"}));
-  EXPECT_TRUE(Contains(RuleError("rules:\n\n  - match: car\n    category: Vehicle Car"),
-                       {"r.yaml:3", "malformed category"}));
+  EXPECT_TRUE(Contains(RuleError("rules:\n\n  - match: car\n    category: Vehicle Car"), {"r.yaml:3", "malformed category"}));
   EXPECT_TRUE(Contains(RuleError("- a\n"), {"a mapping"}));
   EXPECT_EQ(RuleError(""), "no error");
 }

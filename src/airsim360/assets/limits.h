@@ -7,9 +7,9 @@
 namespace airsim360::internal {
 
 struct ImportLimits {
-  uint64_t max_vertices = uint64_t{1} << 27;   ///< of all meshes together, also the elements of one accessor
-  uint64_t max_triangles = uint64_t{1} << 27;  ///< of all meshes together
-  uint64_t max_nodes = uint64_t{1} << 22;      ///< scene nodes, GPU instances included
+  uint64_t max_vertices = uint64_t{1} << 27;        ///< of all meshes together, also the elements of one accessor
+  uint64_t max_triangles = uint64_t{1} << 27;       ///< of all meshes together
+  uint64_t max_nodes = uint64_t{1} << 22;           ///< scene nodes, GPU instances included
   uint64_t max_texture_pixels = uint64_t{1} << 29;  ///< of all textures together
   uint64_t max_buffer_bytes = uint64_t{4} << 30;    ///< of all decoded buffers together
   int max_depth = 256;                              ///< of the node hierarchy

@@ -39,8 +39,7 @@ uint32_t AppendVertices(Mesh& to, const Mesh& from) {
 void CheckInBounds(const Mesh& mesh, const std::string& file, const std::string& node) {
   for (Vec3f p : mesh.positions) {
     // Written so that NaN fails too.
-    if (!(std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
-          std::abs(p.z) <= kMaxCoordinate)) {
+    if (!(std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate && std::abs(p.z) <= kMaxCoordinate)) {
       throw InputError(file + ": node " + Quoted(node) + ": placed beyond 1e9 m or not finite");
     }
   }
@@ -71,8 +70,7 @@ Model MergeNodes(ImportedFile file, const std::string& name, uint64_t max_triang
     if (node.mesh < 0) continue;
     Mesh mesh = file.meshes[static_cast<size_t>(node.mesh)];
     count += mesh.triangles.size();
-    if (count > max_triangles)
-      throw InputError(name + ": more than " + std::to_string(max_triangles) + " triangles as one model");
+    if (count > max_triangles) throw InputError(name + ": more than " + std::to_string(max_triangles) + " triangles as one model");
     if (mesh.normals.empty()) FillMissingNormals(mesh);
     TransformMesh(mesh, node.X_WM);
     CheckInBounds(mesh, name, node.name);

@@ -24,9 +24,9 @@ Vec3f ParseColor(std::string_view rest, const TextLines& lines) {
 
 // File name of a map statement: options ("-bm 0.5", "-s 1 1 1") come first, the name may have blanks.
 std::string ParseMap(std::string_view rest, const TextLines& lines, float* bump_scale) {
-  static const std::map<std::string_view, int> kOptions = {
-      {"-blendu", 1}, {"-blendv", 1}, {"-boost", 1}, {"-mm", 2},      {"-o", 3},    {"-s", 3}, {"-t", 3},
-      {"-texres", 1}, {"-clamp", 1},  {"-bm", 1},    {"-imfchan", 1}, {"-type", 1}, {"-cc", 1}};
+  static const std::map<std::string_view, int> kOptions = {{"-blendu", 1},  {"-blendv", 1}, {"-boost", 1},  {"-mm", 2},    {"-o", 3},
+                                                           {"-s", 3},       {"-t", 3},      {"-texres", 1}, {"-clamp", 1}, {"-bm", 1},
+                                                           {"-imfchan", 1}, {"-type", 1},   {"-cc", 1}};
   while (rest.starts_with('-')) {
     std::string_view after = rest;
     const auto option = kOptions.find(NextWord(after));
@@ -36,8 +36,7 @@ std::string ParseMap(std::string_view rest, const TextLines& lines, float* bump_
       // -o, -s and -t take one to three numbers.
       std::string_view peek = after;
       const std::string_view value = NextWord(peek);
-      const bool number =
-          !value.empty() && value.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
+      const bool number = !value.empty() && value.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
       if (vector && i > 0 && !number) break;
       if (option->first == "-bm" && bump_scale) *bump_scale = ParseFloat(value, lines);
       after = peek;

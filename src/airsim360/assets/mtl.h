@@ -34,7 +34,6 @@ std::vector<MtlMaterial> ParseMtl(const std::string& file, std::string_view text
 
 /// Metallic-roughness material with a surface kind chosen from opacity, highlight and name. Textures come
 /// from `load`.
-Material ToMaterial(const MtlMaterial& mtl, const MtlContext& context, TextureStore& textures,
-                    const ResourceLoader& load);
+Material ToMaterial(const MtlMaterial& mtl, const MtlContext& context, TextureStore& textures, const ResourceLoader& load);
 
 }  // namespace airsim360::internal

@@ -15,22 +15,17 @@ float MaxOf(Vec3f c) { return std::max({c.x, c.y, c.z}); }
 
 bool IsLeaf(const MtlMaterial& m, const MtlContext& context, const std::vector<std::string>& words,
             const std::vector<std::string>& texture_words) {
-  const auto any = [&](std::initializer_list<std::string_view> w) {
-    return HasWord(words, w) || HasWord(texture_words, w);
-  };
-  if (HasWord(words, {"trunk", "bark",    "branch", "stem",  "tronc",   "wood",   "pot", "vase",
-                      "soil",  "terra",   "ground", "stone", "granite", "gravel", "box", "rock",
-                      "metal", "plastic", "table",  "floor", "dirt",    "sand"})) {
+  const auto any = [&](std::initializer_list<std::string_view> w) { return HasWord(words, w) || HasWord(texture_words, w); };
+  if (HasWord(words, {"trunk", "bark",    "branch", "stem", "tronc", "wood",  "pot",     "vase",  "soil",  "terra", "ground",
+                      "stone", "granite", "gravel", "box",  "rock",  "metal", "plastic", "table", "floor", "dirt",  "sand"})) {
     return false;
   }
-  if (any({"leaf", "foliage", "hedge", "needle", "grass", "feuille", "feuillage", "ivy", "frond", "hoja",
-           "blatt", "palme"})) {
+  if (any({"leaf", "foliage", "hedge", "needle", "grass", "feuille", "feuillage", "ivy", "frond", "hoja", "blatt", "palme"})) {
     return true;
   }
   // In a plant, whatever is greener than grey is a leaf, and so are petals and pictures.
   const bool green = m.diffuse.y > 1.15f * m.diffuse.x && m.diffuse.y > 1.15f * m.diffuse.z;
-  return context.plant &&
-         (green || !m.map_diffuse.empty() || HasWord(words, {"flower", "petal", "blume", "blossom"}));
+  return context.plant && (green || !m.map_diffuse.empty() || HasWord(words, {"flower", "petal", "blume", "blossom"}));
 }
 
 // Metals by name, with their colour if the file leaves them dark; also mirrors and highlights without a body
@@ -38,11 +33,9 @@ bool IsLeaf(const MtlMaterial& m, const MtlContext& context, const std::vector<s
 bool MakeMetal(const MtlMaterial& m, const std::vector<std::string>& words, Material& out) {
   const bool mirror = HasWord(words, {"mirror", "espejo"});
   const bool polished = HasWord(words, {"chrome", "chromed", "crome", "inox", "polis"});
-  const bool named =
-      HasWord(words, {"metal", "metall", "metalic", "metallic", "steel", "stainless", "aluminum", "aluminium",
-                      "alu", "iron", "brass", "gold", "silver", "copper", "bronze", "zinc", "tin"});
-  const bool bare =
-      MaxOf(m.specular) >= 0.9f && MaxOf(m.diffuse) <= 0.25f && m.shininess >= 50 && m.map_diffuse.empty();
+  const bool named = HasWord(words, {"metal", "metall", "metalic", "metallic", "steel", "stainless", "aluminum", "aluminium", "alu", "iron",
+                                     "brass", "gold", "silver", "copper", "bronze", "zinc", "tin"});
+  const bool bare = MaxOf(m.specular) >= 0.9f && MaxOf(m.diffuse) <= 0.25f && m.shininess >= 50 && m.map_diffuse.empty();
   if (!mirror && !polished && !named && !bare) return false;
   if (HasWord(words, {"paint", "painted"}) || !m.map_diffuse.empty()) return false;
 
@@ -51,33 +44,27 @@ bool MakeMetal(const MtlMaterial& m, const std::vector<std::string>& words, Mate
   out.metallic = mirror || polished || bare ? 1.0f : dark ? 0.3f : 0.9f;
   if (bare || polished) out.base_color = Max(m.diffuse, m.specular * 0.7f);
   if (mirror) out.base_color = {0.9f, 0.9f, 0.9f};
-  out.roughness =
-      mirror ? 0.03f : std::clamp(out.roughness, polished ? 0.08f : 0.2f, polished ? 0.3f : 0.55f);
+  out.roughness = mirror ? 0.03f : std::clamp(out.roughness, polished ? 0.08f : 0.2f, polished ? 0.3f : 0.55f);
   return true;
 }
 
 bool IsCarPaint(const MtlMaterial& m, const MtlContext& context, const std::vector<std::string>& words) {
-  if (HasWord(words, {"carpaint", "carrosserie", "bodywork"}) ||
-      (HasWord(words, {"car"}) && HasWord(words, {"paint"})))
-    return true;
+  if (HasWord(words, {"carpaint", "carrosserie", "bodywork"}) || (HasWord(words, {"car"}) && HasWord(words, {"paint"}))) return true;
   const bool glossy = MaxOf(m.specular) >= 0.15f && m.shininess >= 35;
   return context.vehicle && glossy &&
-         !HasWord(words, {"rubber", "tire", "tyre", "wheel", "plastic", "interior", "seat", "leather",
-                          "fabric", "black", "matte", "light"});
+         !HasWord(words,
+                  {"rubber", "tire", "tyre", "wheel", "plastic", "interior", "seat", "leather", "fabric", "black", "matte", "light"});
 }
 
 // Stand-in for a picture that is missing, from the words of its name; nullopt if they say nothing.
 std::optional<Vec3f> ColorFromWords(const std::vector<std::string>& words) {
   static const std::pair<std::string_view, Vec3f> kColors[] = {
-      {"rooftile", {0.36f, 0.15f, 0.10f}}, {"tile", {0.36f, 0.15f, 0.10f}},
-      {"brick", {0.40f, 0.18f, 0.12f}},    {"wood", {0.30f, 0.19f, 0.11f}},
-      {"plank", {0.30f, 0.19f, 0.11f}},    {"bark", {0.22f, 0.16f, 0.11f}},
-      {"grass", {0.13f, 0.24f, 0.06f}},    {"leaf", {0.12f, 0.26f, 0.05f}},
-      {"stone", {0.42f, 0.40f, 0.36f}},    {"rock", {0.42f, 0.40f, 0.36f}},
-      {"concrete", {0.5f, 0.5f, 0.48f}},   {"asphalt", {0.09f, 0.09f, 0.09f}},
-      {"black", {0.03f, 0.03f, 0.03f}},    {"white", {0.8f, 0.8f, 0.8f}},
-      {"red", {0.5f, 0.05f, 0.04f}},       {"green", {0.1f, 0.35f, 0.08f}},
-      {"blue", {0.06f, 0.14f, 0.45f}},     {"yellow", {0.7f, 0.52f, 0.08f}}};
+      {"rooftile", {0.36f, 0.15f, 0.10f}}, {"tile", {0.36f, 0.15f, 0.10f}},   {"brick", {0.40f, 0.18f, 0.12f}},
+      {"wood", {0.30f, 0.19f, 0.11f}},     {"plank", {0.30f, 0.19f, 0.11f}},  {"bark", {0.22f, 0.16f, 0.11f}},
+      {"grass", {0.13f, 0.24f, 0.06f}},    {"leaf", {0.12f, 0.26f, 0.05f}},   {"stone", {0.42f, 0.40f, 0.36f}},
+      {"rock", {0.42f, 0.40f, 0.36f}},     {"concrete", {0.5f, 0.5f, 0.48f}}, {"asphalt", {0.09f, 0.09f, 0.09f}},
+      {"black", {0.03f, 0.03f, 0.03f}},    {"white", {0.8f, 0.8f, 0.8f}},     {"red", {0.5f, 0.05f, 0.04f}},
+      {"green", {0.1f, 0.35f, 0.08f}},     {"blue", {0.06f, 0.14f, 0.45f}},   {"yellow", {0.7f, 0.52f, 0.08f}}};
   for (const auto& [word, color] : kColors) {
     if (HasWord(words, {word})) return color;
   }
@@ -86,8 +73,7 @@ std::optional<Vec3f> ColorFromWords(const std::vector<std::string>& words) {
 
 }  // namespace
 
-Material ToMaterial(const MtlMaterial& m, const MtlContext& context, TextureStore& textures,
-                    const ResourceLoader& load) {
+Material ToMaterial(const MtlMaterial& m, const MtlContext& context, TextureStore& textures, const ResourceLoader& load) {
   Material out;
   out.name = m.name;
   out.base_color = m.diffuse;

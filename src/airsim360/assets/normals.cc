@@ -21,8 +21,7 @@ std::vector<uint32_t> WeldByPosition(const std::vector<Vec3f>& positions) {
   std::vector<uint32_t> order(positions.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto key = [&](uint32_t i) { return std::tie(positions[i].x, positions[i].y, positions[i].z); };
-  std::sort(order.begin(), order.end(),
-            [&](uint32_t a, uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
   std::vector<uint32_t> weld(positions.size());
   for (size_t i = 0; i < order.size(); ++i) {
     const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
@@ -62,8 +61,7 @@ Faces MakeFaces(const Mesh& mesh) {
   faces.normals.reserve(mesh.triangles.size());
   faces.angles.reserve(mesh.triangles.size() * 3);
   for (const Vec3u& t : mesh.triangles) {
-    const Vec3d p[3] = {VecCast<double>(mesh.positions[t.x]), VecCast<double>(mesh.positions[t.y]),
-                        VecCast<double>(mesh.positions[t.z])};
+    const Vec3d p[3] = {VecCast<double>(mesh.positions[t.x]), VecCast<double>(mesh.positions[t.y]), VecCast<double>(mesh.positions[t.z])};
     faces.normals.push_back(VecCast<float>(Normalized(Cross(p[1] - p[0], p[2] - p[0]))));
     for (int k = 0; k < 3; ++k) {
       const Vec3d a = p[(k + 1) % 3] - p[k];
@@ -148,8 +146,7 @@ void FillMissingNormals(Mesh& mesh, double crease_deg) {
     Vec3u& t = mesh.triangles[i];
     uint32_t corner = 3 * i;
     for (uint32_t* vertex : {&t.x, &t.y, &t.z}) {
-      if (missing[*vertex])
-        *vertex = vertex_with(*vertex, CornerNormal(fans, faces, fans.weld[*vertex], corner, cos_crease));
+      if (missing[*vertex]) *vertex = vertex_with(*vertex, CornerNormal(fans, faces, fans.weld[*vertex], corner, cos_crease));
       ++corner;
     }
   }

@@ -16,13 +16,9 @@ namespace {
 
 class ObjReader {
  public:
-  ObjReader(const std::string& file, std::string_view text, const ResourceLoader& load,
-            const ImportLimits& limits, const MtlContext& context)
-      : lines_(file, text, true),
-        load_(load),
-        limits_(limits),
-        context_(context),
-        textures_(file, limits, warnings_) {}
+  ObjReader(const std::string& file, std::string_view text, const ResourceLoader& load, const ImportLimits& limits,
+            const MtlContext& context)
+      : lines_(file, text, true), load_(load), limits_(limits), context_(context), textures_(file, limits, warnings_) {}
 
   ImportedFile Read();
 
@@ -67,8 +63,7 @@ MaterialId ObjReader::FindMaterial(const std::string& name) {
   if (!is_new) return it->second;
   const auto mtl = library_.find(name);
   if (mtl == library_.end() && !name.empty()) {
-    warnings_.Add(lines_.file() + ":" + std::to_string(lines_.line_number()) + ": material '" + name +
-                  "' is in no MTL file: plain");
+    warnings_.Add(lines_.file() + ":" + std::to_string(lines_.line_number()) + ": material '" + name + "' is in no MTL file: plain");
   }
   MtlMaterial plain;
   plain.name = name;
@@ -79,8 +74,7 @@ MaterialId ObjReader::FindMaterial(const std::string& name) {
 bool ObjReader::ReadLibrary(const std::string& name) {
   const std::optional<Bytes> bytes = load_(name);
   if (!bytes) return false;
-  for (MtlMaterial& mtl : ParseMtl(CleanName(name), AsText(*bytes)))
-    library_.try_emplace(mtl.name, std::move(mtl));
+  for (MtlMaterial& mtl : ParseMtl(CleanName(name), AsText(*bytes))) library_.try_emplace(mtl.name, std::move(mtl));
   return true;
 }
 
@@ -93,8 +87,7 @@ void ObjReader::ReadLibraries(std::string_view rest) {
   std::string_view words = all;
   for (std::string_view word = NextWord(words); !word.empty(); word = NextWord(words)) {
     if (word.size() == all.size() || !ReadLibrary(std::string(word))) {
-      warnings_.Add(where + ": material library '" + CleanName(word) +
-                    "' is missing: its materials are plain");
+      warnings_.Add(where + ": material library '" + CleanName(word) + "' is missing: its materials are plain");
     }
   }
 }
@@ -148,8 +141,8 @@ uint32_t ObjReader::ReadIndex(std::string_view digits, size_t count, const char*
 
 void ObjReader::CheckForward(const Forward& forward, size_t count) {
   if (forward.largest <= static_cast<int64_t>(count)) return;
-  throw InputError(lines_.file() + ":" + std::to_string(forward.line) + ": " + forward.what + " index " +
-                   std::to_string(forward.largest) + " of " + std::to_string(count));
+  throw InputError(lines_.file() + ":" + std::to_string(forward.line) + ": " + forward.what + " index " + std::to_string(forward.largest) +
+                   " of " + std::to_string(count));
 }
 
 ObjCorner ObjReader::ReadCorner(std::string_view word) {
@@ -158,10 +151,8 @@ ObjCorner ObjReader::ReadCorner(std::string_view word) {
   if (first == word.size()) return corner;
   word.remove_prefix(first + 1);
   const size_t second = std::min(word.find('/'), word.size());
-  if (second > 0)
-    corner.uv = ReadIndex(word.substr(0, second), geometry_.uvs.size(), "texture", &forward_uv_);
-  if (second + 1 < word.size())
-    corner.normal = ReadIndex(word.substr(second + 1), geometry_.normals.size(), "normal", &forward_normal_);
+  if (second > 0) corner.uv = ReadIndex(word.substr(0, second), geometry_.uvs.size(), "texture", &forward_uv_);
+  if (second + 1 < word.size()) corner.normal = ReadIndex(word.substr(second + 1), geometry_.normals.size(), "normal", &forward_normal_);
   return corner;
 }
 
@@ -171,13 +162,12 @@ void ObjReader::ReadFace(std::string_view rest) {
     face_.push_back(ReadCorner(word));
   }
   if (face_.size() < 3) {
-    warnings_.Add(lines_.file() + ":" + std::to_string(lines_.line_number()) + ": a face of " +
-                  std::to_string(face_.size()) + " corners is left out");
+    warnings_.Add(lines_.file() + ":" + std::to_string(lines_.line_number()) + ": a face of " + std::to_string(face_.size()) +
+                  " corners is left out");
     return;
   }
   triangles_ += face_.size() - 2;
-  if (triangles_ > limits_.max_triangles)
-    lines_.Fail("more than " + std::to_string(limits_.max_triangles) + " triangles");
+  if (triangles_ > limits_.max_triangles) lines_.Fail("more than " + std::to_string(limits_.max_triangles) + " triangles");
   geometry_.AddFace(face_, FindMaterial(material_name_));
 }
 
@@ -185,8 +175,7 @@ void ObjReader::ReadStatement(std::string_view key, std::string_view rest) {
   if (key == "v") {
     geometry_.positions.push_back(FromG(ReadPosition(rest)));
     ReadColor(rest);
-    if (geometry_.positions.size() > limits_.max_vertices)
-      lines_.Fail("more than " + std::to_string(limits_.max_vertices) + " vertices");
+    if (geometry_.positions.size() > limits_.max_vertices) lines_.Fail("more than " + std::to_string(limits_.max_vertices) + " vertices");
   } else if (key == "vn") {
     geometry_.normals.push_back(FromG(ReadPosition(rest)));
   } else if (key == "vt") {
@@ -210,8 +199,7 @@ void ObjReader::ReadStatement(std::string_view key, std::string_view rest) {
     warnings_.Add(lines_.file() + ": lines and points are left out");
   } else if (key == "curv" || key == "curv2" || key == "surf") {
     warnings_.Add(lines_.file() + ": free-form curves and surfaces are left out");
-  } else if (key.find_first_not_of("abcdefghijklmnopqrstuvwxyz_ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789") !=
-             std::string_view::npos) {
+  } else if (key.find_first_not_of("abcdefghijklmnopqrstuvwxyz_ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789") != std::string_view::npos) {
     lines_.Fail(Quoted(key) + " is not an OBJ statement");
   }
 }
@@ -229,8 +217,7 @@ ImportedFile ObjReader::Read() {
     warnings_.Add(lines_.file() + ":" + std::to_string(forward_normal_.line) + ": normal index " + std::to_string(forward_normal_.largest) +
                   " of " + std::to_string(geometry_.normals.size()) + ": normals that are not there are computed");
   if (beyond_line_ != 0) {
-    warnings_.Add(lines_.file() + ":" + std::to_string(beyond_line_) +
-                  ": vertex colours beyond 0 to 1 (here first) are clamped");
+    warnings_.Add(lines_.file() + ":" + std::to_string(beyond_line_) + ": vertex colours beyond 0 to 1 (here first) are clamped");
   }
   // Where colours are of the vertices alone, the plain grey would only darken them.
   if (!geometry_.colors.empty()) {
@@ -251,8 +238,8 @@ ImportedFile ObjReader::Read() {
 
 }  // namespace
 
-ImportedFile ReadObj(const std::string& file, std::string_view text, const ResourceLoader& load,
-                     const ImportLimits& limits, const MtlContext& context) {
+ImportedFile ReadObj(const std::string& file, std::string_view text, const ResourceLoader& load, const ImportLimits& limits,
+                     const MtlContext& context) {
   return ObjReader(file, text, load, limits, context).Read();
 }
 

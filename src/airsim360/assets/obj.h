@@ -14,7 +14,7 @@ namespace airsim360::internal {
 /// from +Y up; units are kept. Normals are generated where the file has none. Missing MTL files and textures
 /// are warnings, and the materials are then plain but keep their names. InputError naming file:line for
 /// everything damaged.
-ImportedFile ReadObj(const std::string& file, std::string_view text, const ResourceLoader& load,
-                     const ImportLimits& limits = {}, const MtlContext& context = {});
+ImportedFile ReadObj(const std::string& file, std::string_view text, const ResourceLoader& load, const ImportLimits& limits = {},
+                     const MtlContext& context = {});
 
 }  // namespace airsim360::internal

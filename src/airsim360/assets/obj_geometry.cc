@@ -33,8 +33,7 @@ void ObjGeometry::AddFace(std::span<const ObjCorner> face, MaterialId material) 
   for (Vec3u t : TriangulateFace(outline)) {
     // Triangles that repeat a vertex have no area.
     const ObjCorner abc[3] = {face[t.x], face[t.y], face[t.z]};
-    const bool degenerate = abc[0].position == abc[1].position || abc[1].position == abc[2].position ||
-                            abc[2].position == abc[0].position;
+    const bool degenerate = abc[0].position == abc[1].position || abc[1].position == abc[2].position || abc[2].position == abc[0].position;
     if (!degenerate) corners.insert(corners.end(), abc, abc + 3);
   }
 }
@@ -48,8 +47,7 @@ Mesh ObjGeometry::MakeMesh(Group& group) const {
   for (const auto& [material, corners] : group.corners) all.insert(all.end(), corners.begin(), corners.end());
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
-  const bool any_uv =
-      std::any_of(all.begin(), all.end(), [](const ObjCorner& c) { return c.uv != ObjCorner::kAbsent; });
+  const bool any_uv = std::any_of(all.begin(), all.end(), [](const ObjCorner& c) { return c.uv != ObjCorner::kAbsent; });
   for (const ObjCorner& c : all) {
     mesh.positions.push_back(positions[c.position]);
     mesh.normals.push_back(c.normal < normals.size() ? normals[c.normal] : Vec3f{});
@@ -58,13 +56,10 @@ Mesh ObjGeometry::MakeMesh(Group& group) const {
   }
 
   // One part a material.
-  const auto vertex = [&](const ObjCorner& c) {
-    return static_cast<uint32_t>(std::lower_bound(all.begin(), all.end(), c) - all.begin());
-  };
+  const auto vertex = [&](const ObjCorner& c) { return static_cast<uint32_t>(std::lower_bound(all.begin(), all.end(), c) - all.begin()); };
   for (const auto& [material, corners] : group.corners) {
     if (corners.empty()) continue;
-    mesh.parts.push_back({static_cast<uint32_t>(mesh.triangles.size()),
-                          static_cast<uint32_t>(corners.size() / 3), material, kNoEntity});
+    mesh.parts.push_back({static_cast<uint32_t>(mesh.triangles.size()), static_cast<uint32_t>(corners.size() / 3), material, kNoEntity});
     for (size_t i = 0; i < corners.size(); i += 3) {
       mesh.triangles.push_back({vertex(corners[i]), vertex(corners[i + 1]), vertex(corners[i + 2])});
     }

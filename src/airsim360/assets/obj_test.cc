@@ -52,8 +52,7 @@ TEST(Obj, PolygonsNegativeIndicesAndContinuedLinesGiveTheSameSquare) {
 }
 
 TEST(Obj, ObjectsAndGroupsBecomeNodesAndNamedOnesContinue) {
-  const ImportedFile file =
-      Read(kSquare + "o house\nf 1 2 3\ng roof\nf 1 2 4\no house\nf 2 3 4\ng\nf 1 3 4\n");
+  const ImportedFile file = Read(kSquare + "o house\nf 1 2 3\ng roof\nf 1 2 4\no house\nf 2 3 4\ng\nf 1 3 4\n");
   ASSERT_EQ(file.nodes.size(), 2u);
   EXPECT_EQ(file.nodes[0].name, "house");
   EXPECT_EQ(file.meshes[0].triangles.size(), 3u);
@@ -62,8 +61,7 @@ TEST(Obj, ObjectsAndGroupsBecomeNodesAndNamedOnesContinue) {
 }
 
 TEST(Obj, MaterialsSplitPartsAndKeepTheirNamesWithoutALibrary) {
-  const ImportedFile file =
-      Read("mtllib gone.mtl\n" + kSquare + "usemtl red paint\nf 1 2 3\nusemtl glass\nf 1 3 4\n");
+  const ImportedFile file = Read("mtllib gone.mtl\n" + kSquare + "usemtl red paint\nf 1 2 3\nusemtl glass\nf 1 3 4\n");
   EXPECT_EQ(file.meshes.at(0).parts.size(), 2u);
   EXPECT_EQ(file.materials.at(0).name, "red paint");
   ASSERT_EQ(file.warnings.size(), 3u);
@@ -71,14 +69,11 @@ TEST(Obj, MaterialsSplitPartsAndKeepTheirNamesWithoutALibrary) {
 }
 
 TEST(Mtl, SurfacesAreToldFromOpacityNameAndHighlight) {
-  const Files files = {
-      {"m.mtl",
-       "Ns 3\nnewmtl pane\nKd 0.5 0.5 0.5\nd 0.3\nnewmtl chrome\nKd .6 .6 .6\nKs .9 .9 .9\nNs 200\n"
-       "newmtl leaves\nKd 0.1 0.5 0.1\nnewmtl chalk\nKd 0.9 0.9 0.9\nKs 0 0 0\nNs 900\n"}};
+  const Files files = {{"m.mtl",
+                        "Ns 3\nnewmtl pane\nKd 0.5 0.5 0.5\nd 0.3\nnewmtl chrome\nKd .6 .6 .6\nKs .9 .9 .9\nNs 200\n"
+                        "newmtl leaves\nKd 0.1 0.5 0.1\nnewmtl chalk\nKd 0.9 0.9 0.9\nKs 0 0 0\nNs 900\n"}};
   const ImportedFile file = Read(
-      "mtllib m.mtl\n" + kSquare +
-          "usemtl pane\nf 1 2 3\nusemtl chrome\nf 1 3 4\nusemtl leaves\nf 1 2 4\nusemtl chalk\nf 2 3 4\n",
-      files);
+      "mtllib m.mtl\n" + kSquare + "usemtl pane\nf 1 2 3\nusemtl chrome\nf 1 3 4\nusemtl leaves\nf 1 2 4\nusemtl chalk\nf 2 3 4\n", files);
   ASSERT_EQ(file.materials.size(), 4u);
   EXPECT_EQ(file.materials[0].kind, SurfaceKind::kGlass);
   EXPECT_EQ(file.materials[1].metallic, 1);
@@ -96,8 +91,7 @@ TEST(Mtl, PicturesReplaceTheColourAndHolesMakeAMask) {
                         "picture.png\nmap_d hole.png\n"},
                        {"my picture.png", std::string(AsText(png))},
                        {"hole.png", std::string(AsText(hole))}};
-  const ImportedFile file =
-      Read("mtllib m.mtl\n" + kSquare + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n", files);
+  const ImportedFile file = Read("mtllib m.mtl\n" + kSquare + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n", files);
   EXPECT_EQ(file.materials.at(0).base_color, (Vec3f{1, 1, 1}));
   EXPECT_EQ(file.materials.at(0).alpha_mode, AlphaMode::kOpaque);
   EXPECT_EQ(file.materials.at(1).alpha_mode, AlphaMode::kMask);
@@ -106,8 +100,7 @@ TEST(Mtl, PicturesReplaceTheColourAndHolesMakeAMask) {
 
 TEST(Mtl, MissingPicturesLeaveAColourThatTheirNameTells) {
   const Files files = {{"m.mtl", "newmtl a\nKd 0.6 0.6 0.6\nmap_Kd WoodPlanks01.jpg\n"}};
-  const Vec3f wood =
-      Read("mtllib m.mtl\n" + kSquare + "usemtl a\nf 1 2 3\n", files).materials.at(0).base_color;
+  const Vec3f wood = Read("mtllib m.mtl\n" + kSquare + "usemtl a\nf 1 2 3\n", files).materials.at(0).base_color;
   EXPECT_GT(wood.x, wood.z * 1.5f);
 }
 
@@ -125,8 +118,7 @@ TEST(HostileObj, DamageNamesItsLine) {
   EXPECT_TRUE(Contains(ErrorOf(kSquare + "f 1//5000000000 2//1 3//1\n"), {"normal index 5000000000 of 0"}));
   EXPECT_TRUE(Contains(ErrorOf("\x89PNG\r\n"), {"is not an OBJ statement"}));
   EXPECT_TRUE(Contains(ErrorOf(std::string("v 0 0 0\n\0\0\0", 11)), {"zero byte"}));
-  EXPECT_TRUE(Contains(ErrorOf("mtllib m.mtl\n", {{"m.mtl", "newmtl a\nKd red\n"}}),
-                       {"m.mtl:2: 'red' is not a number"}));
+  EXPECT_TRUE(Contains(ErrorOf("mtllib m.mtl\n", {{"m.mtl", "newmtl a\nKd red\n"}}), {"m.mtl:2: 'red' is not a number"}));
 }
 
 TEST(Obj, TextureIndicesMayRunAhead) { EXPECT_EQ(ErrorOf(kSquare + "f 1/1 2/1 3/1\nvt 0 0\n"), "no error"); }
@@ -141,10 +133,9 @@ TEST(Obj, FacesOfTwoCornersAreAWarning) {
 TEST(HostileObj, TriangleLimitHolds) {
   ImportLimits limits;
   limits.max_triangles = 1;
-  EXPECT_THROW(
-      ReadObj(
-          "t", kSquare + "f 1 2 3 4\n", [](const std::string&) { return std::optional<Bytes>(); }, limits),
-      InputError);
+  EXPECT_THROW(ReadObj(
+                   "t", kSquare + "f 1 2 3 4\n", [](const std::string&) { return std::optional<Bytes>(); }, limits),
+               InputError);
 }
 
 TEST(Obj, NormalsThatAreNotThereAreComputedWithAWarning) {

@@ -55,8 +55,7 @@ void ValidatePlacement(const ModelPlacement& placement, const std::string& where
   if (!placement.up.empty() && std::find(kAxes.begin(), kAxes.end(), placement.up) == kAxes.end())
     throw InputError(where + "up: " + UnknownChoiceMessage("axis", placement.up, kAxes));
   for (double v : {placement.offset.x, placement.offset.y, placement.offset.z}) {
-    if (!(std::abs(v) <= ModelPlacement::kMostOffset))
-      throw InputError(where + "offset: " + Short(v) + " is not in -1e+06 … 1e+06 metres");
+    if (!(std::abs(v) <= ModelPlacement::kMostOffset)) throw InputError(where + "offset: " + Short(v) + " is not in -1e+06 … 1e+06 metres");
   }
 }
 

@@ -20,11 +20,29 @@ namespace {
 enum class Use { kNone, kX, kY, kZ, kNx, kNy, kNz, kU, kV, kRed, kGreen, kBlue };
 
 Use UseOf(const std::string& name) {
-  static const std::map<std::string, Use> kUses = {
-      {"x", Use::kX}, {"y", Use::kY}, {"z", Use::kZ}, {"nx", Use::kNx}, {"ny", Use::kNy}, {"nz", Use::kNz},
-      {"u", Use::kU}, {"v", Use::kV}, {"s", Use::kU}, {"t", Use::kV}, {"texture_u", Use::kU}, {"texture_v", Use::kV},
-      {"s0", Use::kU}, {"t0", Use::kV}, {"red", Use::kRed}, {"green", Use::kGreen}, {"blue", Use::kBlue},
-      {"r", Use::kRed}, {"g", Use::kGreen}, {"b", Use::kBlue}, {"diffuse_red", Use::kRed}, {"diffuse_green", Use::kGreen}, {"diffuse_blue", Use::kBlue}};
+  static const std::map<std::string, Use> kUses = {{"x", Use::kX},
+                                                   {"y", Use::kY},
+                                                   {"z", Use::kZ},
+                                                   {"nx", Use::kNx},
+                                                   {"ny", Use::kNy},
+                                                   {"nz", Use::kNz},
+                                                   {"u", Use::kU},
+                                                   {"v", Use::kV},
+                                                   {"s", Use::kU},
+                                                   {"t", Use::kV},
+                                                   {"texture_u", Use::kU},
+                                                   {"texture_v", Use::kV},
+                                                   {"s0", Use::kU},
+                                                   {"t0", Use::kV},
+                                                   {"red", Use::kRed},
+                                                   {"green", Use::kGreen},
+                                                   {"blue", Use::kBlue},
+                                                   {"r", Use::kRed},
+                                                   {"g", Use::kGreen},
+                                                   {"b", Use::kBlue},
+                                                   {"diffuse_red", Use::kRed},
+                                                   {"diffuse_green", Use::kGreen},
+                                                   {"diffuse_blue", Use::kBlue}};
   const auto it = kUses.find(name);
   return it == kUses.end() ? Use::kNone : it->second;
 }
@@ -40,7 +58,11 @@ float ToLinear(double srgb) { return static_cast<float>(SrgbDecode(srgb)); }
 class PlyReader {
  public:
   PlyReader(const std::string& file, std::span<const std::byte> bytes, const ResourceLoader& load, const ImportLimits& limits)
-      : file_(file), load_(load), limits_(limits), header_(ReadPlyHeader(file, AsText(bytes))), values_(file, header_, bytes),
+      : file_(file),
+        load_(load),
+        limits_(limits),
+        header_(ReadPlyHeader(file, AsText(bytes))),
+        values_(file, header_, bytes),
         textures_(file, limits, warnings_) {}
   ImportedFile Read();
 
@@ -154,7 +176,8 @@ void PlyReader::AddFace(const std::vector<double>& indices, const std::vector<do
   face_.clear();
   for (size_t k = 0; k < indices.size(); ++k) {
     if (!(indices[k] >= 0 && indices[k] < static_cast<double>(geometry_.positions.size())))
-      values_.Fail("there are only " + std::to_string(geometry_.positions.size()) + " vertices, not a number " + std::to_string(indices[k]));
+      values_.Fail("there are only " + std::to_string(geometry_.positions.size()) + " vertices, not a number " +
+                   std::to_string(indices[k]));
     const auto i = static_cast<uint32_t>(indices[k]);
     ObjCorner corner{.position = i};
     if (vertex_normals_) corner.normal = i;
@@ -185,15 +208,18 @@ void PlyReader::ReadFaces(const PlyElement& element) {
     for (const PlyProperty& property : element.properties) {
       if (property.count) {
         std::vector<double> list = ReadList(property);
-        if (property.name == "vertex_indices" || property.name == "vertex_index") indices = std::move(list);
-        else if (property.name == "texcoord") uvs = std::move(list);
+        if (property.name == "vertex_indices" || property.name == "vertex_index")
+          indices = std::move(list);
+        else if (property.name == "texcoord")
+          uvs = std::move(list);
         continue;
       }
       const double value = values_.Next(property.type);
       const Use use = UseOf(property.name);
       if (property.name == "texnumber") texture = value >= 0 && value < 256 ? static_cast<int>(value) : -1;
       if (use < Use::kRed) continue;
-      color[static_cast<size_t>(use) - static_cast<size_t>(Use::kRed)] = static_cast<uint8_t>(std::lround(ColorShare(value, property.type) * 255));
+      color[static_cast<size_t>(use) - static_cast<size_t>(Use::kRed)] =
+          static_cast<uint8_t>(std::lround(ColorShare(value, property.type) * 255));
       ++channels;
     }
     AddFace(indices, uvs, texture, channels == 3 ? std::optional(color) : std::nullopt);

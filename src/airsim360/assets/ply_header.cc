@@ -14,9 +14,7 @@ class HeaderReader {
   PlyHeader Read();
 
  private:
-  [[noreturn]] void Fail(const std::string& what) const {
-    throw InputError(file_ + ":" + std::to_string(header_.lines) + ": " + what);
-  }
+  [[noreturn]] void Fail(const std::string& what) const { throw InputError(file_ + ":" + std::to_string(header_.lines) + ": " + what); }
   bool NextLine();
   std::string_view Word();
   PlyType ReadType(std::string_view word) const;
@@ -49,10 +47,10 @@ std::string_view HeaderReader::Word() {
 
 PlyType HeaderReader::ReadType(std::string_view word) const {
   static constexpr std::pair<std::string_view, PlyType> kTypes[] = {
-      {"char", PlyType::kInt8},    {"int8", PlyType::kInt8},     {"uchar", PlyType::kUint8}, {"uint8", PlyType::kUint8},   {"short", PlyType::kInt16},
-      {"int16", PlyType::kInt16},  {"ushort", PlyType::kUint16}, {"uint16", PlyType::kUint16}, {"int", PlyType::kInt32},    {"int32", PlyType::kInt32},
-      {"uint", PlyType::kUint32},  {"uint32", PlyType::kUint32}, {"float", PlyType::kFloat}, {"float32", PlyType::kFloat}, {"double", PlyType::kDouble},
-      {"float64", PlyType::kDouble}};
+      {"char", PlyType::kInt8},   {"int8", PlyType::kInt8},     {"uchar", PlyType::kUint8},   {"uint8", PlyType::kUint8},
+      {"short", PlyType::kInt16}, {"int16", PlyType::kInt16},   {"ushort", PlyType::kUint16}, {"uint16", PlyType::kUint16},
+      {"int", PlyType::kInt32},   {"int32", PlyType::kInt32},   {"uint", PlyType::kUint32},   {"uint32", PlyType::kUint32},
+      {"float", PlyType::kFloat}, {"float32", PlyType::kFloat}, {"double", PlyType::kDouble}, {"float64", PlyType::kDouble}};
   for (const auto& [name, type] : kTypes) {
     if (name == word) return type;
   }

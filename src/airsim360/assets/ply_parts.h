@@ -31,7 +31,7 @@ struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;
   std::vector<std::string> textures;
-  size_t size = 0;   ///< in bytes
+  size_t size = 0;  ///< in bytes
   int64_t lines = 0;
 };
 

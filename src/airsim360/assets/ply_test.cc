@@ -29,7 +29,8 @@ std::string ErrorOf(const std::string& text) {
 /// The same model in each of the three formats: numbers are appended as their types say.
 class PlyText {
  public:
-  PlyText(std::string format, const std::string& header) : format_(std::move(format)), text_("ply\nformat " + format_ + " 1.0\n" + header + "end_header\n") {}
+  PlyText(std::string format, const std::string& header)
+      : format_(std::move(format)), text_("ply\nformat " + format_ + " 1.0\n" + header + "end_header\n") {}
   template <class T>
   PlyText& Add(T value) {
     if (format_ == "ascii") {
@@ -52,8 +53,10 @@ constexpr const char* kFormats[] = {"ascii", "binary_little_endian", "binary_big
 
 // A square with a confidence to skip and an element to skip, and a pentagon that is not convex.
 std::string Shapes(const char* format) {
-  PlyText ply(format, "comment made by hand\nelement vertex 9\nproperty float x\nproperty double y\nproperty short z\nproperty uchar confidence\n"
-                      "element face 2\nproperty list uchar int vertex_indices\nproperty ushort flags\nelement extra 2\nproperty list uint8 float32 numbers\n");
+  PlyText ply(
+      format,
+      "comment made by hand\nelement vertex 9\nproperty float x\nproperty double y\nproperty short z\nproperty uchar confidence\n"
+      "element face 2\nproperty list uchar int vertex_indices\nproperty ushort flags\nelement extra 2\nproperty list uint8 float32 numbers\n");
   const double corners[9][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {4, 0}, {4, 2}, {3, 0.5}, {2, 2}};
   for (const auto& [x, y] : corners) ply.Add(static_cast<float>(x)).Add(y).Add(int16_t{-3}).Add(uint8_t{200});
   ply.Add(uint8_t{4});
@@ -119,16 +122,18 @@ TEST(Ply, NormalsTextureCoordinatesColoursAndPicturesAreRead) {
 }
 
 TEST(Ply, TriangleStripsBeginAnewAtMinusOne) {
-  const std::string text = "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
-                           "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
-                           "0 0 0 1 0 0 0 1 0 1 1 0 5 0 0 6 0 0 5 1 0\n8 0 1 2 3 -1 4 5 6\n";
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0 1 0 0 0 1 0 1 1 0 5 0 0 6 0 0 5 1 0\n8 0 1 2 3 -1 4 5 6\n";
   const ImportedFile file = Read(text);
   EXPECT_EQ(file.meshes[0].triangles.size(), 3u);
   EXPECT_DOUBLE_EQ(Area(file.meshes[0]), 1.5);  // all turn the same way
 }
 
 TEST(Ply, DamageNamesLineOrElement) {
-  const std::string vertices = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n", faces = "element face 1\nproperty list uchar int vertex_indices\n";
+  const std::string vertices = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n",
+                    faces = "element face 1\nproperty list uchar int vertex_indices\n";
   const auto ascii = [](const std::string& rest) { return "ply\nformat ascii 1.0\n" + rest; };
   EXPECT_TRUE(Contains(ErrorOf("plx\n"), {"a.ply: not a PLY file"}));
   EXPECT_TRUE(Contains(ErrorOf("ply\nformat cube 1.0\n"), {"a.ply:2:", "'cube'"}));

@@ -25,16 +25,25 @@ double PlyValues::Next(PlyType type) {
   std::array<std::byte, 8> raw{};
   std::memcpy(raw.data(), rest_.data(), size);
   rest_ = rest_.subspan(size);
-  if ((format_ == PlyFormat::kBig) == (std::endian::native == std::endian::little)) std::reverse(raw.begin(), raw.begin() + static_cast<std::ptrdiff_t>(size));
+  if ((format_ == PlyFormat::kBig) == (std::endian::native == std::endian::little))
+    std::reverse(raw.begin(), raw.begin() + static_cast<std::ptrdiff_t>(size));
   switch (type) {
-    case PlyType::kInt8: return As<int8_t>(raw);
-    case PlyType::kUint8: return As<uint8_t>(raw);
-    case PlyType::kInt16: return As<int16_t>(raw);
-    case PlyType::kUint16: return As<uint16_t>(raw);
-    case PlyType::kInt32: return As<int32_t>(raw);
-    case PlyType::kUint32: return As<uint32_t>(raw);
-    case PlyType::kFloat: return static_cast<double>(As<float>(raw));
-    case PlyType::kDouble: return As<double>(raw);
+    case PlyType::kInt8:
+      return As<int8_t>(raw);
+    case PlyType::kUint8:
+      return As<uint8_t>(raw);
+    case PlyType::kInt16:
+      return As<int16_t>(raw);
+    case PlyType::kUint16:
+      return As<uint16_t>(raw);
+    case PlyType::kInt32:
+      return As<int32_t>(raw);
+    case PlyType::kUint32:
+      return As<uint32_t>(raw);
+    case PlyType::kFloat:
+      return static_cast<double>(As<float>(raw));
+    case PlyType::kDouble:
+      return As<double>(raw);
   }
   return 0;
 }

@@ -13,11 +13,9 @@ std::vector<Vec2d> Flatten(std::span<const Vec3f> corners) {
   const Vec3d origin = VecCast<double>(corners[0]);
   Vec3d n{};
   for (size_t i = 0; i < corners.size(); ++i) {
-    n += Cross(VecCast<double>(corners[i]) - origin,
-               VecCast<double>(corners[(i + 1) % corners.size()]) - origin);
+    n += Cross(VecCast<double>(corners[i]) - origin, VecCast<double>(corners[(i + 1) % corners.size()]) - origin);
   }
-  const int axis = std::abs(n.x) > std::abs(n.y) ? (std::abs(n.x) > std::abs(n.z) ? 0 : 2)
-                                                 : (std::abs(n.y) > std::abs(n.z) ? 1 : 2);
+  const int axis = std::abs(n.x) > std::abs(n.y) ? (std::abs(n.x) > std::abs(n.z) ? 0 : 2) : (std::abs(n.y) > std::abs(n.z) ? 1 : 2);
   const double flip = n[axis] < 0 ? -1 : 1;
   std::vector<Vec2d> flat;
   for (Vec3f corner : corners) {
@@ -39,8 +37,7 @@ bool IsEar(const std::vector<Vec2d>& flat, const std::vector<uint32_t>& rest, si
     if (other == ia || other == ib || other == ic) continue;
     const Vec2d p = flat[other];
     if (p == flat[ia] || p == flat[ib] || p == flat[ic]) continue;
-    if (Turn(flat[ia], flat[ib], p) >= 0 && Turn(flat[ib], flat[ic], p) >= 0 &&
-        Turn(flat[ic], flat[ia], p) >= 0) {
+    if (Turn(flat[ia], flat[ib], p) >= 0 && Turn(flat[ib], flat[ic], p) >= 0 && Turn(flat[ic], flat[ia], p) >= 0) {
       return false;
     }
   }

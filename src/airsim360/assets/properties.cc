@@ -14,8 +14,8 @@ void AppendUtf8(std::string& out, uint32_t code) {
   } else if (code < 0x800) {
     out += {static_cast<char>(0xc0 | (code >> 6)), static_cast<char>(0x80 | (code & 0x3f))};
   } else if (code < 0x10000) {
-    out += {static_cast<char>(0xe0 | (code >> 12)), static_cast<char>(0x80 | ((code >> 6) & 0x3f)),
-            static_cast<char>(0x80 | (code & 0x3f))};
+    out +=
+        {static_cast<char>(0xe0 | (code >> 12)), static_cast<char>(0x80 | ((code >> 6) & 0x3f)), static_cast<char>(0x80 | (code & 0x3f))};
   } else {
     out += {static_cast<char>(0xf0 | (code >> 18)), static_cast<char>(0x80 | ((code >> 12) & 0x3f)),
             static_cast<char>(0x80 | ((code >> 6) & 0x3f)), static_cast<char>(0x80 | (code & 0x3f))};
@@ -41,10 +41,7 @@ std::string Decode(std::string_view raw, const TextLines& lines) {
     uint32_t code = static_cast<unsigned char>(raw[i]);
     if (raw[i] == '\\' && i + 1 < raw.size()) {
       const char escape = raw[++i];
-      code = static_cast<unsigned char>(escape == 't'   ? '\t'
-                                        : escape == 'n' ? '\n'
-                                        : escape == 'r' ? '\r'
-                                                        : escape);
+      code = static_cast<unsigned char>(escape == 't' ? '\t' : escape == 'n' ? '\n' : escape == 'r' ? '\r' : escape);
       if (escape == 'u') {
         code = ParseUnit(raw.substr(i + 1), lines);
         i += 4;

@@ -15,8 +15,7 @@ namespace {
 
 // Index of the first pattern that matches a whole name; their number if none does.
 size_t FirstMatch(std::span<const std::string> patterns, const std::string& name) {
-  const auto found =
-      std::ranges::find_if(patterns, [&](const std::string& p) { return internal::MatchesGlob(p, name); });
+  const auto found = std::ranges::find_if(patterns, [&](const std::string& p) { return internal::MatchesGlob(p, name); });
   return static_cast<size_t>(found - patterns.begin());
 }
 
@@ -58,8 +57,7 @@ LabelCount CountLabelled(const Scene& scene, const std::filesystem::path& labels
 
 std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, const std::filesystem::path& labels) {
   if (labels.empty()) return scene;
-  const internal::LabelRules rules =
-      internal::ParseLabelRules(labels.string(), ReadTextFile(labels, uint64_t{4} << 20));
+  const internal::LabelRules rules = internal::ParseLabelRules(labels.string(), ReadTextFile(labels, uint64_t{4} << 20));
   const std::vector<std::string> patterns = PatternsOf(rules);
   auto changed = std::make_shared<Scene>(*scene);
   std::set<std::string> names;

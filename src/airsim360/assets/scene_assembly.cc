@@ -129,10 +129,8 @@ class Assembler {
     const float volume = std::abs(node.X_WM.A.determinant());
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3f p =
-          node.X_WM * Vec3f{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                            corner & 4 ? box.max.z : box.min.z};
-      if (!(std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
-            std::abs(p.z) <= kMaxCoordinate)) {
+          node.X_WM * Vec3f{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z};
+      if (!(std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate && std::abs(p.z) <= kMaxCoordinate)) {
         throw InputError(where_ + ": node " + Quoted(node.name) + ": placed beyond 1e9 m or not finite");
       }
       if (volume > 1e-30f) bounds_.Add(p);
@@ -163,8 +161,7 @@ class Assembler {
     return it == moved_.end() ? file_.meshes[mesh] : meshes_[it->second];
   }
 
-  EntityId EntityFor(const ImportedNode& node, const PartLabel& label, const std::vector<uint32_t>& parts,
-                     bool is_split) {
+  EntityId EntityFor(const ImportedNode& node, const PartLabel& label, const std::vector<uint32_t>& parts, bool is_split) {
     const LabelRule* rule = label.rule < 0 ? nullptr : &rules_.rules[static_cast<size_t>(label.rule)];
     const Mesh& mesh = MeshAt(static_cast<uint32_t>(node.mesh));
     std::string name = !node.name.empty() ? node.name : !mesh.name.empty() ? mesh.name : title_;
@@ -195,8 +192,7 @@ class Assembler {
 
     // New: like its nearest known ancestor a thing or stuff.
     bool thing = true;
-    for (size_t slash = label.category.rfind('/'); slash != std::string::npos && slash > 0;
-         slash = label.category.rfind('/', slash - 1)) {
+    for (size_t slash = label.category.rfind('/'); slash != std::string::npos && slash > 0; slash = label.category.rfind('/', slash - 1)) {
       if (const auto ancestor = tree.Find(std::string_view(label.category).substr(0, slash))) {
         thing = tree[*ancestor].thing;
         break;
@@ -205,8 +201,7 @@ class Assembler {
     try {
       return it->second = tree.Add(label.category, thing);
     } catch (const InputError& error) {
-      const int line =
-          label.rule >= 0 ? rules_.rules[static_cast<size_t>(label.rule)].line : rules_.otherwise_line;
+      const int line = label.rule >= 0 ? rules_.rules[static_cast<size_t>(label.rule)].line : rules_.otherwise_line;
       throw InputError((line > 0 ? rules_.file + ":" + std::to_string(line) : where_) + ": " + error.what());
     }
   }
@@ -229,8 +224,7 @@ class Assembler {
 
 }  // namespace
 
-std::shared_ptr<const Scene> AssembleScene(ImportedFile file, const LabelRules& rules,
-                                           const std::string& title, const std::string& where) {
+std::shared_ptr<const Scene> AssembleScene(ImportedFile file, const LabelRules& rules, const std::string& title, const std::string& where) {
   return Assembler(std::move(file), rules, title, where).Assemble();
 }
 

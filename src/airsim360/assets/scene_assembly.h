@@ -13,7 +13,6 @@ namespace airsim360::internal {
 /// Entities, instances, sky and viewpoint. `title` names the scene and what is nameless, `where` starts error
 /// messages. A node whose parts have different labels is split into an entity each. InputError if there is
 /// nothing to show or if a coordinate goes beyond 1e9 m.
-std::shared_ptr<const Scene> AssembleScene(ImportedFile file, const LabelRules& rules,
-                                           const std::string& title, const std::string& where);
+std::shared_ptr<const Scene> AssembleScene(ImportedFile file, const LabelRules& rules, const std::string& title, const std::string& where);
 
 }  // namespace airsim360::internal

@@ -30,13 +30,11 @@ ResourceLoader ZipLoader(const ZipArchive& zip, const std::string& model_path) {
 }
 
 MtlContext ContextOf(const CatalogueModel& entry) {
-  const std::vector<std::string> words =
-      SplitWords(entry.title + " " + entry.tags + " " + entry.stem + " " + entry.category);
+  const std::vector<std::string> words = SplitWords(entry.title + " " + entry.tags + " " + entry.stem + " " + entry.category);
   return {.vehicle = HasWord(words, {"vehicle"}),
           .plant = HasWord(
-              words, {"tree",  "plant",  "bush",    "hedge",      "flower", "cactus",  "bamboo", "palm",
-                      "pine",  "poplar", "maple",   "beech",      "acacia", "cypress", "ficus",  "coconut",
-                      "peach", "lily",   "palmeto", "vegetation", "ivy",    "grass"})};
+              words, {"tree",  "plant",  "bush",    "hedge", "flower",  "cactus", "bamboo", "palm",    "pine",       "poplar", "maple",
+                      "beech", "acacia", "cypress", "ficus", "coconut", "peach",  "lily",   "palmeto", "vegetation", "ivy",    "grass"})};
 }
 
 // Rotates, scales each axis to the catalogue's size and stands the model on the ground.
@@ -106,8 +104,7 @@ class SweetHomeModels : public ModelSource {
     if (!obj) throw InputError(entry.zip.string() + ": has no '" + path + "'");
     const ImportLimits limits;
     const ResourceLoader load = ZipLoader(zip, path);
-    ImportedFile file =
-        ReadObj(entry.zip.string() + "/" + path, AsText(*obj), load, limits, ContextOf(entry.model));
+    ImportedFile file = ReadObj(entry.zip.string() + "/" + path, AsText(*obj), load, limits, ContextOf(entry.model));
     Model model = MergeNodes(std::move(file), entry.model.stem, limits.max_triangles);
     if (model.mesh.triangles.empty()) throw InputError(path + ": no triangles");
     FitToCatalogue(model, entry.model);

@@ -36,8 +36,7 @@ struct Reader {
       double value = 0;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
       if (error != std::errc() || end != word.data() + word.size() || !(std::abs(value) <= 1e6)) {
-        throw InputError(file + ": " + CleanName(key) + ": '" + CleanName(word) +
-                         "' is not a number in range");
+        throw InputError(file + ": " + CleanName(key) + ": '" + CleanName(word) + "' is not a number in range");
       }
       numbers.push_back(value);
     }
@@ -58,10 +57,8 @@ std::optional<CatalogueModel> ReadModel(const Reader& reader, const std::string&
   model.creator = reader.Text("creator" + number);
   model.category = reader.Text("category" + number);
   model.tags = reader.Text("tags" + number);
-  model.size = VecCast<float>(Vec3d{reader.Metres("width" + number), reader.Metres("depth" + number),
-                                    reader.Metres("height" + number)});
-  if (model.stem.empty() || !(model.size.x > 0) || !(model.size.y > 0) || !(model.size.z > 0))
-    return std::nullopt;
+  model.size = VecCast<float>(Vec3d{reader.Metres("width" + number), reader.Metres("depth" + number), reader.Metres("height" + number)});
+  if (model.stem.empty() || !(model.size.x > 0) || !(model.size.y > 0) || !(model.size.z > 0)) return std::nullopt;
 
   // Rotation by rows.
   const std::vector<double> m = reader.Numbers("modelRotation" + number);

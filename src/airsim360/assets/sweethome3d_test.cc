@@ -12,8 +12,8 @@ namespace airsim360 {
 namespace {
 
 TEST(Properties, EscapesSeparatorsAndContinuationsFollowJava) {
-  const auto p = internal::ParseProperties(
-      "p", "# c\n! c\na=1\nb : two words \nc\\=d=\\u00e9\\u20ac\\ud83d\\ude00\ne=x\\\n   y\nf caf\xe9\n");
+  const auto p =
+      internal::ParseProperties("p", "# c\n! c\na=1\nb : two words \nc\\=d=\\u00e9\\u20ac\\ud83d\\ude00\ne=x\\\n   y\nf caf\xe9\n");
   EXPECT_EQ(p.at("a"), "1");
   EXPECT_EQ(p.at("b"), "two words");
   EXPECT_EQ(p.at("c=d"), "\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80");
@@ -31,11 +31,10 @@ TEST(Properties, DamagedEscapeNamesItsLine) {
 }
 
 TEST(Catalogue, PiecesAreReadInMetres) {
-  const auto models = internal::ParseCatalogue(
-      "c",
-      "license=Creative Commons Attribution 3.0 license\nmodel#1=/a/b/chair.obj\nwidth#1=50\n"
-      "depth#1=40\nheight#1=90.5\nname#1=Chair\ncreator#1=Me\nmodelRotation#1=0 0 1 0 1 0 -1 0 0\n"
-      "model#2=/x.obj\nwidth#2=-3\ndepth#2=1\nheight#2=1\n");
+  const auto models = internal::ParseCatalogue("c",
+                                               "license=Creative Commons Attribution 3.0 license\nmodel#1=/a/b/chair.obj\nwidth#1=50\n"
+                                               "depth#1=40\nheight#1=90.5\nname#1=Chair\ncreator#1=Me\nmodelRotation#1=0 0 1 0 1 0 -1 0 0\n"
+                                               "model#2=/x.obj\nwidth#2=-3\ndepth#2=1\nheight#2=1\n");
   ASSERT_EQ(models.size(), 1u);
   EXPECT_EQ(models[0].stem, "chair");
   EXPECT_EQ(models[0].path, "a/b/chair.obj");

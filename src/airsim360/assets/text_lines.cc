@@ -55,17 +55,14 @@ bool TextLines::Next(std::string_view& line) {
   return true;
 }
 
-void TextLines::Fail(const std::string& what) const {
-  throw InputError(file_ + ":" + std::to_string(number_) + ": " + what);
-}
+void TextLines::Fail(const std::string& what) const { throw InputError(file_ + ":" + std::to_string(number_) + ": " + what); }
 
 float ParseFloat(std::string_view word, const TextLines& where) {
   const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   // Too small for a double is as good as zero; too large is not.
-  const bool underflow = error == std::errc::result_out_of_range &&
-                         digits.find_first_of("eE") != std::string_view::npos &&
+  const bool underflow = error == std::errc::result_out_of_range && digits.find_first_of("eE") != std::string_view::npos &&
                          digits.find('-', 1) != std::string_view::npos;
   if ((error != std::errc() && !underflow) || end != digits.data() + digits.size()) {
     where.Fail(Quoted(word) + " is not a number");

@@ -21,8 +21,8 @@ bool IsReadable(const Bytes& bytes) {
 void SetAlpha(Image<Rgba8>& image, const Image<Rgba8>& mask) {
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
-      const Rgba8 m = mask(static_cast<int>(int64_t{x} * mask.width() / image.width()),
-                           static_cast<int>(int64_t{y} * mask.height() / image.height()));
+      const Rgba8 m =
+          mask(static_cast<int>(int64_t{x} * mask.width() / image.width()), static_cast<int>(int64_t{y} * mask.height() / image.height()));
       const auto brightness = static_cast<uint8_t>((m.r + m.g + m.b) / 3);
       image(x, y).a = std::min(m.a, brightness);
     }
@@ -34,8 +34,8 @@ void SetAlpha(Image<Rgba8>& image, const Image<Rgba8>& mask) {
 std::optional<Image<Rgba8>> TextureStore::Decode(const std::string& name, const ResourceLoader& load) {
   const std::optional<Bytes> bytes = load(name);
   if (!bytes || !IsReadable(*bytes)) {
-    warnings_.Add(model_ + ": texture " + Quoted(name) + " " +
-                  (bytes ? "is neither PNG, JPEG, WebP nor KTX2" : "is missing") + ": left out");
+    warnings_.Add(model_ + ": texture " + Quoted(name) + " " + (bytes ? "is neither PNG, JPEG, WebP nor KTX2" : "is missing") +
+                  ": left out");
     return std::nullopt;
   }
   const std::string where = model_ + ": texture " + Quoted(name);
@@ -49,8 +49,7 @@ std::optional<Image<Rgba8>> TextureStore::Decode(const std::string& name, const 
   Image<Rgba8>& image = *decoded;
   pixels_ += image.size();
   if (pixels_ > limits_.max_texture_pixels) {
-    throw InputError(model_ + ": textures of more than " + std::to_string(limits_.max_texture_pixels) +
-                     " pixels");
+    throw InputError(model_ + ": textures of more than " + std::to_string(limits_.max_texture_pixels) + " pixels");
   }
   return decoded;
 }
@@ -65,8 +64,7 @@ TextureId TextureStore::Get(const std::string& name, const TextureUse& use, cons
   if (!use.alpha_file.empty() && use.alpha_file != name) {
     if (const auto mask = Decode(use.alpha_file, load); mask && !mask->empty()) SetAlpha(*image, *mask);
   }
-  has_holes_.push_back(
-      std::any_of(image->pixels().begin(), image->pixels().end(), [](Rgba8 p) { return p.a < 128; }));
+  has_holes_.push_back(std::any_of(image->pixels().begin(), image->pixels().end(), [](Rgba8 p) { return p.a < 128; }));
   textures_.push_back(Texture::FromImage(CleanName(name), std::move(*image), use.srgb));
   textures_.back().wrap_u = use.wrap_u;
   textures_.back().wrap_v = use.wrap_v;

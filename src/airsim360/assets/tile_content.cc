@@ -35,9 +35,11 @@ Batched OpenBatched(const std::string& name, std::span<const std::byte> bytes) {
   if (length > bytes.size()) fail("the header says " + std::to_string(length) + " bytes, there are " + std::to_string(bytes.size()));
   uint64_t tables = 0;
   for (size_t at : {12, 16, 20, 24}) tables += LoadU32(bytes, at);
-  if (length < kHeader || tables > length - kHeader) fail("its tables are longer than the tile (headers of before 3D Tiles 1.0 are not read)");
+  if (length < kHeader || tables > length - kHeader)
+    fail("its tables are longer than the tile (headers of before 3D Tiles 1.0 are not read)");
   Batched out{bytes.subspan(kHeader + tables, length - kHeader - tables), {}};
-  const std::span<const std::byte> features = bytes.subspan(kHeader, LoadU32(bytes, 12)), binary = bytes.subspan(kHeader + features.size(), LoadU32(bytes, 16));
+  const std::span<const std::byte> features = bytes.subspan(kHeader, LoadU32(bytes, 12)),
+                                   binary = bytes.subspan(kHeader + features.size(), LoadU32(bytes, 16));
   const std::string where = name + ": feature table";
   if (features.empty()) return out;
   const nlohmann::json json = ParseJson(where, AsText(features));
@@ -57,9 +59,7 @@ Batched OpenBatched(const std::string& name, std::span<const std::byte> bytes) {
 }
 
 // The rotation that readers of glTF apply: +Y up to +Z up.
-TileTransform Undone(bool up_z) {
-  return up_z ? TileTransform{Mat3d::FromColumns({1, 0, 0}, {0, 0, -1}, {0, 1, 0}), {}} : TileTransform{};
-}
+TileTransform Undone(bool up_z) { return up_z ? TileTransform{Mat3d::FromColumns({1, 0, 0}, {0, 0, -1}, {0, 1, 0}), {}} : TileTransform{}; }
 
 void Spend(uint64_t amount, uint64_t& budget) { budget -= std::min(amount, budget); }
 
@@ -69,8 +69,8 @@ std::string FolderOf(const std::string& uri) {
   return IsDataUri(uri) ? "" : uri.substr(0, uri.find_last_of('/') == std::string::npos ? 0 : uri.find_last_of('/') + 1);
 }
 
-void TileGatherer::AddGltf(const std::string& name, const std::string& uri, std::span<const std::byte> bytes,
-                           const TileTransform& X, bool up_z) {
+void TileGatherer::AddGltf(const std::string& name, const std::string& uri, std::span<const std::byte> bytes, const TileTransform& X,
+                           bool up_z) {
   const std::string folder = FolderOf(uri);
   const ResourceLoader load = [&](const std::string& beside) { return load_(folder + beside); };
   ImportedFile tile = ReadGltf(name, bytes, load, limits_);
@@ -82,8 +82,8 @@ void TileGatherer::AddGltf(const std::string& name, const std::string& uri, std:
     out_.textures.push_back(std::move(texture));
   }
   for (Material& material : tile.materials) {
-    for (TextureId* id : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-                          &material.emission_texture}) {
+    for (TextureId* id :
+         {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture, &material.emission_texture}) {
       if (*id != kNoTexture) *id += textures;
     }
     out_.materials.push_back(std::move(material));
@@ -114,8 +114,8 @@ void TileGatherer::AddGltf(const std::string& name, const std::string& uri, std:
   for (const std::string& warning : tile.warnings) warnings_.Add(warning);
 }
 
-void TileGatherer::AddComposite(const std::string& name, const std::string& uri, std::span<const std::byte> bytes,
-                                const TileTransform& X, bool up_z, int depth) {
+void TileGatherer::AddComposite(const std::string& name, const std::string& uri, std::span<const std::byte> bytes, const TileTransform& X,
+                                bool up_z, int depth) {
   constexpr size_t kHeader = 16;
   constexpr int kDeepest = 8;
   const auto fail = [&](const std::string& what) { throw InputError(name + ": " + what); };
@@ -123,15 +123,16 @@ void TileGatherer::AddComposite(const std::string& name, const std::string& uri,
   if (bytes.size() < kHeader || LoadU32(bytes, 8) > bytes.size() || LoadU32(bytes, 8) < kHeader) fail("a composite tile cut short");
   std::span<const std::byte> rest = bytes.first(LoadU32(bytes, 8)).subspan(kHeader);
   for (uint32_t i = 0, count = LoadU32(bytes, 12); i < count; ++i) {
-    if (rest.size() < 12 || LoadU32(rest, 8) > rest.size() || LoadU32(rest, 8) < 12) fail("its tile " + std::to_string(i) + " is cut short");
+    if (rest.size() < 12 || LoadU32(rest, 8) > rest.size() || LoadU32(rest, 8) < 12)
+      fail("its tile " + std::to_string(i) + " is cut short");
     const size_t length = LoadU32(rest, 8);
     Add(name, uri, rest.first(length), X, up_z, depth + 1);
     rest = rest.subspan(length);
   }
 }
 
-void TileGatherer::Add(const std::string& name, const std::string& uri, std::span<const std::byte> bytes,
-                       const TileTransform& X, bool up_z, int depth) {
+void TileGatherer::Add(const std::string& name, const std::string& uri, std::span<const std::byte> bytes, const TileTransform& X, bool up_z,
+                       int depth) {
   const std::string_view magic = AsText(bytes).substr(0, 4);
   if (magic == "b3dm") {
     const Batched tile = OpenBatched(name, bytes);

@@ -59,13 +59,11 @@ struct OpenTile {
   double error = 0;
   bool add = false;
   int depth = 0;
-  size_t first = 0, count = 0;  // its contents among those shown
+  size_t first = 0, count = 0;      // its contents among those shown
   std::vector<std::string> within;  // tilesets that it holds
 
   size_t order = 0;
-  friend bool operator<(const OpenTile& a, const OpenTile& b) {
-    return a.error != b.error ? a.error < b.error : a.order > b.order;
-  }
+  friend bool operator<(const OpenTile& a, const OpenTile& b) { return a.error != b.error ? a.error < b.error : a.order > b.order; }
 };
 
 // Refines tiles from the coarsest on.
@@ -90,13 +88,15 @@ class Selector {
       if (alive_[i]) out.tiles.push_back(std::move(shown_[i]));
     }
     if (unrefined_ > 0)
-      warnings_.Add(file_ + ": more than " + std::to_string(most_) + " tiles: shown to a geometric error of " + std::to_string(unrefined_) + " m");
+      warnings_.Add(file_ + ": more than " + std::to_string(most_) + " tiles: shown to a geometric error of " + std::to_string(unrefined_) +
+                    " m");
     return out;
   }
 
  private:
   JsonRef Open(const std::string& file, const std::string& folder, std::string_view text) {
-    if (sets_.size() >= kMostTilesets) throw InputError(file_ + ": more than " + std::to_string(kMostTilesets) + " tilesets within each other");
+    if (sets_.size() >= kMostTilesets)
+      throw InputError(file_ + ": more than " + std::to_string(kMostTilesets) + " tilesets within each other");
     sets_.push_back(std::make_unique<Tileset>(Tileset{file, folder, ParseJson(file, text)}));
     Tileset& set = *sets_.back();
     const JsonRef json(set.file, set.document);
@@ -121,8 +121,15 @@ class Selector {
   void Push(const JsonRef& json, const Tileset* set, const TileTransform& X, bool add, int depth) {
     if (order_ >= kMostSeen) json.Fail("more than a million tiles");
     if (depth > kDeepest) json.Fail("tiles nested deeper than " + std::to_string(kDeepest));
-    OpenTile tile{.json = json, .set = set, .X = X, .error = json.NumberOr("geometricError", 0), .add = add, .depth = depth,
-                  .first = shown_.size(), .within = {}, .order = order_++};
+    OpenTile tile{.json = json,
+                  .set = set,
+                  .X = X,
+                  .error = json.NumberOr("geometricError", 0),
+                  .add = add,
+                  .depth = depth,
+                  .first = shown_.size(),
+                  .within = {},
+                  .order = order_++};
     std::string refine = json.TextOr("refine", add ? "ADD" : "REPLACE");
     tile.add = refine == "ADD" || refine == "add";
     if (json.Has("implicitTiling") || GltfExtensionOf(json, "3DTILES_implicit_tiling")) {

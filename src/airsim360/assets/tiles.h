@@ -19,8 +19,8 @@ inline constexpr size_t kMostTiles = 4096;
 /// A tileset on the Earth is brought into a frame of east, north and up at its middle, which lies at x = y = 0, its
 /// lowest point at z = 0; others keep their coordinates. One node for each node of each tile. InputError that
 /// names file and JSON pointer, or tile, for damage.
-ImportedFile ReadTileset(const std::string& file, std::string_view text, const ResourceLoader& load,
-                         const ImportLimits& limits = {}, size_t most_tiles = kMostTiles);
+ImportedFile ReadTileset(const std::string& file, std::string_view text, const ResourceLoader& load, const ImportLimits& limits = {},
+                         size_t most_tiles = kMostTiles);
 
 /// One tile (.b3dm, .cmpt) in its own frame.
 ImportedFile ReadTile(const std::string& file, std::span<const std::byte> bytes, const ResourceLoader& load,

@@ -21,11 +21,11 @@ struct TileTransform {
 
 /// A tile that is shown: where its content lies and how it is placed.
 struct ShownTile {
-  std::string uri;         ///< relative to the first tileset's folder, or a data URI
-  std::string name;        ///< for messages and nodes
-  TileTransform X;         ///< tile to tileset
-  bool up_z = false;       ///< its glTF has +Z up (asset.gltfUpAxis of old tilesets)
-  double error = 0;        ///< geometric error, metres
+  std::string uri;    ///< relative to the first tileset's folder, or a data URI
+  std::string name;   ///< for messages and nodes
+  TileTransform X;    ///< tile to tileset
+  bool up_z = false;  ///< its glTF has +Z up (asset.gltfUpAxis of old tilesets)
+  double error = 0;   ///< geometric error, metres
 };
 
 struct TileSelection {
@@ -44,15 +44,14 @@ class TileGatherer {
       : load_(load), limits_(limits), warnings_(warnings) {}
   /// A content (.glb, .gltf, .b3dm, .cmpt by its first bytes); `X` is the tile's, already in W; `uri` names it and says
   /// where its pictures start.
-  void Add(const std::string& name, const std::string& uri, std::span<const std::byte> bytes, const TileTransform& X,
-           bool up_z, int depth = 0);
+  void Add(const std::string& name, const std::string& uri, std::span<const std::byte> bytes, const TileTransform& X, bool up_z,
+           int depth = 0);
   ImportedFile Take();
 
  private:
-  void AddComposite(const std::string& name, const std::string& uri, std::span<const std::byte> bytes,
-                    const TileTransform& X, bool up_z, int depth);
-  void AddGltf(const std::string& name, const std::string& uri, std::span<const std::byte> bytes, const TileTransform& X,
-               bool up_z);
+  void AddComposite(const std::string& name, const std::string& uri, std::span<const std::byte> bytes, const TileTransform& X, bool up_z,
+                    int depth);
+  void AddGltf(const std::string& name, const std::string& uri, std::span<const std::byte> bytes, const TileTransform& X, bool up_z);
 
   const ResourceLoader& load_;
   ImportLimits limits_;

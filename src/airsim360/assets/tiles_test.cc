@@ -82,7 +82,8 @@ using Names_ = std::vector<std::string>;
 
 TEST_F(TilesTest, TheFinestTilesReplaceTheirParentsOrAddToThem) {
   for (const char* name : {"a", "b", "c", "d", "e"}) files_[std::string(name) + ".b3dm"] = Batched(Glb(name));
-  const Json fine = Json::array({Tile(0, "REPLACE", "b.b3dm"), Tile(5, "REPLACE", "c.b3dm", Json::array({Tile(0, "REPLACE", "d.b3dm"), Tile(0, "REPLACE", "e.b3dm")}))});
+  const Json fine = Json::array({Tile(0, "REPLACE", "b.b3dm"),
+                                 Tile(5, "REPLACE", "c.b3dm", Json::array({Tile(0, "REPLACE", "d.b3dm"), Tile(0, "REPLACE", "e.b3dm")}))});
   EXPECT_EQ(Names(Read(Tileset(Tile(20, "REPLACE", "a.b3dm", fine)))), (Names_{"b", "d", "e"}));
   EXPECT_EQ(Names(Read(Tileset(Tile(20, "ADD", "a.b3dm", fine)))), (Names_{"a", "b", "d", "e"}));
   // Children that say nothing refine as their parents do.
@@ -93,7 +94,8 @@ TEST_F(TilesTest, TheFinestTilesReplaceTheirParentsOrAddToThem) {
 
 TEST_F(TilesTest, WhereThereAreTooManyTheCoarsestAreRefinedFirst) {
   for (const char* name : {"a", "b", "c", "d", "e"}) files_[std::string(name) + ".glb"] = Glb(name);
-  const Json fine = Json::array({Tile(0, "REPLACE", "b.glb"), Tile(5, "REPLACE", "c.glb", Json::array({Tile(0, "REPLACE", "d.glb"), Tile(0, "REPLACE", "e.glb")}))});
+  const Json fine = Json::array(
+      {Tile(0, "REPLACE", "b.glb"), Tile(5, "REPLACE", "c.glb", Json::array({Tile(0, "REPLACE", "d.glb"), Tile(0, "REPLACE", "e.glb")}))});
   const ImportedFile file = Read(Tileset(Tile(20, "REPLACE", "a.glb", fine)), 2);
   EXPECT_EQ(Names(file), (Names_{"b", "c"}));
   ASSERT_EQ(file.warnings.size(), 1u);
@@ -104,7 +106,7 @@ TEST_F(TilesTest, WhereThereAreTooManyTheCoarsestAreRefinedFirst) {
 TEST_F(TilesTest, TransformsMultiplyAndRelativeToCentreMoves) {
   files_["a.b3dm"] = Batched(Glb("a"), R"({"BATCH_LENGTH":0,"RTC_CENTER":[100,200,300]})");
   Json root = Tile(10, "ADD", "", Json::array({Tile(0, "ADD", "a.b3dm")}));
-  root["transform"] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 7, 0, 0, 1};          // a quarter turn about z, then +7 x
+  root["transform"] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 7, 0, 0, 1};                // a quarter turn about z, then +7 x
   root["children"][0]["transform"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 5, 1};  // twice as large, then +5 z
   const ImportedFile file = Read(Tileset(root));
   ASSERT_EQ(file.nodes.size(), 1u);

@@ -96,8 +96,7 @@ TEST(GltfVertexColors, AreLinearInEveryTypeAndMakeNoParts) {
   EXPECT_EQ(read(Colored<float>(rgb, kF32, "VEC3")), opaque);
   EXPECT_EQ(read(Colored<float>(rgba, kF32, "VEC4")), covering);
   EXPECT_EQ(read(Colored<uint8_t>({1, 2, 3, 4, 255, 0, 0, 0, 0, 0, 255, 255}, kU8, "VEC4")), covering);
-  EXPECT_EQ(read(Colored<uint16_t>({257, 514, 771, 1028, 65535, 0, 0, 0, 0, 0, 65535, 65535}, kU16, "VEC4")),
-            covering);
+  EXPECT_EQ(read(Colored<uint16_t>({257, 514, 771, 1028, 65535, 0, 0, 0, 0, 0, 65535, 65535}, kU16, "VEC4")), covering);
   EXPECT_EQ(read(Colored<uint8_t>({1, 2, 3, 255, 0, 0, 0, 0, 255}, kU8, "VEC3")), opaque);
   EXPECT_EQ(read(Colored<uint16_t>({257, 514, 771, 65535, 0, 0, 0, 0, 65535}, kU16, "VEC3")), opaque);
 }
@@ -120,11 +119,8 @@ TEST(GltfVertexColors, OfOnePrimitiveLeaveTheOthersOfItsMeshWhite) {
 }
 
 TEST(GltfVertexColors, NumbersBeyondTheirRangeAreClampedAndDamageNamesItsPlace) {
-  const auto colors = internal::ReadText(Colored<float>({2, -1, NAN, INFINITY, -INFINITY, 0.5f, 0, 1, 1e-9f}, kF32,
-                                                        "VEC3")
-                                             .Text())
-                          .meshes[0]
-                          .colors;
+  const auto colors =
+      internal::ReadText(Colored<float>({2, -1, NAN, INFINITY, -INFINITY, 0.5f, 0, 1, 1e-9f}, kF32, "VEC3").Text()).meshes[0].colors;
   EXPECT_EQ(colors[0], (VertexColor{65535, 0, 0}));
   EXPECT_EQ(colors[1], (VertexColor{65535, 0, 32768}));
   EXPECT_EQ(colors[2], (VertexColor{0, 65535, 0}));
@@ -142,10 +138,8 @@ TEST(GltfVertexColors, NumbersBeyondTheirRangeAreClampedAndDamageNamesItsPlace) 
 // Alpha is coverage: cut where it is tested, a pane where it is see-through everywhere, nothing where it is not asked.
 TEST(GltfVertexColors, CoverageFollowsTheAlphaMode) {
   const auto read = [](const char* mode, std::vector<uint8_t> alpha, double base_alpha = 1) {
-    GltfDocument doc = Colored<uint8_t>(
-        {255, 0, 0, alpha[0], 255, 0, 0, alpha[1], 255, 0, 0, alpha[2]}, kU8, "VEC4");
-    doc.json["materials"] = json::array(
-        {{{"alphaMode", mode}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, base_alpha}}}}}});
+    GltfDocument doc = Colored<uint8_t>({255, 0, 0, alpha[0], 255, 0, 0, alpha[1], 255, 0, 0, alpha[2]}, kU8, "VEC4");
+    doc.json["materials"] = json::array({{{"alphaMode", mode}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, base_alpha}}}}}});
     doc.json["meshes"][0]["primitives"][0]["material"] = 0;
     const ImportedFile file = internal::ReadText(doc.Text());
     return file.materials[file.meshes[0].parts[0].material];
@@ -168,8 +162,7 @@ TEST(GltfVertexColors, CoverageFollowsTheAlphaMode) {
 }
 
 TEST(ObjVertexColors, AreSrgbAndStayWithTheirVertices) {
-  const ImportedFile file = ReadObjText(
-      "v 0 0 0 1 0 0\nv 1 0 0 0 0.50196 0\nv 1 1 0 0 0 1 # blue\nv 0 1 0\nv 9 9 9 0.5\nf 1 2 3 4\n");
+  const ImportedFile file = ReadObjText("v 0 0 0 1 0 0\nv 1 0 0 0 0.50196 0\nv 1 1 0 0 0 1 # blue\nv 0 1 0\nv 9 9 9 0.5\nf 1 2 3 4\n");
   const Mesh& mesh = file.meshes.at(0);
   ASSERT_EQ(mesh.colors.size(), mesh.positions.size());
   std::map<std::pair<float, float>, VertexColor> at;
@@ -232,8 +225,7 @@ TEST(VertexColors, SurviveGeneratedNormalsMergingAndSplitting) {
   mixed.meshes[1].colors.clear();
   const Mesh half = internal::MergeNodes(mixed, "half", 1000).mesh;
   EXPECT_EQ(half.colors.size(), half.positions.size());
-  EXPECT_EQ(std::count(half.colors.begin(), half.colors.end(), VertexColor{}),
-            static_cast<int64_t>(file.meshes[1].positions.size()));
+  EXPECT_EQ(std::count(half.colors.begin(), half.colors.end(), VertexColor{}), static_cast<int64_t>(file.meshes[1].positions.size()));
   expect_truth(internal::MergeNodes(file, "whole", 1000).mesh);
 
   const fs::path path = fs::temp_directory_path() / "airsim360_vertex_colors.obj";

@@ -21,9 +21,8 @@ class Probes {
     for (int j = 0; j < kGrid; ++j) {
       for (int i = 0; i < kGrid; ++i) {
         // Slightly off the lines of symmetry, where edges are likely.
-        points_.push_back(
-            {bounds.center().x + size.x * (0.6f * (static_cast<float>(i) + 0.503f) / kGrid - 0.3f),
-             bounds.center().y + size.y * (0.6f * (static_cast<float>(j) + 0.497f) / kGrid - 0.3f)});
+        points_.push_back({bounds.center().x + size.x * (0.6f * (static_cast<float>(i) + 0.503f) / kGrid - 0.3f),
+                           bounds.center().y + size.y * (0.6f * (static_cast<float>(j) + 0.497f) / kGrid - 0.3f)});
       }
     }
     tops_.assign(points_.size(), -std::numeric_limits<float>::infinity());
@@ -70,8 +69,7 @@ class Probes {
 
 }  // namespace
 
-Vec3f ChooseViewpoint(const std::vector<Mesh>& meshes, const std::vector<Instance>& instances,
-                      const Box3f& bounds) {
+Vec3f ChooseViewpoint(const std::vector<Mesh>& meshes, const std::vector<Instance>& instances, const Box3f& bounds) {
   const Vec3f size = bounds.size();
   const float radius = 0.5f * Norm(size);
   if (std::max(size.x, size.y) < 20) {
@@ -82,13 +80,11 @@ Vec3f ChooseViewpoint(const std::vector<Mesh>& meshes, const std::vector<Instanc
   for (const Instance& instance : instances) {
     const Mesh& mesh = meshes[instance.mesh];
     for (const Vec3u& t : mesh.triangles) {
-      probes.Hit({instance.X_WM * mesh.positions[t.x], instance.X_WM * mesh.positions[t.y],
-                  instance.X_WM * mesh.positions[t.z]});
+      probes.Hit({instance.X_WM * mesh.positions[t.x], instance.X_WM * mesh.positions[t.y], instance.X_WM * mesh.positions[t.z]});
     }
   }
   const std::optional<Vec3f> ground = probes.LowestOpenGround(bounds);
-  return ground ? *ground + Vec3f{0, 0, kEyeHeight}
-                : Vec3f{bounds.center().x, bounds.center().y, bounds.max.z + kEyeHeight};
+  return ground ? *ground + Vec3f{0, 0, kEyeHeight} : Vec3f{bounds.center().x, bounds.center().y, bounds.max.z + kEyeHeight};
 }
 
 }  // namespace airsim360::internal

@@ -14,8 +14,7 @@ std::string Singular(std::string word) {
   const auto ends = [&](std::string_view end) { return word.size() > end.size() + 1 && word.ends_with(end); };
   if (word == "leaves") return "leaf";
   if (word == "buses") return "bus";
-  if (word == "bus" || word == "canvas" || word == "gas" || word == "moss" || ends("ss") || ends("us"))
-    return word;
+  if (word == "bus" || word == "canvas" || word == "gas" || word == "moss" || ends("ss") || ends("us")) return word;
   if (ends("ies")) return word.substr(0, word.size() - 3) + "y";
   if (ends("ches") || ends("shes") || ends("xes") || ends("sses") || ends("uses")) {
     return word == "houses" ? "house" : word.substr(0, word.size() - 2);
@@ -46,9 +45,8 @@ std::vector<std::string> SplitWords(std::string_view name) {
 }
 
 bool HasWord(const std::vector<std::string>& words, std::initializer_list<std::string_view> wanted) {
-  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
-    return std::find(wanted.begin(), wanted.end(), word) != wanted.end();
-  });
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return std::find(wanted.begin(), wanted.end(), word) != wanted.end(); });
 }
 
 }  // namespace airsim360::internal

@@ -16,14 +16,11 @@ constexpr uint64_t kMostUnseen = uint64_t{1} << 22;
 
 ordered_json ToJson(Vec3f v) { return {v.x, v.y, v.z}; }
 
-Vec3f ToVector(const std::vector<double>& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
+Vec3f ToVector(const std::vector<double>& v) { return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])}; }
 
 Environment ReadEnvironment(const std::string& where, const JsonRef& json) {
   Environment environment;
-  for (const EnvironmentField& field : EnvironmentFields())
-    environment.*field.value = json.NumberOr(field.name, environment.*field.value);
+  for (const EnvironmentField& field : EnvironmentFields()) environment.*field.value = json.NumberOr(field.name, environment.*field.value);
   const std::string lamps = json.TextOr("lamps", "auto");
   const auto* found = std::find(std::begin(kLampsNames), std::end(kLampsNames), lamps);
   if (found == std::end(kLampsNames)) json.At("lamps").Fail("auto, on or off expected");
@@ -78,8 +75,7 @@ WrittenWorld ReadWrittenWorld(const std::string& file, const std::string& text) 
   for (size_t i = 0; unseen && i < unseen->size(); ++i) {
     const JsonRef entity = (*unseen)[i];
     const bool sky = entity.BoolOr("sky", false);
-    if (sky && std::any_of(out.unseen.begin(), out.unseen.end(), [](const auto& u) { return u.sky; }))
-      entity.Fail("a second sky");
+    if (sky && std::any_of(out.unseen.begin(), out.unseen.end(), [](const auto& u) { return u.sky; })) entity.Fail("a second sky");
     out.unseen.push_back({entity.At("id").Uint(kMostUnseen), CleanName(entity.At("name").Text()), entity.At("category").Text(), sky});
   }
   std::stable_sort(out.unseen.begin(), out.unseen.end(), [](const auto& a, const auto& b) { return a.id < b.id; });

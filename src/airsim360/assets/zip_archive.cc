@@ -28,16 +28,14 @@ std::optional<Bytes> ZipArchive::Read(const std::string& entry) const {
   // The size is claimed by the file: bounded first, then held against what really comes.
   zip_stat_t stat;
   zip_stat_init(&stat);
-  if (zip_stat_index(zip, static_cast<zip_uint64_t>(index), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) ||
-      stat.size > kMaxSize) {
+  if (zip_stat_index(zip, static_cast<zip_uint64_t>(index), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) || stat.size > kMaxSize) {
     throw InputError(name_ + ": entry '" + entry + "' has no sensible size");
   }
   Bytes bytes(stat.size);
   zip_file_t* const file = zip_fopen_index(zip, static_cast<zip_uint64_t>(index), 0);
   const zip_int64_t got = file ? zip_fread(file, bytes.data(), bytes.size()) : -1;
   if (file) zip_fclose(file);
-  if (got != static_cast<zip_int64_t>(bytes.size()))
-    throw InputError(name_ + ": entry '" + entry + "' is damaged");
+  if (got != static_cast<zip_int64_t>(bytes.size())) throw InputError(name_ + ": entry '" + entry + "' is damaged");
   return bytes;
 }
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "airsim360/base/base64.h"
-#include "airsim360/base/json_depth.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/hash.h"
+#include "airsim360/base/json_depth.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
 
@@ -75,21 +75,22 @@ TEST(File, AMissingFileNamesTheNearOneBesideItAndNoneWhereNothingIsNear) {
     }
     return std::string();
   };
-  EXPECT_EQ(message("calibratoin.yaml"), (folder / "calibratoin.yaml").string() + ": no such file; did you mean '" +
-                                             (folder / "calibration.yaml").string() + "'?");
+  EXPECT_EQ(message("calibratoin.yaml"),
+            (folder / "calibratoin.yaml").string() + ": no such file; did you mean '" + (folder / "calibration.yaml").string() + "'?");
   EXPECT_EQ(message("q"), (folder / "q").string() + ": no such file");
   std::filesystem::remove_all(folder);
 }
 
 TEST(JsonDepth, CountsOpenBracketsOutsideOfStrings) {
-  const std::pair<const char*, int> cases[] = {{"", 0}, {"7", 0}, {"[]", 1}, {R"({"a": [1, {"b": []}]})", 4}, {R"("[[[")", 0},
-                                               {R"(["\"[[", {}])", 2}, {R"(["\\", [[]]])", 3}, {"]]][", 0}, {"[[[", 3}};
+  const std::pair<const char*, int> cases[] = {
+      {"", 0},     {"7", 0},  {"[]", 1}, {R"({"a": [1, {"b": []}]})", 4}, {R"("[[[")", 0}, {R"(["\"[[", {}])", 2}, {R"(["\\", [[]]])", 3},
+      {"]]][", 0}, {"[[[", 3}};
   for (const auto& [text, depth] : cases) EXPECT_EQ(JsonDepth(text), depth) << text;
 }
 
 TEST(Base64, IsThatOfRfc4648) {
-  const std::pair<const char*, const char*> cases[] = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"},
-                                                       {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}};
+  const std::pair<const char*, const char*> cases[] = {{"", ""},        {"f", "Zg=="},        {"fo", "Zm8="},
+                                                       {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}};
   for (const auto& [bytes, text] : cases) EXPECT_EQ(Base64(bytes), text);
   for (const auto& [bytes, text] : cases) EXPECT_EQ(FromBase64(text), bytes);
 }
@@ -98,7 +99,8 @@ TEST(Base64, IsReadBackAndWhatIsNoneIsRefused) {
   std::string every;
   for (int i = 0; i < 256; ++i) every += static_cast<char>(255 - i);
   for (size_t size = 250; size <= every.size(); ++size) EXPECT_EQ(FromBase64(Base64(every.substr(0, size))), every.substr(0, size));
-  for (const char* text : {"Z", "Zg", "Zg=", "Zg==Zg==", "Z===", "====", "Zm9v Zm9v", "Zm9-", "=m9v"}) EXPECT_EQ(FromBase64(text), std::nullopt) << text;
+  for (const char* text : {"Z", "Zg", "Zg=", "Zg==Zg==", "Z===", "====", "Zm9v Zm9v", "Zm9-", "=m9v"})
+    EXPECT_EQ(FromBase64(text), std::nullopt) << text;
 }
 
 }  // namespace

@@ -12,8 +12,7 @@ namespace airsim360 {
 
 /// Index of `word` among `choices`. InputError "unknown WHAT 'WORD'; did you mean …" for any other, after
 /// "WHERE: " if a flag or a field is named.
-inline size_t ParseChoice(std::string_view what, std::string_view word, std::span<const std::string> choices,
-                          std::string_view where = {}) {
+inline size_t ParseChoice(std::string_view what, std::string_view word, std::span<const std::string> choices, std::string_view where = {}) {
   for (size_t i = 0; i < choices.size(); ++i) {
     if (choices[i] == word) return i;
   }
@@ -22,15 +21,13 @@ inline size_t ParseChoice(std::string_view what, std::string_view word, std::spa
 }
 
 /// The same for names that stand in the source.
-inline size_t ParseChoice(std::string_view what, std::string_view word, std::span<const char* const> names,
-                          std::string_view where = {}) {
+inline size_t ParseChoice(std::string_view what, std::string_view word, std::span<const char* const> names, std::string_view where = {}) {
   return ParseChoice(what, word, std::vector<std::string>(names.begin(), names.end()), where);
 }
 
 /// The same for the enumerators of `Enum`, which are named in their order.
 template <class Enum, size_t kCount>
-Enum ParseChoice(std::string_view what, std::string_view word, const char* const (&names)[kCount],
-                 std::string_view where = {}) {
+Enum ParseChoice(std::string_view what, std::string_view word, const char* const (&names)[kCount], std::string_view where = {}) {
   return static_cast<Enum>(ParseChoice(what, word, std::span<const char* const>(names), where));
 }
 

@@ -33,9 +33,7 @@ class YamlReader : public ConfigVisitor {
     const YAML::Mark mark = node_.Mark();
     return mark.is_null() ? 0 : static_cast<size_t>(mark.line) + 1;
   }
-  void Field(std::string_view name, std::string_view, bool& value) override {
-    Read(name, "true or false", value);
-  }
+  void Field(std::string_view name, std::string_view, bool& value) override { Read(name, "true or false", value); }
   void Field(std::string_view name, std::string_view, uint64_t& value) override {
     // yaml-cpp would take "-1" as a large number.
     if (const YAML::Node node = Find(name); node && node.IsScalar() && node.Scalar().starts_with("-")) {
@@ -52,12 +50,8 @@ class YamlReader : public ConfigVisitor {
     if (!(read >= low && read <= high)) Fail(Find(name), name, range);
     value = read;
   }
-  void Field(std::string_view name, std::string_view, std::string& value) override {
-    Read(name, "a text", value);
-  }
-  void Field(std::string_view name, std::string_view, std::vector<std::string>& value) override {
-    Read(name, "a list of texts", value);
-  }
+  void Field(std::string_view name, std::string_view, std::string& value) override { Read(name, "a text", value); }
+  void Field(std::string_view name, std::string_view, std::vector<std::string>& value) override { Read(name, "a list of texts", value); }
   void Count(std::string_view name, std::string_view, int& value, int high) override {
     const YAML::Node node = Find(name);
     if (!node) return;
@@ -67,8 +61,8 @@ class YamlReader : public ConfigVisitor {
     if (read < 1 || read > high) Fail(node, name, wanted);
     value = read;
   }
-  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value,
-                double low, double high) override {
+  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value, double low,
+                double high) override {
     const YAML::Node node = Find(name);
     if (!node) return;
     is_word = node.IsScalar() && node.Scalar() == word;
@@ -99,9 +93,7 @@ class YamlReader : public ConfigVisitor {
                const std::function<void(ConfigVisitor&, size_t)>& visit) override {
     const YAML::Node node = Find(name);
     if (!node || !node.IsDefined()) return;
-    if (!node.IsSequence())
-      throw InputError(Where(file_, node.Mark()) + std::string(name) +
-                       ": expected a list ('- key: value' entries)");
+    if (!node.IsSequence()) throw InputError(Where(file_, node.Mark()) + std::string(name) + ": expected a list ('- key: value' entries)");
     resize(node.size());
     for (size_t i = 0; i < node.size(); ++i) {
       YamlReader entry(node[i], file_);
@@ -113,14 +105,12 @@ class YamlReader : public ConfigVisitor {
   void RefuseUnknownKeys() const {
     std::set<std::string> seen;
     for (const auto& entry : node_) {
-      if (!entry.first.IsScalar())
-        throw InputError(Where(file_, entry.first.Mark()) + "a key must be a plain word");
+      if (!entry.first.IsScalar()) throw InputError(Where(file_, entry.first.Mark()) + "a key must be a plain word");
       const std::string& key = entry.first.Scalar();
       if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
         throw InputError(Where(file_, entry.first.Mark()) + UnknownChoiceMessage("key", key, known_));
       }
-      if (!seen.insert(key).second)
-        throw InputError(Where(file_, entry.first.Mark()) + "key '" + key + "' is given twice");
+      if (!seen.insert(key).second) throw InputError(Where(file_, entry.first.Mark()) + "key '" + key + "' is given twice");
     }
   }
 
@@ -131,10 +121,8 @@ class YamlReader : public ConfigVisitor {
     return found.IsDefined() ? found : YAML::Node(YAML::NodeType::Undefined);
   }
   [[noreturn]] void Fail(const YAML::Node& node, std::string_view name, std::string_view wanted) const {
-    const std::string value =
-        node.IsScalar() ? "'" + node.Scalar().substr(0, 100) + "'" : "a list or mapping";
-    throw InputError(Where(file_, node.Mark()) + std::string(name) + ": expected " + std::string(wanted) +
-                     ", found " + value);
+    const std::string value = node.IsScalar() ? "'" + node.Scalar().substr(0, 100) + "'" : "a list or mapping";
+    throw InputError(Where(file_, node.Mark()) + std::string(name) + ": expected " + std::string(wanted) + ", found " + value);
   }
   template <class T>
   void Read(std::string_view name, std::string_view wanted, T& value) {
@@ -156,30 +144,22 @@ class YamlReader : public ConfigVisitor {
 class Describer : public ConfigVisitor {
  public:
   explicit Describer(std::string indent = "") : indent_(std::move(indent)) {}
-  void Field(std::string_view name, std::string_view help, bool& value) override {
-    Line(name, value ? "true" : "false", help);
-  }
-  void Field(std::string_view name, std::string_view help, uint64_t& value) override {
-    Line(name, std::to_string(value), help);
-  }
+  void Field(std::string_view name, std::string_view help, bool& value) override { Line(name, value ? "true" : "false", help); }
+  void Field(std::string_view name, std::string_view help, uint64_t& value) override { Line(name, std::to_string(value), help); }
   void Field(std::string_view name, std::string_view help, double& value, double, double) override {
     char text[32];
     std::snprintf(text, sizeof(text), "%g", value);
     Line(name, text, help);
   }
-  void Field(std::string_view name, std::string_view help, std::string& value) override {
-    Line(name, '"' + value + '"', help);
-  }
+  void Field(std::string_view name, std::string_view help, std::string& value) override { Line(name, '"' + value + '"', help); }
   void Field(std::string_view name, std::string_view help, std::vector<std::string>& value) override {
     std::string list = "[";
     for (const std::string& item : value) list += (list.size() > 1 ? ", " : "") + item;
     Line(name, list + "]", help);
   }
-  void Count(std::string_view name, std::string_view help, int& value, int) override {
-    Line(name, std::to_string(value), help);
-  }
-  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value,
-                double low, double high) override {
+  void Count(std::string_view name, std::string_view help, int& value, int) override { Line(name, std::to_string(value), help); }
+  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value, double low,
+                double high) override {
     if (is_word) return Line(name, word, help);
     Field(name, help, value, low, high);
   }

@@ -31,8 +31,7 @@ class ConfigVisitor {
   virtual void Field(std::string_view name, std::string_view help, bool& value) = 0;
   virtual void Field(std::string_view name, std::string_view help, uint64_t& value) = 0;
   /// Numbers outside [low, high] are refused.
-  virtual void Field(std::string_view name, std::string_view help, double& value, double low,
-                     double high) = 0;
+  virtual void Field(std::string_view name, std::string_view help, double& value, double low, double high) = 0;
   virtual void Field(std::string_view name, std::string_view help, std::string& value) = 0;
   virtual void Field(std::string_view name, std::string_view help, std::vector<std::string>& value) = 0;
   /// One of a few words: the enumerators of `Enum`, named in their order.
@@ -43,11 +42,10 @@ class ConfigVisitor {
   /// A whole number from 1 to `high`; 0 stands for one that was not given, and is refused where one is.
   virtual void Count(std::string_view name, std::string_view help, int& value, int high) = 0;
   /// A number in [low, high], or `word` instead of one.
-  virtual void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word,
-                        double& value, double low, double high) = 0;
+  virtual void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value, double low,
+                        double high) = 0;
   /// A nested struct.
-  virtual void Group(std::string_view name, std::string_view help,
-                     const std::function<void(ConfigVisitor&)>& visit) = 0;
+  virtual void Group(std::string_view name, std::string_view help, const std::function<void(ConfigVisitor&)>& visit) = 0;
   /// Field of an enumeration without its type: `index` of `names` is the present value, `set` takes another. What the
   /// value is part of outlives the visitor, and so may `set`.
   virtual void Choice(std::string_view name, std::string_view help, std::span<const char* const> names, size_t index,
@@ -57,15 +55,13 @@ class ConfigVisitor {
   template <class T, class Visit>
   void List(std::string_view name, std::string_view help, std::vector<T>& list, const Visit& visit) {
     Entries(
-        name, help, list.size(), [&](size_t size) { list.assign(size, T{}); },
-        [&](ConfigVisitor& v, size_t i) { visit(v, list[i]); });
+        name, help, list.size(), [&](size_t size) { list.assign(size, T{}); }, [&](ConfigVisitor& v, size_t i) { visit(v, list[i]); });
   }
 
  protected:
   /// List without its type: `resize` makes that many default entries, `visit` names the fields of one.
   /// Visitors that know no lists skip them.
-  virtual void Entries(std::string_view /*name*/, std::string_view /*help*/, size_t /*size*/,
-                       const std::function<void(size_t)>& /*resize*/,
+  virtual void Entries(std::string_view /*name*/, std::string_view /*help*/, size_t /*size*/, const std::function<void(size_t)>& /*resize*/,
                        const std::function<void(ConfigVisitor&, size_t)>& /*visit*/) {}
 };
 

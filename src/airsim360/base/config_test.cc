@@ -51,13 +51,9 @@ TEST(Config, ReadsEveryKindOfFieldAndKeepsDefaults) {
 }
 
 TEST(Config, ErrorsNameThePlaceTheValueAndTheNearestKey) {
-  EXPECT_NE(
-      ErrorOf("fog: true\nhieght: 3\n").find("x.yaml:2:1: unknown key 'hieght'; did you mean 'height'?"),
-      std::string::npos);
-  EXPECT_NE(ErrorOf("sun:\n  azimut: 3\n").find("x.yaml:2:3: unknown key 'azimut'; did you mean 'azimuth'?"),
-            std::string::npos);
-  EXPECT_NE(ErrorOf("height: tall\n").find("x.yaml:1:9: height: expected a number, found 'tall'"),
-            std::string::npos);
+  EXPECT_NE(ErrorOf("fog: true\nhieght: 3\n").find("x.yaml:2:1: unknown key 'hieght'; did you mean 'height'?"), std::string::npos);
+  EXPECT_NE(ErrorOf("sun:\n  azimut: 3\n").find("x.yaml:2:3: unknown key 'azimut'; did you mean 'azimuth'?"), std::string::npos);
+  EXPECT_NE(ErrorOf("height: tall\n").find("x.yaml:1:9: height: expected a number, found 'tall'"), std::string::npos);
   EXPECT_NE(ErrorOf("height: 101\n").find("from 0 to 100"), std::string::npos);
   EXPECT_NE(ErrorOf("height: .nan\n").find("from 0 to 100"), std::string::npos);
   EXPECT_NE(ErrorOf("seed: -1\n").find("0 or more"), std::string::npos);
@@ -110,15 +106,12 @@ TEST(Config, WordsCountsAndNumbersOutOfRangeAreRefusedWithTheirPlace) {
     }
     return "no error";
   };
-  EXPECT_EQ(refusal("size: lrge"),
-            "x.yaml:1:7: size: unknown size 'lrge'; did you mean 'large'? (choices: small, large)");
-  for (const char* text : {"count: 0", "count: 9", "count: -1", "count: 4000000000",
-                           "count: 99999999999999999999", "count: 1.5", "count: many", "count: [1]"})
-    EXPECT_NE(refusal(text).find("x.yaml:1:8: count: expected a whole number from 1 to 8"), std::string::npos)
-        << refusal(text);
+  EXPECT_EQ(refusal("size: lrge"), "x.yaml:1:7: size: unknown size 'lrge'; did you mean 'large'? (choices: small, large)");
+  for (const char* text :
+       {"count: 0", "count: 9", "count: -1", "count: 4000000000", "count: 99999999999999999999", "count: 1.5", "count: many", "count: [1]"})
+    EXPECT_NE(refusal(text).find("x.yaml:1:8: count: expected a whole number from 1 to 8"), std::string::npos) << refusal(text);
   for (const char* text : {"level: 2.1", "level: .nan", "level: .inf", "level: -1e300"})
-    EXPECT_NE(refusal(text).find("x.yaml:1:8: level: expected a number from -2 to 2"), std::string::npos)
-        << refusal(text);
+    EXPECT_NE(refusal(text).find("x.yaml:1:8: level: expected a number from -2 to 2"), std::string::npos) << refusal(text);
   for (const char* text : {"level: atuo", "level: 1e999", "level: [1]"})
     EXPECT_NE(refusal(text).find("x.yaml:1:8: level: expected a number"), std::string::npos) << refusal(text);
 }

@@ -67,8 +67,7 @@ DiskCache::DiskCache(fs::path folder, uint64_t limit) : folder_(std::move(folder
 
 DiskCache DiskCache::OfUser() {
   if (const char* own = std::getenv("AIRSIM360_CACHE")) return DiskCache(own);
-  if (const std::string base = Variable("XDG_CACHE_HOME"); !base.empty())
-    return DiskCache(fs::path(base) / "airsim360");
+  if (const std::string base = Variable("XDG_CACHE_HOME"); !base.empty()) return DiskCache(fs::path(base) / "airsim360");
   const std::string home = Variable("HOME");
   return DiskCache(home.empty() ? fs::path() : fs::path(home) / ".cache" / "airsim360");
 }
@@ -84,8 +83,7 @@ std::optional<Bytes> DiskCache::Load(const CacheKey& key) const {
   }
   const std::string_view text = AsText(bytes);
   const bool whole = text.size() >= kHeader && text.starts_with(kMagic) && text[kHeader - 1] == '\n' &&
-                     text.substr(kMagic.size(), kHashDigits) ==
-                         Sha256Hex(std::span<const std::byte>(bytes).subspan(kHeader));
+                     text.substr(kMagic.size(), kHashDigits) == Sha256Hex(std::span<const std::byte>(bytes).subspan(kHeader));
   std::error_code ignored;
   if (!whole) {
     WarnOnce(path.string() + " is damaged; its content is computed again");
@@ -102,9 +100,7 @@ void DiskCache::Store(const CacheKey& key, std::span<const std::byte> content) c
   if (folder_.empty() || content.size() + kHeader > limit_) return;
   Bytes bytes;
   bytes.reserve(kHeader + content.size());
-  const auto append = [&](std::span<const std::byte> part) {
-    bytes.insert(bytes.end(), part.begin(), part.end());
-  };
+  const auto append = [&](std::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); };
   append(AsBytes(kMagic));
   append(AsBytes(Sha256Hex(content) + "\n"));
   append(content);

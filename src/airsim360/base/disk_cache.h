@@ -24,9 +24,7 @@ class CacheKey {
   CacheKey& Add(std::string_view text) { return Add(AsBytes(text)); }
   /// Numbers and arrays of numbers; types without padding, whose bytes are their value.
   template <class T>
-  requires std::is_arithmetic_v<T> || std::is_enum_v<T> CacheKey& Add(T value) {
-    return Add(std::as_bytes(std::span(&value, 1)));
-  }
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T> CacheKey& Add(T value) { return Add(std::as_bytes(std::span(&value, 1))); }
   /// What this program is (size and time of its file), so that a rebuilt one reads nothing of the old.
   CacheKey& AddProgram();
   /// Size and time of a file, or that there is none.

@@ -13,15 +13,11 @@ namespace fs = std::filesystem;
 
 class DiskCacheTest : public ::testing::Test {
  protected:
-  DiskCacheTest() : folder_(fs::temp_directory_path() / ("airsim360_cache_" + std::to_string(::getpid()))) {
-    fs::remove_all(folder_);
-  }
+  DiskCacheTest() : folder_(fs::temp_directory_path() / ("airsim360_cache_" + std::to_string(::getpid()))) { fs::remove_all(folder_); }
   ~DiskCacheTest() override { fs::remove_all(folder_); }
 
   fs::path OnlyFile() const { return fs::directory_iterator(folder_)->path(); }
-  static std::string Text(const std::optional<Bytes>& bytes) {
-    return bytes ? std::string(AsText(*bytes)) : "missing";
-  }
+  static std::string Text(const std::optional<Bytes>& bytes) { return bytes ? std::string(AsText(*bytes)) : "missing"; }
 
   fs::path folder_;
 };
@@ -32,9 +28,8 @@ TEST_F(DiskCacheTest, GivesBackWhatWasStoredUnderTheSameKeyOnly) {
   EXPECT_EQ(Text(cache.Load(key)), "missing");
   cache.Store(key, AsBytes("light"));
   EXPECT_EQ(Text(DiskCache(folder_).Load(CacheKey("probes", 1).Add("city").Add(2.5))), "light");
-  for (const CacheKey& other :
-       {CacheKey("probes", 2).Add("city").Add(2.5), CacheKey("sky", 1).Add("city").Add(2.5),
-        CacheKey("probes", 1).Add("city").Add(2.0), CacheKey("probes", 1).Add("ci").Add("ty").Add(2.5)}) {
+  for (const CacheKey& other : {CacheKey("probes", 2).Add("city").Add(2.5), CacheKey("sky", 1).Add("city").Add(2.5),
+                                CacheKey("probes", 1).Add("city").Add(2.0), CacheKey("probes", 1).Add("ci").Add("ty").Add(2.5)}) {
     EXPECT_EQ(Text(cache.Load(other)), "missing");
   }
   cache.Store(key, AsBytes("other light"));
@@ -69,8 +64,7 @@ TEST_F(DiskCacheTest, OverItsLimitTheLongestUnusedEntriesGo) {
     // Times of files are coarse: set them apart by hand, the first one used last.
     for (int k = 0; k <= i; ++k) {
       const fs::path path = folder_ / (keys[static_cast<size_t>(k)].Name() + ".cache");
-      if (fs::exists(path))
-        fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours(k == 0 ? 1 : 10 - k));
+      if (fs::exists(path)) fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours(k == 0 ? 1 : 10 - k));
     }
   }
   EXPECT_NE(Text(cache.Load(keys[0])), "missing");

@@ -4,8 +4,7 @@
 
 namespace airsim360 {
 
-std::string UnknownChoiceMessage(std::string_view what, std::string_view word,
-                                 std::span<const std::string> choices) {
+std::string UnknownChoiceMessage(std::string_view what, std::string_view word, std::span<const std::string> choices) {
   std::string message = "unknown " + std::string(what) + " '" + std::string(word.substr(0, 256)) + "'";
   if (choices.empty()) return message;
   message += DidYouMean(word, choices) + " (choices: ";

@@ -26,7 +26,6 @@ std::string NearestChoice(std::string_view word, std::span<const std::string> ch
 
 /// "unknown <what> 'word'; did you mean 'x'? (choices: a, b, …)", without the question where no choice is
 /// near: the text for a name that is not among `choices`.
-std::string UnknownChoiceMessage(std::string_view what, std::string_view word,
-                                 std::span<const std::string> choices);
+std::string UnknownChoiceMessage(std::string_view what, std::string_view word, std::span<const std::string> choices);
 
 }  // namespace airsim360

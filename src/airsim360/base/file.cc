@@ -13,13 +13,9 @@
 namespace airsim360 {
 namespace fs = std::filesystem;
 
-std::span<const std::byte> AsBytes(std::string_view text) {
-  return {reinterpret_cast<const std::byte*>(text.data()), text.size()};
-}
+std::span<const std::byte> AsBytes(std::string_view text) { return {reinterpret_cast<const std::byte*>(text.data()), text.size()}; }
 
-std::string_view AsText(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+std::string_view AsText(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
 namespace {
 
@@ -46,8 +42,7 @@ Bytes ReadFile(const fs::path& path, uint64_t max_size) {
   const uint64_t size = fs::file_size(path, error);
   if (error) throw InputError(path.string() + ": " + error.message());
   if (size > max_size) {
-    throw InputError(path.string() + ": " + std::to_string(size) + " bytes, the limit is " +
-                     std::to_string(max_size));
+    throw InputError(path.string() + ": " + std::to_string(size) + " bytes, the limit is " + std::to_string(max_size));
   }
   Bytes bytes(size);
   std::ifstream file(path, std::ios::binary);
@@ -57,9 +52,7 @@ Bytes ReadFile(const fs::path& path, uint64_t max_size) {
   return bytes;
 }
 
-std::string ReadTextFile(const fs::path& path, uint64_t max_size) {
-  return std::string(AsText(ReadFile(path, max_size)));
-}
+std::string ReadTextFile(const fs::path& path, uint64_t max_size) { return std::string(AsText(ReadFile(path, max_size))); }
 
 namespace {
 
@@ -91,9 +84,7 @@ void WriteFileAtomically(const fs::path& path, std::span<const std::byte> bytes)
   }
 }
 
-void WriteFileAtomically(const fs::path& path, std::string_view text) {
-  WriteFileAtomically(path, AsBytes(text));
-}
+void WriteFileAtomically(const fs::path& path, std::string_view text) { WriteFileAtomically(path, AsBytes(text)); }
 
 void CreateWritableFolder(const fs::path& path) {
   std::error_code error;

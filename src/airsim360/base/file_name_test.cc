@@ -16,8 +16,7 @@ TEST(FileName, WhatPassesIsOnePlainFileOfItsFolder) {
   int passed = 0;
   for (int i = 0; i < 20000; ++i) {
     std::string name;
-    for (size_t k = random() % 6; k > 0; --k)
-      name += std::string_view("a./\0\n\x7f\x1f \xc3-", 10)[random() % 10];
+    for (size_t k = random() % 6; k > 0; --k) name += std::string_view("a./\0\n\x7f\x1f \xc3-", 10)[random() % 10];
     try {
       CheckFileName("name", name);
     } catch (const InputError&) {

@@ -13,9 +13,8 @@ constexpr const char* kNames[] = {"sse42", "avx2", "avx512"};
 
 KernelIsa BestIsa() {
   __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("bmi2")) {
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("bmi2")) {
     return KernelIsa::kAvx512;
   }
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2")) return KernelIsa::kAvx2;
@@ -29,8 +28,7 @@ KernelIsa PickIsa() {
   for (int i = 0; i < 3; ++i) {
     if (std::string(wanted) != kNames[i]) continue;
     if (i > static_cast<int>(best)) {
-      throw InputError(std::string("AIRSIM360_ISA=") + wanted + ": this machine has only " +
-                       kNames[static_cast<int>(best)]);
+      throw InputError(std::string("AIRSIM360_ISA=") + wanted + ": this machine has only " + kNames[static_cast<int>(best)]);
     }
     return static_cast<KernelIsa>(i);
   }

@@ -38,7 +38,6 @@ T SelectKernel(T sse42, T avx2, T avx512) {
   }
 
 /// The copy of a kernel declared so that this machine runs.
-#define AIRSIM360_SELECT_KERNEL(name)                                          \
-  ::airsim360::internal::SelectKernel(&::airsim360::internal::isa_sse42::name, \
-                                      &::airsim360::internal::isa_avx2::name,  \
+#define AIRSIM360_SELECT_KERNEL(name)                                                                                  \
+  ::airsim360::internal::SelectKernel(&::airsim360::internal::isa_sse42::name, &::airsim360::internal::isa_avx2::name, \
                                       &::airsim360::internal::isa_avx512::name)

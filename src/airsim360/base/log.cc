@@ -13,13 +13,9 @@
 
 namespace airsim360 {
 
-void LogInfo(std::string_view message) {
-  std::fprintf(stderr, "%.*s\n", static_cast<int>(message.size()), message.data());
-}
+void LogInfo(std::string_view message) { std::fprintf(stderr, "%.*s\n", static_cast<int>(message.size()), message.data()); }
 
-void LogWarning(std::string_view message) {
-  std::fprintf(stderr, "warning: %.*s\n", static_cast<int>(message.size()), message.data());
-}
+void LogWarning(std::string_view message) { std::fprintf(stderr, "warning: %.*s\n", static_cast<int>(message.size()), message.data()); }
 
 std::string ClockText(double seconds) {
   const auto s = static_cast<long long>(std::clamp(seconds, 0.0, 1e9) + 0.5);
@@ -59,9 +55,7 @@ class ProgressTicker {
     if (bar_) ShowBar();
   }
 
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
  private:
   // Signals are for the threads that were there.
@@ -76,9 +70,7 @@ class ProgressTicker {
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   }
 
-  double Fraction() const {
-    return std::clamp(static_cast<double>(done_) / static_cast<double>(total_), 0.0, 1.0);
-  }
+  double Fraction() const { return std::clamp(static_cast<double>(done_) / static_cast<double>(total_), 0.0, 1.0); }
   double SecondsLeft() const {
     const double fraction = Fraction();
     return fraction > 0 ? seconds() * (1 - fraction) / fraction : 0;
@@ -86,8 +78,7 @@ class ProgressTicker {
 
   void Tell() const {
     if (total_ == 0) return LogInfo(label_ + ": " + std::to_string(static_cast<int64_t>(seconds())) + " s");
-    const std::string left =
-        done_ > 0 ? ClockText(SecondsLeft()) + " left" : ClockText(seconds()) + " so far";
+    const std::string left = done_ > 0 ? ClockText(SecondsLeft()) + " left" : ClockText(seconds()) + " so far";
     LogInfo(label_ + ": " + std::to_string(done_) + "/" + std::to_string(total_) + ", " + left);
   }
 
@@ -95,8 +86,8 @@ class ProgressTicker {
     constexpr int kWidth = 30;
     const int filled = static_cast<int>(Fraction() * kWidth);
     std::fprintf(stderr, "\r%s [%s%s] %lld/%lld  %s left ", label_.c_str(), std::string(filled, '#').c_str(),
-                 std::string(kWidth - filled, '.').c_str(), static_cast<long long>(done_),
-                 static_cast<long long>(total_), ClockText(SecondsLeft()).c_str());
+                 std::string(kWidth - filled, '.').c_str(), static_cast<long long>(done_), static_cast<long long>(total_),
+                 ClockText(SecondsLeft()).c_str());
     std::fflush(stderr);
   }
 
@@ -114,8 +105,7 @@ class ProgressTicker {
 }  // namespace internal
 
 ProgressBar::ProgressBar(std::string label, int64_t total, std::chrono::milliseconds period)
-    : ticker_(std::make_unique<internal::ProgressTicker>(std::move(label), std::max<int64_t>(total, 1),
-                                                         period)) {}
+    : ticker_(std::make_unique<internal::ProgressTicker>(std::move(label), std::max<int64_t>(total, 1), period)) {}
 ProgressBar::~ProgressBar() = default;
 void ProgressBar::Update(int64_t done) { ticker_->Update(done); }
 

@@ -16,9 +16,8 @@ using internal::SameMeaning;
 constexpr size_t kLongest = 256;  // characters of a word that count
 constexpr size_t kShortestPart = 3;
 // Words that say nothing about which name is meant.
-constexpr auto kFillers =
-    std::to_array<std::string_view>({"file", "folder", "dir", "directory", "path", "name", "number", "num",
-                                     "of", "the", "no", "max", "min", "deg"});
+constexpr auto kFillers = std::to_array<std::string_view>(
+    {"file", "folder", "dir", "directory", "path", "name", "number", "num", "of", "the", "no", "max", "min", "deg"});
 
 bool IsAlnum(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 bool IsUpper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
@@ -41,9 +40,8 @@ std::string_view Stem(std::string_view word) {
 
 // A name as it is compared.
 struct Name {
-  std::string plain;  // lower case, letters and digits alone, singular
-  std::vector<std::string>
-      parts;  // words of it, apart by other characters or a capital: "FovDegrees", "box_room"
+  std::string plain;               // lower case, letters and digits alone, singular
+  std::vector<std::string> parts;  // words of it, apart by other characters or a capital: "FovDegrees", "box_room"
 
   explicit Name(std::string_view text) {
     std::string part;
@@ -71,14 +69,11 @@ struct Name {
   }
 };
 
-bool BeginsWith(std::string_view whole, std::string_view start) {
-  return start.size() >= kShortestPart && whole.starts_with(start);
-}
+bool BeginsWith(std::string_view whole, std::string_view start) { return start.size() >= kShortestPart && whole.starts_with(start); }
 
 // A letter in three may be wrong; in words of up to three letters one that is not the first, or two change places.
 bool FewEdits(const Name& a, const Name& b) {
-  const size_t longest = std::max(a.plain.size(), b.plain.size()),
-               shortest = std::min(a.plain.size(), b.plain.size());
+  const size_t longest = std::max(a.plain.size(), b.plain.size()), shortest = std::min(a.plain.size(), b.plain.size());
   if (shortest < 2 || longest - shortest > std::max<size_t>(longest / 3, 1)) return false;
   if (longest <= kShortestPart && a.plain[0] != b.plain[0] && !std::ranges::is_permutation(a.plain, b.plain)) return false;
   return EditDistance(a.plain, b.plain) <= std::clamp<size_t>(longest / 3, 1, 4);
@@ -99,16 +94,11 @@ constexpr auto kWays = std::to_array<bool (*)(const Name&, const Name&)>({
     [](const Name& word, const Name& choice) { return word.plain == choice.plain; },
     [](const Name& word, const Name& choice) { return SameMeaning(word.plain, choice.plain); },
     [](const Name& word, const Name& choice) {
-      return std::min(word.plain.size(), choice.plain.size()) > kShortestPart &&
-             EditDistance(word.plain, choice.plain) == 1;
+      return std::min(word.plain.size(), choice.plain.size()) > kShortestPart && EditDistance(word.plain, choice.plain) == 1;
     },
-    [](const Name& word, const Name& choice) {
-      return BeginsWith(choice.plain, word.plain) || BeginsWith(word.plain, choice.plain);
-    },
+    [](const Name& word, const Name& choice) { return BeginsWith(choice.plain, word.plain) || BeginsWith(word.plain, choice.plain); },
     [](const Name& word, const Name& choice) { return Stem(word.plain) == Stem(choice.plain); },
-    [](const Name& word, const Name& choice) {
-      return word.plain.size() > 1 && word.plain == choice.Initials();
-    },
+    [](const Name& word, const Name& choice) { return word.plain.size() > 1 && word.plain == choice.Initials(); },
     [](const Name& word, const Name& choice) { return SharesPart(word, choice, true); },
     [](const Name& word, const Name& choice) { return SharesPart(word, choice, false); },
     FewEdits,
@@ -129,8 +119,7 @@ size_t EditDistance(std::string_view a, std::string_view b) {
     row[0] = i;
     for (size_t j = 1; j <= b.size(); ++j) {
       row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], above_that[j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], above_that[j - 2] + 1);
     }
   }
   return rows[a.size() % 3][b.size()];

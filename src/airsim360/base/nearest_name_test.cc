@@ -28,48 +28,39 @@ const Names kTasks = {"takeoff", "hover", "goto", "velocity", "return", "land"};
 const Names kDevices = {"auto", "cpu", "vulkan"};
 const Names kDrones = {"hummingbird", "pelican", "crazyflie", "f450", "matrice", "racer"};
 const Names kPaths = {"/", "/openapi.json", "/v1/episodes", "/v1/ws"};
-const Names kSettings = {"SettingsVersion", "SimMode",     "Vehicles",       "CameraDefaults", "Wind",
-                         "OriginGeopoint",  "EphFinal",    "ClockSpeed",     "EpvFinal",       "LocalHostIp",
-                         "Recording",       "Enabled",     "SensorType",     "ImageType",      "Width",
-                         "Height",          "FOV_Degrees", "CaptureSettings"};
-const Names kRender = {"--world",   "--out",        "--pose",       "--projection", "--size",     "--fov",
-                       "--tier",    "--samples",    "--no-denoise", "--rgb-format", "--people",   "--overlay",
-                       "--weather", "--sun",        "--time",       "--place",      "--hdri",     "--labels",
-                       "--tone",    "--exposure",   "--lens",       "--radiance",   "--products", "--normal",
-                       "--json",    "--seed",       "--threads",    "--no-cache",   "--device",   "--gpu",
-                       "--help",    "--pano-frame", "--environment"};
-const Names kPlan = {"--out",     "--waypoints", "--vmax",      "--amax",   "--climb",
-                     "--descent", "--drone",     "--dt",        "--order",  "--minimise",
-                     "--world",   "--avoid",     "--clearance", "--from",   "--to",
-                     "--route",   "--area",      "--height",    "--radius", "--origin",
-                     "--yaw",     "--format",    "--json",      "--seed",   "--threads"};
+const Names kSettings = {"SettingsVersion", "SimMode",    "Vehicles", "CameraDefaults", "Wind",        "OriginGeopoint",
+                         "EphFinal",        "ClockSpeed", "EpvFinal", "LocalHostIp",    "Recording",   "Enabled",
+                         "SensorType",      "ImageType",  "Width",    "Height",         "FOV_Degrees", "CaptureSettings"};
+const Names kRender = {"--world",    "--out",        "--pose",       "--projection", "--size",       "--fov",      "--tier",
+                       "--samples",  "--no-denoise", "--rgb-format", "--people",     "--overlay",    "--weather",  "--sun",
+                       "--time",     "--place",      "--hdri",       "--labels",     "--tone",       "--exposure", "--lens",
+                       "--radiance", "--products",   "--normal",     "--json",       "--seed",       "--threads",  "--no-cache",
+                       "--device",   "--gpu",        "--help",       "--pano-frame", "--environment"};
+const Names kPlan = {"--out",      "--waypoints", "--vmax",  "--amax",      "--climb", "--descent", "--drone",  "--dt",   "--order",
+                     "--minimise", "--world",     "--avoid", "--clearance", "--from",  "--to",      "--route",  "--area", "--height",
+                     "--radius",   "--origin",    "--yaw",   "--format",    "--json",  "--seed",    "--threads"};
 const Names kFly = {"--world", "--out",   "--drone",   "--controller", "--waypoints", "--script", "--pose",
                     "--vmax",  "--amax",  "--sensors", "--wind",       "--speed",     "--frames", "--size",
                     "--tier",  "--video", "--fps",     "--people",     "--record",    "--json",   "--seed"};
 
-const Names kMoreWorlds = {"box_room",     "city_park", "downtown_west", "map_town",        "new_york_city",
-                           "sunlit_room",  "sf_city",   "downtown_city", "lisbon_downtown", "roof",
-                           "rural_cabins", "rome",      "apartment",     "office",          "warehouse",
-                           "mall",         "car_park"};
-const Names kFormats = {"native",         "omni360",    "coco",     "webdataset", "mcap",   "video",
-                        "coco_keypoints", "kitti",      "nuscenes", "monoloco",   "crops",  "overlay",
-                        "colmap",         "nerfstudio", "tum",      "euroc",      "parquet"};
-const Names kMoreCommands = {"worlds", "world",  "render", "collect", "plan",       "verify",
-                             "video",  "stitch", "eval",   "fly",     "serve",      "agent",
-                             "drone",  "doctor", "view",   "dataset", "completion", "man"};
-const Names kCollect = {"--world",     "--route",    "--plan",          "--out",          "--frames",
-                        "--fps",       "--size",     "--tier",          "--samples",      "--no-denoise",
-                        "--format",    "--people",   "--people-warmup", "--people-level", "--weather",
-                        "--sun",       "--time",     "--place",         "--products",     "--shard",
-                        "--processes", "--json",     "--seed",          "--threads",      "--device",
-                        "--gpu",       "--no-cache", "--labels",        "--rgb-format"};
+const Names kMoreWorlds = {"box_room",  "city_park",     "downtown_west",   "map_town", "new_york_city", "sunlit_room",
+                           "sf_city",   "downtown_city", "lisbon_downtown", "roof",     "rural_cabins",  "rome",
+                           "apartment", "office",        "warehouse",       "mall",     "car_park"};
+const Names kFormats = {"native",   "omni360", "coco",    "webdataset", "mcap",       "video", "coco_keypoints", "kitti",  "nuscenes",
+                        "monoloco", "crops",   "overlay", "colmap",     "nerfstudio", "tum",   "euroc",          "parquet"};
+const Names kMoreCommands = {"worlds", "world", "render", "collect", "plan",   "verify", "video",   "stitch",     "eval",
+                             "fly",    "serve", "agent",  "drone",   "doctor", "view",   "dataset", "completion", "man"};
+const Names kCollect = {"--world",         "--route",        "--plan",      "--out",        "--frames",    "--fps",
+                        "--size",          "--tier",         "--samples",   "--no-denoise", "--format",    "--people",
+                        "--people-warmup", "--people-level", "--weather",   "--sun",        "--time",      "--place",
+                        "--products",      "--shard",        "--processes", "--json",       "--seed",      "--threads",
+                        "--device",        "--gpu",          "--no-cache",  "--labels",     "--rgb-format"};
 const Names kServe = {"--world",    "--settings", "--port", "--host",    "--people",  "--tier", "--realtime",
                       "--lockstep", "--json",     "--seed", "--threads", "--weather", "--time"};
 const Names kEpisode = {"world",  "start", "goal",   "instruction", "seed",    "max_steps",
                         "radius", "width", "height", "fov_deg",     "actions", "observation"};
-const Names kMoreSettings = {
-    "SettingsVersion", "SimMode",    "Vehicles",   "CameraDefaults", "Wind",
-    "EphFinal",        "ClockSpeed", "RpcEnabled", "ViewMode",       "PhysicsEngineName"};
+const Names kMoreSettings = {"SettingsVersion", "SimMode",    "Vehicles",   "CameraDefaults", "Wind",
+                             "EphFinal",        "ClockSpeed", "RpcEnabled", "ViewMode",       "PhysicsEngineName"};
 const Names kSensors = {"imu", "gnss", "barometer", "magnetometer", "lidar", "range", "camera"};
 
 struct Case {
@@ -389,8 +380,7 @@ TEST(NearestName, WithoutANearOneNothingIsAsked) {
   EXPECT_EQ(DidYouMean("wdith", Names{"area", "width"}), "; did you mean 'width'?");
   EXPECT_EQ(DidYouMean("help", kCommands), "");
   EXPECT_EQ(UnknownChoiceMessage("command", "help", Names{"fly"}), "unknown command 'help' (choices: fly)");
-  for (const char* nothing : {"", "--", "...", "é"})
-    EXPECT_EQ(NearestChoice(nothing, kWorlds), "") << nothing;
+  for (const char* nothing : {"", "--", "...", "é"}) EXPECT_EQ(NearestChoice(nothing, kWorlds), "") << nothing;
   EXPECT_EQ(NearestChoice(std::string(1 << 20, 'x'), kWorlds), "");
   EXPECT_EQ(NearestChoice("x", {}), "");
 }

@@ -18,15 +18,12 @@ void internal::RunParallel(int64_t n, void (*call)(const void* body, int64_t i),
 
 ThreadLimit::ThreadLimit(int threads) : control_(nullptr) {
   if (threads > 0) {
-    control_ =
-        new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+    control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
   }
 }
 
 ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
 
-int ThreadCount() {
-  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-}
+int ThreadCount() { return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)); }
 
 }  // namespace airsim360

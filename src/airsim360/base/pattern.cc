@@ -41,8 +41,7 @@ struct Reached {
 
 class Explorer {
  public:
-  Explorer(const PatternProgram& program, size_t words)
-      : program_(program), words_(words), seen_(program.nodes.size()) {}
+  Explorer(const PatternProgram& program, size_t words) : program_(program), words_(words), seen_(program.nodes.size()) {}
 
   Reached From(uint32_t node, Side before, Side after) {
     Reached reached{std::vector<uint64_t>(words_)};
@@ -82,9 +81,7 @@ constexpr Side SideOf(bool is_word) { return is_word ? Side::kWord : Side::kOthe
 
 }  // namespace
 
-Pattern Pattern::Regex(std::string_view text, bool ignore_case) {
-  return Pattern(ParseRegex(text, ignore_case));
-}
+Pattern Pattern::Regex(std::string_view text, bool ignore_case) { return Pattern(ParseRegex(text, ignore_case)); }
 Pattern Pattern::Wildcard(std::string_view text) { return Pattern(ParseWildcard(text)); }
 
 Pattern::Pattern(const PatternProgram& program) : words_((program.places.size() + 63) / 64) {
@@ -98,13 +95,11 @@ Pattern::Pattern(const PatternProgram& program) : words_((program.places.size() 
 // Bytes that the same places fit are one class, which keeps the tables of matchers small.
 void Pattern::MakeClasses(const PatternProgram& program) {
   std::vector<uint8_t> of_byte(256);
-  for (size_t byte = 0; byte < 256; ++byte)
-    of_byte[byte] = asserts_ && IsWordByte(static_cast<uint8_t>(byte));
+  for (size_t byte = 0; byte < 256; ++byte) of_byte[byte] = asserts_ && IsWordByte(static_cast<uint8_t>(byte));
   const auto split_by = [&](const auto& key) {
     std::map<std::pair<uint8_t, bool>, uint8_t> classes;
     for (size_t byte = 0; byte < 256; ++byte) {
-      const auto found =
-          classes.try_emplace({of_byte[byte], key(byte)}, static_cast<uint8_t>(classes.size()));
+      const auto found = classes.try_emplace({of_byte[byte], key(byte)}, static_cast<uint8_t>(classes.size()));
       of_byte[byte] = found.first->second;
     }
   };
@@ -132,8 +127,7 @@ void Pattern::MakeFollow(const PatternProgram& program) {
   Explorer explorer(program, words_);
   matches_empty_ = explorer.From(program.start, Side::kNothing, Side::kNothing).end;
   const size_t sides = asserts_ ? 2 : 1;
-  for (size_t next = 0; next < sides; ++next)
-    first_[next] = explorer.From(program.start, Side::kNothing, SideOf(next)).places;
+  for (size_t next = 0; next < sides; ++next) first_[next] = explorer.From(program.start, Side::kNothing, SideOf(next)).places;
   for (size_t last = 0; last < sides; ++last) {
     last_[last].assign(words_, 0);
     for (size_t next = 0; next < sides; ++next)
@@ -180,15 +174,13 @@ void Pattern::CheckWork() const {
     }
   }
   if (most > kMostPatternWork) {
-    throw InputError("pattern: too many ways to go on: work of " + std::to_string(most) +
-                     " for one character is more than " + std::to_string(kMostPatternWork) +
-                     "; leave repetitions of repetitions out");
+    throw InputError("pattern: too many ways to go on: work of " + std::to_string(most) + " for one character is more than " +
+                     std::to_string(kMostPatternWork) + "; leave repetitions of repetitions out");
   }
 }
 
 // Whether there is any place to go to.
-bool Pattern::Advance(const uint64_t* from, bool is_start, bool after_word, size_t byte_class,
-                      uint64_t* to) const {
+bool Pattern::Advance(const uint64_t* from, bool is_start, bool after_word, size_t byte_class, uint64_t* to) const {
   const bool before_word = class_is_word_[byte_class];
   const uint64_t* fits = &class_places_[byte_class * words_];
   if (is_start) {

@@ -47,8 +47,8 @@ class Pattern {
     Places of_half;  // for every half byte of a set, by its value: what follows the others in it
   };
 
-  size_t words_ = 0;      // of a set of places
-  bool asserts_ = false;  // what follows depends on which characters are of words; else none counts as one
+  size_t words_ = 0;                  // of a set of places
+  bool asserts_ = false;              // what follows depends on which characters are of words; else none counts as one
   std::array<uint8_t, 256> class_{};  // of a byte: bytes of a class are alike to all places
   std::vector<uint8_t> class_is_word_;
   Places class_places_;  // by class: the places that its bytes fit

@@ -103,8 +103,7 @@ class RegexParser {
   int Count() {
     if (!IsDigit(Peek())) Fail("a number is expected in '{}'");
     size_t count = 0;
-    for (; IsDigit(Peek()); ++at_)
-      count = std::min<size_t>(count * 10 + Peek() - '0', kMostPatternPlaces + 1);
+    for (; IsDigit(Peek()); ++at_) count = std::min<size_t>(count * 10 + Peek() - '0', kMostPatternPlaces + 1);
     if (count > kMostPatternPlaces) Fail("more than " + std::to_string(kMostPatternPlaces) + " repetitions");
     return static_cast<int>(count);
   }
@@ -123,8 +122,7 @@ class RegexParser {
   }
 
   Expression Group() {
-    if (Peek() == '?' && !Take("?:"))
-      Fail("lookaheads are not possible here; only '(?:' may begin with '(?'");
+    if (Peek() == '?' && !Take("?:")) Fail("lookaheads are not possible here; only '(?:' may begin with '(?'");
     Expression inside = Choice();
     if (!Take(")")) Fail("'(' without ')'");
     return inside;
@@ -136,8 +134,7 @@ class RegexParser {
   ByteSet Literal(uint8_t c) const { return Range(c, c); }
   ByteSet Range(uint8_t from, uint8_t to) const {
     const auto is_in = [&](uint8_t c) { return c >= from && c <= to; };
-    return BytesWhere(
-        [&](uint8_t c) { return is_in(c) || (ignore_case_ && (is_in(Lower(c)) || is_in(Upper(c)))); });
+    return BytesWhere([&](uint8_t c) { return is_in(c) || (ignore_case_ && (is_in(Lower(c)) || is_in(Upper(c)))); });
   }
 
   // What follows a backslash, which may be a whole class.
@@ -239,8 +236,7 @@ class RegexParser {
       const auto c = static_cast<uint8_t>(text_[at_++]);
       return {Literal(c), c};
     }
-    if (std::string_view("dDwWsS").find(static_cast<char>(Peek())) != std::string_view::npos && !AtEnd())
-      return {Escape(true), {}};
+    if (std::string_view("dDwWsS").find(static_cast<char>(Peek())) != std::string_view::npos && !AtEnd()) return {Escape(true), {}};
     if (AtEnd() || (Peek() >= '1' && Peek() <= '9')) return {Escape(true), {}};
     const uint8_t c = EscapedByte(true);
     return {Literal(c), c};
@@ -254,10 +250,9 @@ class RegexParser {
       const char* name;
       int (*test)(int);
     };
-    static constexpr Named kNamed[] = {
-        {"alnum", std::isalnum}, {"alpha", std::isalpha},  {"blank", std::isblank}, {"cntrl", std::iscntrl},
-        {"digit", std::isdigit}, {"graph", std::isgraph},  {"print", std::isprint}, {"punct", std::ispunct},
-        {"space", std::isspace}, {"xdigit", std::isxdigit}};
+    static constexpr Named kNamed[] = {{"alnum", std::isalnum}, {"alpha", std::isalpha},  {"blank", std::isblank}, {"cntrl", std::iscntrl},
+                                       {"digit", std::isdigit}, {"graph", std::isgraph},  {"print", std::isprint}, {"punct", std::ispunct},
+                                       {"space", std::isspace}, {"xdigit", std::isxdigit}};
     for (const Named& named : kNamed) {
       if (name != named.name) continue;
       at_ = end + 2;
@@ -266,9 +261,7 @@ class RegexParser {
     const bool lower = name == "lower", upper = name == "upper";
     if (!lower && !upper) Fail("there is no class '[:" + name.substr(0, 20) + ":]'");
     at_ = end + 2;
-    return BytesWhere([&](uint8_t c) {
-      return IsLower(c) ? lower || ignore_case_ : IsUpper(c) && (upper || ignore_case_);
-    });
+    return BytesWhere([&](uint8_t c) { return IsLower(c) ? lower || ignore_case_ : IsUpper(c) && (upper || ignore_case_); });
   }
 
   std::string_view text_;
@@ -278,8 +271,6 @@ class RegexParser {
 
 }  // namespace
 
-PatternExpression ParseRegexExpression(std::string_view text, bool ignore_case) {
-  return RegexParser(text, ignore_case).All();
-}
+PatternExpression ParseRegexExpression(std::string_view text, bool ignore_case) { return RegexParser(text, ignore_case).All(); }
 
 }  // namespace airsim360::internal

@@ -31,12 +31,10 @@ class Writer {
     switch (e.form) {
       case Form::kBytes:
         if (program_.places.size() >= kMostPatternPlaces) {
-          throw InputError("pattern: more than " + std::to_string(kMostPatternPlaces) +
-                           " characters once its repetitions are written out");
+          throw InputError("pattern: more than " + std::to_string(kMostPatternPlaces) + " characters once its repetitions are written out");
         }
         program_.places.push_back(e.bytes);
-        return Add(
-            {.kind = Kind::kPlace, .next = next, .place = static_cast<uint32_t>(program_.places.size() - 1)});
+        return Add({.kind = Kind::kPlace, .next = next, .place = static_cast<uint32_t>(program_.places.size() - 1)});
       case Form::kAssertion:
         return Add({.kind = e.assertion, .next = next});
       case Form::kSequence:
@@ -85,15 +83,12 @@ class Writer {
 
 void CheckLength(std::string_view text) {
   if (text.size() <= kLongestPattern) return;
-  throw InputError("pattern: " + std::to_string(text.size()) + " characters are more than " +
-                   std::to_string(kLongestPattern));
+  throw InputError("pattern: " + std::to_string(text.size()) + " characters are more than " + std::to_string(kLongestPattern));
 }
 
 }  // namespace
 
-bool IsWordByte(uint8_t c) {
-  return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
+bool IsWordByte(uint8_t c) { return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 PatternProgram ParseRegex(std::string_view text, bool ignore_case) {
   CheckLength(text);

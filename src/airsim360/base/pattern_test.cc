@@ -49,19 +49,17 @@ class RandomRegex {
   }
   std::string Item(int depth) {
     static const std::vector<std::string> kAssertions = {"^", "$", "\\b", "\\B"};
-    static const std::vector<std::string> kTimes = {"*",  "+",   "?",    "*?",    "+?",
-                                                    "??", "{2}", "{1,}", "{0,2}", "{1,3}?"};
+    static const std::vector<std::string> kTimes = {"*", "+", "?", "*?", "+?", "??", "{2}", "{1,}", "{0,2}", "{1,3}?"};
     if (Below(8) == 0) return kAssertions[static_cast<size_t>(Below(4))];
     const std::string atom = Atom(depth);
     return Below(3) != 0 ? atom : atom + kTimes[static_cast<size_t>(Below(static_cast<int>(kTimes.size())))];
   }
   std::string Atom(int depth) {
-    static const std::vector<std::string> kAtoms = {
-        "a",     "b",     "c",      "A",      "Z",      "_",           " ",
-        "1",     "/",     "-",      ".",      "\\.",    "\\d",         "\\D",
-        "\\w",   "\\W",   "\\s",    "\\S",    "\\t",    "\\x41",       "[abc]",
-        "[^ab]", "[a-c]", "[^A-Z]", "[\\d_]", "[^\\s]", "[[:alpha:]]", "[[:upper:]1]",
-        "[.b-]", "]",     "}"};
+    static const std::vector<std::string> kAtoms = {"a",     "b",     "c",      "A",      "Z",      "_",           " ",
+                                                    "1",     "/",     "-",      ".",      "\\.",    "\\d",         "\\D",
+                                                    "\\w",   "\\W",   "\\s",    "\\S",    "\\t",    "\\x41",       "[abc]",
+                                                    "[^ab]", "[a-c]", "[^A-Z]", "[\\d_]", "[^\\s]", "[[:alpha:]]", "[[:upper:]1]",
+                                                    "[.b-]", "]",     "}"};
     if (depth > 0 && Below(4) == 0) return (Below(2) ? "(" : "(?:") + Choice(depth - 1) + ")";
     return kAtoms[static_cast<size_t>(Below(static_cast<int>(kAtoms.size())))];
   }
@@ -84,8 +82,7 @@ TEST(Pattern, AgreesWithStdRegexOnRandomExpressionsAndTexts) {
     for (int i = 0; i < 20; ++i) {
       const std::string text = random.Text();
       const bool expected = std::regex_match(text, other);
-      ASSERT_EQ(matcher.Matches(text), expected)
-          << "seed " << seed << ": " << expression << " on '" << text << "'";
+      ASSERT_EQ(matcher.Matches(text), expected) << "seed " << seed << ": " << expression << " on '" << text << "'";
       matched += expected;
       ++asked;
     }
@@ -96,22 +93,21 @@ TEST(Pattern, AgreesWithStdRegexOnRandomExpressionsAndTexts) {
 }
 
 TEST(Pattern, RefusesTheSameMistakesAsStdRegex) {
-  for (const char* text : {"[", "(", ")", "*", "+a", "a|*", "{2}", "a{2", "a{", "a{3,2}", "[b-a]", "\\", "(?",
-                           "[a", "a{x}", "[[:nothing:]]", "^*", "\\x1", "[[:alpha:]"}) {
+  for (const char* text : {"[", "(", ")", "*", "+a", "a|*", "{2}", "a{2", "a{", "a{3,2}", "[b-a]", "\\", "(?", "[a", "a{x}",
+                           "[[:nothing:]]", "^*", "\\x1", "[[:alpha:]"}) {
     EXPECT_THROW(std::regex(text, std::regex::ECMAScript), std::regex_error) << text;
     EXPECT_THROW(Pattern::Regex(text, false), InputError) << text;
   }
 }
 
 TEST(Pattern, RefusesWhatNoAutomatonOfItsSizeCanDoAndSaysWhere) {
-  for (const auto& [text, part] :
-       std::vector<std::pair<std::string, std::string>>{{"(a)\\1", "character 5: back-references"},
-                                                        {"a(?=b)", "character 3: lookaheads"},
-                                                        {"a(?!b)", "lookaheads"},
-                                                        {"a{2000}", "more than 1024 repetitions"},
-                                                        {"(a{100}){100}", "more than 1024 characters"},
-                                                        {"(((()){1000}){1000}){1000}", "too large"},
-                                                        {std::string(1001, 'a'), "1001 characters"}}) {
+  for (const auto& [text, part] : std::vector<std::pair<std::string, std::string>>{{"(a)\\1", "character 5: back-references"},
+                                                                                   {"a(?=b)", "character 3: lookaheads"},
+                                                                                   {"a(?!b)", "lookaheads"},
+                                                                                   {"a{2000}", "more than 1024 repetitions"},
+                                                                                   {"(a{100}){100}", "more than 1024 characters"},
+                                                                                   {"(((()){1000}){1000}){1000}", "too large"},
+                                                                                   {std::string(1001, 'a'), "1001 characters"}}) {
     try {
       Pattern::Regex(text, false);
       ADD_FAILURE() << text;
@@ -126,8 +122,8 @@ TEST(Pattern, RefusesWhatNoAutomatonOfItsSizeCanDoAndSaysWhere) {
 TEST(Pattern, ExpressionsThatBacktrackersNeverFinishEndAtOnce) {
   const std::string text(500, 'a');
   const auto start = std::chrono::steady_clock::now();
-  for (const char* regex : {"(.*)*x", "(.*.*)*x", "(a+)+b", "(a|aa)+$b", "(a|a)*b", "(.*a){20}x",
-                            "((a?){30}a{30})*b", "(\\w+\\s?)*x", "(a|b|ab)*bc", "(.|a)*.{500}x"}) {
+  for (const char* regex : {"(.*)*x", "(.*.*)*x", "(a+)+b", "(a|aa)+$b", "(a|a)*b", "(.*a){20}x", "((a?){30}a{30})*b", "(\\w+\\s?)*x",
+                            "(a|b|ab)*bc", "(.|a)*.{500}x"}) {
     EXPECT_FALSE(Matches(regex, text)) << regex;
   }
   EXPECT_TRUE(Matches("(.*)*", text));

@@ -28,10 +28,10 @@ class ScratchFolder {
 std::optional<std::filesystem::path> FindProgram(const std::string& name);
 
 struct ProcessOptions {
-  std::filesystem::path out = "/dev/null";       ///< what it prints
+  std::filesystem::path out = "/dev/null";         ///< what it prints
   std::filesystem::path complaints = "/dev/null";  ///< its standard error; may be `out` itself
-  double seconds = 600;                          ///< then it and all that it started are killed
-  uint64_t most_bytes = uint64_t{4} << 30;       ///< of each file that it writes
+  double seconds = 600;                            ///< then it and all that it started are killed
+  uint64_t most_bytes = uint64_t{4} << 30;         ///< of each file that it writes
 };
 
 /// How a program ended.

@@ -25,8 +25,7 @@ constexpr uint64_t HashName(std::string_view name) {
 /// independently.
 class RngStream {
  public:
-  RngStream(uint64_t seed, std::string_view name, uint64_t id = 0)
-      : state_(MixBits(MixBits(seed ^ HashName(name)) + id)) {}
+  RngStream(uint64_t seed, std::string_view name, uint64_t id = 0) : state_(MixBits(MixBits(seed ^ HashName(name)) + id)) {}
 
   /// Uniform over all 64-bit integers (SplitMix64).
   uint64_t Bits() {
@@ -39,9 +38,7 @@ class RngStream {
   /// Uniform in [low, high).
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
   /// Uniform over {0, …, n - 1}; n > 0.
-  uint32_t Index(uint32_t n) {
-    return static_cast<uint32_t>((static_cast<unsigned __int128>(Bits()) * n) >> 64);
-  }
+  uint32_t Index(uint32_t n) { return static_cast<uint32_t>((static_cast<unsigned __int128>(Bits()) * n) >> 64); }
   /// True with probability p.
   bool Chance(double p) { return Uniform() < p; }
   /// Normal with mean 0 and standard deviation 1 (Box-Muller, one value per call).

@@ -113,8 +113,7 @@ bool SameMeaning(std::string_view a, std::string_view b) {
     }
     return false;
   };
-  return !a.empty() && !b.empty() &&
-         std::ranges::any_of(kRows, [&](std::string_view row) { return holds(row, a) && holds(row, b); });
+  return !a.empty() && !b.empty() && std::ranges::any_of(kRows, [&](std::string_view row) { return holds(row, a) && holds(row, b); });
 }
 
 }  // namespace airsim360::internal

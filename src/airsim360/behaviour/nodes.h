@@ -12,13 +12,30 @@ namespace airsim360::behaviour {
 
 enum class Node : uint8_t {
   // Controls
-  kSequence, kSequenceWithMemory, kReactiveSequence, kFallback, kReactiveFallback, kParallel, kParallelAll,
-  kIfThenElse, kWhileDoElse,
+  kSequence,
+  kSequenceWithMemory,
+  kReactiveSequence,
+  kFallback,
+  kReactiveFallback,
+  kParallel,
+  kParallelAll,
+  kIfThenElse,
+  kWhileDoElse,
   // Decorators
-  kInverter, kForceSuccess, kForceFailure, kRepeat, kRetryUntilSuccessful, kKeepRunningUntilFailure, kTimeout, kDelay,
+  kInverter,
+  kForceSuccess,
+  kForceFailure,
+  kRepeat,
+  kRetryUntilSuccessful,
+  kKeepRunningUntilFailure,
+  kTimeout,
+  kDelay,
   kRunOnce,
   // Actions that need nobody
-  kAlwaysSuccess, kAlwaysFailure, kSleep, kSetBlackboard,
+  kAlwaysSuccess,
+  kAlwaysFailure,
+  kSleep,
+  kSetBlackboard,
   // From here on: leaves of a palette, numbered by whom they are for
   kFirstLeaf
 };

@@ -102,7 +102,8 @@ class Compiler {
       if (port.kind == 'n') {
         char* end = nullptr;
         const double number = std::strtod(text.c_str(), &end);
-        if (text.empty() || *end != 0 || !(number - number == 0)) throw InputError("expected a number, found '" + text.substr(0, 100) + "'");
+        if (text.empty() || *end != 0 || !(number - number == 0))
+          throw InputError("expected a number, found '" + text.substr(0, 100) + "'");
         Value value;
         value.kind = Value::Kind::kNumber;
         value.number = number;
@@ -156,7 +157,12 @@ class Compiler {
     const NodeInfo* info = palette_.Find(tag);
     if (!info) Fail(element, UnknownChoiceMessage("node", tag, palette_.Names()));
     CheckAttributes(element, *info, generic);
-    TreeNode node{.node = info->node, .info = info, .first_port = static_cast<uint16_t>(tree_.ports.size()), .line = element.line, .order = element.order, .label = info->name};
+    TreeNode node{.node = info->node,
+                  .info = info,
+                  .first_port = static_cast<uint16_t>(tree_.ports.size()),
+                  .line = element.line,
+                  .order = element.order,
+                  .label = info->name};
     if (const std::string* name = element.Find("name")) node.label = name->substr(0, 80);
     if (tree_.ports.size() > 60000) Fail(element, "the tree is too large");
     for (const PortInfo& port : info->ports) AddPort(element, *info, port, scope);
@@ -179,8 +185,7 @@ class Compiler {
     const size_t n = element.children.size();
     const std::string has = info.name + (" has " + std::to_string(n)) + " children, not ";
     const bool fits = info.of == NodeClass::kControl ? n >= 1 : info.of == NodeClass::kDecorator ? n == 1 : n == 0;
-    if (!fits)
-      Fail(element, has + (info.of == NodeClass::kControl ? "one or more" : info.of == NodeClass::kDecorator ? "one" : "none"));
+    if (!fits) Fail(element, has + (info.of == NodeClass::kControl ? "one or more" : info.of == NodeClass::kDecorator ? "one" : "none"));
     if ((info.node == Node::kIfThenElse || info.node == Node::kWhileDoElse) && (n < 2 || n > 3)) Fail(element, has + "two or three");
   }
 
@@ -254,13 +259,20 @@ std::string PointText(const Value& value) {
 std::string ValueText(char what, const Value& value, const TreeSet& set, const NameValue& name) {
   if (std::string named = name(what, value); !named.empty()) return named;
   switch (value.kind) {
-    case Value::Kind::kNumber: return NumberText(value.number);
-    case Value::Kind::kText: return value.index < set.texts.size() ? set.texts[value.index] : "";
-    case Value::Kind::kPoint: return PointText(value);
-    case Value::Kind::kPerson: return "person " + std::to_string(value.index);
-    case Value::Kind::kEntity: return "entity " + std::to_string(value.index);
-    case Value::Kind::kVehicle: return "vehicle " + std::to_string(value.index);
-    case Value::Kind::kNone: break;
+    case Value::Kind::kNumber:
+      return NumberText(value.number);
+    case Value::Kind::kText:
+      return value.index < set.texts.size() ? set.texts[value.index] : "";
+    case Value::Kind::kPoint:
+      return PointText(value);
+    case Value::Kind::kPerson:
+      return "person " + std::to_string(value.index);
+    case Value::Kind::kEntity:
+      return "entity " + std::to_string(value.index);
+    case Value::Kind::kVehicle:
+      return "vehicle " + std::to_string(value.index);
+    case Value::Kind::kNone:
+      break;
   }
   return {};
 }

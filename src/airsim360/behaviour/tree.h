@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "airsim360/math/vector.h"
 #include "airsim360/behaviour/nodes.h"
+#include "airsim360/math/vector.h"
 
 namespace airsim360::behaviour {
 
@@ -31,11 +31,11 @@ struct Port {
 
 struct TreeNode {
   Node node = Node::kSequence;
-  const NodeInfo* info = nullptr;  ///< of the palette
+  const NodeInfo* info = nullptr;             ///< of the palette
   uint16_t first_child = 0, child_count = 0;  ///< into Tree::children
   uint16_t first_port = 0;                    ///< into Tree::ports, as many as info->ports
   int line = 0;
-  int order = 0;  ///< XmlElement::order, in Tree::source
+  int order = 0;      ///< XmlElement::order, in Tree::source
   std::string label;  ///< "Chat" or the author's name of it
 };
 

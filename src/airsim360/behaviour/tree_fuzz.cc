@@ -24,8 +24,11 @@ class Nothing : public Leaves {
 
 // A leaf with every kind of port.
 const Palette& FuzzPalette() {
-  static const Palette palette({{Node::kFirstLeaf, "Act", NodeClass::kAction,
-                                 {{"to", 'p', nullptr}, {"how", 't', "well"}, {"times", 'n', "1"}, {"found", 'o', "", true}}, ""},
+  static const Palette palette({{Node::kFirstLeaf,
+                                 "Act",
+                                 NodeClass::kAction,
+                                 {{"to", 'p', nullptr}, {"how", 't', "well"}, {"times", 'n', "1"}, {"found", 'o', "", true}},
+                                 ""},
                                 {static_cast<Node>(static_cast<int>(Node::kFirstLeaf) + 1), "Ask", NodeClass::kCondition, {}, "", true}});
   return palette;
 }
@@ -35,7 +38,8 @@ const Palette& FuzzPalette() {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   TreeSet set;
   try {
-    ReadTrees({reinterpret_cast<const char*>(data), size}, "fuzz", FuzzPalette(), [](char, const std::string&) { return Value{}; }, set);
+    ReadTrees(
+        {reinterpret_cast<const char*>(data), size}, "fuzz", FuzzPalette(), [](char, const std::string&) { return Value{}; }, set);
   } catch (const InputError&) {
     return 0;
   }

@@ -126,9 +126,12 @@ class Ticker {
         if (status == Status::kRunning || status == Status::kSkipped) return status;
         return node.node == Node::kForceSuccess ? Status::kSuccess : Status::kFailure;
       }
-      case Node::kRepeat: return Loop(node, memory, Status::kFailure, Number(node, 0));
-      case Node::kRetryUntilSuccessful: return Loop(node, memory, Status::kSuccess, Number(node, 0));
-      case Node::kKeepRunningUntilFailure: return Loop(node, memory, Status::kFailure, -1);
+      case Node::kRepeat:
+        return Loop(node, memory, Status::kFailure, Number(node, 0));
+      case Node::kRetryUntilSuccessful:
+        return Loop(node, memory, Status::kSuccess, Number(node, 0));
+      case Node::kKeepRunningUntilFailure:
+        return Loop(node, memory, Status::kFailure, -1);
       case Node::kTimeout: {
         if (memory.status != Status::kRunning) memory.t_ns = t_ns_;
         if (static_cast<double>(t_ns_ - memory.t_ns) * 1e-6 >= Number(node, 0)) return Halt(child), Status::kFailure;
@@ -156,24 +159,36 @@ class Ticker {
 
   Status Run(const TreeNode& node, NodeMemory& memory) {
     switch (node.node) {
-      case Node::kSequence: return InOrder(node, memory, Status::kSuccess, false, false);
-      case Node::kSequenceWithMemory: return InOrder(node, memory, Status::kSuccess, false, true);
-      case Node::kReactiveSequence: return InOrder(node, memory, Status::kSuccess, true, false);
-      case Node::kFallback: return InOrder(node, memory, Status::kFailure, false, false);
-      case Node::kReactiveFallback: return InOrder(node, memory, Status::kFailure, true, false);
-      case Node::kParallel: return AtOnce(node, memory, false);
-      case Node::kParallelAll: return AtOnce(node, memory, true);
-      case Node::kIfThenElse: return Branch(node, memory, false);
-      case Node::kWhileDoElse: return Branch(node, memory, true);
-      case Node::kAlwaysSuccess: return Status::kSuccess;
-      case Node::kAlwaysFailure: return Status::kFailure;
+      case Node::kSequence:
+        return InOrder(node, memory, Status::kSuccess, false, false);
+      case Node::kSequenceWithMemory:
+        return InOrder(node, memory, Status::kSuccess, false, true);
+      case Node::kReactiveSequence:
+        return InOrder(node, memory, Status::kSuccess, true, false);
+      case Node::kFallback:
+        return InOrder(node, memory, Status::kFailure, false, false);
+      case Node::kReactiveFallback:
+        return InOrder(node, memory, Status::kFailure, true, false);
+      case Node::kParallel:
+        return AtOnce(node, memory, false);
+      case Node::kParallelAll:
+        return AtOnce(node, memory, true);
+      case Node::kIfThenElse:
+        return Branch(node, memory, false);
+      case Node::kWhileDoElse:
+        return Branch(node, memory, true);
+      case Node::kAlwaysSuccess:
+        return Status::kSuccess;
+      case Node::kAlwaysFailure:
+        return Status::kFailure;
       case Node::kSleep:
         if (memory.status != Status::kRunning) memory.t_ns = t_ns_;
         return static_cast<double>(t_ns_ - memory.t_ns) * 1e-6 >= Number(node, 0) ? Status::kSuccess : Status::kRunning;
       case Node::kSetBlackboard:
         SetPort(tree_, node, run_, 1, PortOf(tree_, node, run_, 0));
         return Status::kSuccess;
-      default: break;
+      default:
+        break;
     }
     if (node.node < Node::kAlwaysSuccess) return Decorate(node, memory);
     return leaves_.Tick(tree_, node, memory, run_);
@@ -187,9 +202,7 @@ class Ticker {
 
 }  // namespace
 
-Status TickTree(const Tree& tree, TreeRun& run, int64_t t_ns, Leaves& leaves) {
-  return Ticker(tree, run, t_ns, leaves).Tick(0);
-}
+Status TickTree(const Tree& tree, TreeRun& run, int64_t t_ns, Leaves& leaves) { return Ticker(tree, run, t_ns, leaves).Tick(0); }
 
 void HaltTree(const Tree& tree, TreeRun& run, Leaves& leaves) { Ticker(tree, run, 0, leaves).Halt(0); }
 
@@ -198,9 +211,7 @@ const Value& PortOf(const Tree& tree, const TreeNode& node, const TreeRun& run, 
   return port.is_slot ? run.slots[port.slot] : port.value;
 }
 
-double NumberOf(const Tree& tree, const TreeNode& node, const TreeRun& run, size_t i) {
-  return PortOf(tree, node, run, i).number;
-}
+double NumberOf(const Tree& tree, const TreeNode& node, const TreeRun& run, size_t i) { return PortOf(tree, node, run, i).number; }
 
 void SetPort(const Tree& tree, const TreeNode& node, TreeRun& run, size_t i, const Value& value) {
   const Port& port = tree.ports[node.first_port + i];

@@ -21,8 +21,7 @@ std::string Format(const char* format, Values... values) {
 // Classes, the largest part of the sphere first.
 std::string HistogramTable(const std::vector<CategoryTotal>& totals, const Scene& scene) {
   std::vector<CategoryTotal> sorted = totals;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.pixels > b.pixels; });
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.pixels > b.pixels; });
   int64_t pixels = 0;
   double solid_angle = 0;
   for (const CategoryTotal& total : totals) {
@@ -34,12 +33,10 @@ std::string HistogramTable(const std::vector<CategoryTotal>& totals, const Scene
       "|\n|--:|---|---|--:|--:|--:|--:|\n";
   for (const CategoryTotal& total : sorted) {
     const Category& category = scene.tree[total.category];
-    table +=
-        "| " + std::to_string(total.category) + " | `" + category.path + "` | " +
-        (category.thing ? "thing" : "stuff") + " | " + std::to_string(total.entities) + " | " +
-        std::to_string(total.pixels) +
-        Format(" | %.3f | %.3f |\n", 100.0 * static_cast<double>(total.pixels) / static_cast<double>(pixels),
-               100.0 * total.solid_angle / solid_angle);
+    table += "| " + std::to_string(total.category) + " | `" + category.path + "` | " + (category.thing ? "thing" : "stuff") + " | " +
+             std::to_string(total.entities) + " | " + std::to_string(total.pixels) +
+             Format(" | %.3f | %.3f |\n", 100.0 * static_cast<double>(total.pixels) / static_cast<double>(pixels),
+                    100.0 * total.solid_angle / solid_angle);
   }
   return table;
 }
@@ -69,19 +66,15 @@ std::string FurtherFiles(const DatasetSpec& spec) {
 std::string CardMarkdown(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene) {
   const std::vector<CategoryTotal> totals = index.CategoryTotals();
   const size_t entities = index.SeenEntities().size();
-  std::string text = "# " + scene.name + ": labelled " +
-                     (IsPanoramic(spec) ? "panoramas" : "pictures") + "\n\n";
+  std::string text = "# " + scene.name + ": labelled " + (IsPanoramic(spec) ? "panoramas" : "pictures") + "\n\n";
   text += "![colour, range, semantic and entity pictures of some frames, with a legend](contact_sheet.png)\n\n";
   text += "| | |\n|---|---|\n";
-  const auto row = [&](const std::string& key, const std::string& value) {
-    text += "| " + key + " | " + value + " |\n";
-  };
+  const auto row = [&](const std::string& key, const std::string& value) { text += "| " + key + " | " + value + " |\n"; };
   row("world", "`" + spec.world + "`, seed " + std::to_string(spec.seed));
-  row("frames",
-      std::to_string(index.Frames().size()) +
-          (spec.shards > 1 ? " (shard " + std::to_string(spec.shard) + " of " + std::to_string(spec.shards) +
-                                 " of " + std::to_string(spec.frames) + ")"
-                           : std::string()));
+  row("frames", std::to_string(index.Frames().size()) + (spec.shards > 1
+                                                             ? " (shard " + std::to_string(spec.shard) + " of " +
+                                                                   std::to_string(spec.shards) + " of " + std::to_string(spec.frames) + ")"
+                                                             : std::string()));
   const auto size_of = [](const auto& camera) {
     return std::to_string(camera.width) + " x " + std::to_string(camera.height) + ", " +
            kProjectionNames[static_cast<int>(camera.projection)];
@@ -90,8 +83,8 @@ std::string CardMarkdown(const DatasetIndex& index, const DatasetSpec& spec, con
   for (const RigCamera& camera : spec.cameras) row("camera `" + camera.name + "`", size_of(camera));
   if (!spec.people.empty()) {
     const PeopleTotals people = index.CountPeople();
-    row("people", spec.people + "; seen " + std::to_string(people.persons_seen) + ", with at least " +
-                      std::to_string(kLargePerson) + " pixels in some picture " + std::to_string(people.persons_large));
+    row("people", spec.people + "; seen " + std::to_string(people.persons_seen) + ", with at least " + std::to_string(kLargePerson) +
+                      " pixels in some picture " + std::to_string(people.persons_large));
   }
   row("tier", kTierNames[static_cast<int>(spec.tier)]);
   row("route", spec.route);
@@ -111,11 +104,9 @@ std::string CardMarkdown(const DatasetIndex& index, const DatasetSpec& spec, con
       "and category tree\n"
       "- `SHA256SUMS`: check with `sha256sum -c SHA256SUMS` or `airsim360 verify .`\n";
   text += "\n## Classes\n\n" + HistogramTable(totals, scene);
-  text +=
-      "\n## Licence\n\nThe pictures and labels are computed by AirSim360 and belong to whoever made them.\n";
+  text += "\n## Licence\n\nThe pictures and labels are computed by AirSim360 and belong to whoever made them.\n";
   if (!scene.attributions.empty()) {
-    text +=
-        "The world shows these third-party models; keep their attribution when you publish the pictures:\n\n";
+    text += "The world shows these third-party models; keep their attribution when you publish the pictures:\n\n";
     for (const std::string& line : scene.attributions) text += "- " + line + "\n";
   }
   return text;

@@ -83,8 +83,7 @@ bool IsFinished(const CollectInput& input) {
   for (const std::string& name : PoseFileNames(spec)) {
     if (!fs::exists(folder / name)) return false;
   }
-  for (const char* name : {kChecksumsName, "frames.jsonl", "entities.json", "panoptic.json", "README.md",
-                           "contact_sheet.png"}) {
+  for (const char* name : {kChecksumsName, "frames.jsonl", "entities.json", "panoptic.json", "README.md", "contact_sheet.png"}) {
     if (!fs::exists(folder / name)) return false;
   }
   return true;
@@ -167,8 +166,8 @@ namespace {
 // Rendered here, or elsewhere where `renderer` is null.
 CollectResult Run(const CollectInput& input, Renderer* renderer, const RenderElsewhere& elsewhere) {
   if (!input.frames && static_cast<int64_t>(input.flight.shots.size()) != input.spec.frames) {
-    throw RuntimeError("collect: the flight has " + std::to_string(input.flight.shots.size()) +
-                       " shots for " + std::to_string(input.spec.frames) + " frames");
+    throw RuntimeError("collect: the flight has " + std::to_string(input.flight.shots.size()) + " shots for " +
+                       std::to_string(input.spec.frames) + " frames");
   }
   const auto start = std::chrono::steady_clock::now();
   CollectResult result{.frames = static_cast<int64_t>(FramesOfShard(input).size())};
@@ -177,8 +176,7 @@ CollectResult Run(const CollectInput& input, Renderer* renderer, const RenderEls
   const FolderLock lock(input.out);
   RemoveTemporaryFiles(input.out);
   if (!fs::exists(input.out / kMetaName)) WriteFileAtomically(input.out / kMetaName, meta);
-  for (const ProductFolder& folder : ProductFolders(input.spec))
-    CreateWritableFolder(input.out / folder.name);
+  for (const ProductFolder& folder : ProductFolders(input.spec)) CreateWritableFolder(input.out / folder.name);
   if (input.spec.overlay) CreateWritableFolder(input.out / "overlay");
   if (input.spec.crops) CreateWritableFolder(input.out / "crops");
   std::vector<int64_t> missing;
@@ -192,14 +190,16 @@ CollectResult Run(const CollectInput& input, Renderer* renderer, const RenderEls
     fs::remove(input.out / kChecksumsName);
     if (renderer) {
       ProgressBar progress("collect", static_cast<int64_t>(missing.size()));
-      WriteFrames(input, missing, *renderer, index, [&](int64_t) { progress.Update(result.written); }, result);
+      WriteFrames(
+          input, missing, *renderer, index, [&](int64_t) { progress.Update(result.written); }, result);
     }
   }
   if (!renderer && !missing.empty()) {
     ProgressBar progress("collect", static_cast<int64_t>(missing.size()));
     // A frame that was begun twice counts once.
     const auto all = static_cast<int64_t>(missing.size());
-    elsewhere(missing, [&] { progress.Update(std::min(++result.written, all)); }, result);
+    elsewhere(
+        missing, [&] { progress.Update(std::min(++result.written, all)); }, result);
     result.written = all;
     CheckNothingIsMissing(input);
   }

@@ -21,8 +21,7 @@ struct CollectInput {
   const Scene& scene;
   const Flight& flight;  ///< its shots are all frames of the dataset; this shard takes its own
   std::filesystem::path out;
-  std::string trajectory_json =
-      {};  ///< content of trajectory.json beside trajectory.csv; empty = no such file
+  std::string trajectory_json = {};  ///< content of trajectory.json beside trajectory.csv; empty = no such file
   /// Of the scene, whose states the shots hold; null = nobody. `tracer` is of the scene too.
   std::shared_ptr<const SimPeople> people = nullptr;
   std::shared_ptr<const RayTracer> tracer = nullptr;
@@ -36,7 +35,7 @@ struct CollectInput {
   /// From the entity ids of the world to those of the dataset, which `scene` holds; empty: they are the same.
   std::function<EntityId(EntityId)> renumber = {};
   std::map<std::string, std::string> further_files = {};  ///< name -> content, written with the summaries
-  std::function<void()> before_summaries = {};             ///< called when all frames are there
+  std::function<void()> before_summaries = {};            ///< called when all frames are there
 };
 
 /// What a run did.

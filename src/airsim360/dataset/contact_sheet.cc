@@ -25,8 +25,7 @@ Image<Rgb8> ShrinkNearest(const Image<Pixel>& source, int width, int height, Col
   Image<Rgb8> target(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      target(x, y) = color(
-          source((2 * x + 1) * source.width() / (2 * width), (2 * y + 1) * source.height() / (2 * height)));
+      target(x, y) = color(source((2 * x + 1) * source.width() / (2 * width), (2 * y + 1) * source.height() / (2 * height)));
     }
   }
   return target;
@@ -34,9 +33,7 @@ Image<Rgb8> ShrinkNearest(const Image<Pixel>& source, int width, int height, Col
 
 Image<Rgb8> WithoutAlpha(const Image<Rgba8>& source) {
   Image<Rgb8> target(source.width(), source.height());
-  std::transform(source.pixels().begin(), source.pixels().end(), target.pixels().begin(), [](Rgba8 p) {
-    return Rgb8{p.r, p.g, p.b};
-  });
+  std::transform(source.pixels().begin(), source.pixels().end(), target.pixels().begin(), [](Rgba8 p) { return Rgb8{p.r, p.g, p.b}; });
   return target;
 }
 
@@ -46,18 +43,14 @@ std::string Title(const std::string& product) {
 }
 
 // Near is light, far is dark, nothing is black.
-Rgb8 RangeColor(float range) {
-  return range > 0 ? ScaleColor(1 - LogScale(range, kNearest, kFarthest)) : Rgb8{};
-}
+Rgb8 RangeColor(float range) { return range > 0 ? ScaleColor(1 - LogScale(range, kNearest, kFarthest)) : Rgb8{}; }
 
-Image<Rgb8> Thumbnail(const std::string& product, const SemanticTree& tree, const std::filesystem::path& file,
-                      int width, int height) {
+Image<Rgb8> Thumbnail(const std::string& product, const SemanticTree& tree, const std::filesystem::path& file, int width, int height) {
   const Bytes bytes = ReadFile(file);
   const std::string name = file.string();
   if (product == "range") return ShrinkNearest(DecodeExr(bytes, name), width, height, RangeColor);
   if (product == "semantic") {
-    return ShrinkNearest(DecodeLabelPng(bytes, name), width, height,
-                         [&](uint16_t id) { return CategoryColor(tree, id); });
+    return ShrinkNearest(DecodeLabelPng(bytes, name), width, height, [&](uint16_t id) { return CategoryColor(tree, id); });
   }
   if (product == "entity") return ShrinkNearest(DecodeIdPng(bytes, name), width, height, IdColor);
   return ResizeBox(WithoutAlpha(DecodeRgba8(bytes, name)), width, height);
@@ -105,8 +98,7 @@ class Legend {
 
 }  // namespace
 
-Bytes ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene,
-                      const std::filesystem::path& folder) {
+Bytes ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene, const std::filesystem::path& folder) {
   // Rows are pictures spread evenly over the frames, the views by turns; columns are products.
   struct Cell {
     std::string product;
@@ -115,8 +107,7 @@ Bytes ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec, const 
   };
   std::vector<ProductFolder> products = ProductFolders(spec);
   std::erase_if(products, [](const ProductFolder& product) {
-    return std::ranges::none_of(
-        kProducts, [&](const ProductInfo& info) { return info.always && product.name == info.name; });
+    return std::ranges::none_of(kProducts, [&](const ProductInfo& info) { return info.always && product.name == info.name; });
   });
   const std::vector<int64_t> frames = index.Frames();
   const std::vector<View> views = Views(spec);
@@ -134,8 +125,7 @@ Bytes ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec, const 
     const int h = std::max(1, static_cast<int>(int64_t{w} * Height(view.camera) / Width(view.camera)));
     width = std::max(width, w);
     tops.push_back(tops.back() + h + kGap);
-    for (const ProductFolder& product : products)
-      cells.push_back({product.name, folder / product.name / (stem + product.extension), w, h});
+    for (const ProductFolder& product : products) cells.push_back({product.name, folder / product.name / (stem + product.extension), w, h});
   }
 
   const int sheet_width = static_cast<int>(products.size()) * (width + kGap) - kGap;

@@ -27,8 +27,7 @@ class DatasetTest : public ::testing::Test {
  protected:
   DatasetTest() {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              ("airsim360_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
+    folder_ = fs::temp_directory_path() / ("airsim360_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     SceneBuilder builder("open");
@@ -48,8 +47,7 @@ class DatasetTest : public ::testing::Test {
   CollectResult Collected(const std::string& name) {
     Flight flight;
     for (int64_t i = 0; i < spec_.frames; ++i) {
-      const Kinematics body{
-          BodyPose({static_cast<double>(i), 0, 2}, 0.1 * static_cast<double>(i), 0, 0), {1, 0, 0}, {}};
+      const Kinematics body{BodyPose({static_cast<double>(i), 0, 2}, 0.1 * static_cast<double>(i), 0, 0), {1, 0, 0}, {}};
       flight.shots.push_back({i * 1'000'000'000, body});
       flight.trajectory.push_back({i * 1'000'000'000, body, {}});
     }
@@ -60,8 +58,7 @@ class DatasetTest : public ::testing::Test {
   // Relative path -> content of every file.
   std::map<std::string, std::string> Tree(const std::string& name) const {
     std::map<std::string, std::string> tree;
-    for (const std::string& file : ListFiles(folder_ / name))
-      tree[file] = std::string(AsText(ReadFile(folder_ / name / file)));
+    for (const std::string& file : ListFiles(folder_ / name)) tree[file] = std::string(AsText(ReadFile(folder_ / name / file)));
     return tree;
   }
 
@@ -73,12 +70,10 @@ class DatasetTest : public ::testing::Test {
 TEST_F(DatasetTest, HoldsTheFilesOfTheLayout) {
   const CollectResult result = Collected("a");
   EXPECT_EQ(result.written, 4);
-  std::vector<std::string> expected = {"README.md",     "SHA256SUMS",    "contact_sheet.png",
-                                       "entities.json", "frames.jsonl",  "index.sqlite",
-                                       "meta.json",     "panoptic.json", "trajectory.csv"};
+  std::vector<std::string> expected = {"README.md",    "SHA256SUMS", "contact_sheet.png", "entities.json", "frames.jsonl",
+                                       "index.sqlite", "meta.json",  "panoptic.json",     "trajectory.csv"};
   for (const char* stem : {"000000", "000001", "000002", "000003"}) {
-    for (const char* folder : {"rgb/", "semantic/", "entity/"})
-      expected.push_back(std::string(folder) + stem + ".png");
+    for (const char* folder : {"rgb/", "semantic/", "entity/"}) expected.push_back(std::string(folder) + stem + ".png");
     expected.push_back(std::string("range/") + stem + ".exr");
   }
   std::sort(expected.begin(), expected.end());
@@ -133,8 +128,7 @@ TEST_F(DatasetTest, ACompleteDatasetIsLeftAlone) {
 TEST_F(DatasetTest, AnythingMissingIsMadeAgainWithTheSameBytes) {
   Collected("whole");
   const auto whole = Tree("whole");
-  for (const char* lost :
-       {"rgb/000002.png", "entity/000000.png", "panoptic.json", "SHA256SUMS", "index.sqlite"}) {
+  for (const char* lost : {"rgb/000002.png", "entity/000000.png", "panoptic.json", "SHA256SUMS", "index.sqlite"}) {
     Collected("a");
     fs::remove(folder_ / "a" / lost);
     std::ofstream(folder_ / "a/range/000001.exr.tmp") << "half";  // what a killed run leaves
@@ -227,8 +221,7 @@ TEST_F(DatasetTest, VerifyFindsLabelsThatDisagreeBothWays) {
   text.replace(id, 7, "{\"id\":9");
   WriteFileAtomically(folder_ / "a/panoptic.json", text);
   bool found = false;
-  for (const Finding& finding : VerifyDataset(folder_ / "a").findings)
-    found |= finding.kind == Finding::Kind::kLabels;
+  for (const Finding& finding : VerifyDataset(folder_ / "a").findings) found |= finding.kind == Finding::Kind::kLabels;
   EXPECT_TRUE(found);
 }
 
@@ -262,8 +255,7 @@ TEST_F(DatasetTest, ProductsOnRequestHaveTheirFilesAndFlowNamesThePoseItLeadsTo)
   for (const ProductInfo& product : kProducts) {
     if (product.needs_light) continue;  // the null renderer has none
     for (const char* stem : {"000000", "000003"}) {
-      EXPECT_TRUE(fs::exists(folder_ / "a" / product.name / (stem + std::string(product.extension))))
-          << product.name;
+      EXPECT_TRUE(fs::exists(folder_ / "a" / product.name / (stem + std::string(product.extension)))) << product.name;
     }
   }
   EXPECT_TRUE(fs::exists(folder_ / "a" / "materials.json"));

@@ -22,23 +22,20 @@ GPano PhotoSpherePose(const Mat3d& R_WC) {
   const Vec3d right = R_WC.column(0), down = R_WC.column(1), forward = R_WC.column(2);
   double heading = std::atan2(forward.x, forward.y) * kDegrees;
   if (heading < 0) heading += 360;
-  return {heading, std::asin(std::clamp(forward.z, -1.0, 1.0)) * kDegrees,
-          std::atan2(-right.z, -down.z) * kDegrees};
+  return {heading, std::asin(std::clamp(forward.z, -1.0, 1.0)) * kDegrees, std::atan2(-right.z, -down.z) * kDegrees};
 }
 
 Bytes EncodeRgb(const Capture& capture, Projection projection, const DatasetSpec& spec) {
   std::optional<GPano> gpano;
   if (projection == Projection::kErp) gpano = PhotoSpherePose(capture.X_WC.R);
-  return spec.rgb_format == RgbFormat::kJpeg ? EncodeJpeg(capture.frame.rgb, kJpegQuality, gpano)
-                                             : EncodePng(capture.frame.rgb, gpano);
+  return spec.rgb_format == RgbFormat::kJpeg ? EncodeJpeg(capture.frame.rgb, kJpegQuality, gpano) : EncodePng(capture.frame.rgb, gpano);
 }
 
 Bytes EncodeSemantic(const Image<CategoryId>& semantic, bool wide) {
   return wide ? EncodePng(semantic) : EncodePalettePng(internal::NarrowSemantic(semantic), CategoryPalette());
 }
 
-Bytes EncodeProduct(const std::string& product, const Capture& capture, const View& view,
-                    const EncodeContext& context) {
+Bytes EncodeProduct(const std::string& product, const Capture& capture, const View& view, const EncodeContext& context) {
   if (product == "rgb") return EncodeRgb(capture, view.projection, context.spec);
   if (product == "range") return EncodeExr(capture.frame.range);
   if (product == "semantic") return EncodeSemantic(capture.frame.semantic, NeedsWideSemantics(context.scene));
@@ -51,8 +48,8 @@ Bytes EncodeProduct(const std::string& product, const Capture& capture, const Vi
 void FillRangeFigures(const std::vector<Capture>& captures, FrameRecord& record) {
   std::vector<float> hits;
   for (const Capture& capture : captures) {
-    std::copy_if(capture.frame.range.pixels().begin(), capture.frame.range.pixels().end(),
-                 std::back_inserter(hits), [](float range) { return range > 0; });
+    std::copy_if(capture.frame.range.pixels().begin(), capture.frame.range.pixels().end(), std::back_inserter(hits),
+                 [](float range) { return range > 0; });
   }
   if (hits.empty()) return;
   const auto middle = hits.begin() + static_cast<ptrdiff_t>((hits.size() - 1) / 2);
@@ -72,8 +69,8 @@ EncodeContext MakeEncodeContext(const DatasetSpec& spec, const Scene& scene, con
 namespace {
 
 // Rows of the persons of every view, and a picture of everyone who can be seen.
-void EncodePeople(const EncodeContext& context, int64_t index, const std::vector<Capture>& captures,
-                  const FrameLabels& people, EncodedFrame& frame) {
+void EncodePeople(const EncodeContext& context, int64_t index, const std::vector<Capture>& captures, const FrameLabels& people,
+                  EncodedFrame& frame) {
   struct Crop {
     size_t view;
     const PersonLabel* label;
@@ -81,8 +78,7 @@ void EncodePeople(const EncodeContext& context, int64_t index, const std::vector
   std::vector<Crop> crops;
   for (size_t v = 0; v < people.size(); ++v) {
     ViewRecord& view = frame.record.views[v];
-    view.persons = PersonRows({*context.people, context.views[v].camera, captures[v].frame.entity, view.segments},
-                              people[v]);
+    view.persons = PersonRows({*context.people, context.views[v].camera, captures[v].frame.entity, view.segments}, people[v]);
     for (size_t i = 0; i < people[v].size() && context.spec.crops; ++i) {
       if (view.persons[i].pixels > 0) crops.push_back({v, &people[v][i]});
     }
@@ -91,8 +87,8 @@ void EncodePeople(const EncodeContext& context, int64_t index, const std::vector
     const View& view = context.views[v];
     EncodedFile file;
     file.bytes = EncodePng(DrawPeople(captures[v].frame.rgb, view.camera, people[v]), std::nullopt);
-    file.record = {"overlay" + view.suffix, "overlay/" + Stem(index) + view.suffix + ".png",
-                   static_cast<int64_t>(file.bytes.size()), Sha256Hex(file.bytes)};
+    file.record = {"overlay" + view.suffix, "overlay/" + Stem(index) + view.suffix + ".png", static_cast<int64_t>(file.bytes.size()),
+                   Sha256Hex(file.bytes)};
     frame.files.push_back(std::move(file));
   }
   const size_t first = frame.files.size();
@@ -102,16 +98,14 @@ void EncodePeople(const EncodeContext& context, int64_t index, const std::vector
     const View& view = context.views[crop.view];
     const std::string stem = CropStem(index, view.suffix, crop.label->person);
     EncodedFile& file = frame.files[first + static_cast<size_t>(task)];
-    file.bytes =
-        EncodePng(RenderCrop(captures[crop.view].frame.rgb, view.camera, CropOf(*crop.label)), std::nullopt);
+    file.bytes = EncodePng(RenderCrop(captures[crop.view].frame.rgb, view.camera, CropOf(*crop.label)), std::nullopt);
     file.record = {stem, stem + ".png", static_cast<int64_t>(file.bytes.size()), Sha256Hex(file.bytes)};
   });
 }
 
 }  // namespace
 
-EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vector<Capture>& captures,
-                    const FrameLabels& people) {
+EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vector<Capture>& captures, const FrameLabels& people) {
   const std::vector<ProductFolder> folders = ProductFolders(context.spec);
   const size_t views = context.views.size();
   EncodedFrame frame;
@@ -131,18 +125,15 @@ EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vect
       const View& view = context.views[i % views];
       EncodedFile& file = frame.files[i];
       file.bytes = EncodeProduct(folder.name, captures[i % views], view, context);
-      file.record = {folder.name + view.suffix,
-                     folder.name + "/" + Stem(index) + view.suffix + folder.extension,
+      file.record = {folder.name + view.suffix, folder.name + "/" + Stem(index) + view.suffix + folder.extension,
                      static_cast<int64_t>(file.bytes.size()), Sha256Hex(file.bytes)};
     } else if (i < frame.files.size() + views) {
       const size_t v = i - frame.files.size();
       const Frame& image = captures[v].frame;
       const Projection projection = context.views[v].projection;
-      frame.record.views[v] = {
-          context.views[v].suffix, captures[v].X_WC, captures[v].X_WC_next,
-          FindSegments(image.entity, image.semantic, context.scene, context.solid_angles[v],
-                       {.wraps = projection == Projection::kErp,
-                        .allows_void = MayLackRays(projection)})};
+      frame.record.views[v] = {context.views[v].suffix, captures[v].X_WC, captures[v].X_WC_next,
+                               FindSegments(image.entity, image.semantic, context.scene, context.solid_angles[v],
+                                            {.wraps = projection == Projection::kErp, .allows_void = MayLackRays(projection)})};
       frame.record.views[v].photo = captures[v].photo;
     } else {
       FillRangeFigures(captures, frame.record);

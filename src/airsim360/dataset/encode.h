@@ -31,15 +31,13 @@ struct EncodeContext {
   std::vector<PixelSolidAngles> solid_angles;  ///< one for each view
   const SimPeople* people = nullptr;           ///< null: nobody
 };
-EncodeContext MakeEncodeContext(const DatasetSpec& spec, const Scene& scene,
-                                const SimPeople* people = nullptr);
+EncodeContext MakeEncodeContext(const DatasetSpec& spec, const Scene& scene, const SimPeople* people = nullptr);
 
 /// Labels of the people in one frame: of each view those who are in it.
 using FrameLabels = std::vector<std::vector<PersonLabel>>;
 
 /// Encodes the captures of one frame (one for each view of the context) on all threads of ParallelFor.
 /// `people`: as many lists as views, or none.
-EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vector<Capture>& captures,
-                    const FrameLabels& people = {});
+EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vector<Capture>& captures, const FrameLabels& people = {});
 
 }  // namespace airsim360

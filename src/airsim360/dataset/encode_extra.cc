@@ -40,14 +40,13 @@ ChannelPicture CodePosition(const Image<Vec3f>& position) {
 }
 
 ChannelPicture CodeFlow(const Image<FlowPixel>& flow) {
-  return Channels(flow, {"dx", "dy", "range", "occluded", "motion.X", "motion.Y", "motion.Z"},
-                  [](const FlowPixel& pixel, float* out) {
-                    out[0] = pixel.dx;
-                    out[1] = pixel.dy;
-                    out[2] = pixel.range;
-                    out[3] = pixel.occluded;
-                    for (int i = 0; i < 3; ++i) out[4 + i] = pixel.motion[i];
-                  });
+  return Channels(flow, {"dx", "dy", "range", "occluded", "motion.X", "motion.Y", "motion.Z"}, [](const FlowPixel& pixel, float* out) {
+    out[0] = pixel.dx;
+    out[1] = pixel.dy;
+    out[2] = pixel.range;
+    out[3] = pixel.occluded;
+    for (int i = 0; i < 3; ++i) out[4 + i] = pixel.motion[i];
+  });
 }
 
 // Ids below 2^24, as in the id pictures, are exact in a float.
@@ -61,9 +60,7 @@ ChannelPicture CodeCoverage(const Image<CoveragePixel>& coverage) {
                   });
 }
 
-Bytes EncodeChannels(const ChannelPicture& picture) {
-  return EncodeExr(picture.values, picture.width, picture.height, picture.channels);
-}
+Bytes EncodeChannels(const ChannelPicture& picture) { return EncodeExr(picture.values, picture.width, picture.height, picture.channels); }
 
 }  // namespace
 
@@ -74,17 +71,13 @@ Image<uint8_t> NarrowSemantic(const Image<CategoryId>& semantic) {
 Image<Rgb16> CodeNormal(const Image<Vec3f>& normal) {
   return CodePixels<Rgb16>(normal, [](Vec3f n) {
     if (n == Vec3f{}) return Rgb16{};
-    const auto code = [](float x) {
-      return static_cast<uint16_t>(std::lround((std::clamp(x, -1.0f, 1.0f) + 1) * 32767.0f));
-    };
+    const auto code = [](float x) { return static_cast<uint16_t>(std::lround((std::clamp(x, -1.0f, 1.0f) + 1) * 32767.0f)); };
     return Rgb16{code(n.x), code(n.y), code(n.z)};
   });
 }
 
 Image<Rgb8> CodeAlbedo(const Image<Rgb32f>& albedo) {
-  return CodePixels<Rgb8>(albedo, [](Rgb32f c) {
-    return Rgb8{LinearToSrgb8(c.r), LinearToSrgb8(c.g), LinearToSrgb8(c.b)};
-  });
+  return CodePixels<Rgb8>(albedo, [](Rgb32f c) { return Rgb8{LinearToSrgb8(c.r), LinearToSrgb8(c.g), LinearToSrgb8(c.b)}; });
 }
 
 ChannelPicture CodeChannels(const std::string& product, const Frame& frame) {

@@ -42,8 +42,7 @@ FolderLock::FolderLock(const fs::path& folder) : fd_(::open(folder.c_str(), O_RD
 FolderLock::~FolderLock() { ::close(fd_); }
 
 void CheckFolder(const fs::path& folder, const std::string& meta, const std::string& what, const char* name) {
-  if (fs::exists(folder) && !fs::is_directory(folder))
-    throw InputError("--out: '" + folder.string() + "' is not a folder");
+  if (fs::exists(folder) && !fs::is_directory(folder)) throw InputError("--out: '" + folder.string() + "' is not a folder");
   CreateWritableFolder(folder);
   const fs::path on_disk = folder / name;
   if (!fs::exists(on_disk)) {

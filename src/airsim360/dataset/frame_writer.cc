@@ -7,8 +7,7 @@
 
 namespace airsim360 {
 
-FrameWriter::FrameWriter(const EncodeContext& context, DatasetIndex& index,
-                         const std::filesystem::path& folder)
+FrameWriter::FrameWriter(const EncodeContext& context, DatasetIndex& index, const std::filesystem::path& folder)
     : context_(context), index_(index), folder_(folder), background_(ThreadCount() > 1) {
   free_.resize(background_ ? 2 : 1, std::vector<Capture>(context.views.size()));
   if (background_) thread_ = std::thread([this] { Loop(); });

@@ -14,8 +14,7 @@ struct DatasetIndex::Impl {
 };
 
 DatasetIndex::DatasetIndex(const std::filesystem::path& folder, Mode mode)
-    : impl_(new Impl{Database(folder / kIndexName,
-                              mode == Mode::kRead ? Database::Mode::kRead : Database::Mode::kWrite)}) {
+    : impl_(new Impl{Database(folder / kIndexName, mode == Mode::kRead ? Database::Mode::kRead : Database::Mode::kWrite)}) {
   Database& database = impl_->database;
   if (mode == Mode::kJournal) {
     database.Run("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL");
@@ -45,10 +44,7 @@ void DatasetIndex::AddFrame(const FrameRecord& frame, const std::string& json) {
   Statement segment(impl_->database, "INSERT INTO segments VALUES(?,?,?,?,?,?,?,?,?,?,?,?)");
   for (const ViewRecord& view : frame.views) {
     for (const Segment& s : view.segments) {
-      segment.Bind(0, frame.index)
-          .Bind(1, view.suffix)
-          .Bind(2, int64_t{s.entity})
-          .Bind(3, int64_t{s.category});
+      segment.Bind(0, frame.index).Bind(1, view.suffix).Bind(2, int64_t{s.entity}).Bind(3, int64_t{s.category});
       segment.Bind(4, s.area).Bind(5, int64_t{s.box.x}).Bind(6, int64_t{s.box.y}).Bind(7, int64_t{s.box.w});
       segment.Bind(8, int64_t{s.box.h}).Bind(9, int64_t{s.box_wrap.x}).Bind(10, int64_t{s.box_wrap.w});
       segment.Bind(11, s.solid_angle).Run();
@@ -82,8 +78,7 @@ std::vector<int64_t> DatasetIndex::Frames() const {
 
 std::vector<FileRecord> DatasetIndex::Files(int64_t frame) const {
   std::vector<FileRecord> files;
-  Statement rows(impl_->database,
-                 "SELECT key, path, bytes, sha256 FROM files WHERE frame=? ORDER BY position");
+  Statement rows(impl_->database, "SELECT key, path, bytes, sha256 FROM files WHERE frame=? ORDER BY position");
   rows.Bind(0, frame);
   while (rows.Next()) files.push_back({rows.Text(0), rows.Text(1), rows.Int(2), rows.Text(3)});
   return files;
@@ -130,8 +125,7 @@ PeopleTotals DatasetIndex::CountPeople() const {
   return {.views = count("*"),
           .views_seen = count("CASE WHEN pixels > 0 THEN 1 END"),
           .persons_seen = count("DISTINCT CASE WHEN pixels > 0 THEN track END"),
-          .persons_large =
-              count("DISTINCT CASE WHEN pixels >= " + std::to_string(kLargePerson) + " THEN track END")};
+          .persons_large = count("DISTINCT CASE WHEN pixels >= " + std::to_string(kLargePerson) + " THEN track END")};
 }
 
 std::vector<CategoryTotal> DatasetIndex::CategoryTotals() const {
@@ -139,8 +133,7 @@ std::vector<CategoryTotal> DatasetIndex::CategoryTotals() const {
   Statement rows(impl_->database,
                  "SELECT category, SUM(area), SUM(solid_angle), COUNT(DISTINCT entity) FROM "
                  "(SELECT * FROM segments ORDER BY frame, view, entity) GROUP BY category ORDER BY category");
-  while (rows.Next())
-    totals.push_back({static_cast<CategoryId>(rows.Int(0)), rows.Int(1), rows.Real(2), rows.Int(3)});
+  while (rows.Next()) totals.push_back({static_cast<CategoryId>(rows.Int(0)), rows.Int(1), rows.Real(2), rows.Int(3)});
   return totals;
 }
 
@@ -154,8 +147,7 @@ std::vector<SeenEntity> DatasetIndex::SeenEntities() const {
 std::vector<DatasetIndex::NamedEntity> DatasetIndex::Entities() const {
   std::vector<NamedEntity> entities;
   Statement rows(impl_->database, "SELECT entity, name, category FROM entities ORDER BY entity");
-  while (rows.Next())
-    entities.push_back({static_cast<EntityId>(rows.Int(0)), rows.Text(1), static_cast<CategoryId>(rows.Int(2))});
+  while (rows.Next()) entities.push_back({static_cast<EntityId>(rows.Int(0)), rows.Text(1), static_cast<CategoryId>(rows.Int(2))});
   return entities;
 }
 
@@ -163,7 +155,8 @@ void DatasetIndex::Take(const std::filesystem::path& other) {
   Statement(impl_->database, "ATTACH ? AS other").Bind(0, (other / kIndexName).string()).Run();
   {
     Transaction transaction(impl_->database);
-    impl_->database.Run("CREATE TEMP TABLE new_frames AS SELECT frame FROM other.frames WHERE frame NOT IN (SELECT frame FROM main.frames)");
+    impl_->database.Run(
+        "CREATE TEMP TABLE new_frames AS SELECT frame FROM other.frames WHERE frame NOT IN (SELECT frame FROM main.frames)");
     for (const std::string table : {"frames", "files", "segments", "persons"}) {
       impl_->database.Run("INSERT INTO main." + table + " SELECT * FROM other." + table + " WHERE frame IN (SELECT frame FROM new_frames)");
     }

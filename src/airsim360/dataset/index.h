@@ -31,10 +31,10 @@ struct SeenEntity {
 
 /// How well the people of a dataset are seen.
 struct PeopleTotals {
-  int64_t views = 0;         ///< persons in the lists of all pictures
-  int64_t views_seen = 0;    ///< of them with at least one pixel
-  int64_t persons_seen = 0;  ///< different persons with at least one pixel in some picture
-  int64_t persons_large = 0; ///< … with at least kLargePerson pixels in one
+  int64_t views = 0;          ///< persons in the lists of all pictures
+  int64_t views_seen = 0;     ///< of them with at least one pixel
+  int64_t persons_seen = 0;   ///< different persons with at least one pixel in some picture
+  int64_t persons_large = 0;  ///< … with at least kLargePerson pixels in one
 };
 inline constexpr int64_t kLargePerson = 100;
 
@@ -49,14 +49,14 @@ class DatasetIndex {
   void AddFrame(const FrameRecord& frame, const std::string& json);
   void RemoveFrame(int64_t index);
 
-  std::vector<int64_t> Frames() const;                 ///< indices of finished frames, ascending
-  std::vector<FileRecord> Files(int64_t frame) const;  ///< in the order in which they were added
-  std::string FrameLine(int64_t frame) const;          ///< line of frames.jsonl
-  std::vector<Segment> Segments(int64_t frame, const std::string& view) const;  ///< by entity id
+  std::vector<int64_t> Frames() const;                                             ///< indices of finished frames, ascending
+  std::vector<FileRecord> Files(int64_t frame) const;                              ///< in the order in which they were added
+  std::string FrameLine(int64_t frame) const;                                      ///< line of frames.jsonl
+  std::vector<Segment> Segments(int64_t frame, const std::string& view) const;     ///< by entity id
   std::vector<std::string> Persons(int64_t frame, const std::string& view) const;  ///< texts, by entity id
   PeopleTotals CountPeople() const;
-  std::vector<CategoryTotal> CategoryTotals() const;                            ///< by category id
-  std::vector<SeenEntity> SeenEntities() const;                                 ///< by entity id
+  std::vector<CategoryTotal> CategoryTotals() const;  ///< by category id
+  std::vector<SeenEntity> SeenEntities() const;       ///< by entity id
 
   /// Names of the entities seen, of an index that was finished.
   struct NamedEntity {

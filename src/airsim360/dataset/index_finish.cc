@@ -24,8 +24,7 @@ void InsertNames(Database& database, const Scene& scene) {
     category.Bind(0, int64_t{id}).Bind(1, entry.path).Bind(2, int64_t{entry.parent});
     category.Bind(3, std::string_view(entry.thing ? "thing" : "stuff")).Run();
   }
-  Statement seen(database,
-                 "SELECT entity, category, MIN(frame) FROM segments GROUP BY entity ORDER BY entity");
+  Statement seen(database, "SELECT entity, category, MIN(frame) FROM segments GROUP BY entity ORDER BY entity");
   Statement entity(database, "INSERT INTO entities VALUES(?,?,?,?)");
   while (seen.Next()) {
     const std::string& name = scene.entity(static_cast<EntityId>(seen.Int(0))).name;

@@ -33,24 +33,20 @@ std::string CompareLabels(const fs::path& file, const Json& annotation, bool all
   }
   if (in_picture.erase(0) > 0 && !allows_void) return "pixels without an entity";
   for (const auto& [id, area] : in_picture) {
-    if (!in_json.contains(id))
-      return "id " + std::to_string(id) + " is in the picture but not in panoptic.json";
+    if (!in_json.contains(id)) return "id " + std::to_string(id) + " is in the picture but not in panoptic.json";
     if (in_json[id] != area) {
-      return "id " + std::to_string(id) + " covers " + std::to_string(area) + " pixels, panoptic.json says " +
-             std::to_string(in_json[id]);
+      return "id " + std::to_string(id) + " covers " + std::to_string(area) + " pixels, panoptic.json says " + std::to_string(in_json[id]);
     }
   }
   for (const auto& [id, area] : in_json) {
-    if (!in_picture.contains(id))
-      return "id " + std::to_string(id) + " is in panoptic.json but not in the picture";
+    if (!in_picture.contains(id)) return "id " + std::to_string(id) + " is in panoptic.json but not in the picture";
   }
   return {};
 }
 
 // Ends of the names of pictures that have pixels without a ray.
 std::vector<std::string> SuffixesWithVoid(const fs::path& folder) {
-  const Json meta =
-      fs::exists(folder / kMetaName) ? Json::parse(ReadTextFile(folder / kMetaName), nullptr, false) : Json();
+  const Json meta = fs::exists(folder / kMetaName) ? Json::parse(ReadTextFile(folder / kMetaName), nullptr, false) : Json();
   std::vector<std::string> suffixes;
   const Json::json_pointer projection("/parameters/projection"), cameras("/parameters/cameras");
   if (!meta.is_object()) return suffixes;
@@ -69,8 +65,7 @@ std::vector<std::string> SuffixesWithVoid(const fs::path& folder) {
 }  // namespace
 
 void CheckLabels(const fs::path& folder, std::vector<Finding>& findings) {
-  const Json panoptic =
-      Json::parse(ReadTextFile(folder / "panoptic.json", uint64_t{8} << 30), nullptr, false);
+  const Json panoptic = Json::parse(ReadTextFile(folder / "panoptic.json", uint64_t{8} << 30), nullptr, false);
   if (!panoptic.is_object() || !panoptic.contains("annotations") || !panoptic["annotations"].is_array()) {
     findings.push_back({Finding::Kind::kLabels, "panoptic.json", "not COCO panoptic JSON"});
     return;

@@ -107,25 +107,24 @@ Json ParametersJson(const DatasetSpec& spec) {
 }
 
 Json ConventionsJson() {
-  return {
-      {"world", "W: right-handed, +X east, +Y north, +Z up; metres, radians, seconds"},
-      {"body", "B: +X forward, +Y left, +Z up"},
-      {"camera",
-       "C: +X right, +Y down, +Z forward (OpenCV, COLMAP); the image centre looks along the body's forward "
-       "axis"},
-      {"pose", "X_WC maps camera to world: p_W = R(q_wxyz) p_C + p; Hamilton quaternions w, x, y, z"},
-      {"velocities", "v_WB in W, m/s; w_WB_B in B, rad/s"},
-      {"equirectangular",
-       "COLMAP EQUIRECTANGULAR, W = 2H: theta = 2 pi ((x + 0.5) / W - 0.5), phi = pi (0.5 - (y + 0.5) / H), "
-       "ray = (cos phi sin theta, -sin phi, cos phi cos theta)"},
-      {"K",
-       "of pinhole (COLMAP PINHOLE) and fisheye pictures (OPENCV_FISHEYE, angle in radians = radius / f): x = fx X / Z + cx "
-       "in pixels, the centre of the first pixel at (0.5, 0.5); of lenses the model's own formula (docs/reference/cameras.md)"},
-      {"pano_frame", "body: the panorama turns with the body; level: only with its heading, up is world up"},
-      {"cube",
-       "faces STEM_+x, -x, +y, -y, +z, -z: 90 degree pinholes along the axes of C, +z forward, -y up; the "
-       "top of -y is "
-       "back, the top of +y is front"}};
+  return {{"world", "W: right-handed, +X east, +Y north, +Z up; metres, radians, seconds"},
+          {"body", "B: +X forward, +Y left, +Z up"},
+          {"camera",
+           "C: +X right, +Y down, +Z forward (OpenCV, COLMAP); the image centre looks along the body's forward "
+           "axis"},
+          {"pose", "X_WC maps camera to world: p_W = R(q_wxyz) p_C + p; Hamilton quaternions w, x, y, z"},
+          {"velocities", "v_WB in W, m/s; w_WB_B in B, rad/s"},
+          {"equirectangular",
+           "COLMAP EQUIRECTANGULAR, W = 2H: theta = 2 pi ((x + 0.5) / W - 0.5), phi = pi (0.5 - (y + 0.5) / H), "
+           "ray = (cos phi sin theta, -sin phi, cos phi cos theta)"},
+          {"K",
+           "of pinhole (COLMAP PINHOLE) and fisheye pictures (OPENCV_FISHEYE, angle in radians = radius / f): x = fx X / Z + cx "
+           "in pixels, the centre of the first pixel at (0.5, 0.5); of lenses the model's own formula (docs/reference/cameras.md)"},
+          {"pano_frame", "body: the panorama turns with the body; level: only with its heading, up is world up"},
+          {"cube",
+           "faces STEM_+x, -x, +y, -y, +z, -z: 90 degree pinholes along the axes of C, +z forward, -y up; the "
+           "top of -y is "
+           "back, the top of +y is front"}};
 }
 
 Json EncodingsJson(const DatasetSpec& spec, const Scene& scene) {
@@ -163,21 +162,19 @@ Json CategoriesJson(const SemanticTree& tree) {
 
 std::string MetaJson(const DatasetSpec& spec, const Scene& scene) {
   const SceneCounts counts = scene.Count();
-  Json json = {
-      {"format", "airsim360-native-1"},
-      {"generator", std::string("airsim360 ") + kVersion},
-      {"command", spec.command},
-      {"world", spec.world},
-      {"seed", spec.seed},
-      {"size", {spec.width, spec.height}},
-      {"tier", kTierNames[static_cast<int>(spec.tier)]},
-      {"parameters", ParametersJson(spec)},
-      {"scene",
-       {{"name", scene.name}, {"triangles", counts.instanced_triangles}, {"entities", counts.entities}}},
-      {"attributions", scene.attributions},
-      {"conventions", ConventionsJson()},
-      {"encodings", EncodingsJson(spec, scene)},
-      {"categories", CategoriesJson(scene.tree)}};
+  Json json = {{"format", "airsim360-native-1"},
+               {"generator", std::string("airsim360 ") + kVersion},
+               {"command", spec.command},
+               {"world", spec.world},
+               {"seed", spec.seed},
+               {"size", {spec.width, spec.height}},
+               {"tier", kTierNames[static_cast<int>(spec.tier)]},
+               {"parameters", ParametersJson(spec)},
+               {"scene", {{"name", scene.name}, {"triangles", counts.instanced_triangles}, {"entities", counts.entities}}},
+               {"attributions", scene.attributions},
+               {"conventions", ConventionsJson()},
+               {"encodings", EncodingsJson(spec, scene)},
+               {"categories", CategoriesJson(scene.tree)}};
   // Of a plan the scene is the names of several worlds; plan.json has what they hold.
   if (!spec.plan.empty()) json["scene"] = {{"name", scene.name}};
   if (const Json cameras = CamerasJson(spec); !cameras.empty()) json["cameras"] = cameras;
@@ -203,8 +200,7 @@ std::string DescribeMetaDifference(const std::string& on_disk, const std::string
   for (const auto& [key, value] : b.items()) {
     if (key == "parameters" || text(a, key) == value.dump()) continue;
     const bool brief = text(a, key).size() < 200 && value.dump().size() < 200;
-    return key +
-           (brief ? " is " + text(a, key) + " there, " + value.dump() + " here" : std::string(" differs"));
+    return key + (brief ? " is " + text(a, key) + " there, " + value.dump() + " here" : std::string(" differs"));
   }
   return "its description differs";
 }

@@ -79,8 +79,13 @@ Json OpenGlMatrix(const RigidTransform& X_WC) {
 
 Json NerfstudioFrame(const ExportedView& view, const RigidTransform& X_WC, const std::string& name) {
   const Json& K = view.K;
-  Json json = {{"file_path", "rgb/" + name}, {"fl_x", K["fx"]}, {"fl_y", K["fy"]}, {"cx", K["cx"]},
-               {"cy", K["cy"]},              {"w", K["width"]}, {"h", K["height"]}};
+  Json json = {{"file_path", "rgb/" + name},
+               {"fl_x", K["fx"]},
+               {"fl_y", K["fy"]},
+               {"cx", K["cx"]},
+               {"cy", K["cy"]},
+               {"w", K["width"]},
+               {"h", K["height"]}};
   const bool fisheye = view.fisheye();
   const char* const names[] = {"k1", "k2", fisheye ? "k3" : "p1", fisheye ? "k4" : "p2"};
   for (size_t i = 0; i < K["distortion"].size(); ++i) json[names[i]] = K["distortion"][i];
@@ -100,7 +105,8 @@ struct TransformsNames {
 TransformsNames NamesOf(const std::vector<ExportedView>& views) {
   TransformsNames names;
   if (std::ranges::any_of(views, &ExportedView::opencv)) names.pinhole = "transforms.json";
-  if (std::ranges::any_of(views, &ExportedView::fisheye)) names.fisheye = names.pinhole.empty() ? "transforms.json" : "transforms_fisheye.json";
+  if (std::ranges::any_of(views, &ExportedView::fisheye))
+    names.fisheye = names.pinhole.empty() ? "transforms.json" : "transforms_fisheye.json";
   return names;
 }
 

@@ -18,12 +18,24 @@ std::string RoomsJson(const BuildingRooms& building) {
   for (const RoomOutline& room : building.rooms) {
     Json corners = Json::array();
     for (const Vec2f& corner : room.corners) corners.push_back(Point(corner));
-    json["rooms"].push_back({{"id", room.id}, {"name", room.name}, {"type", room.type}, {"storey", room.storey}, {"floor_z", room.floor_z}, {"ceiling_z", room.ceiling_z},
-                             {"area_m2", room.area_m2}, {"corners", std::move(corners)}});
+    json["rooms"].push_back({{"id", room.id},
+                             {"name", room.name},
+                             {"type", room.type},
+                             {"storey", room.storey},
+                             {"floor_z", room.floor_z},
+                             {"ceiling_z", room.ceiling_z},
+                             {"area_m2", room.area_m2},
+                             {"corners", std::move(corners)}});
   }
   for (const RoomDoor& door : building.doors)
-    json["doors"].push_back({{"id", door.id}, {"kind", door.kind}, {"open", door.open}, {"center", Point(door.center)}, {"through", Point(door.through)},
-                             {"width", door.width}, {"height", door.height}, {"rooms", {door.rooms[0], door.rooms[1]}}});
+    json["doors"].push_back({{"id", door.id},
+                             {"kind", door.kind},
+                             {"open", door.open},
+                             {"center", Point(door.center)},
+                             {"through", Point(door.through)},
+                             {"width", door.width},
+                             {"height", door.height},
+                             {"rooms", {door.rooms[0], door.rooms[1]}}});
   return json.dump(1) + "\n";
 }
 

@@ -6,8 +6,7 @@
 
 namespace airsim360::internal {
 
-Database::Database(std::filesystem::path path, Mode mode)
-    : path_(std::move(path)), handle_(nullptr, sqlite3_close_v2) {
+Database::Database(std::filesystem::path path, Mode mode) : path_(std::move(path)), handle_(nullptr, sqlite3_close_v2) {
   sqlite3* handle = nullptr;
   const int flags = mode == Mode::kRead ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   const int code = sqlite3_open_v2(path_.c_str(), &handle, flags, nullptr);
@@ -18,16 +17,13 @@ Database::Database(std::filesystem::path path, Mode mode)
   sqlite3_busy_timeout(handle, kPatienceMs);
 }
 
-void Database::Fail() const {
-  throw RuntimeError(path_.string() + ": " + (handle_ ? sqlite3_errmsg(handle_.get()) : "out of memory"));
-}
+void Database::Fail() const { throw RuntimeError(path_.string() + ": " + (handle_ ? sqlite3_errmsg(handle_.get()) : "out of memory")); }
 
 void Database::Run(const std::string& sql) {
   if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) Fail();
 }
 
-Statement::Statement(Database& database, const std::string& sql)
-    : database_(database), statement_(nullptr, sqlite3_finalize) {
+Statement::Statement(Database& database, const std::string& sql) : database_(database), statement_(nullptr, sqlite3_finalize) {
   sqlite3_stmt* statement = nullptr;
   Check(sqlite3_prepare_v2(database.handle(), sql.c_str(), -1, &statement, nullptr));
   statement_.reset(statement);
@@ -48,8 +44,7 @@ Statement& Statement::Bind(int parameter, double value) {
 }
 
 Statement& Statement::Bind(int parameter, std::string_view value) {
-  Check(sqlite3_bind_text64(statement_.get(), parameter + 1, value.data(), value.size(), SQLITE_TRANSIENT,
-                            SQLITE_UTF8));
+  Check(sqlite3_bind_text64(statement_.get(), parameter + 1, value.data(), value.size(), SQLITE_TRANSIENT, SQLITE_UTF8));
   return *this;
 }
 
@@ -71,8 +66,7 @@ double Statement::Real(int column) const { return sqlite3_column_double(statemen
 
 std::string Statement::Text(int column) const {
   const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
-  return text ? std::string(text, static_cast<size_t>(sqlite3_column_bytes(statement_.get(), column)))
-              : std::string();
+  return text ? std::string(text, static_cast<size_t>(sqlite3_column_bytes(statement_.get(), column))) : std::string();
 }
 
 Transaction::Transaction(Database& database) : database_(&database) { database.Run("BEGIN IMMEDIATE"); }

@@ -62,7 +62,9 @@ void Store(const DatasetSpec& spec, const Frame& frame, EntityId sky, bool wide,
   PutChannels(internal::CodeChannels(product, frame), picture);
 }
 
-bool IsPacked(const StoredPicture& picture) { return picture.product == "semantic" || picture.product == "entity" || picture.product == "sky"; }
+bool IsPacked(const StoredPicture& picture) {
+  return picture.product == "semantic" || picture.product == "entity" || picture.product == "sky";
+}
 
 Bytes Compressed(const Bytes& bytes) {
   Bytes packed(ZSTD_compressBound(bytes.size()));
@@ -96,9 +98,8 @@ std::vector<StoredPicture> StoredPictures(const DatasetSpec& spec, std::span<con
       frames.push_back(&captures[v].frame);
     }
   }
-  ParallelFor(static_cast<int64_t>(pictures.size()), [&](int64_t i) {
-    Store(spec, *frames[static_cast<size_t>(i)], sky, wide, pictures[static_cast<size_t>(i)]);
-  });
+  ParallelFor(static_cast<int64_t>(pictures.size()),
+              [&](int64_t i) { Store(spec, *frames[static_cast<size_t>(i)], sky, wide, pictures[static_cast<size_t>(i)]); });
   return pictures;
 }
 
@@ -123,8 +124,8 @@ bool UnpackPictures(std::span<const std::byte> bytes, std::string& text, std::ve
       if (picture.type > Type::kFloat32 || picture.width < 1 || picture.height < 1 || picture.depth < 1 ||
           int64_t{picture.width} * picture.height > kMaxPixels || picture.depth > 16)
         throw InputError("not pictures");
-      const size_t size = static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height) *
-                          static_cast<size_t>(picture.depth) * SizeOf(picture.type);
+      const size_t size = static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height) * static_cast<size_t>(picture.depth) *
+                          SizeOf(picture.type);
       if (IsPacked(picture)) {
         picture.values.resize(size);
         if (ZSTD_decompress(picture.values.data(), size, stored.data(), stored.size()) != size) throw InputError("not pictures");

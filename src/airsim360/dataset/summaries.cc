@@ -94,8 +94,7 @@ std::string PartsJson() {
 
 std::string PanopticJson(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene) {
   const std::vector<View> views = Views(spec);
-  const std::string extension =
-      ProductFolders(spec).front().name == "rgb" ? ProductFolders(spec).front().extension : ".png";
+  const std::string extension = ProductFolders(spec).front().name == "rgb" ? ProductFolders(spec).front().extension : ".png";
   std::string images, annotations;
   for (int64_t frame : index.Frames()) {
     for (size_t v = 0; v < views.size(); ++v) {
@@ -108,19 +107,16 @@ std::string PanopticJson(const DatasetIndex& index, const DatasetSpec& spec, con
       for (const Segment& segment : index.Segments(frame, views[v].suffix)) {
         segments += (segments.empty() ? "" : ",\n ") + Dump(SegmentJson(segment));
       }
-      annotations += (annotations.empty() ? "\n" : ",\n") + std::string("{\"image_id\":") +
-                     std::to_string(id) + ",\"file_name\":\"" + stem + ".png\",\"segments_info\":[\n " +
-                     segments + "]}";
+      annotations += (annotations.empty() ? "\n" : ",\n") + std::string("{\"image_id\":") + std::to_string(id) + ",\"file_name\":\"" +
+                     stem + ".png\",\"segments_info\":[\n " + segments + "]}";
     }
   }
   // Every category that the world uses, seen or not: the list is the same for all shards.
   std::set<CategoryId> used;
   for (const Entity& entity : scene.entities) used.insert(entity.category);
   std::string categories;
-  for (CategoryId id : used)
-    categories += (categories.empty() ? "\n" : ",\n") + Dump(CategoryJson(scene.tree, id));
-  return "{\"images\":[" + images + "],\n\"annotations\":[" + annotations + "],\n\"categories\":[" +
-         categories + "]}\n";
+  for (CategoryId id : used) categories += (categories.empty() ? "\n" : ",\n") + Dump(CategoryJson(scene.tree, id));
+  return "{\"images\":[" + images + "],\n\"annotations\":[" + annotations + "],\n\"categories\":[" + categories + "]}\n";
 }
 
 }  // namespace airsim360

@@ -23,7 +23,9 @@ Json VehicleJson(const SimTraffic& traffic, const TrafficState& state, size_t i,
           {"X_WB", {{"p", Triple(X_WB.p)}, {"q_wxyz", {q.w, q.x, q.y, q.z}}}},
           {"size", Triple({shape.length, shape.width, shape.height})},
           {"velocity", Triple(X_WB.R.column(0) * vehicle.v)},
-          {"indicator", vehicle.indicator > 0 ? "left" : vehicle.indicator < 0 ? "right" : "off"},
+          {"indicator", vehicle.indicator > 0   ? "left"
+                        : vehicle.indicator < 0 ? "right"
+                                                : "off"},
           {"braking", vehicle.braking},
           {"stopped", vehicle.stopped_ns >= 0}};
 }

@@ -34,8 +34,7 @@ Checksums ReadChecksums(const fs::path& folder, std::vector<Finding>& findings) 
     if (line.size() > 66 && line.substr(64, 2) == "  ") {
       checksums[line.substr(66)] = line.substr(0, 64);
     } else {
-      findings.push_back(
-          {Finding::Kind::kDamaged, kChecksumsName, "unreadable line '" + line.substr(0, 80) + "'"});
+      findings.push_back({Finding::Kind::kDamaged, kChecksumsName, "unreadable line '" + line.substr(0, 80) + "'"});
     }
   }
   return checksums;
@@ -76,8 +75,7 @@ int64_t CheckFrameLines(const fs::path& folder, const Checksums& checksums, std:
   for (size_t begin = 0; begin < text.size(); ++frames) {
     const size_t end = std::min(text.find('\n', begin), text.size());
     const std::string place = "line " + std::to_string(frames + 1);
-    const Json line = Json::parse(text.begin() + static_cast<ptrdiff_t>(begin),
-                                  text.begin() + static_cast<ptrdiff_t>(end), nullptr, false);
+    const Json line = Json::parse(text.begin() + static_cast<ptrdiff_t>(begin), text.begin() + static_cast<ptrdiff_t>(end), nullptr, false);
     begin = end + 1;
     if (!line.is_object() || !line.contains("sha256") || !line["sha256"].is_object()) {
       findings.push_back({Finding::Kind::kDamaged, "frames.jsonl", place + " is not a frame"});
@@ -85,16 +83,14 @@ int64_t CheckFrameLines(const fs::path& folder, const Checksums& checksums, std:
     }
     for (const auto& [key, sha256] : line["sha256"].items()) {
       if (!sha256.is_string() || !known.contains(sha256.get<std::string>())) {
-        findings.push_back(
-            {Finding::Kind::kDamaged, "frames.jsonl", place + ": the SHA-256 of " + key + " is of no file"});
+        findings.push_back({Finding::Kind::kDamaged, "frames.jsonl", place + ": the SHA-256 of " + key + " is of no file"});
       }
     }
   }
   return frames;
 }
 
-void FindExtraFiles(const fs::path& folder, const Checksums& checksums, bool complete,
-                    std::vector<Finding>& findings) {
+void FindExtraFiles(const fs::path& folder, const Checksums& checksums, bool complete, std::vector<Finding>& findings) {
   static const std::set<std::string> kOwn = {kMetaName, kIndexName, kChecksumsName, "index.sqlite-journal"};
   for (const std::string& file : ListFiles(folder)) {
     if (checksums.contains(file) || (complete ? file == kChecksumsName : kOwn.contains(file))) continue;
@@ -105,8 +101,7 @@ void FindExtraFiles(const fs::path& folder, const Checksums& checksums, bool com
 }  // namespace
 
 int64_t VerifyResult::Damages() const {
-  return std::count_if(findings.begin(), findings.end(),
-                       [](const Finding& f) { return f.kind != Finding::Kind::kExtra; });
+  return std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.kind != Finding::Kind::kExtra; });
 }
 
 VerifyResult VerifyDataset(const fs::path& folder) {
@@ -116,21 +111,17 @@ VerifyResult VerifyDataset(const fs::path& folder) {
   if (!result.complete && !fs::exists(folder / kMetaName)) {
     throw InputError("'" + folder.string() + "' is not a dataset: it has no " + kMetaName);
   }
-  const Checksums checksums =
-      result.complete ? ReadChecksums(folder, result.findings) : ChecksumsOfJournal(folder);
+  const Checksums checksums = result.complete ? ReadChecksums(folder, result.findings) : ChecksumsOfJournal(folder);
   result.files = static_cast<int64_t>(checksums.size());
   CheckFiles(folder, checksums, result.findings);
   if (result.complete) {
-    if (fs::exists(folder / "frames.jsonl"))
-      result.frames = CheckFrameLines(folder, checksums, result.findings);
+    if (fs::exists(folder / "frames.jsonl")) result.frames = CheckFrameLines(folder, checksums, result.findings);
     if (fs::exists(folder / "panoptic.json")) internal::CheckLabels(folder, result.findings);
   } else {
-    result.findings.push_back({Finding::Kind::kMissing, kChecksumsName,
-                               "the collection was interrupted: run it again to finish it"});
+    result.findings.push_back({Finding::Kind::kMissing, kChecksumsName, "the collection was interrupted: run it again to finish it"});
   }
   FindExtraFiles(folder, checksums, result.complete, result.findings);
-  std::stable_sort(result.findings.begin(), result.findings.end(),
-                   [](const auto& a, const auto& b) { return a.path < b.path; });
+  std::stable_sort(result.findings.begin(), result.findings.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
   return result;
 }
 

@@ -55,9 +55,8 @@ std::string PartRows(std::span<const WaypointRoute> routes, const PartName& part
     const PolynomialTrajectory& path = flight.flight.trajectory;
     const int64_t route = part.first_route + static_cast<int64_t>(row);
     const size_t samples = SampleTimes(path.duration(), set.interval).size();
-    for (const std::string& word :
-         {part.world.name + "/" + set.name + "/" + std::to_string(route), part.world.name, set.name,
-          std::to_string(route), std::to_string(part.number), std::to_string(row)})
+    for (const std::string& word : {part.world.name + "/" + set.name + "/" + std::to_string(route), part.world.name, set.name,
+                                    std::to_string(route), std::to_string(part.number), std::to_string(row)})
       out += word + ",";
     const Vec3d a = path.At(0).p, b = path.At(path.duration()).p;
     const double values[] = {routes[row].lengths[part.set],
@@ -95,18 +94,14 @@ struct Column {
       const double part = *high > *low ? (v - *low) / (*high - *low) : 0;
       ++bins[static_cast<size_t>(std::min(kBins - 1.0, part * kBins))];
     }
-    return {{"min", *low},
-            {"mean", sum / static_cast<double>(values.size())},
-            {"max", *high},
-            {"histogram", bins}};
+    return {{"min", *low}, {"mean", sum / static_cast<double>(values.size())}, {"max", *high}, {"histogram", bins}};
   }
 };
 
 }  // namespace
 
 std::string Statistics(std::string_view index) {
-  constexpr const char* kColumns[] = {"length_m",  "duration_s",       "segments",       "samples",
-                                      "max_speed", "max_acceleration", "least_clearance"};
+  constexpr const char* kColumns[] = {"length_m", "duration_s", "segments", "samples", "max_speed", "max_acceleration", "least_clearance"};
   std::map<std::string, std::vector<Column>> groups;
   int64_t flights = 0, samples = 0;
   for (size_t at = index.find('\n') + 1; at < index.size();) {
@@ -141,17 +136,15 @@ std::string WaypointReadme(const WaypointSetOptions& options, std::string_view s
       "at rest at both ends,\n"
       "certified maxima of speed and acceleration within the limits, and a continuous proof that a ball of "
       "radius " +
-      std::to_string(options.radius).substr(0, 5) + " m touches\nnothing. Seed " +
-      std::to_string(options.seed) +
+      std::to_string(options.radius).substr(0, 5) + " m touches\nnothing. Seed " + std::to_string(options.seed) +
       ".\n\n| world and set | flights | length m | duration s | top speed m/s | least clearance m "
       "|\n|---|---|---|---|---|---|\n";
   char row[256];
   for (const auto& [name, group] : json.items()) {
     if (!group.is_object()) continue;
     std::snprintf(row, sizeof(row), "| %s | %lld | %.1f … %.1f | %.1f … %.1f | %.2f | %.3f |\n", name.c_str(),
-                  static_cast<long long>(group["flights"]), double(group["length_m"]["min"]),
-                  double(group["length_m"]["max"]), double(group["duration_s"]["min"]),
-                  double(group["duration_s"]["max"]), double(group["max_speed"]["max"]),
+                  static_cast<long long>(group["flights"]), double(group["length_m"]["min"]), double(group["length_m"]["max"]),
+                  double(group["duration_s"]["min"]), double(group["duration_s"]["max"]), double(group["max_speed"]["max"]),
                   double(group["least_clearance"]["min"]));
     out += row;
   }

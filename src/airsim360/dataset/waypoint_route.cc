@@ -9,10 +9,8 @@
 namespace airsim360 {
 
 const std::vector<WaypointWorld>& WaypointWorlds() {
-  static const std::vector<WaypointWorld> worlds = {{"city_park", 20'000, 50, 150},
-                                                    {"downtown_west", 5'000, 20, 50},
-                                                    {"new_york_city", 5'000, 20, 50},
-                                                    {"sf_city", 20'000, 50, 150}};
+  static const std::vector<WaypointWorld> worlds = {
+      {"city_park", 20'000, 50, 150}, {"downtown_west", 5'000, 20, 50}, {"new_york_city", 5'000, 20, 50}, {"sf_city", 20'000, 50, 150}};
   return worlds;
 }
 
@@ -29,12 +27,10 @@ WaypointSpace::WaypointSpace(Stage& stage, double radius) {
   map_ = MapScene(scene, box, kVoxel);
   clearance_ = std::make_unique<WorldClearance>(tracer, map_);
   world_ = std::make_unique<BoundedClearance>(*clearance_, box);
-  const Vec3d spawn = scene.spawn
-                          ? VecCast<double>(*scene.spawn)
-                          : Vec3d{(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, box.max.z - 5};
+  const Vec3d spawn =
+      scene.spawn ? VecCast<double>(*scene.spawn) : Vec3d{(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, box.max.z - 5};
   reachable_ = std::make_unique<ReachableSpace>(*map_, spawn, radius);
-  if (reachable_->volume() == 0)
-    throw InputError("world '" + scene.name + "': nothing can be reached from its spawn");
+  if (reachable_->volume() == 0) throw InputError("world '" + scene.name + "': nothing can be reached from its spawn");
 }
 
 namespace {
@@ -46,8 +42,7 @@ constexpr double kCurveShare = 0.97;  // legs are drawn a little shorter than th
 
 }  // namespace
 
-WaypointRoute MakeWaypointRoute(const WaypointSpace& space, const WaypointWorld& world, uint64_t seed,
-                                int64_t index, double radius) {
+WaypointRoute MakeWaypointRoute(const WaypointSpace& space, const WaypointWorld& world, uint64_t seed, int64_t index, double radius) {
   const RandomRouteOptions draw{.min_length = world.min_length,
                                 .max_length = world.max_length * kCurveShare,
                                 .room = radius + kSpare,
@@ -73,8 +68,8 @@ WaypointRoute MakeWaypointRoute(const WaypointSpace& space, const WaypointWorld&
     route.waypoints = std::move(*waypoints);
     return route;
   }
-  throw RuntimeError("waypoint set: no free route " + std::to_string(index) + " in '" + world.name +
-                     "' among " + std::to_string(kDraws) + " draws");
+  throw RuntimeError("waypoint set: no free route " + std::to_string(index) + " in '" + world.name + "' among " + std::to_string(kDraws) +
+                     " draws");
 }
 
 }  // namespace airsim360

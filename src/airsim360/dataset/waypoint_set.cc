@@ -20,9 +20,7 @@ namespace fs = std::filesystem;
 constexpr int64_t kRoutesOfPart = 500;
 constexpr size_t kShownRoutes = 250;
 
-double Seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double Seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 std::string PartFile(int64_t part, const char* extension) {
   char name[32];
@@ -51,8 +49,7 @@ std::vector<WaypointWorld> WorldsToDo(const WaypointSetOptions& options, std::ve
       continue;
     }
     skipped.push_back(world.name);
-    LogWarning("world '" + world.name + "' does not exist yet: its " + std::to_string(world.routes) +
-               " routes are left out");
+    LogWarning("world '" + world.name + "' does not exist yet: its " + std::to_string(world.routes) + " routes are left out");
   }
   return worlds;
 }
@@ -66,49 +63,42 @@ void CheckFolder(const WaypointSetOptions& options) {
   CreateWritableFolder(options.out);
   if (fs::exists(file)) {
     if (ReadTextFile(file) != text)
-      throw InputError("--out: '" + options.out.string() +
-                       "' holds a set made with another seed, radius or count; see " + file.string());
+      throw InputError("--out: '" + options.out.string() + "' holds a set made with another seed, radius or count; see " + file.string());
     return;
   }
-  if (!fs::is_empty(options.out))
-    throw InputError("--out: '" + options.out.string() + "' is not empty and not a waypoint set");
+  if (!fs::is_empty(options.out)) throw InputError("--out: '" + options.out.string() + "' is not empty and not a waypoint set");
   WriteFileAtomically(file, text);
 }
 
 bool PartIsThere(const fs::path& folder, int64_t part) {
   return std::all_of(KinematicSets().begin(), KinematicSets().end(), [&](const KinematicSet& set) {
-    return fs::exists(folder / set.name / PartFile(part, ".npz")) &&
-           fs::exists(folder / set.name / PartFile(part, ".csv"));
+    return fs::exists(folder / set.name / PartFile(part, ".npz")) && fs::exists(folder / set.name / PartFile(part, ".csv"));
   });
 }
 
-void WritePicture(const fs::path& folder, const WaypointWorld& world, const WaypointSpace& space,
-                  std::span<const WaypointRoute> routes) {
+void WritePicture(const fs::path& folder, const WaypointWorld& world, const WaypointSpace& space, std::span<const WaypointRoute> routes) {
   std::vector<std::vector<Vec3d>> ways;
   for (size_t i = 0; i < std::min(routes.size(), kShownRoutes); ++i) {
     const PolynomialTrajectory& path = routes[i].flights[0].flight.trajectory;
     std::vector<Vec3d>& way = ways.emplace_back();
     for (const double t : SampleTimes(path.duration(), 0.25)) way.push_back(path.At(t).p);
   }
-  const PlotOptions options{.title = world.name + ": the first " + std::to_string(ways.size()) + " routes",
-                            .map = &space.map()};
+  const PlotOptions options{.title = world.name + ": the first " + std::to_string(ways.size()) + " routes", .map = &space.map()};
   WriteFileAtomically(folder / "routes.svg", PlotRoutes(ways, options));
   const AllocatedTrajectory& first = routes[0].flights[0].flight;
-  WriteFileAtomically(
-      folder / "first_route.svg",
-      PlotFlight(first.trajectory, {.title = world.name + ", route 0, " + KinematicSets()[0].name,
-                                    .max_speed = KinematicSets()[0].max_speed,
-                                    .max_acceleration = KinematicSets()[0].max_acceleration,
-                                    .map = &space.map()}));
+  WriteFileAtomically(folder / "first_route.svg",
+                      PlotFlight(first.trajectory, {.title = world.name + ", route 0, " + KinematicSets()[0].name,
+                                                    .max_speed = KinematicSets()[0].max_speed,
+                                                    .max_acceleration = KinematicSets()[0].max_acceleration,
+                                                    .map = &space.map()}));
 }
 
 void WritePart(const fs::path& folder, const WaypointWorld& world, int64_t part, const WaypointSpace& space,
                const WaypointSetOptions& options, ProgressBar& progress, int64_t& written) {
   const int64_t first = part * kRoutesOfPart, count = std::min(kRoutesOfPart, world.routes - first);
   std::vector<WaypointRoute> routes(static_cast<size_t>(count));
-  ParallelFor(count, [&](int64_t i) {
-    routes[static_cast<size_t>(i)] = MakeWaypointRoute(space, world, options.seed, first + i, options.radius);
-  });
+  ParallelFor(
+      count, [&](int64_t i) { routes[static_cast<size_t>(i)] = MakeWaypointRoute(space, world, options.seed, first + i, options.radius); });
   if (part == 0) WritePicture(folder, world, space, routes);
   for (size_t set = 0; set < KinematicSets().size(); ++set) {
     const fs::path place = folder / KinematicSets()[set].name;

@@ -53,8 +53,7 @@ struct WaypointRoute {
   std::vector<double> lengths;           ///< metres, of the flights
 };
 /// A pure function of its arguments. RuntimeError if no draw succeeds.
-WaypointRoute MakeWaypointRoute(const WaypointSpace& space, const WaypointWorld& world, uint64_t seed,
-                                int64_t index, double radius);
+WaypointRoute MakeWaypointRoute(const WaypointSpace& space, const WaypointWorld& world, uint64_t seed, int64_t index, double radius);
 
 struct WaypointSetOptions {
   std::filesystem::path out;

@@ -23,8 +23,7 @@ struct Tower {
 std::vector<Tower> Towers() {
   std::vector<Tower> towers;
   for (int x = -2; x <= 2; ++x) {
-    for (int y = -2; y <= 2; ++y)
-      towers.push_back({{30.0 * x + 4, 30.0 * y + 4, 0}, {30.0 * x + 16, 30.0 * y + 16, 15.0 + 5 * (x + 2)}});
+    for (int y = -2; y <= 2; ++y) towers.push_back({{30.0 * x + 4, 30.0 * y + 4, 0}, {30.0 * x + 16, 30.0 * y + 16, 15.0 + 5 * (x + 2)}});
   }
   return towers;
 }
@@ -34,24 +33,17 @@ std::shared_ptr<const Scene> Town() {
   SceneBuilder builder("town");
   const EntityId ground = builder.AddEntity("ground", builder.tree().At("ground/road"));
   const EntityId building = builder.AddEntity("towers", builder.tree().At("construction/building"));
-  builder.AddInstance({builder.AddMesh({"ground",
-                                        {{-90, -90, 0}, {90, -90, 0}, {90, 90, 0}, {-90, 90, 0}},
-                                        {},
-                                        {},
-                                        {{0, 1, 2}, {0, 2, 3}},
-                                        {}}),
-                       {},
-                       ground});
+  builder.AddInstance(
+      {builder.AddMesh({"ground", {{-90, -90, 0}, {90, -90, 0}, {90, 90, 0}, {-90, 90, 0}}, {}, {}, {{0, 1, 2}, {0, 2, 3}}, {}}),
+       {},
+       ground});
   for (const Tower& t : Towers()) {
     Mesh mesh{"tower", {}, {}, {}, {}, {}};
     for (int i = 0; i < 8; ++i) {
-      mesh.positions.push_back(VecCast<float>(
-          Vec3d{i & 1 ? t.max.x : t.min.x, i & 2 ? t.max.y : t.min.y, i & 4 ? t.max.z : t.min.z}));
+      mesh.positions.push_back(VecCast<float>(Vec3d{i & 1 ? t.max.x : t.min.x, i & 2 ? t.max.y : t.min.y, i & 4 ? t.max.z : t.min.z}));
     }
-    const uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                  {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-    for (const auto& q : quads)
-      mesh.triangles.insert(mesh.triangles.end(), {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}});
+    const uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    for (const auto& q : quads) mesh.triangles.insert(mesh.triangles.end(), {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}});
     builder.AddInstance({builder.AddMesh(mesh), {}, building});
   }
   builder.SetSpawn({0, 0, 5});
@@ -61,8 +53,7 @@ std::shared_ptr<const Scene> Town() {
 
 double DistanceToTown(Vec3d p) {
   double distance = p.z;
-  for (const Tower& t : Towers())
-    distance = std::min(distance, Norm(Max(Max(t.min - p, p - t.max), Vec3d{})));
+  for (const Tower& t : Towers()) distance = std::min(distance, Norm(Max(Max(t.min - p, p - t.max), Vec3d{})));
   return distance;
 }
 
@@ -101,8 +92,7 @@ TEST_F(WaypointSet, IsTheSameBytesForAnyThreadsShardsAndInterruptions) {
   EXPECT_EQ(whole.written, 16);
   EXPECT_EQ(whole.skipped, std::vector<std::string>{"sf_city"});
   const auto expected = Files(folder_ / "whole");
-  EXPECT_TRUE(expected.contains("statistics.json") && expected.contains("index.csv") &&
-              expected.contains("city_park/routes.svg"));
+  EXPECT_TRUE(expected.contains("statistics.json") && expected.contains("index.csv") && expected.contains("city_park/routes.svg"));
   {
     const ThreadLimit limit(1);
     for (int64_t shard = 0; shard < 2; ++shard) {
@@ -128,17 +118,15 @@ TEST_F(WaypointSet, EveryFlightKeepsItsLimitsItsLengthAndItsDistance) {
     if (world.name != "city_park" && world.name != "downtown_west") continue;
     for (const KinematicSet& set : KinematicSets()) {
       std::map<std::string, NpzArray> arrays;
-      for (NpzArray& array : ReadNpz(ReadTextFile(folder_ / world.name / set.name / "part-0000.npz"), "part"))
-        arrays[array.name] = array;
+      for (NpzArray& array : ReadNpz(ReadTextFile(folder_ / world.name / set.name / "part-0000.npz"), "part")) arrays[array.name] = array;
       const auto& offset = arrays.at("segment_offset").values;
       const size_t powers = arrays.at("coefficients").shape.at(2);
       for (size_t row = 0; row + 1 < offset.size(); ++row, ++flights) {
         const auto first = static_cast<size_t>(offset[row]), last = static_cast<size_t>(offset[row + 1]);
         const auto& c = arrays.at("coefficients").values;
         const auto& d = arrays.at("durations").values;
-        const PolynomialTrajectory path(
-            static_cast<int>(powers) - 1, std::vector<double>(d.begin() + first, d.begin() + last),
-            std::vector<double>(c.begin() + first * 3 * powers, c.begin() + last * 3 * powers));
+        const PolynomialTrajectory path(static_cast<int>(powers) - 1, std::vector<double>(d.begin() + first, d.begin() + last),
+                                        std::vector<double>(c.begin() + first * 3 * powers, c.begin() + last * 3 * powers));
         double length = 0, speed = 0, acceleration = 0, clearance = 1e9;
         constexpr int kTimes = 4000;
         TrajectoryPoint before = path.At(0);

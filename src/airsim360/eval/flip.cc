@@ -99,8 +99,7 @@ Plane Convolve(const Plane& image, const Kernel& across, const Kernel& down, boo
     }
     for (int x = 0; x < w; ++x) {
       double sum = 0;
-      for (int i = 0; i <= 2 * r; ++i)
-        sum += across[static_cast<size_t>(i)] * line[static_cast<size_t>(x + i)];
+      for (int i = 0; i <= 2 * r; ++i) sum += across[static_cast<size_t>(i)] * line[static_cast<size_t>(x + i)];
       rows(x, y) = sum;
     }
   }
@@ -122,8 +121,7 @@ Plane FilterSensitivity(const Plane& image, std::span<const Sensitivity> parts, 
   Plane result(image.width(), image.height());
   double total = 0;
   for (const auto& [a, b] : parts) {
-    const Kernel kernel =
-        MakeKernel(radius, [&, b = b](double d) { return std::exp(-kPi * kPi * d * d / (ppd * ppd * b)); });
+    const Kernel kernel = MakeKernel(radius, [&, b = b](double d) { return std::exp(-kPi * kPi * d * d / (ppd * ppd * b)); });
     const double weight = a * std::sqrt(kPi / b);
     const Plane part = Convolve(image, kernel, kernel, options.wrap_columns);
     for (size_t i = 0; i < result.size(); ++i) result.pixels()[i] += weight * part.pixels()[i];
@@ -154,13 +152,11 @@ Features FindFeatures(const Plane& luminance, const FlipOptions& options) {
     const Kernel kernel = Normalised(derivative, Sum(smooth));
     Plane result = Convolve(luminance, kernel, smooth, options.wrap_columns);
     const Plane down = Convolve(luminance, smooth, kernel, options.wrap_columns);
-    for (size_t i = 0; i < result.size(); ++i)
-      result.pixels()[i] = std::hypot(result.pixels()[i], down.pixels()[i]);
+    for (size_t i = 0; i < result.size(); ++i) result.pixels()[i] = std::hypot(result.pixels()[i], down.pixels()[i]);
     return result;
   };
-  return {
-      magnitude(MakeKernel(radius, [&](double x) { return -x * gaussian(x); })),
-      magnitude(MakeKernel(radius, [&](double x) { return (x * x / (sigma * sigma) - 1) * gaussian(x); }))};
+  return {magnitude(MakeKernel(radius, [&](double x) { return -x * gaussian(x); })),
+          magnitude(MakeKernel(radius, [&](double x) { return (x * x / (sigma * sigma) - 1) * gaussian(x); }))};
 }
 
 /// A picture as FLIP compares it.
@@ -184,8 +180,7 @@ Perceived Perceive(const Image<Rgb8>& image, const FlipOptions& options) {
   opponent[2] = FilterSensitivity(opponent[2], kBlueYellow, options);
   Image<Vec3d> color(image.width(), image.height());
   for (size_t i = 0; i < color.size(); ++i) {
-    const Vec3d rgb =
-        FromOpponent({opponent[0].pixels()[i], opponent[1].pixels()[i], opponent[2].pixels()[i]});
+    const Vec3d rgb = FromOpponent({opponent[0].pixels()[i], opponent[1].pixels()[i], opponent[2].pixels()[i]});
     const auto clamp = [](double v) { return std::clamp(v, 0.0, 1.0); };
     color.pixels()[i] = ToHuntLab({clamp(rgb.x), clamp(rgb.y), clamp(rgb.z)});
   }
@@ -204,8 +199,7 @@ double ColorDifference(double distance) {
 Image<float> Flip(const Image<Rgb8>& reference, const Image<Rgb8>& test, const FlipOptions& options) {
   internal::CheckComparable(reference, test);
   if (!(options.pixels_per_degree > 0) || options.pixels_per_degree > 1000) {
-    throw InputError("FLIP: " + std::to_string(options.pixels_per_degree) +
-                     " pixels per degree (more than 0, at most 1000)");
+    throw InputError("FLIP: " + std::to_string(options.pixels_per_degree) + " pixels per degree (more than 0, at most 1000)");
   }
   const Perceived a = Perceive(reference, options), b = Perceive(test, options);
   Image<float> result(reference.width(), reference.height());

@@ -29,8 +29,7 @@ TEST(PsnrTest, IsInfiniteForEqualPicturesAndKnownForAShift) {
   const Image<Rgb8> image = Noise(64, 32, 100);
   EXPECT_EQ(Psnr(image, image), std::numeric_limits<double>::infinity());
   // All values off by 5: 20 log10(255 / 5).
-  EXPECT_NEAR(Psnr(Uniform(64, 32, {10, 20, 30}), Uniform(64, 32, {15, 25, 25})), 20 * std::log10(51.0),
-              1e-12);
+  EXPECT_NEAR(Psnr(Uniform(64, 32, {10, 20, 30}), Uniform(64, 32, {15, 25, 25})), 20 * std::log10(51.0), 1e-12);
   // One channel of one pixel in 6.
   Image<Rgb8> one = Uniform(3, 2, {0, 0, 0});
   one(2, 1).g = 255;
@@ -45,8 +44,7 @@ TEST(WsPsnrTest, WeighsRowsBySolidAngle) {
     Image<Rgb8> b = a;
     for (Rgb8& c : b.row(row)) c = {110, 110, 110};
     // Closed form of sum over rows of cos((j + 1/2 - h / 2) pi / h) is 1 / sin(pi / (2 h)).
-    const double share =
-        std::cos((row + 0.5 - h / 2.0) * std::numbers::pi / h) * std::sin(std::numbers::pi / (2 * h));
+    const double share = std::cos((row + 0.5 - h / 2.0) * std::numbers::pi / h) * std::sin(std::numbers::pi / (2 * h));
     EXPECT_NEAR(WsPsnr(a, b), 10 * std::log10(255.0 * 255 / (100 * share)), 1e-9) << row;
   }
 }
@@ -61,8 +59,8 @@ TEST(SsimTest, IsOneForEqualPicturesAndKnownForUniformOnes) {
   EXPECT_NEAR(Ssim(image, image), 1, 1e-12);
   // Without contrast only the luminance term is left: (2 m n + C1) / (m^2 + n^2 + C1).
   const double c1 = 2.55 * 2.55;
-  EXPECT_NEAR(Ssim(Uniform(20, 20, {100, 100, 100}), Uniform(20, 20, {150, 150, 150})),
-              (2 * 100 * 150 + c1) / (100 * 100 + 150 * 150 + c1), 1e-9);
+  EXPECT_NEAR(Ssim(Uniform(20, 20, {100, 100, 100}), Uniform(20, 20, {150, 150, 150})), (2 * 100 * 150 + c1) / (100 * 100 + 150 * 150 + c1),
+              1e-9);
 }
 
 TEST(SsimTest, ContrastTermIsThatOfTheFormula) {
@@ -71,9 +69,7 @@ TEST(SsimTest, ContrastTermIsThatOfTheFormula) {
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) {
       const int d = (x + y) % 2 ? 60 : -60;
-      const auto grey = [](int v) {
-        return Rgb8{static_cast<uint8_t>(v), static_cast<uint8_t>(v), static_cast<uint8_t>(v)};
-      };
+      const auto grey = [](int v) { return Rgb8{static_cast<uint8_t>(v), static_cast<uint8_t>(v), static_cast<uint8_t>(v)}; };
       a(x, y) = grey(128 + d);
       b(x, y) = grey(128 + d / 2);
     }
@@ -106,9 +102,7 @@ TEST(FlipTest, UniformColoursDifferByTheRedistributedHyAbDistance) {
   EXPECT_NEAR(MeanFlip(Uniform(32, 16, {0, 0, 0}), Uniform(32, 16, {255, 255, 255})), expected, 1e-4);
   EXPECT_NEAR(MeanFlip(Uniform(32, 16, {0, 255, 0}), Uniform(32, 16, {0, 0, 255})), 1, 1e-6);
   // Greys 119 and 120: L* from the sRGB curve by hand.
-  const auto lightness = [](double s) {
-    return 116 * std::cbrt(std::pow((s / 255 + 0.055) / 1.055, 2.4)) - 16;
-  };
+  const auto lightness = [](double s) { return 116 * std::cbrt(std::pow((s / 255 + 0.055) / 1.055, 2.4)) - 16; };
   const double near = 0.95 / kBend * std::pow(lightness(120) - lightness(119), 0.7);
   EXPECT_NEAR(MeanFlip(Uniform(32, 16, {119, 119, 119}), Uniform(32, 16, {120, 120, 120})), near, 1e-4);
 }

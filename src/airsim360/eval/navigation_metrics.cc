@@ -29,8 +29,7 @@ double DynamicTimeWarping(std::span<const Vec3d> path, std::span<const Vec3d> re
   row[0] = 0;
   for (const Vec3d& p : path) {
     next[0] = kInfinity;
-    for (size_t j = 1; j < row.size(); ++j)
-      next[j] = Norm(p - reference[j - 1]) + std::min({row[j], row[j - 1], next[j - 1]});
+    for (size_t j = 1; j < row.size(); ++j) next[j] = Norm(p - reference[j - 1]) + std::min({row[j], row[j - 1], next[j - 1]});
     row.swap(next);
   }
   return row.back();

@@ -34,8 +34,7 @@ View Cut(const Image<float>& picture, double yaw, double pitch) {
       const double right = half * (2 * (i + 0.5) / kView - 1), up = -half * (2 * (j + 0.5) / kView - 1);
       const double forward = std::cos(pitch) - up * std::sin(pitch), z = std::sin(pitch) + up * std::cos(pitch);
       const double azimuth = yaw + std::atan2(right, forward), elevation = std::atan2(z, std::hypot(right, forward));
-      view[static_cast<size_t>(j) * kView + i] =
-          Sample(picture, (azimuth / (2 * kPi) + 0.5) * kWidth, (0.5 - elevation / kPi) * kHeight);
+      view[static_cast<size_t>(j) * kView + i] = Sample(picture, (azimuth / (2 * kPi) + 0.5) * kWidth, (0.5 - elevation / kPi) * kHeight);
     }
   }
   return view;
@@ -132,9 +131,8 @@ PanoramaStatistics MeasurePanorama(const Image<Rgb8>& panorama) {
                      " pixels: give one twice as wide as high, 64 rows at least");
   const Image<Rgb8> small = panorama.width() == kWidth ? panorama : ResizeBox(panorama, kWidth, kHeight);
   Image<float> luminance(kWidth, kHeight);
-  std::transform(small.pixels().begin(), small.pixels().end(), luminance.pixels().begin(), [](Rgb8 c) {
-    return (0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b) / 255;
-  });
+  std::transform(small.pixels().begin(), small.pixels().end(), luminance.pixels().begin(),
+                 [](Rgb8 c) { return (0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b) / 255; });
   PanoramaStatistics mean;
   for (double pitch : {0.0, -35 * kPi / 180}) {
     for (int direction = 0; direction < 4; ++direction) {

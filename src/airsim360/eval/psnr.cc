@@ -34,8 +34,7 @@ double Psnr(const Image<Rgb8>& a, const Image<Rgb8>& b) {
 
 double WsPsnr(const Image<Rgb8>& a, const Image<Rgb8>& b) {
   const double rows = a.height();
-  return WeightedPsnr(a, b,
-                      [rows](int y) { return std::cos((y + 0.5 - rows / 2) * std::numbers::pi / rows); });
+  return WeightedPsnr(a, b, [rows](int y) { return std::cos((y + 0.5 - rows / 2) * std::numbers::pi / rows); });
 }
 
 }  // namespace airsim360

@@ -21,14 +21,12 @@ void Check(const SphericalBox& box) {
 
 // Corners in order around the box, as the viewer sees them clockwise from the top left.
 std::array<Vec3d, 4> Corners(const SphericalBox& box) {
-  const Vec3d forward{std::cos(box.lat) * std::sin(box.lon), -std::sin(box.lat),
-                      std::cos(box.lat) * std::cos(box.lon)};
+  const Vec3d forward{std::cos(box.lat) * std::sin(box.lon), -std::sin(box.lat), std::cos(box.lat) * std::cos(box.lon)};
   const Vec3d east{std::cos(box.lon), 0, -std::sin(box.lon)}, south = Cross(forward, east);
   const double c = std::cos(box.gamma), s = std::sin(box.gamma);
-  const Vec3d right = (east * c - south * s) * std::tan(box.width / 2),
-              down = (east * s + south * c) * std::tan(box.height / 2);
-  return {Normalized(forward - right - down), Normalized(forward + right - down),
-          Normalized(forward + right + down), Normalized(forward - right + down)};
+  const Vec3d right = (east * c - south * s) * std::tan(box.width / 2), down = (east * s + south * c) * std::tan(box.height / 2);
+  return {Normalized(forward - right - down), Normalized(forward + right - down), Normalized(forward + right + down),
+          Normalized(forward - right + down)};
 }
 
 // The part of a convex polygon on the side of `normal` (Sutherland and Hodgman, with great circles).
@@ -44,23 +42,18 @@ std::vector<Vec3d> Clip(const std::vector<Vec3d>& polygon, Vec3d normal) {
 }
 
 // Solid angle of a triangle (A. van Oosterom, J. Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983).
-double TriangleArea(Vec3d a, Vec3d b, Vec3d c) {
-  return 2 * std::atan2(Dot(a, Cross(b, c)), 1 + Dot(a, b) + Dot(b, c) + Dot(c, a));
-}
+double TriangleArea(Vec3d a, Vec3d b, Vec3d c) { return 2 * std::atan2(Dot(a, Cross(b, c)), 1 + Dot(a, b) + Dot(b, c) + Dot(c, a)); }
 
 }  // namespace
 
-double SphericalBoxArea(const SphericalBox& box) {
-  return 4 * std::asin(std::sin(box.width / 2) * std::sin(box.height / 2));
-}
+double SphericalBoxArea(const SphericalBox& box) { return 4 * std::asin(std::sin(box.width / 2) * std::sin(box.height / 2)); }
 
 double SphericalIntersection(const SphericalBox& a, const SphericalBox& b) {
   Check(a);
   Check(b);
   const auto first = Corners(a), second = Corners(b);
   std::vector<Vec3d> polygon(first.begin(), first.end());
-  for (size_t i = 0; i < 4 && !polygon.empty(); ++i)
-    polygon = Clip(polygon, Cross(second[i], second[(i + 1) % 4]));
+  for (size_t i = 0; i < 4 && !polygon.empty(); ++i) polygon = Clip(polygon, Cross(second[i], second[(i + 1) % 4]));
   double area = 0;
   for (size_t i = 2; i < polygon.size(); ++i) area += TriangleArea(polygon[0], polygon[i - 1], polygon[i]);
   return std::abs(area);

@@ -55,8 +55,11 @@ TEST(SphericalIou, AgreesWithCountingDirections) {
   for (int trial = 0; trial < 6; ++trial) {
     SphericalBox boxes[2];
     for (SphericalBox& box : boxes) {
-      box = {.lon = rng.Uniform(-0.4, 0.4), .lat = trial % 2 == 0 ? 1.3 : 0.1, .width = rng.Uniform(0.5, 1.5),
-             .height = rng.Uniform(0.4, 1.5), .gamma = rng.Uniform(-1, 1)};
+      box = {.lon = rng.Uniform(-0.4, 0.4),
+             .lat = trial % 2 == 0 ? 1.3 : 0.1,
+             .width = rng.Uniform(0.5, 1.5),
+             .height = rng.Uniform(0.4, 1.5),
+             .gamma = rng.Uniform(-1, 1)};
     }
     int both = 0, either = 0;
     for (int i = 0; i < 400000; ++i) {

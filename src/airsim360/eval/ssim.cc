@@ -61,8 +61,7 @@ double Ssim(const Image<Rgb8>& first, const Image<Rgb8>& second) {
   internal::CheckComparable(first, second, kWindow);
   const Image<double> a = Luma(first), b = Luma(second);
   const Image<double> mean_a = Blur(a), mean_b = Blur(b);
-  const Image<double> square_a = Blur(Product(a, a)), square_b = Blur(Product(b, b)),
-                      both = Blur(Product(a, b));
+  const Image<double> square_a = Blur(Product(a, a)), square_b = Blur(Product(b, b)), both = Blur(Product(a, b));
   const double c1 = std::pow(0.01 * 255, 2), c2 = std::pow(0.03 * 255, 2);
   double sum = 0;
   for (size_t i = 0; i < mean_a.size(); ++i) {

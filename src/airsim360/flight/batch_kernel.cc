@@ -11,9 +11,7 @@ constexpr int kLanes = static_cast<int>(Lanes::size());
 
 AIRSIM360_LANES Lanes Get(const float* row) { return Lanes(row, stdx::vector_aligned); }
 AIRSIM360_LANES void Put(Lanes v, float* row) { v.copy_to(row, stdx::vector_aligned); }
-AIRSIM360_LANES Vec3<Lanes> Get3(const LaneRow* rows, int k) {
-  return {Get(rows[0] + k), Get(rows[1] + k), Get(rows[2] + k)};
-}
+AIRSIM360_LANES Vec3<Lanes> Get3(const LaneRow* rows, int k) { return {Get(rows[0] + k), Get(rows[1] + k), Get(rows[2] + k)}; }
 AIRSIM360_LANES void Put3(const Vec3<Lanes>& v, LaneRow* rows, int k) {
   Put(v.x, rows[0] + k);
   Put(v.y, rows[1] + k);
@@ -41,13 +39,11 @@ AIRSIM360_LANES void Store(const BodyState<Lanes>& s, int k, int rotors, DroneBl
 }
 
 AIRSIM360_LANES LaneSurroundings<Lanes> Load(const SurroundingsBlock& b, int k) {
-  return {Get3(b.wind, k),   Get3(b.wind_rate, k), Get3(b.force, k),
-          Get3(b.torque, k), Get(b.density + k),   Get(b.ground_distance + k)};
+  return {Get3(b.wind, k), Get3(b.wind_rate, k), Get3(b.force, k), Get3(b.torque, k), Get(b.density + k), Get(b.ground_distance + k)};
 }
 
 template <class Drive>
-AIRSIM360_LANES void StepBlock(const BatchWork& work, const SurroundingsBlock& around, int k,
-                               DroneBlock& block) {
+AIRSIM360_LANES void StepBlock(const BatchWork& work, const SurroundingsBlock& around, int k, DroneBlock& block) {
   const DroneConstants<float>& c = *work.constants;
   const int rotors = Drive::Layout::Rotors(c);
   BodyState<Lanes> s;

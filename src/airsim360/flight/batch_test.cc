@@ -15,9 +15,7 @@ namespace airsim360 {
 namespace {
 
 DroneState RandomState(RngStream& rng, double speed) {
-  const auto vector = [&](double r) {
-    return Vec3d{rng.Uniform(-r, r), rng.Uniform(-r, r), rng.Uniform(-r, r)};
-  };
+  const auto vector = [&](double r) { return Vec3d{rng.Uniform(-r, r), rng.Uniform(-r, r), rng.Uniform(-r, r)}; };
   DroneState s;
   s.p_WB = vector(50);
   s.v_WB = vector(10);
@@ -79,8 +77,8 @@ std::vector<DroneModel> Models() {
 
 /// One drone in single precision, by the same equations without lanes.
 template <class Drive>
-DroneState StepScalar(const DroneModel& model, const DroneState& start, const RotorSpeeds& commands,
-                      const DroneSurroundings& air, int steps) {
+DroneState StepScalar(const DroneModel& model, const DroneState& start, const RotorSpeeds& commands, const DroneSurroundings& air,
+                      int steps) {
   const auto c = internal::MakeDroneConstants<float>(model, 1e-3);
   internal::BodyState<float> s;
   s.p = VecCast<float>(start.p_WB);
@@ -91,8 +89,7 @@ DroneState StepScalar(const DroneModel& model, const DroneState& start, const Ro
   for (int i = 0; i < 4; ++i) s.q[i] = float(q[i]);
   s.charge = float(start.charge);
   float command[kMaxRotors];
-  for (int i = 0; i < c.rotors; ++i)
-    s.speed[i] = float(start.rotor_speeds[i]), command[i] = float(commands[i]);
+  for (int i = 0; i < c.rotors; ++i) s.speed[i] = float(start.rotor_speeds[i]), command[i] = float(commands[i]);
   const internal::LaneSurroundings<float> around = {VecCast<float>(air.wind_W),
                                                     VecCast<float>(air.wind_rate_B),
                                                     VecCast<float>(air.force_W),
@@ -121,10 +118,8 @@ TEST(Batch, EveryDroneHasTheBitsOfTheScalarPath) {
       RotorSpeeds commands;
       for (double& c : commands) c = HoverSpeed(model) * rng.Uniform(0.5, 1.5);
       const DroneSurroundings air = RandomAir(rng);
-      const DroneState alone =
-          model.name == "tilted"
-              ? StepScalar<internal::TiltedDrive<float>>(model, start, commands, air, 200)
-              : StepScalar<internal::UprightDrive<float>>(model, start, commands, air, 200);
+      const DroneState alone = model.name == "tilted" ? StepScalar<internal::TiltedDrive<float>>(model, start, commands, air, 200)
+                                                      : StepScalar<internal::UprightDrive<float>>(model, start, commands, air, 200);
       ASSERT_EQ(Bits(batch.state(i)), Bits(alone)) << model.name << " drone " << i;
     }
   }
@@ -159,11 +154,9 @@ TEST(Batch, InstructionSetsAgreeBitForBit) {
     };
     for (auto& b : blocks) {
       fill(b.p, 3, -50, 50), fill(b.p_low, 3, 0, 0), fill(b.v, 3, -10, 10), fill(b.q, 4, 0.49f, 0.51f);
-      fill(b.w, 3, -5, 5), fill(&b.charge, 1, 0.01f, 1), fill(b.speed, 8, 300, 1500),
-          fill(b.command, 8, -100, 2600);
+      fill(b.w, 3, -5, 5), fill(&b.charge, 1, 0.01f, 1), fill(b.speed, 8, 300, 1500), fill(b.command, 8, -100, 2600);
     }
-    fill(around.wind, 12, -1, 1), fill(&around.density, 1, 0.8f, 1.1f),
-        fill(&around.ground_distance, 1, 0, 1);
+    fill(around.wind, 12, -1, 1), fill(&around.density, 1, 0.8f, 1.1f), fill(&around.ground_distance, 1, 0, 1);
     const auto end = [&](auto kernel) {
       std::vector<internal::DroneBlock> copy = blocks;
       kernel({&constants, copy.data(), &around, true, true, 300, 3});

@@ -29,8 +29,7 @@ AIRSIM360_LANES V ExpOf32(V x) {
 template <class V>
 AIRSIM360_LANES V CellVoltage(V charge) {
   using T = ScalarOf<V>;
-  const V polynomial =
-      V(T(3.685)) + charge * (V(T(0.2156)) + charge * (V(T(-0.1178)) + charge * V(T(0.3201))));
+  const V polynomial = V(T(3.685)) + charge * (V(T(0.2156)) + charge * (V(T(-0.1178)) + charge * V(T(0.3201))));
   return polynomial - V(T(1.031)) * ExpOf32(charge * V(T(-35.0 / 32)));
 }
 inline constexpr double kFullCellVoltage = 3.685 + 0.2156 - 0.1178 + 0.3201;
@@ -53,8 +52,7 @@ AIRSIM360_LANES BatteryLoad<V> LoadBattery(const DroneConstants<T>& c, V density
   BatteryLoad<V> load;
   load.voltage = (open + SquareRoot(Select(rest > V(T(0)), rest, V(T(0))))) * V(T(0.5));
   load.current = power * given / load.voltage;
-  load.speed_factor =
-      Select(charge > V(T(0)), given * load.voltage / V(c.cells * T(kFullCellVoltage)), V(T(0)));
+  load.speed_factor = Select(charge > V(T(0)), given * load.voltage / V(c.cells * T(kFullCellVoltage)), V(T(0)));
   return load;
 }
 

@@ -23,14 +23,13 @@ DroneState Hovering(const DroneModel& model) {
 
 double HoverPower(const DroneModel& m) {
   const RotorModel& r = m.rotors[0];
-  return 4 * r.torque_ratio * r.thrust_factor * std::pow(HoverSpeed(m), 3) / m.battery.efficiency +
-         m.battery.idle_power;
+  return 4 * r.torque_ratio * r.thrust_factor * std::pow(HoverSpeed(m), 3) / m.battery.efficiency + m.battery.idle_power;
 }
 
 TEST(Battery, CellVoltageIsThePublishedCurve) {
   for (double charge = 0; charge <= 1; charge += 0.01) {
-    const double exact = -1.031 * std::exp(-35 * charge) + 3.685 + 0.2156 * charge -
-                         0.1178 * charge * charge + 0.3201 * charge * charge * charge;
+    const double exact =
+        -1.031 * std::exp(-35 * charge) + 3.685 + 0.2156 * charge - 0.1178 * charge * charge + 0.3201 * charge * charge * charge;
     EXPECT_NEAR(internal::CellVoltage(charge), exact, 1e-4);
   }
 }

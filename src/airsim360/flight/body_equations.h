@@ -64,8 +64,7 @@ struct Rotation {
 
 template <class V, class T = ScalarOf<V>>
 AIRSIM360_LANES Vec3<V> Times(const Mat3<T>& a, Vec3<V> v) {
-  return {v.x * a.m[0][0] + v.y * a.m[0][1] + v.z * a.m[0][2],
-          v.x * a.m[1][0] + v.y * a.m[1][1] + v.z * a.m[1][2],
+  return {v.x * a.m[0][0] + v.y * a.m[0][1] + v.z * a.m[0][2], v.x * a.m[1][0] + v.y * a.m[1][1] + v.z * a.m[1][2],
           v.x * a.m[2][0] + v.y * a.m[2][1] + v.z * a.m[2][2]};
 }
 
@@ -74,8 +73,7 @@ template <class L, class V, class T = ScalarOf<V>>
 AIRSIM360_LANES Vec3<V> AngularAcceleration(const DroneConstants<T>& c, Vec3<V> torque, Vec3<V> w) {
   if (L::Has(c.has_products)) return Times(c.inverse_inertia, torque - Cross(w, Times(c.inertia, w)));
   const auto& inverse = c.inverse_inertia.m;
-  return {(torque.x - w.y * w.z * c.inertia_gaps.x) * inverse[0][0],
-          (torque.y - w.z * w.x * c.inertia_gaps.y) * inverse[1][1],
+  return {(torque.x - w.y * w.z * c.inertia_gaps.x) * inverse[0][0], (torque.y - w.z * w.x * c.inertia_gaps.y) * inverse[1][1],
           (torque.z - w.x * w.y * c.inertia_gaps.z) * inverse[2][2]};
 }
 
@@ -100,8 +98,7 @@ AIRSIM360_LANES Vec3<V> BodyDrag(const SteadyLoads<V>& loads, Vec3<V> v_W, Vec3<
 
 /// Newton's and Euler's equations and the quaternion's, dq/dt = q (0, w) / 2.
 template <class Drive, class V, class T = ScalarOf<V>>
-AIRSIM360_LANES Motion<V> Differentiate(const DroneConstants<T>& c, const SteadyLoads<V>& loads,
-                                        const Drive& drive, const Motion<V>& s) {
+AIRSIM360_LANES Motion<V> Differentiate(const DroneConstants<T>& c, const SteadyLoads<V>& loads, const Drive& drive, const Motion<V>& s) {
   const Rotation<V> R(s.q);
   const Vec3<V> air_W = s.v - loads.wind;
   const AirMotion<V> air{R.ToBody(air_W), s.w - loads.wind_rate, s.w};
@@ -152,9 +149,8 @@ AIRSIM360_LANES V LimitTurning(V w, V most) {
 
 /// One RK4 step of the body, given the rotors at its start, middle and end.
 template <class Drive, class V, class T = ScalarOf<V>>
-AIRSIM360_LANES void IntegrateBody(const DroneConstants<T>& c, const SteadyLoads<V>& loads,
-                                   const Drive& start, const Drive& middle, const Drive& end,
-                                   BodyState<V>& s) {
+AIRSIM360_LANES void IntegrateBody(const DroneConstants<T>& c, const SteadyLoads<V>& loads, const Drive& start, const Drive& middle,
+                                   const Drive& end, BodyState<V>& s) {
   const Motion<V> now{s.v, s.w, {s.q[0], s.q[1], s.q[2], s.q[3]}};
   const V half = V(c.half_dt), sixth = V(c.sixth_dt), dt = V(c.dt);
   const Motion<V> k1 = Differentiate(c, loads, start, now);

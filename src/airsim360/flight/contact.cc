@@ -18,8 +18,7 @@ constexpr double kRestSpeed = 0.1;
 
 /// If the centre has passed a surface, takes it back along its way to where the box touches, at most to its
 /// start, and notes the contact.
-void StopAtSurface(const DroneModel& model, const ContactQuery& query, Vec3d from, DroneState& after,
-                   std::vector<Contact>& contacts) {
+void StopAtSurface(const DroneModel& model, const ContactQuery& query, Vec3d from, DroneState& after, std::vector<Contact>& contacts) {
   const auto hit = query.FirstHit(from, after.p_WB);
   if (!hit) return;
   const Vec3d n = hit->normal_W;
@@ -41,9 +40,8 @@ void MoveOut(const ContactQuery& query, std::span<const Contact> contacts, Drone
 
 }  // namespace
 
-ContactReport ResolveContacts(const DroneModel& model, const ContactProperties& properties,
-                              const ContactQuery& query, const DroneState& before, double dt,
-                              double surface_speed, DroneState& after, ContactState& contact) {
+ContactReport ResolveContacts(const DroneModel& model, const ContactProperties& properties, const ContactQuery& query,
+                              const DroneState& before, double dt, double surface_speed, DroneState& after, ContactState& contact) {
   contact.free_distance -= Norm(after.p_WB - before.p_WB) + surface_speed * dt;
   if (contact.free_distance > 0) return {};
 
@@ -62,8 +60,7 @@ ContactReport ResolveContacts(const DroneModel& model, const ContactProperties& 
   contact.free_distance = 0;
   const Vec3d acceleration = (free.v_WB - before.v_WB) / dt;
   const double rest_speed = std::max(kRestSpeed, 2 * kGravity * dt);
-  const internal::Impact impact =
-      internal::ApplyImpulses(model, properties, contacts, acceleration, rest_speed, after);
+  const internal::Impact impact = internal::ApplyImpulses(model, properties, contacts, acceleration, rest_speed, after);
   MoveOut(query, std::span(contacts).subspan(stopped), after);
   internal::LimitEnergy(model, internal::MechanicalEnergy(model, free), after);
 

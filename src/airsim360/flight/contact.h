@@ -57,8 +57,7 @@ struct ContactReport {
 /// friction at the box's points that reach into a surface. The centre never passes a surface, however fast.
 /// Kinetic and potential energy together are never raised. `surface_speed`: how fast surfaces themselves may
 /// move, m/s; it only decides how soon they are asked for again.
-ContactReport ResolveContacts(const DroneModel& model, const ContactProperties& properties,
-                              const ContactQuery& query, const DroneState& before, double dt,
-                              double surface_speed, DroneState& after, ContactState& contact);
+ContactReport ResolveContacts(const DroneModel& model, const ContactProperties& properties, const ContactQuery& query,
+                              const DroneState& before, double dt, double surface_speed, DroneState& after, ContactState& contact);
 
 }  // namespace airsim360

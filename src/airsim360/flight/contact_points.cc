@@ -50,8 +50,7 @@ bool IsCovered(const SurfacePoint& hit, std::span<const Contact> found) {
   return false;
 }
 
-void AddRay(const ContactQuery& query, const DroneState& state, Vec3d arm, bool corner,
-            std::vector<Contact>& contacts) {
+void AddRay(const ContactQuery& query, const DroneState& state, Vec3d arm, bool corner, std::vector<Contact>& contacts) {
   const auto hit = query.FirstHit(state.p_WB, state.p_WB + arm);
   if (!hit || (!corner && IsCovered(*hit, contacts))) return;
   const double depth = Dot(hit->p_W - (state.p_WB + arm), hit->normal_W);
@@ -66,8 +65,8 @@ double BoxReach(const DroneModel& model, const Mat3d& R_WB, Vec3d n_W) {
   return reach;
 }
 
-void FindContacts(const DroneModel& model, const ContactQuery& query, const DroneState& state,
-                  const SurfacePoint& nearest, std::vector<Contact>& contacts) {
+void FindContacts(const DroneModel& model, const ContactQuery& query, const DroneState& state, const SurfacePoint& nearest,
+                  std::vector<Contact>& contacts) {
   const Mat3d R = ToMatrix(state.q_WB);
   const size_t first = contacts.size();
   for (const bool corners : {true, false}) {

@@ -20,7 +20,7 @@ double BoxReach(const DroneModel& model, const Mat3d& R_WB, Vec3d n_W);
 /// Contacts of the box at `state`: at its corners and the middles of its edges and faces, found by rays from
 /// the centre, and at `nearest`, the surface point nearest to the centre, if it is inside the box (edges and
 /// poles that pass between the rays). Appends to `contacts`.
-void FindContacts(const DroneModel& model, const ContactQuery& query, const DroneState& state,
-                  const SurfacePoint& nearest, std::vector<Contact>& contacts);
+void FindContacts(const DroneModel& model, const ContactQuery& query, const DroneState& state, const SurfacePoint& nearest,
+                  std::vector<Contact>& contacts);
 
 }  // namespace airsim360::internal

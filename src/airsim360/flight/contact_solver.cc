@@ -42,8 +42,7 @@ struct ContactImpulse {
   Vec3d friction;  ///< likewise, along the surface
 };
 
-double BounceSpeed(const ContactProperties& properties, const Contact& c, double into, Vec3d acceleration,
-                   double rest_speed) {
+double BounceSpeed(const ContactProperties& properties, const Contact& c, double into, Vec3d acceleration, double rest_speed) {
   if (into <= rest_speed) return 0;
   const double gained = 2 * std::max(0.0, -Dot(acceleration, c.surface.normal_W)) * c.depth;
   return properties.restitution * std::sqrt(std::max(0.0, into * into - gained));
@@ -53,8 +52,7 @@ double BounceSpeed(const ContactProperties& properties, const Contact& c, double
 double PushOut(const Contact& c, Body& body, ContactImpulse& impulse) {
   const Vec3d n = c.surface.normal_W;
   const double lacking = impulse.bounce - Dot(body.VelocityAt(c.arm_W), n);
-  const double total = std::max(0.0, impulse.normal + lacking / impulse.ease),
-               change = total - impulse.normal;
+  const double total = std::max(0.0, impulse.normal + lacking / impulse.ease), change = total - impulse.normal;
   body.Push(c.arm_W, n * change);
   impulse.normal = total;
   return std::abs(change) * impulse.ease;
@@ -76,9 +74,8 @@ double Rub(const Contact& c, double friction, Body& body, ContactImpulse& impuls
 
 }  // namespace
 
-Impact ApplyImpulses(const DroneModel& model, const ContactProperties& properties,
-                     std::span<const Contact> contacts, Vec3d acceleration_W, double rest_speed,
-                     DroneState& state) {
+Impact ApplyImpulses(const DroneModel& model, const ContactProperties& properties, std::span<const Contact> contacts, Vec3d acceleration_W,
+                     double rest_speed, DroneState& state) {
   const Mat3d R = ToMatrix(state.q_WB);
   Body body{1 / model.mass, R * Inverse(model.inertia_B) * R.transpose(), state.v_WB, R * state.w_WB_B};
   Impact impact;
@@ -122,9 +119,7 @@ double KineticEnergy(const DroneModel& model, const DroneState& s) {
 }
 }  // namespace
 
-double MechanicalEnergy(const DroneModel& model, const DroneState& s) {
-  return KineticEnergy(model, s) + model.mass * kGravity * s.p_WB.z;
-}
+double MechanicalEnergy(const DroneModel& model, const DroneState& s) { return KineticEnergy(model, s) + model.mass * kGravity * s.p_WB.z; }
 
 void LimitEnergy(const DroneModel& model, double most, DroneState& s) {
   const double excess = MechanicalEnergy(model, s) - most;

@@ -15,9 +15,8 @@ struct Impact {
   double speed = 0;
   size_t contact = 0;
 };
-Impact ApplyImpulses(const DroneModel& model, const ContactProperties& properties,
-                     std::span<const Contact> contacts, Vec3d acceleration_W, double rest_speed,
-                     DroneState& state);
+Impact ApplyImpulses(const DroneModel& model, const ContactProperties& properties, std::span<const Contact> contacts, Vec3d acceleration_W,
+                     double rest_speed, DroneState& state);
 
 /// Smallest shift, near enough, that takes every contact out of its surface.
 Vec3d ShiftOut(std::span<const Contact> contacts);

@@ -63,8 +63,7 @@ class Room : public ContactQuery {
  private:
   double PoleHit(Vec3d from, Vec3d to) const {
     const double dx = to.x - from.x, dy = to.y - from.y, fx = from.x - pole_x, fy = from.y - pole_y;
-    const double a = dx * dx + dy * dy, b = fx * dx + fy * dy,
-                 c = fx * fx + fy * fy - pole_radius * pole_radius;
+    const double a = dx * dx + dy * dy, b = fx * dx + fy * dy, c = fx * fx + fy * fy - pole_radius * pole_radius;
     const double d = b * b - a * c;
     if (a == 0 || d < 0) return 2;
     const double t = (-b - std::sqrt(d)) / a;
@@ -100,8 +99,7 @@ struct Experiment {
   }
   double Bottom() const { return state.p_WB.z - model.half_size_B.z; }
 
-  explicit Experiment(DroneModel m = Puck(), double step = 1e-3)
-      : model(std::move(m)), dt(step), dynamics(model, step) {}
+  explicit Experiment(DroneModel m = Puck(), double step = 1e-3) : model(std::move(m)), dt(step), dynamics(model, step) {}
   DroneDynamics dynamics;
 };
 
@@ -204,8 +202,7 @@ TEST(Contact, APoleBetweenTheBoxsCornersStopsTheDrone) {
     for (int i = 0; i < 500; ++i) {
       e.Step();
       touched |= e.report.touching;
-      const Vec3d to_pole =
-          ToMatrix(e.state.q_WB).transpose() * Vec3d{1 - e.state.p_WB.x, y - e.state.p_WB.y, 0};
+      const Vec3d to_pole = ToMatrix(e.state.q_WB).transpose() * Vec3d{1 - e.state.p_WB.x, y - e.state.p_WB.y, 0};
       const double in_x = e.model.half_size_B.x - std::abs(to_pole.x);
       const double in_y = e.model.half_size_B.y - std::abs(to_pole.y);
       if (std::abs(to_pole.z) < e.model.half_size_B.z) deepest = std::max(deepest, std::min(in_x, in_y));

@@ -39,15 +39,13 @@ TEST(Downwash, TheJetCarriesTheThrustAsMomentum) {
 TEST(Downwash, StartsAtTheInducedVelocityAndIsNeverMoreThanTwiceIt) {
   const DroneModel model = AgiliciousDrone();
   const RotorWake wake = HoverWake(model);
-  const double induced =
-      std::sqrt(model.mass * kGravity / (2 * kSeaLevelAirDensity * 4 * std::numbers::pi / 4 * 0.13 * 0.13));
+  const double induced = std::sqrt(model.mass * kGravity / (2 * kSeaLevelAirDensity * 4 * std::numbers::pi / 4 * 0.13 * 0.13));
   EXPECT_NEAR(-WakeVelocity(wake, {0, 0, -1e-6}).z, induced, 1e-3);
   double last = 0;
   for (double x = 0.01; x < 30; x += 0.01) {
     const double u = -WakeVelocity(wake, {0, 0, -x}).z;
     EXPECT_LE(u, 2 * induced);
-    EXPECT_LT(std::abs(u - last), 0.6 * induced + (x < 0.02 ? induced : 0))
-        << x;  // no jump where the parts join
+    EXPECT_LT(std::abs(u - last), 0.6 * induced + (x < 0.02 ? induced : 0)) << x;  // no jump where the parts join
     last = u;
   }
 }

@@ -54,8 +54,7 @@ void FindTerms(const DroneModel& model, DroneConstants<T>& c) {
   c.has_products = J[0][1] != 0 || J[0][2] != 0 || J[1][2] != 0;
   c.has_height = model.rotors.front().p_B.z != 0;
   c.upright = IsUpright(model);
-  c.plain = c.upright && !(c.has_inflow || c.has_lift || c.has_flapping || c.has_spin || c.has_battery ||
-                           c.has_products || c.has_height);
+  c.plain = c.upright && !(c.has_inflow || c.has_lift || c.has_flapping || c.has_spin || c.has_battery || c.has_products || c.has_height);
 }
 
 template <class T>

@@ -8,12 +8,12 @@ namespace airsim360::internal {
 /// One rotor. Signs are folded in, so that the equations only add.
 template <class T>
 struct RotorConstants {
-  Vec3<T> p, axis;             ///< hub and unit axis, B
-  T p2;                        ///< x^2 + y^2 of the hub
-  T thrust;                    ///< k_f
-  T torque;                    ///< reaction torque along the axis / speed^2: direction * torque_ratio * k_f
-  T drag, inflow, lift, flap;  ///< k_d, k_z, k_h, k_flap
-  T spin;                      ///< angular momentum along the axis / speed: -direction * inertia
+  Vec3<T> p, axis;                   ///< hub and unit axis, B
+  T p2;                              ///< x^2 + y^2 of the hub
+  T thrust;                          ///< k_f
+  T torque;                          ///< reaction torque along the axis / speed^2: direction * torque_ratio * k_f
+  T drag, inflow, lift, flap;        ///< k_d, k_z, k_h, k_flap
+  T spin;                            ///< angular momentum along the axis / speed: -direction * inertia
   T half_decay_up, half_decay_down;  ///< exp(-dt / 2 tau)
   T rate_up, rate_down;              ///< 1 / tau
   T max_speed;

@@ -8,10 +8,9 @@
 namespace airsim360 {
 namespace {
 
-[[noreturn]] void Refuse(const DroneModel& model, std::string_view what, double value,
-                         std::string_view wanted) {
-  throw InputError("drone '" + model.name + "': " + std::string(what) + " = " + std::to_string(value) +
-                   "; it must be " + std::string(wanted));
+[[noreturn]] void Refuse(const DroneModel& model, std::string_view what, double value, std::string_view wanted) {
+  throw InputError("drone '" + model.name + "': " + std::string(what) + " = " + std::to_string(value) + "; it must be " +
+                   std::string(wanted));
 }
 
 void CheckPositive(const DroneModel& model, std::string_view what, double value) {
@@ -53,8 +52,7 @@ void CheckInertia(const DroneModel& model) {
   for (int i = 0; i < 3; ++i) CheckPositive(model, "inertia_B diagonal", J[i][i]);
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < i; ++k) {
-      if (J[i][k] != J[k][i])
-        Refuse(model, "inertia_B asymmetry", J[i][k] - J[k][i], "0 (a symmetric matrix)");
+      if (J[i][k] != J[k][i]) Refuse(model, "inertia_B asymmetry", J[i][k] - J[k][i], "0 (a symmetric matrix)");
     }
   }
   // Sylvester's criterion: all leading minors are positive.

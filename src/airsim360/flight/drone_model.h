@@ -15,20 +15,20 @@ inline constexpr double kGravity = 9.80665;           ///< m/s^2, downwards alon
 
 /// One rotor. Coefficients hold at kSeaLevelAirDensity and scale with density.
 struct RotorModel {
-  Vec3d p_B;              ///< hub, metres from the centre of mass
-  Vec3d axis_B{0, 0, 1};  ///< unit; thrust acts along it
-  double direction = 1;   ///< +1: the reaction torque on the body is along +axis_B (the rotor turns clockwise
-                          ///< seen from the tip of the axis), -1: along -axis_B
-  double diameter = 0;    ///< metres
+  Vec3d p_B;                              ///< hub, metres from the centre of mass
+  Vec3d axis_B{0, 0, 1};                  ///< unit; thrust acts along it
+  double direction = 1;                   ///< +1: the reaction torque on the body is along +axis_B (the rotor turns clockwise
+                                          ///< seen from the tip of the axis), -1: along -axis_B
+  double diameter = 0;                    ///< metres
   double thrust_factor = 0;               ///< k_f, N/(rad/s)^2: hover thrust = k_f * speed^2
   double torque_ratio = 0;                ///< k_m / k_f, metres
   double tau_up = 0.03, tau_down = 0.03;  ///< seconds, first-order lag of the speed
   double max_speed = 0;                   ///< rad/s
   double inertia = 0;                     ///< of rotor and propeller about the axis, kg m^2
-  double in_plane_drag = 0;  ///< k_d, N per (rad/s * m/s): H-force against the in-plane air velocity
-  double inflow = 0;         ///< k_z, N per (rad/s * m/s): loss of thrust with axial air velocity (climb)
-  double translational_lift = 0;  ///< k_h, N/(m/s)^2 of in-plane air velocity
-  double flapping = 0;            ///< k_flap, N m per (rad/s * m/s)
+  double in_plane_drag = 0;               ///< k_d, N per (rad/s * m/s): H-force against the in-plane air velocity
+  double inflow = 0;                      ///< k_z, N per (rad/s * m/s): loss of thrust with axial air velocity (climb)
+  double translational_lift = 0;          ///< k_h, N/(m/s)^2 of in-plane air velocity
+  double flapping = 0;                    ///< k_flap, N m per (rad/s * m/s)
 };
 
 struct BatteryModel {

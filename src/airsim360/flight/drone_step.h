@@ -18,8 +18,7 @@ AIRSIM360_LANES V LimitSpeed(V command, V limit) {
 
 /// Speeds that the rotors head for, and the charge spent over the step.
 template <class V, class T = ScalarOf<V>>
-AIRSIM360_LANES void UseBattery(const DroneConstants<T>& c, V density, const V* command, BodyState<V>& s,
-                                V* target) {
+AIRSIM360_LANES void UseBattery(const DroneConstants<T>& c, V density, const V* command, BodyState<V>& s, V* target) {
   const BatteryLoad<V> load = LoadBattery(c, density, s.speed, s.charge);
   for (int i = 0; i < c.rotors; ++i) {
     target[i] = LimitSpeed(command[i], load.speed_factor * c.rotor[i].max_speed);
@@ -30,8 +29,8 @@ AIRSIM360_LANES void UseBattery(const DroneConstants<T>& c, V density, const V* 
 
 /// `steps` steps with the same commands and surroundings. `near_ground`: the ground effect is asked for.
 template <class Drive, class V, class T = ScalarOf<V>>
-AIRSIM360_LANES void StepLanes(const DroneConstants<T>& c, const LaneSurroundings<V>& around,
-                               bool near_ground, const V* command, int steps, BodyState<V>& s) {
+AIRSIM360_LANES void StepLanes(const DroneConstants<T>& c, const LaneSurroundings<V>& around, bool near_ground, const V* command, int steps,
+                               BodyState<V>& s) {
   using L = typename Drive::Layout;
   const SteadyLoads<V> loads = MakeSteadyLoads(c, around);
   V target[kMaxRotors], middle_speed[kMaxRotors], ground[kMaxRotors];

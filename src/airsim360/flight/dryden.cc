@@ -34,9 +34,7 @@ constexpr double kFoot = 0.3048;
 constexpr double kLeastAirspeed = 1;
 
 /// First-order filter of unit variance over `x` time constants.
-void StepFirst(double x, double normal, double& state) {
-  state = std::exp(-x) * state + std::sqrt(-std::expm1(-2 * x)) * normal;
-}
+void StepFirst(double x, double normal, double& state) { state = std::exp(-x) * state + std::sqrt(-std::expm1(-2 * x)) * normal; }
 
 /// The two states of the second-order filter, the noise correlated by Cholesky's factor.
 void StepSecond(double x, double n1, double n2, double* state) {
@@ -48,9 +46,7 @@ void StepSecond(double x, double n1, double n2, double* state) {
 }
 
 /// (1 + sqrt(3) s) / (1 + s)^2, MIL-F-8785C's lateral and vertical filter, of unit variance.
-double SecondOutput(const double* state) {
-  return std::numbers::sqrt3 * state[0] + (1 - std::numbers::sqrt3) * state[1];
-}
+double SecondOutput(const double* state) { return std::numbers::sqrt3 * state[0] + (1 - std::numbers::sqrt3) * state[1]; }
 
 /// Steady state: variances 1/2 and 1/4, covariance 1/4.
 void StartSecond(RngStream& random, double* state) {
@@ -85,8 +81,7 @@ DrydenScales LowAltitudeDryden(double height, double wind_6m) {
   return {{across, across, feet * kFoot}, {horizontal, horizontal, vertical}};
 }
 
-DrydenSample StepDryden(const DrydenScales& scales, double airspeed, double span, double dt,
-                        RngStream& random, DrydenState& state) {
+DrydenSample StepDryden(const DrydenScales& scales, double airspeed, double span, double dt, RngStream& random, DrydenState& state) {
   if (!state.started) Start(scales, random, state);
   const double speed = std::max(airspeed, kLeastAirspeed), way = speed * dt;
   const double old_v = scales.sigma.y * SecondOutput(state.v), old_w = scales.sigma.z * SecondOutput(state.w);
@@ -104,13 +99,11 @@ DrydenSample StepDryden(const DrydenScales& scales, double airspeed, double span
   constexpr double pi = std::numbers::pi;
   const double pitch_way = 4 * span / pi, yaw_way = 3 * span / pi;
   const double length = scales.length.z;
-  const double roll_sigma =
-      scales.sigma.z * std::sqrt(0.1 * pi * pi / span * std::cbrt(pi / (4 * span * length * length)));
+  const double roll_sigma = scales.sigma.z * std::sqrt(0.1 * pi * pi / span * std::cbrt(pi / (4 * span * length * length)));
   StepFirst(way / pitch_way, n_roll, state.roll);
   FollowSlowly(way / pitch_way, old_w, w, state.w_slow);
   FollowSlowly(way / yaw_way, old_v, v, state.v_slow);
-  return {{scales.sigma.x * state.u, v, w},
-          {roll_sigma * state.roll, (w - state.w_slow) / pitch_way, (v - state.v_slow) / yaw_way}};
+  return {{scales.sigma.x * state.u, v, w}, {roll_sigma * state.roll, (w - state.w_slow) / pitch_way, (v - state.v_slow) / yaw_way}};
 }
 
 }  // namespace airsim360

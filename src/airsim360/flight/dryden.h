@@ -32,8 +32,7 @@ struct DrydenSample {
 
 /// Advances by `dt` at `airspeed` m/s (below 1 m/s counts as 1: turbulence drifts past a drone that stands
 /// still). `span` in metres is the drone's breadth, for the rates. Draws six normal numbers.
-DrydenSample StepDryden(const DrydenScales& scales, double airspeed, double span, double dt,
-                        RngStream& random, DrydenState& state);
+DrydenSample StepDryden(const DrydenScales& scales, double airspeed, double span, double dt, RngStream& random, DrydenState& state);
 
 namespace internal {
 /// Covariance over a time x of (x1, x2) with dx1 = -x1 + noise, dx2 = x1 - x2: what white noise adds.

@@ -12,9 +12,8 @@ using internal::DroneConstants;
 using internal::LaneSurroundings;
 
 template <class Drive>
-DroneDerivative DerivativeWith(const DroneConstants<double>& c, const DroneSurroundings& surroundings,
-                               const RotorSpeeds& commands, const RotorHealth& health,
-                               const DroneState& state) {
+DroneDerivative DerivativeWith(const DroneConstants<double>& c, const DroneSurroundings& surroundings, const RotorSpeeds& commands,
+                               const RotorHealth& health, const DroneState& state) {
   BodyState<double> s;
   internal::LoadState(state, c.rotors, s);
   const LaneSurroundings<double> around = internal::LoadSurroundings(surroundings);
@@ -28,8 +27,7 @@ DroneDerivative DerivativeWith(const DroneConstants<double>& c, const DroneSurro
   if (internal::FeelsGround(c, around.ground_distance)) internal::FindGround(c, around, s, ground);
   const Drive drive(c, {s.speed, target, around.density, ground});
   const internal::SteadyLoads<double> loads = internal::MakeSteadyLoads(c, around);
-  const internal::Motion<double> rate =
-      internal::Differentiate(c, loads, drive, {s.v, s.w, {s.q[0], s.q[1], s.q[2], s.q[3]}});
+  const internal::Motion<double> rate = internal::Differentiate(c, loads, drive, {s.v, s.w, {s.q[0], s.q[1], s.q[2], s.q[3]}});
 
   DroneDerivative out;
   out.a_WB = rate.v;
@@ -46,21 +44,21 @@ DroneDerivative DerivativeWith(const DroneConstants<double>& c, const DroneSurro
 DroneDynamics::DroneDynamics(const DroneModel& model, double dt)
     : constants_(internal::MakeDroneConstants<double>(model, dt)), step_(AIRSIM360_SELECT_KERNEL(StepOne)) {}
 
-void DroneDynamics::Step(const DroneSurroundings& surroundings, const RotorSpeeds& commands,
-                         const RotorHealth& health, DroneState& state) const {
+void DroneDynamics::Step(const DroneSurroundings& surroundings, const RotorSpeeds& commands, const RotorHealth& health,
+                         DroneState& state) const {
   step_(constants_, surroundings, commands, health, state);
 }
 
-DroneDerivative DroneDynamics::Derivative(const DroneSurroundings& surroundings, const RotorSpeeds& commands,
-                                          const RotorHealth& health, const DroneState& state) const {
+DroneDerivative DroneDynamics::Derivative(const DroneSurroundings& surroundings, const RotorSpeeds& commands, const RotorHealth& health,
+                                          const DroneState& state) const {
   if (constants_.upright) {
     return DerivativeWith<internal::UprightDrive<double>>(constants_, surroundings, commands, health, state);
   }
   return DerivativeWith<internal::TiltedDrive<double>>(constants_, surroundings, commands, health, state);
 }
 
-void StepDrone(const DroneModel& model, const DroneSurroundings& surroundings, const RotorSpeeds& commands,
-               const RotorHealth& health, double dt, DroneState& state) {
+void StepDrone(const DroneModel& model, const DroneSurroundings& surroundings, const RotorSpeeds& commands, const RotorHealth& health,
+               double dt, DroneState& state) {
   DroneDynamics(model, dt).Step(surroundings, commands, health, state);
 }
 

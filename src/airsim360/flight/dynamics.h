@@ -27,12 +27,11 @@ class DroneDynamics {
   /// Advances `state` by one step of classical RK4 (order 4); rotor speeds follow their exact exponential
   /// towards the commands, which hold for the step. Commands are limited to 0 .. the speed that the battery
   /// allows; one that is not a number counts as 0.
-  void Step(const DroneSurroundings& surroundings, const RotorSpeeds& commands, const RotorHealth& health,
-            DroneState& state) const;
+  void Step(const DroneSurroundings& surroundings, const RotorSpeeds& commands, const RotorHealth& health, DroneState& state) const;
 
   /// Rates at `state`, by the same equations.
-  DroneDerivative Derivative(const DroneSurroundings& surroundings, const RotorSpeeds& commands,
-                             const RotorHealth& health, const DroneState& state) const;
+  DroneDerivative Derivative(const DroneSurroundings& surroundings, const RotorSpeeds& commands, const RotorHealth& health,
+                             const DroneState& state) const;
 
   double dt() const { return constants_.dt; }
   int rotors() const { return constants_.rotors; }
@@ -43,8 +42,8 @@ class DroneDynamics {
 };
 
 /// DroneDynamics(model, dt).Step(...), for a step of a drone that is not stepped again.
-void StepDrone(const DroneModel& model, const DroneSurroundings& surroundings, const RotorSpeeds& commands,
-               const RotorHealth& health, double dt, DroneState& state);
+void StepDrone(const DroneModel& model, const DroneSurroundings& surroundings, const RotorSpeeds& commands, const RotorHealth& health,
+               double dt, DroneState& state);
 
 /// Voltage of the battery with the rotors at the state's speeds (at sea-level density), V; 0 for an ideal
 /// supply.

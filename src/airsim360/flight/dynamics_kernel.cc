@@ -7,8 +7,8 @@ namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
 template <class Drive>
-AIRSIM360_LANES void StepWith(const DroneConstants<double>& c, const DroneSurroundings& surroundings,
-                              const RotorSpeeds& commands, const RotorHealth& health, DroneState& state) {
+AIRSIM360_LANES void StepWith(const DroneConstants<double>& c, const DroneSurroundings& surroundings, const RotorSpeeds& commands,
+                              const RotorHealth& health, DroneState& state) {
   const int rotors = Drive::Layout::Rotors(c);
   BodyState<double> s;
   double command[kMaxRotors];
@@ -21,10 +21,9 @@ AIRSIM360_LANES void StepWith(const DroneConstants<double>& c, const DroneSurrou
 
 }  // namespace
 
-void StepOne(const DroneConstants<double>& c, const DroneSurroundings& surroundings,
-             const RotorSpeeds& commands, const RotorHealth& health, DroneState& state) {
-  ChooseDrive<double>(
-      c, [&]<class Drive>(Drive*) { StepWith<Drive>(c, surroundings, commands, health, state); });
+void StepOne(const DroneConstants<double>& c, const DroneSurroundings& surroundings, const RotorSpeeds& commands, const RotorHealth& health,
+             DroneState& state) {
+  ChooseDrive<double>(c, [&]<class Drive>(Drive*) { StepWith<Drive>(c, surroundings, commands, health, state); });
 }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

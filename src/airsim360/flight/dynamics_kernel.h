@@ -7,8 +7,8 @@
 #include "airsim360/flight/drone_state.h"
 
 namespace airsim360::internal {
-using StepOneKernel = void(const DroneConstants<double>& constants, const DroneSurroundings& surroundings,
-                           const RotorSpeeds& commands, const RotorHealth& health, DroneState& state);
+using StepOneKernel = void(const DroneConstants<double>& constants, const DroneSurroundings& surroundings, const RotorSpeeds& commands,
+                           const RotorHealth& health, DroneState& state);
 }
 
 AIRSIM360_DECLARE_KERNEL(StepOneKernel StepOne)

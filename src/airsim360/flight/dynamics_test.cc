@@ -39,14 +39,13 @@ DroneState Tumbling(double speed) {
   return s;
 }
 
-void Fly(const DroneDynamics& drone, const RotorSpeeds& commands, int steps, DroneState& s,
-         const DroneSurroundings& around = kCalm, const RotorHealth& health = kAllRotorsWork) {
+void Fly(const DroneDynamics& drone, const RotorSpeeds& commands, int steps, DroneState& s, const DroneSurroundings& around = kCalm,
+         const RotorHealth& health = kAllRotorsWork) {
   for (int i = 0; i < steps; ++i) drone.Step(around, commands, health, s);
 }
 
 double Distance(const DroneState& a, const DroneState& b) {
-  const double q = std::hypot(a.q_WB.w - b.q_WB.w, a.q_WB.x - b.q_WB.x,
-                              std::hypot(a.q_WB.y - b.q_WB.y, a.q_WB.z - b.q_WB.z));
+  const double q = std::hypot(a.q_WB.w - b.q_WB.w, a.q_WB.x - b.q_WB.x, std::hypot(a.q_WB.y - b.q_WB.y, a.q_WB.z - b.q_WB.z));
   return Norm(a.p_WB - b.p_WB) + Norm(a.v_WB - b.v_WB) + Norm(a.w_WB_B - b.w_WB_B) + q;
 }
 
@@ -122,8 +121,7 @@ TEST(Dynamics, ErrorFallsWithTheFourthPowerOfTheStep) {
       return s;
     };
     const DroneState truth = end(4096);
-    const double coarse = Distance(end(32), truth), middle = Distance(end(64), truth),
-                 fine = Distance(end(128), truth);
+    const double coarse = Distance(end(32), truth), middle = Distance(end(64), truth), fine = Distance(end(128), truth);
     EXPECT_NEAR(coarse / middle, 16, 3) << model.name;
     EXPECT_NEAR(middle / fine, 16, 1.5) << model.name;
   }
@@ -142,8 +140,7 @@ TEST(Dynamics, TorqueFreeSpinKeepsEnergyAndAngularMomentum) {
   Fly(DroneDynamics(model), AllAt(0), 10000, s, vacuum);
   EXPECT_LT(std::abs(energy() / e0 - 1) / 10, 1e-9);
   EXPECT_LT(Norm(momentum() - l0) / Norm(l0) / 10, 1e-9);
-  EXPECT_NEAR(s.q_WB.w * s.q_WB.w + s.q_WB.x * s.q_WB.x + s.q_WB.y * s.q_WB.y + s.q_WB.z * s.q_WB.z, 1,
-              1e-14);
+  EXPECT_NEAR(s.q_WB.w * s.q_WB.w + s.q_WB.x * s.q_WB.x + s.q_WB.y * s.q_WB.y + s.q_WB.z * s.q_WB.z, 1, 1e-14);
 }
 
 // The motors' torques are internal: body and rotors trade momentum.
@@ -210,8 +207,7 @@ DroneModel TiltedHexa() {
     RotorModel& r = m.rotors[i];
     const double a = i * 1.0471975511965976;
     r.p_B = {0.2 * std::cos(a), 0.2 * std::sin(a), 0.01 * i};
-    r.axis_B =
-        Normalized(Vec3d{0.3 * std::sin(a) * (i % 2 ? 1 : -1), -0.3 * std::cos(a) * (i % 2 ? 1 : -1), 1});
+    r.axis_B = Normalized(Vec3d{0.3 * std::sin(a) * (i % 2 ? 1 : -1), -0.3 * std::cos(a) * (i % 2 ? 1 : -1), 1});
     r.direction = i % 2 ? 1 : -1;
   }
   return m;
@@ -262,8 +258,7 @@ TEST(Dynamics, ThePoseOfTheWholeExperimentDoesNotMatter) {
   const Quaternion turn{std::cos(0.6), 0, 0, std::sin(0.6)};
   const Mat3d R = ToMatrix(turn);
   const Quaternion q = s.q_WB;
-  t.q_WB = {turn.w * q.w - turn.z * q.z, turn.w * q.x - turn.z * q.y, turn.w * q.y + turn.z * q.x,
-            turn.w * q.z + turn.z * q.w};
+  t.q_WB = {turn.w * q.w - turn.z * q.z, turn.w * q.x - turn.z * q.y, turn.w * q.y + turn.z * q.x, turn.w * q.z + turn.z * q.w};
   t.p_WB = R * s.p_WB;
   t.v_WB = R * s.v_WB;
   Fly(drone, AllAt(1200), 500, s);

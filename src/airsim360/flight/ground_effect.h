@@ -27,8 +27,7 @@ AIRSIM360_LANES V GroundFactor(const RotorConstants<T>& r, V distance, V standin
 /// drone upside down. V is the speed along the ground, v_i the induced velocity in hover at the rotors' mean
 /// square speed.
 template <class V, class T = ScalarOf<V>>
-AIRSIM360_LANES void FindGround(const DroneConstants<T>& c, const LaneSurroundings<V>& around,
-                                const BodyState<V>& s, V* ground) {
+AIRSIM360_LANES void FindGround(const DroneConstants<T>& c, const LaneSurroundings<V>& around, const BodyState<V>& s, V* ground) {
   const V zero = V(T(0));
   V induced2 = zero;
   for (int i = 0; i < c.rotors; ++i) induced2 = induced2 + s.speed[i] * s.speed[i] * c.rotor[i].induced;

@@ -17,17 +17,11 @@ struct Vec3<std::experimental::simd<T, Abi>> {
   AIRSIM360_LANES const V& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
   AIRSIM360_LANES Vec3& operator+=(const Vec3& b) { return *this = *this + b; }
   AIRSIM360_LANES Vec3& operator-=(const Vec3& b) { return *this = *this - b; }
-  AIRSIM360_LANES friend Vec3 operator+(const Vec3& a, const Vec3& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-  }
-  AIRSIM360_LANES friend Vec3 operator-(const Vec3& a, const Vec3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-  }
+  AIRSIM360_LANES friend Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  AIRSIM360_LANES friend Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   AIRSIM360_LANES friend Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
   AIRSIM360_LANES friend Vec3 operator*(const Vec3& a, const V& s) { return {a.x * s, a.y * s, a.z * s}; }
-  AIRSIM360_LANES friend Vec3 operator*(const Vec3& a, const Vec3& b) {
-    return {a.x * b.x, a.y * b.y, a.z * b.z};
-  }
+  AIRSIM360_LANES friend Vec3 operator*(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 };
 
 }  // namespace airsim360

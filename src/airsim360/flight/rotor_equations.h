@@ -51,8 +51,7 @@ struct UprightDrive {
   V spin{};                                           // angular momentum along +Z
   V density{};
 
-  AIRSIM360_LANES UprightDrive(const DroneConstants<T>& c, const RotorInstant<V>& now)
-      : density(now.density) {
+  AIRSIM360_LANES UprightDrive(const DroneConstants<T>& c, const RotorInstant<V>& now) : density(now.density) {
     for (int i = 0; i < L::Rotors(c); ++i) AddLoad(c.rotor[i], now.speed[i]);
     if (L::Has(c.has_inflow)) {
       for (int i = 0; i < L::Rotors(c); ++i) AddInflow(c.rotor[i], now.speed[i]);
@@ -185,8 +184,7 @@ struct TiltedDrive {
   }
 
  private:
-  AIRSIM360_LANES void AddRotor(const RotorConstants<T>& r, const AirMotion<V>& air, int i,
-                                Wrench<V>& out) const {
+  AIRSIM360_LANES void AddRotor(const RotorConstants<T>& r, const AirMotion<V>& air, int i, Wrench<V>& out) const {
     const Vec3<V> p = Broadcast<V>(r.p), axis = Broadcast<V>(r.axis);
     const Vec3<V> hub = air.v + Cross(air.w_air, p);
     const V axial = Dot(hub, axis);

@@ -30,13 +30,11 @@ inline constexpr double kInverseSeaLevelDensity = 1 / kSeaLevelAirDensity;
 static_assert(kSeaLevelAirDensity * kInverseSeaLevelDensity == 1);
 
 AIRSIM360_LANES LaneSurroundings<double> LoadSurroundings(const DroneSurroundings& s) {
-  return {s.wind_W,         s.wind_rate_B, s.force_W, s.torque_B, s.air_density * kInverseSeaLevelDensity,
-          s.ground_distance};
+  return {s.wind_W, s.wind_rate_B, s.force_W, s.torque_B, s.air_density * kInverseSeaLevelDensity, s.ground_distance};
 }
 
 /// Commands of failed rotors count as 0, of damaged ones in proportion.
-AIRSIM360_LANES void LoadCommands(const RotorSpeeds& commands, const RotorHealth& health, int rotors,
-                                  double* out) {
+AIRSIM360_LANES void LoadCommands(const RotorSpeeds& commands, const RotorHealth& health, int rotors, double* out) {
   for (int i = 0; i < rotors; ++i) out[i] = commands[i] * health[i];
 }
 

@@ -17,9 +17,8 @@ struct WindGust {
 };
 
 struct WindSettings {
-  Vec3d mean_W;  ///< m/s
-  double wind_6m =
-      0;  ///< m/s at 6 m above the ground, for the strength of turbulence (LowAltitudeDryden); 0 = none
+  Vec3d mean_W;        ///< m/s
+  double wind_6m = 0;  ///< m/s at 6 m above the ground, for the strength of turbulence (LowAltitudeDryden); 0 = none
   std::vector<WindGust> gusts;
 };
 
@@ -40,8 +39,7 @@ struct WindSample {
 /// Wind over the next step of `dt` seconds from time `t`, for a drone `height` metres above the ground with
 /// velocity v_WB and breadth `span` metres. Turbulence along the horizontal direction of the mean wind, +X if
 /// it has none.
-WindSample StepWind(const WindSettings& settings, double t, double dt, double height, Vec3d v_WB, double span,
-                    WindState& state);
+WindSample StepWind(const WindSettings& settings, double t, double dt, double height, Vec3d v_WB, double span, WindState& state);
 
 /// The part of the wind that a gust adds at time t.
 Vec3d GustVelocity(const WindGust& gust, double t);

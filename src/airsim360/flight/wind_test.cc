@@ -66,8 +66,7 @@ Moments Measure(double dt, int steps, double airspeed) {
 TEST(Dryden, SigmaIsRightWhateverTheStep) {
   for (double dt : {1e-4, 1e-3, 1e-2, 5e-2}) {
     const Moments m = Measure(dt, 5, 12);
-    for (int i = 0; i < 3; ++i)
-      EXPECT_NEAR(std::sqrt(m.variance[i]) / kScales.sigma[i], 1, 0.02) << dt << " axis " << i;
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(std::sqrt(m.variance[i]) / kScales.sigma[i], 1, 0.02) << dt << " axis " << i;
   }
 }
 
@@ -89,8 +88,7 @@ TEST(Dryden, CorrelationIsThatOfTheSpectraWhateverTheStep) {
 double PowerAt(const std::vector<double>& x, int k) {
   std::complex<double> sum;
   for (size_t i = 0; i < x.size(); ++i) {
-    sum += x[i] * std::polar(1.0, -2 * std::numbers::pi * k * static_cast<double>(i) /
-                                      static_cast<double>(x.size()));
+    sum += x[i] * std::polar(1.0, -2 * std::numbers::pi * k * static_cast<double>(i) / static_cast<double>(x.size()));
   }
   return std::norm(sum);
 }
@@ -124,8 +122,7 @@ TEST(Dryden, SpectrumFallsWithTheSquareOfTheFrequency) {
 TEST(Dryden, RollRateHasTheStandardsVariance) {
   const double b = 0.3, length = kScales.length.z;
   // Integral over frequency of sigma^2 / (V L) 0.8 (pi L / 4 b)^(1/3) / (1 + (4 b w / pi V)^2).
-  const double variance = std::pow(kScales.sigma.z, 2) / length * 0.8 *
-                          std::cbrt(std::numbers::pi * length / (4 * b)) * std::numbers::pi *
+  const double variance = std::pow(kScales.sigma.z, 2) / length * 0.8 * std::cbrt(std::numbers::pi * length / (4 * b)) * std::numbers::pi *
                           std::numbers::pi / (8 * b);
   EXPECT_NEAR(std::sqrt(Measure(0.01, 5, 12).rate_variance.x / variance), 1, 0.02);
 }

@@ -69,7 +69,8 @@ HttpAnswer Perform(CURL* handle, double seconds, size_t most_bytes) {
   answer.status = static_cast<int>(status);
   if (code != CURLE_OK) {
     answer.fault = FaultOf(code, seconds, most_bytes);
-    answer.again = code != CURLE_WRITE_ERROR && code != CURLE_FILESIZE_EXCEEDED && code != CURLE_URL_MALFORMAT && code != CURLE_UNSUPPORTED_PROTOCOL;
+    answer.again =
+        code != CURLE_WRITE_ERROR && code != CURLE_FILESIZE_EXCEEDED && code != CURLE_URL_MALFORMAT && code != CURLE_UNSUPPORTED_PROTOCOL;
     return answer;
   }
   answer.body = std::move(inbox.body);

@@ -6,11 +6,11 @@
 namespace airsim360 {
 
 struct HttpAnswer {
-  int status = 0;           ///< 0: none came
-  std::string body = {};    ///< at most `most_bytes`
-  std::string fault = {};   ///< in words; "" where an answer came
-  bool again = false;       ///< the same may go well another time: busy, broken line, timeout
-  double seconds = 0;       ///< it took
+  int status = 0;          ///< 0: none came
+  std::string body = {};   ///< at most `most_bytes`
+  std::string fault = {};  ///< in words; "" where an answer came
+  bool again = false;      ///< the same may go well another time: busy, broken line, timeout
+  double seconds = 0;      ///< it took
 };
 
 // No redirects, nothing but http and https. They never throw for what the server does.

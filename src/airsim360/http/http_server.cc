@@ -1,13 +1,12 @@
 #include "airsim360/http/http_server.h"
 
-
+#include <array>
+#include <atomic>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
-#include <array>
-#include <atomic>
 #include <deque>
 #include <thread>
 
@@ -180,8 +179,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
     parser_->body_limit(shared().options.body_bytes);
     parser_->header_limit(kHeaderBytes);
     stream_.expires_after(std::chrono::seconds(shared().options.seconds));
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this()](Code error, size_t) { self->Received(error); });
+    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](Code error, size_t) { self->Received(error); });
   }
 
   void Received(Code error) {
@@ -210,16 +208,16 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
     // Browsers send other types without asking first.
     const auto type = request_.find(http::field::content_type);
     if (!request_.body().empty() && type != request_.end() && !IsJson(View(type->value())))
-      return Refuse(415, "bodies are JSON and say so: add the header Content-Type: application/json (curl -H "
-                         "'Content-Type: application/json')");
+      return Refuse(415,
+                    "bodies are JSON and say so: add the header Content-Type: application/json (curl -H "
+                    "'Content-Type: application/json')");
     stream_.expires_never();
     shared().workers.Post([self = shared_from_this()] {
       const http::request<http::string_body>& request = self->request_;
       HttpResponse response = self->shared().handlers.request(
           {std::string(View(request.method_string())), std::string(View(request.target())), request.body()});
-      asio::post(self->stream_.get_executor(), [self, response = std::move(response)]() mutable {
-        self->Write(std::move(response), self->request_.keep_alive());
-      });
+      asio::post(self->stream_.get_executor(),
+                 [self, response = std::move(response)]() mutable { self->Write(std::move(response), self->request_.keep_alive()); });
     });
   }
 
@@ -247,7 +245,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
     response_.body() = std::move(answer.body);
     response_.prepare_payload();
     stream_.expires_after(std::chrono::seconds(shared().options.seconds));
-    http::async_write(stream_, response_, [self = shared_from_this(), keep_alive](Code error, size_t) { self->Written(error, keep_alive); });
+    http::async_write(stream_, response_,
+                      [self = shared_from_this(), keep_alive](Code error, size_t) { self->Written(error, keep_alive); });
   }
 
   // Piece by piece from the disk, whatever its size.
@@ -335,8 +334,7 @@ struct HttpServer::Impl {
     if (!error) acceptor.bind(endpoint, error);
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
     if (error) {
-      throw RuntimeError("cannot listen on " + options.address + ":" + std::to_string(options.port) + ": " +
-                         error.message());
+      throw RuntimeError("cannot listen on " + options.address + ":" + std::to_string(options.port) + ": " + error.message());
     }
   }
 

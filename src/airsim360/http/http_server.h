@@ -18,7 +18,7 @@ struct HttpResponse {
   int status = 200;
   std::string content_type = "application/json";
   std::string body = {};
-  int file = -1;       ///< open descriptor of a regular file that is sent instead of `body`; the server closes it
+  int file = -1;  ///< open descriptor of a regular file that is sent instead of `body`; the server closes it
 };
 
 /// Answer to one message of a WebSocket.
@@ -39,8 +39,8 @@ struct HttpServerOptions {
   /// Then the one that has waited longest without a whole request makes room, or a further one is closed at once.
   size_t connections = 128;
   size_t body_bytes = size_t{1} << 20;
-  int seconds = 60;  ///< for one request to arrive, for one answer to leave; then the connection is closed
-  int workers = 4;   ///< requests answered at a time
+  int seconds = 60;                ///< for one request to arrive, for one answer to leave; then the connection is closed
+  int workers = 4;                 ///< requests answered at a time
   std::string socket_target = {};  ///< where the WebSocket is; "" = there is none
   std::vector<std::pair<std::string, std::string>> headers = {};  ///< of every answer
 };

@@ -34,8 +34,7 @@ Bytes EncodePng(const Image<uint16_t>& image);
 Bytes EncodeIdPng(const Image<uint32_t>& ids);
 
 /// JPEG, 4:4:4, quality 1..100; `gpano` goes into an APP1 XMP segment.
-Bytes EncodeJpeg(const Image<Rgb8>& image, int quality = 95,
-                 const std::optional<GPano>& gpano = std::nullopt);
+Bytes EncodeJpeg(const Image<Rgb8>& image, int quality = 95, const std::optional<GPano>& gpano = std::nullopt);
 
 /// OpenEXR, float32, one channel "Y" (range), ZIP compressed.
 Bytes EncodeExr(const Image<float>& image);
@@ -63,8 +62,7 @@ Image<uint32_t> DecodeIdPng(std::span<const std::byte> bytes, std::string_view n
 /// One channel of an EXR as float32: `Y`, else `R`, else the first.
 Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name);
 /// The channel of that name; InputError if there is none.
-Image<float> DecodeExrChannel(std::span<const std::byte> bytes, std::string_view name,
-                              std::string_view channel);
+Image<float> DecodeExrChannel(std::span<const std::byte> bytes, std::string_view name, std::string_view channel);
 /// Linear colour of an EXR: R, G, B, or one channel thrice; lossy compressions too.
 Image<Rgb32f> DecodeExrRgb(std::span<const std::byte> bytes, std::string_view name);
 /// Radiance picture (.hdr, .pic) with RGBE pixels, top row first: linear colour, EXPOSURE lines undone

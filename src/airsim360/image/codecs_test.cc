@@ -29,8 +29,7 @@ Image<Rgb8> SmoothPicture(int width, int height) {
   Image<Rgb8> image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      image(x, y) = {static_cast<uint8_t>(128 + 100 * std::sin(x * 0.05)),
-                     static_cast<uint8_t>(128 + 100 * std::cos(y * 0.07)),
+      image(x, y) = {static_cast<uint8_t>(128 + 100 * std::sin(x * 0.05)), static_cast<uint8_t>(128 + 100 * std::cos(y * 0.07)),
                      static_cast<uint8_t>((x + y) / 2 % 256)};
     }
   }
@@ -122,8 +121,7 @@ std::vector<std::string> ChunkTypes(const Bytes& png) {
 TEST(Png, HoldsNothingButPixelsAndTheGPanoPacketBeforeThem) {
   const Image<Rgb8> image(8, 4);
   EXPECT_EQ(ChunkTypes(EncodePng(image)), (std::vector<std::string>{"IHDR", "IDAT", "IEND"}));
-  EXPECT_EQ(ChunkTypes(EncodePng(image, GPano{})),
-            (std::vector<std::string>{"IHDR", "iTXt", "IDAT", "IEND"}));
+  EXPECT_EQ(ChunkTypes(EncodePng(image, GPano{})), (std::vector<std::string>{"IHDR", "iTXt", "IDAT", "IEND"}));
 }
 
 TEST(GPano, ThePacketIsInPngAndJpegWithSizeAndPose) {
@@ -134,12 +132,11 @@ TEST(GPano, ThePacketIsInPngAndJpegWithSizeAndPose) {
   EXPECT_NE(AsText(png).find("iTXtXML:com.adobe.xmp\0\0\0\0\0<?xpacket"s), std::string_view::npos);
   EXPECT_NE(AsText(jpeg).find("http://ns.adobe.com/xap/1.0/\0<?xpacket"s), std::string_view::npos);
   for (const Bytes& bytes : {png, jpeg}) {
-    for (const char* property : {"<GPano:UsePanoramaViewer>True<", "<GPano:ProjectionType>equirectangular<",
-                                 "<GPano:FullPanoWidthPixels>64<", "<GPano:FullPanoHeightPixels>32<",
-                                 "<GPano:CroppedAreaImageWidthPixels>64<",
-                                 "<GPano:CroppedAreaImageHeightPixels>32<", "<GPano:CroppedAreaLeftPixels>0<",
-                                 "<GPano:CroppedAreaTopPixels>0<", "<GPano:PoseHeadingDegrees>269.75<",
-                                 "<GPano:PosePitchDegrees>-3.5<", "<GPano:PoseRollDegrees>4<"}) {
+    for (const char* property :
+         {"<GPano:UsePanoramaViewer>True<", "<GPano:ProjectionType>equirectangular<", "<GPano:FullPanoWidthPixels>64<",
+          "<GPano:FullPanoHeightPixels>32<", "<GPano:CroppedAreaImageWidthPixels>64<", "<GPano:CroppedAreaImageHeightPixels>32<",
+          "<GPano:CroppedAreaLeftPixels>0<", "<GPano:CroppedAreaTopPixels>0<", "<GPano:PoseHeadingDegrees>269.75<",
+          "<GPano:PosePitchDegrees>-3.5<", "<GPano:PoseRollDegrees>4<"}) {
       EXPECT_NE(AsText(bytes).find(property), std::string_view::npos) << property;
     }
   }
@@ -216,16 +213,12 @@ std::vector<Sample> Samples() {
   constexpr auto kRgba = [](std::span<const std::byte> b) { DecodeRgba8(b, "file"); };
   const auto picture = SmoothPicture(17, 9);
   return {{"png rgb", EncodePng(picture, GPano{}), kRgba},
-          {"png rgb16", EncodePng(Image<Rgb16>(5, 3, {1, 2, 3})),
-           [](std::span<const std::byte> b) { DecodeRgb16Png(b, "file"); }},
-          {"png gray16", EncodePng(Image<uint16_t>(5, 3, 9)),
-           [](std::span<const std::byte> b) { DecodeGrayPng(b, "file"); }},
-          {"png ids", EncodeIdPng(Image<uint32_t>(5, 3, 70000)),
-           [](std::span<const std::byte> b) { DecodeIdPng(b, "file"); }},
+          {"png rgb16", EncodePng(Image<Rgb16>(5, 3, {1, 2, 3})), [](std::span<const std::byte> b) { DecodeRgb16Png(b, "file"); }},
+          {"png gray16", EncodePng(Image<uint16_t>(5, 3, 9)), [](std::span<const std::byte> b) { DecodeGrayPng(b, "file"); }},
+          {"png ids", EncodeIdPng(Image<uint32_t>(5, 3, 70000)), [](std::span<const std::byte> b) { DecodeIdPng(b, "file"); }},
           {"jpeg", EncodeJpeg(picture, 80, GPano{}), kRgba},
           {"webp", Webp(), kRgba},
-          {"exr", EncodeExr(Image<float>(9, 37, 2.5f)),
-           [](std::span<const std::byte> b) { DecodeExr(b, "file"); }}};
+          {"exr", EncodeExr(Image<float>(9, 37, 2.5f)), [](std::span<const std::byte> b) { DecodeExr(b, "file"); }}};
 }
 
 TEST(Decoders, EveryTruncationIsAnInputErrorThatStartsWithTheName) {
@@ -249,8 +242,7 @@ TEST(Decoders, FlippedBytesGiveAPictureOrAnInputErrorAndNothingElse) {
   for (const Sample& sample : Samples()) {
     for (int round = 0; round < 500; ++round) {
       Bytes bytes = sample.bytes;
-      for (int k = 0; k < 3; ++k)
-        bytes[rng.Index(static_cast<uint32_t>(bytes.size()))] = static_cast<std::byte>(rng.Bits());
+      for (int k = 0; k < 3; ++k) bytes[rng.Index(static_cast<uint32_t>(bytes.size()))] = static_cast<std::byte>(rng.Bits());
       try {
         sample.decode(bytes);
       } catch (const InputError&) {
@@ -261,8 +253,7 @@ TEST(Decoders, FlippedBytesGiveAPictureOrAnInputErrorAndNothingElse) {
 
 TEST(Decoders, AHugeSizeInASmallFileIsRefused) {
   // The width and height of a PNG are bytes 16..23; the CRC of the header chunk (bytes 12..28) follows.
-  for (const uint8_t high :
-       {0x7f, 0x00}) {  // more than kMaxPixels; 16384 x 16384, more than 70 bytes can hold
+  for (const uint8_t high : {0x7f, 0x00}) {  // more than kMaxPixels; 16384 x 16384, more than 70 bytes can hold
     Bytes png = EncodePng(Image<uint8_t>(2, 2));
     for (size_t side : {16, 20}) {
       png[side] = std::byte{high};
@@ -275,9 +266,7 @@ TEST(Decoders, AHugeSizeInASmallFileIsRefused) {
       DecodeRgba8(png, "huge");
       ADD_FAILURE() << "accepted";
     } catch (const InputError& error) {
-      EXPECT_NE(std::string_view(error.what()).find(high ? "the limit is" : "truncated"),
-                std::string_view::npos)
-          << error.what();
+      EXPECT_NE(std::string_view(error.what()).find(high ? "the limit is" : "truncated"), std::string_view::npos) << error.what();
     }
   }
   // The data window of an EXR: name, type, length, then x0 y0 x1 y1.

@@ -9,9 +9,7 @@
 namespace airsim360 {
 namespace internal {
 
-void ThrowDamaged(std::string_view name, std::string_view what) {
-  throw InputError(std::string(name) + ": " + std::string(what));
-}
+void ThrowDamaged(std::string_view name, std::string_view what) { throw InputError(std::string(name) + ": " + std::string(what)); }
 
 void CheckSize(int64_t width, int64_t height, std::string_view name) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
@@ -40,8 +38,7 @@ Image<Rgba8> DecodeRgba8(std::span<const std::byte> bytes, std::string_view name
   const std::string_view text = AsText(bytes);
   if (text.starts_with("\x89PNG")) return internal::DecodePngRgba8(bytes, name);
   if (text.starts_with("\xff\xd8")) return internal::DecodeJpegRgba8(bytes, name);
-  if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP"))
-    return internal::DecodeWebpRgba8(bytes, name);
+  if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP")) return internal::DecodeWebpRgba8(bytes, name);
   internal::ThrowDamaged(name, "not a PNG, JPEG or WebP picture");
 }
 

@@ -28,8 +28,7 @@ Bytes WithRightCrcs(Bytes png) {
   for (size_t at = 8; at + 12 <= png.size();) {
     const uint32_t length = BigEndian32(png, at);
     if (length > png.size() - at - 12) break;
-    const auto crc =
-        static_cast<uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(png.data()) + at + 4, length + 4));
+    const auto crc = static_cast<uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(png.data()) + at + 4, length + 4));
     for (size_t i = 0; i < 4; ++i) png[at + 8 + length + i] = static_cast<std::byte>(crc >> (24 - 8 * i));
     at += size_t{12} + length;
   }

@@ -37,8 +37,7 @@ struct Coverage {
 std::vector<Coverage> CoverageOf(int source, int target) {
   std::vector<Coverage> coverages(static_cast<size_t>(target));
   for (int i = 0; i < target; ++i) {
-    const double begin = static_cast<double>(i) * source / target,
-                 end = static_cast<double>(i + 1) * source / target;
+    const double begin = static_cast<double>(i) * source / target, end = static_cast<double>(i + 1) * source / target;
     Coverage& coverage = coverages[static_cast<size_t>(i)];
     coverage.first = std::min(static_cast<int>(begin), source - 1);
     const int last = std::min(static_cast<int>(std::ceil(end)), source);
@@ -69,8 +68,7 @@ void FillRectangle(int x, int y, int width, int height, Rgb8 color, Image<Rgb8>&
 }
 
 Image<Rgb8> ResizeBox(const Image<Rgb8>& picture, int width, int height) {
-  if (picture.empty() || width <= 0 || height <= 0)
-    throw InputError("ResizeBox: pictures need at least one pixel");
+  if (picture.empty() || width <= 0 || height <= 0) throw InputError("ResizeBox: pictures need at least one pixel");
   const auto columns = CoverageOf(picture.width(), width), rows = CoverageOf(picture.height(), height);
   Image<Rgb8> result(width, height);
   std::vector<Rgb32f> line(static_cast<size_t>(picture.width()));
@@ -92,8 +90,7 @@ Image<Rgb8> ResizeBox(const Image<Rgb8>& picture, int width, int height) {
       Rgb32f sum;
       for (size_t k = 0; k < column.weight.size(); ++k) {
         const Rgb32f p = line[static_cast<size_t>(column.first) + k];
-        sum = {sum.r + column.weight[k] * p.r, sum.g + column.weight[k] * p.g,
-               sum.b + column.weight[k] * p.b};
+        sum = {sum.r + column.weight[k] * p.r, sum.g + column.weight[k] * p.g, sum.b + column.weight[k] * p.b};
       }
       result(x, y) = {LinearToSrgb8(sum.r), LinearToSrgb8(sum.g), LinearToSrgb8(sum.b)};
     }
@@ -123,9 +120,7 @@ double LogScale(double value, double low, double high) {
   return std::min(1.0, std::log(value / low) / std::log(high / low));
 }
 
-Rgb8 OklchColor(double lightness, double chroma, double hue_deg) {
-  return FromOklch(lightness, chroma, Radians(hue_deg));
-}
+Rgb8 OklchColor(double lightness, double chroma, double hue_deg) { return FromOklch(lightness, chroma, Radians(hue_deg)); }
 
 Rgb8 IdColor(uint32_t id) {
   if (id == 0) return {0, 0, 0};

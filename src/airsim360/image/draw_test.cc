@@ -57,9 +57,7 @@ TEST(Draw, PartsOfPixelsCountAsParts) {
 }
 
 TEST(Draw, TheColourScaleGetsSteadilyLighter) {
-  const auto luminance = [](Rgb8 c) {
-    return 0.2126 * SrgbToLinear(c.r) + 0.7152 * SrgbToLinear(c.g) + 0.0722 * SrgbToLinear(c.b);
-  };
+  const auto luminance = [](Rgb8 c) { return 0.2126 * SrgbToLinear(c.r) + 0.7152 * SrgbToLinear(c.g) + 0.0722 * SrgbToLinear(c.b); };
   for (int i = 1; i < 256; ++i) {
     EXPECT_GT(luminance(ScaleColor(i / 255.0)) + 1e-3, luminance(ScaleColor((i - 1) / 255.0))) << i;
   }

@@ -20,8 +20,7 @@ class MemoryReader : public Imf::IStream {
  public:
   explicit MemoryReader(std::span<const std::byte> bytes) : IStream("memory"), bytes_(bytes) {}
   bool read(char out[], int n) override {
-    if (n < 0 || at_ > bytes_.size() || static_cast<size_t>(n) > bytes_.size() - at_)
-      throw InputError("truncated EXR");
+    if (n < 0 || at_ > bytes_.size() || static_cast<size_t>(n) > bytes_.size() - at_) throw InputError("truncated EXR");
     if (n > 0) std::memcpy(out, bytes_.data() + at_, static_cast<size_t>(n));
     at_ += static_cast<size_t>(n);
     return at_ < bytes_.size();
@@ -91,11 +90,9 @@ void CheckHeader(std::span<const std::byte> bytes, bool lossy) {
   Imf::Header header;
   header.readFrom(reader, version);
   const Imath::Box2i window = header.dataWindow();
-  const int64_t width = int64_t{window.max.x} - window.min.x + 1,
-                height = int64_t{window.max.y} - window.min.y + 1;
+  const int64_t width = int64_t{window.max.x} - window.min.x + 1, height = int64_t{window.max.y} - window.min.y + 1;
   constexpr int kFarthest = 1 << 24;
-  if (window.min.x < -kFarthest || window.min.y < -kFarthest || window.max.x > kFarthest ||
-      window.max.y > kFarthest) {
+  if (window.min.x < -kFarthest || window.min.y < -kFarthest || window.max.x > kFarthest || window.max.y > kFarthest) {
     throw InputError("data window out of range");
   }
   internal::CheckSize(width, height, "size");
@@ -121,8 +118,7 @@ void CheckHeader(std::span<const std::byte> bytes, bool lossy) {
 
 std::string ChannelToRead(const Imf::ChannelList& channels, std::string_view wanted) {
   if (!wanted.empty()) {
-    if (channels.findChannel(std::string(wanted)) == nullptr)
-      throw InputError("no channel '" + std::string(wanted) + "'");
+    if (channels.findChannel(std::string(wanted)) == nullptr) throw InputError("no channel '" + std::string(wanted) + "'");
     return std::string(wanted);
   }
   for (const char* name : {"Y", "R"}) {
@@ -140,8 +136,7 @@ Image<float> ReadExr(std::span<const std::byte> bytes, std::string_view channel)
   Image<float> image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
   Imf::FrameBuffer frame;
   frame.insert(ChannelToRead(file.header().channels(), channel),
-               Imf::Slice::Make(Imf::FLOAT, image.pixels().data(), window, sizeof(float),
-                                sizeof(float) * image.width()));
+               Imf::Slice::Make(Imf::FLOAT, image.pixels().data(), window, sizeof(float), sizeof(float) * image.width()));
   file.setFrameBuffer(frame);
   file.readPixels(window.min.y, window.max.y);
   return image;
@@ -159,8 +154,7 @@ Image<Rgb32f> ReadExrRgb(std::span<const std::byte> bytes) {
   Imf::FrameBuffer frame;
   Rgb32f* first = image.pixels().data();
   const auto insert = [&](const std::string& name, float* to) {
-    frame.insert(name,
-                 Imf::Slice::Make(Imf::FLOAT, to, window, sizeof(Rgb32f), sizeof(Rgb32f) * image.width()));
+    frame.insert(name, Imf::Slice::Make(Imf::FLOAT, to, window, sizeof(Rgb32f), sizeof(Rgb32f) * image.width()));
   };
   insert(color ? "R" : ChannelToRead(channels, {}), &first->r);
   if (color) insert("G", &first->g), insert("B", &first->b);
@@ -182,8 +176,7 @@ Image<Rgb32f> DecodeExrRgb(std::span<const std::byte> bytes, std::string_view na
   }
 }
 
-Image<float> DecodeExrChannel(std::span<const std::byte> bytes, std::string_view name,
-                              std::string_view channel) {
+Image<float> DecodeExrChannel(std::span<const std::byte> bytes, std::string_view name, std::string_view channel) {
   // OpenEXR reports everything by exceptions derived from std::exception.
   try {
     return ReadExr(bytes, channel);
@@ -192,8 +185,6 @@ Image<float> DecodeExrChannel(std::span<const std::byte> bytes, std::string_view
   }
 }
 
-Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name) {
-  return DecodeExrChannel(bytes, name, {});
-}
+Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name) { return DecodeExrChannel(bytes, name, {}); }
 
 }  // namespace airsim360

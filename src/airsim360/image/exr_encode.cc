@@ -72,8 +72,7 @@ Bytes EncodeExr(const Image<float>& image) {
 
 Bytes EncodeExr(const Image<Rgb32f>& image) {
   constexpr const char* kChannels[] = {"R", "G", "B"};
-  return WriteExr(reinterpret_cast<const float*>(image.pixels().data()), image.width(), image.height(),
-                  kChannels);
+  return WriteExr(reinterpret_cast<const float*>(image.pixels().data()), image.width(), image.height(), kChannels);
 }
 
 Bytes EncodeHalfExr(const Image<Rgb32f>& image) {

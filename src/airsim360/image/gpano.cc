@@ -34,13 +34,10 @@ std::string GPanoXmp(const GPano& gpano, int width, int height) {
          "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\">\n"
          " <rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">\n"
          "  <rdf:Description rdf:about=\"\" xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\">\n" +
-         Property("UsePanoramaViewer", "True") + Property("ProjectionType", "equirectangular") +
-         Property("FullPanoWidthPixels", w) + Property("FullPanoHeightPixels", h) +
-         Property("CroppedAreaImageWidthPixels", w) + Property("CroppedAreaImageHeightPixels", h) +
-         Property("CroppedAreaLeftPixels", "0") + Property("CroppedAreaTopPixels", "0") +
-         Property("PoseHeadingDegrees", Degrees(heading)) +
-         Property("PosePitchDegrees", Degrees(gpano.pitch_deg)) +
-         Property("PoseRollDegrees", Degrees(gpano.roll_deg)) +
+         Property("UsePanoramaViewer", "True") + Property("ProjectionType", "equirectangular") + Property("FullPanoWidthPixels", w) +
+         Property("FullPanoHeightPixels", h) + Property("CroppedAreaImageWidthPixels", w) + Property("CroppedAreaImageHeightPixels", h) +
+         Property("CroppedAreaLeftPixels", "0") + Property("CroppedAreaTopPixels", "0") + Property("PoseHeadingDegrees", Degrees(heading)) +
+         Property("PosePitchDegrees", Degrees(gpano.pitch_deg)) + Property("PoseRollDegrees", Degrees(gpano.roll_deg)) +
          "  </rdf:Description>\n"
          " </rdf:RDF>\n"
          "</x:xmpmeta>\n"

@@ -31,9 +31,7 @@ class Image {
   Image() = default;
   /// width x height pixels, all equal to `fill`; sizes must not be negative.
   Image(int width, int height, Pixel fill = {})
-      : width_(width),
-        height_(height),
-        pixels_(static_cast<size_t>(width) * static_cast<size_t>(height), fill) {}
+      : width_(width), height_(height), pixels_(static_cast<size_t>(width) * static_cast<size_t>(height), fill) {}
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -42,12 +40,8 @@ class Image {
   /// Pixel of column x, row y (not checked).
   Pixel& operator()(int x, int y) { return pixels_[static_cast<size_t>(y) * width_ + x]; }
   const Pixel& operator()(int x, int y) const { return pixels_[static_cast<size_t>(y) * width_ + x]; }
-  std::span<Pixel> row(int y) {
-    return {pixels_.data() + static_cast<size_t>(y) * width_, static_cast<size_t>(width_)};
-  }
-  std::span<const Pixel> row(int y) const {
-    return {pixels_.data() + static_cast<size_t>(y) * width_, static_cast<size_t>(width_)};
-  }
+  std::span<Pixel> row(int y) { return {pixels_.data() + static_cast<size_t>(y) * width_, static_cast<size_t>(width_)}; }
+  std::span<const Pixel> row(int y) const { return {pixels_.data() + static_cast<size_t>(y) * width_, static_cast<size_t>(width_)}; }
   std::span<Pixel> pixels() { return pixels_; }
   std::span<const Pixel> pixels() const { return pixels_; }
   friend bool operator==(const Image&, const Image&) = default;

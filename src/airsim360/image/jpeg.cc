@@ -54,9 +54,7 @@ void LimitScans(j_common_ptr info) {
 
 class Reader {
  public:
-  Reader(std::span<const std::byte> bytes, std::string_view name) : bytes_(bytes), name_(name) {
-    decoder_.err = Prepare(error_);
-  }
+  Reader(std::span<const std::byte> bytes, std::string_view name) : bytes_(bytes), name_(name) { decoder_.err = Prepare(error_); }
   ~Reader() { jpeg_destroy_decompress(&decoder_); }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
@@ -71,9 +69,8 @@ class Reader {
       internal::ThrowDamaged(name_, "truncated JPEG");
     }
     Image<Rgba8> image(static_cast<int>(width), static_cast<int>(height));
-    std::vector<uint8_t> cmyk(decoder_.jpeg_color_space == JCS_CMYK || decoder_.jpeg_color_space == JCS_YCCK
-                                  ? static_cast<size_t>(width) * 4
-                                  : 0);
+    std::vector<uint8_t> cmyk(
+        decoder_.jpeg_color_space == JCS_CMYK || decoder_.jpeg_color_space == JCS_YCCK ? static_cast<size_t>(width) * 4 : 0);
     if (!TryReadPixels(image, cmyk)) internal::ThrowDamaged(name_, error_.message);
     return image;
   }
@@ -127,8 +124,8 @@ struct Output {
   ~Output() { std::free(data); }
 };
 
-bool TryEncode(const Image<Rgb8>& image, int quality, std::string_view app1, jpeg_compress_struct& encoder,
-               ErrorManager& error, Output& out) {
+bool TryEncode(const Image<Rgb8>& image, int quality, std::string_view app1, jpeg_compress_struct& encoder, ErrorManager& error,
+               Output& out) {
   if (setjmp(error.jump)) return false;
   jpeg_create_compress(&encoder);
   jpeg_mem_dest(&encoder, &out.data, &out.size);
@@ -142,12 +139,10 @@ bool TryEncode(const Image<Rgb8>& image, int quality, std::string_view app1, jpe
   encoder.dct_method = JDCT_ISLOW;
   jpeg_start_compress(&encoder, TRUE);
   if (!app1.empty()) {
-    jpeg_write_marker(&encoder, JPEG_APP0 + 1, reinterpret_cast<const JOCTET*>(app1.data()),
-                      static_cast<unsigned>(app1.size()));
+    jpeg_write_marker(&encoder, JPEG_APP0 + 1, reinterpret_cast<const JOCTET*>(app1.data()), static_cast<unsigned>(app1.size()));
   }
   while (encoder.next_scanline < encoder.image_height) {
-    const auto* row =
-        reinterpret_cast<const JSAMPLE*>(image.row(static_cast<int>(encoder.next_scanline)).data());
+    const auto* row = reinterpret_cast<const JSAMPLE*>(image.row(static_cast<int>(encoder.next_scanline)).data());
     JSAMPROW rows[] = {const_cast<JSAMPROW>(row)};
     jpeg_write_scanlines(&encoder, rows, 1);
   }
@@ -159,23 +154,19 @@ bool TryEncode(const Image<Rgb8>& image, int quality, std::string_view app1, jpe
 
 namespace internal {
 
-Image<Rgba8> DecodeJpegRgba8(std::span<const std::byte> bytes, std::string_view name) {
-  return Reader(bytes, name).Read();
-}
+Image<Rgba8> DecodeJpegRgba8(std::span<const std::byte> bytes, std::string_view name) { return Reader(bytes, name).Read(); }
 
 }  // namespace internal
 
 Bytes EncodeJpeg(const Image<Rgb8>& image, int quality, const std::optional<GPano>& gpano) {
   internal::CheckSize(image.width(), image.height(), "JPEG");
-  if (quality < 1 || quality > 100)
-    throw InputError("JPEG: quality " + std::to_string(quality) + " is not in 1..100");
+  if (quality < 1 || quality > 100) throw InputError("JPEG: quality " + std::to_string(quality) + " is not in 1..100");
   if (image.width() > JPEG_MAX_DIMENSION || image.height() > JPEG_MAX_DIMENSION) {
     throw InputError("JPEG: sides are limited to " + std::to_string(JPEG_MAX_DIMENSION) + " pixels");
   }
   using std::string_literals::operator""s;
   std::string app1;
-  if (gpano)
-    app1 = "http://ns.adobe.com/xap/1.0/\0"s + internal::GPanoXmp(*gpano, image.width(), image.height());
+  if (gpano) app1 = "http://ns.adobe.com/xap/1.0/\0"s + internal::GPanoXmp(*gpano, image.width(), image.height());
 
   jpeg_compress_struct encoder{};
   ErrorManager error;

@@ -58,12 +58,10 @@ class Reader {
     const size_t file_size = source_.rest.size();
     if (!TryReadHeader()) internal::ThrowDamaged(name_, source_.message);
     Info info;
-    png_get_IHDR(png_, info_, &info.width, &info.height, &info.bit_depth, &info.color_type, nullptr, nullptr,
-                 nullptr);
+    png_get_IHDR(png_, info_, &info.width, &info.height, &info.bit_depth, &info.color_type, nullptr, nullptr, nullptr);
     internal::CheckSize(info.width, info.height, name_);
     // Deflate shrinks at most 1032 times: a small file cannot hold a large picture.
-    const uint64_t bits =
-        static_cast<uint64_t>(png_get_channels(png_, info_)) * info.bit_depth * info.width * info.height;
+    const uint64_t bits = static_cast<uint64_t>(png_get_channels(png_, info_)) * info.bit_depth * info.width * info.height;
     if (bits / 8 / 1032 > file_size) internal::ThrowDamaged(name_, "truncated PNG");
     return info;
   }
@@ -133,8 +131,7 @@ template <class Pixel>
 Image<Pixel> ReadInto(Reader& reader, const Info& info, Form form) {
   Image<Pixel> image(static_cast<int>(info.width), static_cast<int>(info.height));
   std::vector<png_bytep> rows(info.height);
-  for (uint32_t y = 0; y < info.height; ++y)
-    rows[y] = reinterpret_cast<png_bytep>(image.row(static_cast<int>(y)).data());
+  for (uint32_t y = 0; y < info.height; ++y) rows[y] = reinterpret_cast<png_bytep>(image.row(static_cast<int>(y)).data());
   reader.ReadPixels(form, rows);
   return image;
 }
@@ -174,8 +171,7 @@ bool IsPalettePng(std::span<const std::byte> bytes, std::string_view name) {
 PalettePicture DecodePalettePng(std::span<const std::byte> bytes, std::string_view name) {
   Reader reader(bytes, name);
   const Info info = reader.ReadHeader();
-  if (info.color_type != PNG_COLOR_TYPE_PALETTE)
-    internal::ThrowDamaged(name, "a PNG with a palette is expected");
+  if (info.color_type != PNG_COLOR_TYPE_PALETTE) internal::ThrowDamaged(name, "a PNG with a palette is expected");
   PalettePicture picture{.palette = reader.Palette()};
   picture.indices = ReadInto<uint8_t>(reader, info, Form::kGray);
   const auto beyond = [&](uint8_t index) { return index >= picture.palette.size(); };
@@ -191,8 +187,7 @@ Image<uint16_t> DecodeLabelPng(std::span<const std::byte> bytes, std::string_vie
 Image<uint16_t> DecodeGrayPng(std::span<const std::byte> bytes, std::string_view name) {
   Reader reader(bytes, name);
   const Info info = reader.ReadHeader();
-  if (info.color_type & PNG_COLOR_MASK_COLOR)
-    internal::ThrowDamaged(name, "a gray PNG is expected, this one has colour");
+  if (info.color_type & PNG_COLOR_MASK_COLOR) internal::ThrowDamaged(name, "a gray PNG is expected, this one has colour");
   if (info.bit_depth == 16) return ReadInto<uint16_t>(reader, info, Form::kGray);
   return Widened(ReadInto<uint8_t>(reader, info, Form::kGray));
 }
@@ -206,8 +201,7 @@ Image<Rgb16> DecodeRgb16Png(std::span<const std::byte> bytes, std::string_view n
 Image<uint32_t> DecodeIdPng(std::span<const std::byte> bytes, std::string_view name) {
   Reader reader(bytes, name);
   const Info info = reader.ReadHeader();
-  if (info.bit_depth != 8 ||
-      (info.color_type != PNG_COLOR_TYPE_RGB && info.color_type != PNG_COLOR_TYPE_RGB_ALPHA)) {
+  if (info.bit_depth != 8 || (info.color_type != PNG_COLOR_TYPE_RGB && info.color_type != PNG_COLOR_TYPE_RGB_ALPHA)) {
     internal::ThrowDamaged(name, "an id picture is an 8-bit RGB PNG");
   }
   const auto rgb = ReadInto<Rgba8>(reader, info, Form::kRgba8);

@@ -64,8 +64,7 @@ void FilterPaeth(const uint8_t* row, const uint8_t* up, uint8_t* out, size_t n, 
 class Deflater {
  public:
   explicit Deflater(size_t expected) : out_(expected) {
-    if (deflateInit2(&stream_, 1, Z_DEFLATED, 15, 9, Z_RLE) != Z_OK)
-      throw RuntimeError("zlib: out of memory");
+    if (deflateInit2(&stream_, 1, Z_DEFLATED, 15, 9, Z_RLE) != Z_OK) throw RuntimeError("zlib: out of memory");
   }
   ~Deflater() { deflateEnd(&stream_); }
   Deflater(const Deflater&) = delete;
@@ -133,8 +132,8 @@ Bytes PaletteChunk(std::span<const Rgb8> palette) {
 
 // With a palette the only channel holds indices into it.
 template <class FillRow>
-Bytes WritePng(const Layout& layout, const FillRow& fill_row,
-               const std::optional<GPano>& gpano = std::nullopt, std::span<const Rgb8> palette = {}) {
+Bytes WritePng(const Layout& layout, const FillRow& fill_row, const std::optional<GPano>& gpano = std::nullopt,
+               std::span<const Rgb8> palette = {}) {
   internal::CheckSize(layout.width, layout.height, "PNG");
   Bytes out;
   const auto signature = AsBytes("\x89PNG\r\n\x1a\n");
@@ -145,8 +144,7 @@ Bytes WritePng(const Layout& layout, const FillRow& fill_row,
   AppendBigEndian32(header, static_cast<uint32_t>(layout.width));
   AppendBigEndian32(header, static_cast<uint32_t>(layout.height));
   const int color_type = !palette.empty() ? 3 : layout.channels == 1 ? 0 : layout.channels == 4 ? 6 : 2;
-  for (int v : {layout.bit_depth, color_type, 0, 0, 0})
-    header.push_back(static_cast<std::byte>(v));
+  for (int v : {layout.bit_depth, color_type, 0, 0, 0}) header.push_back(static_cast<std::byte>(v));
   AppendChunk(out, "IHDR", header);
   if (!palette.empty()) AppendChunk(out, "PLTE", PaletteChunk(palette));
   if (gpano) AppendXmp(out, internal::GPanoXmp(*gpano, layout.width, layout.height));
@@ -187,9 +185,7 @@ Bytes EncodePng(const Image<Rgba8>& image) {
 }
 
 Bytes EncodePng(const Image<Rgb16>& image) {
-  const auto fill = [&](int y, uint8_t* out) {
-    CopyBigEndian16(image.row(y).data(), 3 * image.row(y).size(), out);
-  };
+  const auto fill = [&](int y, uint8_t* out) { CopyBigEndian16(image.row(y).data(), 3 * image.row(y).size(), out); };
   return WritePng({image.width(), image.height(), 16, 3}, fill);
 }
 
@@ -199,32 +195,25 @@ Bytes EncodePng(const Image<uint8_t>& image) {
 }
 
 Bytes EncodePalettePng(const Image<uint8_t>& indices, std::span<const Rgb8> palette) {
-  if (palette.empty() || palette.size() > 256)
-    throw InputError("a palette has 1 to 256 colours, not " + std::to_string(palette.size()));
+  if (palette.empty() || palette.size() > 256) throw InputError("a palette has 1 to 256 colours, not " + std::to_string(palette.size()));
   for (uint8_t index : indices.pixels()) {
     if (index >= palette.size()) {
-      throw InputError("index " + std::to_string(index) + " is not in a palette of " +
-                       std::to_string(palette.size()) + " colours");
+      throw InputError("index " + std::to_string(index) + " is not in a palette of " + std::to_string(palette.size()) + " colours");
     }
   }
-  const auto fill = [&](int y, uint8_t* out) {
-    std::memcpy(out, indices.row(y).data(), indices.row(y).size());
-  };
+  const auto fill = [&](int y, uint8_t* out) { std::memcpy(out, indices.row(y).data(), indices.row(y).size()); };
   return WritePng({indices.width(), indices.height(), 8, 1}, fill, std::nullopt, palette);
 }
 
 Bytes EncodePng(const Image<uint16_t>& image) {
-  const auto fill = [&](int y, uint8_t* out) {
-    CopyBigEndian16(image.row(y).data(), image.row(y).size(), out);
-  };
+  const auto fill = [&](int y, uint8_t* out) { CopyBigEndian16(image.row(y).data(), image.row(y).size(), out); };
   return WritePng({image.width(), image.height(), 16, 1}, fill);
 }
 
 Bytes EncodeIdPng(const Image<uint32_t>& ids) {
   // Checked before the first byte is written.
   for (uint32_t id : ids.pixels()) {
-    if (id >> 24 != 0)
-      throw InputError("id " + std::to_string(id) + " does not fit the 24 bits of an id picture");
+    if (id >> 24 != 0) throw InputError("id " + std::to_string(id) + " does not fit the 24 bits of an id picture");
   }
   const auto fill = [&](int y, uint8_t* out) {
     for (uint32_t id : ids.row(y)) {

@@ -41,8 +41,7 @@ float ReadHeader(HdrReader& reader) {
   if (!magic.starts_with("#?")) throw InputError("not a Radiance picture");
   double exposure = 1;
   for (std::string_view line = reader.Line(); !line.empty() && line != "\r"; line = reader.Line()) {
-    if (line.starts_with("FORMAT=") && !line.starts_with("FORMAT=32-bit_rle_rgbe"))
-      throw InputError("only 32-bit_rle_rgbe is read");
+    if (line.starts_with("FORMAT=") && !line.starts_with("FORMAT=32-bit_rle_rgbe")) throw InputError("only 32-bit_rle_rgbe is read");
     if (!line.starts_with("EXPOSURE=")) continue;
     line.remove_prefix(9);
     while (line.starts_with(' ')) line.remove_prefix(1);
@@ -58,8 +57,7 @@ float ReadHeader(HdrReader& reader) {
 void ReadSize(HdrReader& reader, int& width, int& height) {
   const std::string_view line = reader.Line();
   const size_t x = line.find(" +X ");
-  if (!line.starts_with("-Y ") || x == std::string_view::npos)
-    throw InputError("only -Y +X pictures are read");
+  if (!line.starts_with("-Y ") || x == std::string_view::npos) throw InputError("only -Y +X pictures are read");
   std::from_chars(line.data() + 3, line.data() + x, height);
   std::from_chars(line.data() + x + 4, line.data() + line.size(), width);
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) throw InputError("size out of range");
@@ -92,8 +90,7 @@ void ReadPackedRow(HdrReader& reader, std::vector<uint8_t>& row, int width) {
       const int code = reader.Byte(), count = code > 128 ? code - 128 : code;
       if (count == 0 || count > width - x) throw InputError("damaged run");
       const uint8_t value = code > 128 ? reader.Byte() : 0;
-      for (int k = 0; k < count; ++k)
-        row[static_cast<size_t>(x + k) * 4 + c] = code > 128 ? value : reader.Byte();
+      for (int k = 0; k < count; ++k) row[static_cast<size_t>(x + k) * 4 + c] = code > 128 ? value : reader.Byte();
       x += count;
     }
   }
@@ -111,8 +108,8 @@ Image<Rgb32f> ReadHdr(std::span<const std::byte> bytes) {
   Image<Rgb32f> image(width, height);
   std::vector<uint8_t> row(static_cast<size_t>(width) * 4);
   for (int y = 0; y < height; ++y) {
-    const bool packed = width >= 8 && width < 32768 && reader.Peek(0) == 2 && reader.Peek(1) == 2 &&
-                        (reader.Peek(2) << 8 | reader.Peek(3)) == width;
+    const bool packed =
+        width >= 8 && width < 32768 && reader.Peek(0) == 2 && reader.Peek(1) == 2 && (reader.Peek(2) << 8 | reader.Peek(3)) == width;
     packed ? ReadPackedRow(reader, row, width) : ReadFlatRow(reader, row, width);
     for (int x = 0; x < width; ++x) {
       const uint8_t* p = &row[static_cast<size_t>(x) * 4];

@@ -9,10 +9,8 @@ namespace airsim360 {
 
 /// Closed axis-aligned box; starts empty (min > max).
 struct Box3f {
-  Vec3f min{std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
-            std::numeric_limits<float>::infinity()};
-  Vec3f max{-std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
-            -std::numeric_limits<float>::infinity()};
+  Vec3f min{std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
+  Vec3f max{-std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
 
   bool empty() const { return min.x > max.x; }
   Vec3f center() const { return (min + max) * 0.5f; }
@@ -26,9 +24,7 @@ struct Box3f {
     Add(b.min);
     Add(b.max);
   }
-  bool Contains(Vec3f p) const {
-    return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y && p.z >= min.z && p.z <= max.z;
-  }
+  bool Contains(Vec3f p) const { return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y && p.z >= min.z && p.z <= max.z; }
 };
 
 }  // namespace airsim360

@@ -15,8 +15,7 @@ namespace airsim360 {
 inline constexpr double kCoordinateLimit = 1e7;
 
 inline bool IsWithinLimit(Vec3d p) {
-  return std::abs(p.x) <= kCoordinateLimit && std::abs(p.y) <= kCoordinateLimit &&
-         std::abs(p.z) <= kCoordinateLimit;
+  return std::abs(p.x) <= kCoordinateLimit && std::abs(p.y) <= kCoordinateLimit && std::abs(p.z) <= kCoordinateLimit;
 }
 
 /// "1e+30 is not in -1e+07 … 1e+07"
@@ -29,8 +28,7 @@ inline std::string BeyondLimitText(double value, double limit = kCoordinateLimit
 /// InputError "`what`: 1e+30 is not in …" unless the place is within the limit.
 inline Vec3d CheckedPlace(const std::string& what, Vec3d p) {
   for (int i = 0; i < 3; ++i) {
-    if (!(std::abs(p[i]) <= kCoordinateLimit))
-      throw InputError(what + ": " + BeyondLimitText(p[i]) + " metres");
+    if (!(std::abs(p[i]) <= kCoordinateLimit)) throw InputError(what + ": " + BeyondLimitText(p[i]) + " metres");
   }
   return p;
 }

@@ -16,8 +16,7 @@ Vec3d EcefFromGeodetic(const GeoPoint& point) {
   const double s = std::sin(latitude), c = std::cos(latitude);
   const double prime_vertical = kWgs84Axis / std::sqrt(1 - kE2 * s * s);
   const double across = (prime_vertical + point.altitude) * c;
-  return {across * std::cos(longitude), across * std::sin(longitude),
-          (prime_vertical * (1 - kE2) + point.altitude) * s};
+  return {across * std::cos(longitude), across * std::sin(longitude), (prime_vertical * (1 - kE2) + point.altitude) * s};
 }
 
 GeoPoint GeodeticFromEcef(Vec3d p) {
@@ -33,8 +32,7 @@ GeoPoint GeodeticFromEcef(Vec3d p) {
   const double w = kE2 * (u + v - q) / (2 * v);
   const double k = std::sqrt(u + v + w * w) - w;
   const double D = k * std::sqrt(across2) / (k + kE2), length = std::hypot(D, p.z);
-  return {2 * std::atan2(p.z, D + length) / kRadians, std::atan2(p.y, p.x) / kRadians,
-          (k + kE2 - 1) / k * length};
+  return {2 * std::atan2(p.z, D + length) / kRadians, std::atan2(p.y, p.x) / kRadians, (k + kE2 - 1) / k * length};
 }
 
 GeoFrame::GeoFrame(const GeoPoint& origin) : origin_(origin) {

@@ -39,8 +39,7 @@ TEST(Geodesy, InverseHoldsOnTheAxisAndTheEquator) {
 
 TEST(GeoFrame, WorldAxesPointEastNorthAndUp) {
   const GeoFrame frame({47.641468, -122.140165, 122});
-  const GeoPoint east = frame.ToGeodetic({100, 0, 0}), north = frame.ToGeodetic({0, 100, 0}),
-                 up = frame.ToGeodetic({0, 0, 100});
+  const GeoPoint east = frame.ToGeodetic({100, 0, 0}), north = frame.ToGeodetic({0, 100, 0}), up = frame.ToGeodetic({0, 0, 100});
   EXPECT_GT(east.longitude_deg, frame.origin().longitude_deg);
   EXPECT_NEAR(east.latitude_deg, frame.origin().latitude_deg, 1e-7);
   EXPECT_GT(north.latitude_deg, frame.origin().latitude_deg);

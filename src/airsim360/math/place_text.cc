@@ -30,7 +30,8 @@ std::optional<GeoPoint> ParseLatitudeLongitude(std::string_view one, std::string
   char axis[2] = {};
   const auto first = Degrees(one, axis[0]), second = Degrees(two, axis[1]);
   if (!first && !second) return std::nullopt;
-  const double latitude = axis[0] == 'N' ? first.value_or(0) : second.value_or(0), longitude = axis[0] == 'N' ? second.value_or(0) : first.value_or(0);
+  const double latitude = axis[0] == 'N' ? first.value_or(0) : second.value_or(0),
+               longitude = axis[0] == 'N' ? second.value_or(0) : first.value_or(0);
   if (!first || !second || axis[0] == axis[1] || std::abs(latitude) > 90 || std::abs(longitude) > 180)
     throw InputError(what + " is not a latitude and a longitude in degrees, for example 60.1708N,24.9375E");
   return GeoPoint{latitude, longitude, 0};

@@ -12,19 +12,13 @@ template <class T>
 struct Mat3 {
   std::array<std::array<T, 3>, 3> m{{{T(1), T(0), T(0)}, {T(0), T(1), T(0)}, {T(0), T(0), T(1)}}};
 
-  static constexpr Mat3 FromColumns(Vec3<T> a, Vec3<T> b, Vec3<T> c) {
-    return {{{{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}}}};
-  }
+  static constexpr Mat3 FromColumns(Vec3<T> a, Vec3<T> b, Vec3<T> c) { return {{{{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}}}}; }
   constexpr Vec3<T> column(int j) const { return {m[0][j], m[1][j], m[2][j]}; }
   constexpr Vec3<T> row(int i) const { return {m[i][0], m[i][1], m[i][2]}; }
   constexpr Mat3 transpose() const { return FromColumns(row(0), row(1), row(2)); }
   constexpr T determinant() const { return Dot(row(0), Cross(row(1), row(2))); }
-  friend constexpr Vec3<T> operator*(const Mat3& a, Vec3<T> v) {
-    return {Dot(a.row(0), v), Dot(a.row(1), v), Dot(a.row(2), v)};
-  }
-  friend constexpr Mat3 operator*(const Mat3& a, const Mat3& b) {
-    return FromColumns(a * b.column(0), a * b.column(1), a * b.column(2));
-  }
+  friend constexpr Vec3<T> operator*(const Mat3& a, Vec3<T> v) { return {Dot(a.row(0), v), Dot(a.row(1), v), Dot(a.row(2), v)}; }
+  friend constexpr Mat3 operator*(const Mat3& a, const Mat3& b) { return FromColumns(a * b.column(0), a * b.column(1), a * b.column(2)); }
   friend constexpr bool operator==(const Mat3&, const Mat3&) = default;
 };
 
@@ -52,9 +46,7 @@ struct RigidTransform {
   Vec3d p;
 
   friend Vec3d operator*(const RigidTransform& X, Vec3d v) { return X.R * v + X.p; }
-  friend RigidTransform operator*(const RigidTransform& a, const RigidTransform& b) {
-    return {a.R * b.R, a * b.p};
-  }
+  friend RigidTransform operator*(const RigidTransform& a, const RigidTransform& b) { return {a.R * b.R, a * b.p}; }
   RigidTransform inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
 };
 
@@ -64,9 +56,7 @@ struct AffineTransform {
   Vec3f p;
 
   friend Vec3f operator*(const AffineTransform& X, Vec3f v) { return X.A * v + X.p; }
-  friend AffineTransform operator*(const AffineTransform& a, const AffineTransform& b) {
-    return {a.A * b.A, a * b.p};
-  }
+  friend AffineTransform operator*(const AffineTransform& a, const AffineTransform& b) { return {a.A * b.A, a * b.p}; }
   friend bool operator==(const AffineTransform&, const AffineTransform&) = default;
 };
 

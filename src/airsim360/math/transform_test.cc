@@ -16,8 +16,7 @@ void ExpectNear(Vec3d a, Vec3d b, double tolerance) { EXPECT_LT(Norm(a - b), tol
 TEST(Transform, QuaternionAndMatrixAreInverses) {
   RngStream rng(3, "quaternion");
   for (int i = 0; i < 1000; ++i) {
-    const Mat3d R = RotationZ(rng.Uniform(-kPi, kPi)) * RotationY(rng.Uniform(-kPi, kPi)) *
-                    RotationX(rng.Uniform(-kPi, kPi));
+    const Mat3d R = RotationZ(rng.Uniform(-kPi, kPi)) * RotationY(rng.Uniform(-kPi, kPi)) * RotationX(rng.Uniform(-kPi, kPi));
     const Mat3d back = ToMatrix(ToQuaternion(R));
     for (int j = 0; j < 3; ++j) ExpectNear(R.column(j), back.column(j), 1e-14);
     EXPECT_GE(ToQuaternion(R).w, 0);

@@ -9,9 +9,7 @@ namespace {
 
 double Turn(Vec2d a, Vec2d b, Vec2d c) { return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y); }
 
-bool InTriangle(Vec2d a, Vec2d b, Vec2d c, Vec2d p) {
-  return Turn(a, b, p) >= 0 && Turn(b, c, p) >= 0 && Turn(c, a, p) >= 0;
-}
+bool InTriangle(Vec2d a, Vec2d b, Vec2d c, Vec2d p) { return Turn(a, b, p) >= 0 && Turn(b, c, p) >= 0 && Turn(c, a, p) >= 0; }
 
 struct Hole {
   uint32_t first, count, rightmost;
@@ -29,9 +27,7 @@ std::vector<Hole> SortedHoles(std::span<const Vec2d> points, std::span<const uin
     holes.push_back(hole);
     next += hole.count;
   }
-  std::stable_sort(holes.begin(), holes.end(), [&](const Hole& a, const Hole& b) {
-    return points[a.rightmost].x > points[b.rightmost].x;
-  });
+  std::stable_sort(holes.begin(), holes.end(), [&](const Hole& a, const Hole& b) { return points[a.rightmost].x > points[b.rightmost].x; });
   return holes;
 }
 
@@ -84,8 +80,7 @@ std::vector<uint32_t> Chain(std::span<const Vec2d> points, std::span<const uint3
   for (const Hole& hole : SortedHoles(points, sizes)) {
     const size_t bridge = FindBridge(points, chain, points[hole.rightmost]);
     std::vector<uint32_t> insert;
-    for (uint32_t i = 0; i <= hole.count; ++i)
-      insert.push_back(hole.first + (hole.rightmost - hole.first + i) % hole.count);
+    for (uint32_t i = 0; i <= hole.count; ++i) insert.push_back(hole.first + (hole.rightmost - hole.first + i) % hole.count);
     insert.push_back(chain[bridge]);
     chain.insert(chain.begin() + static_cast<std::ptrdiff_t>(bridge) + 1, insert.begin(), insert.end());
   }
@@ -113,8 +108,7 @@ std::vector<uint32_t> TriangulateRings(std::span<const Vec2d> points, std::span<
   const auto is_ear = [&](size_t i) {
     const Vec2d a = at(before[i]), b = at(i), c = at(after[i]);
     if (Turn(a, b, c) <= 0) return false;
-    const Vec2d low{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})},
-        high{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
+    const Vec2d low{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})}, high{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
     for (size_t k : reflexes) {
       if (gone[k]) continue;
       const Vec2d p = at(k);
@@ -143,8 +137,7 @@ std::vector<uint32_t> TriangulateRings(std::span<const Vec2d> points, std::span<
     i = after[after[i]];
     --left;
     misses = 0;
-    if (reflexes.size() > 64 && left % 64 == 0)
-      std::erase_if(reflexes, [&](size_t k) { return gone[k] || !reflex(k); });
+    if (reflexes.size() > 64 && left % 64 == 0) std::erase_if(reflexes, [&](size_t k) { return gone[k] || !reflex(k); });
   }
   return triangles;
 }

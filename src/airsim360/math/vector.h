@@ -29,9 +29,7 @@ struct Vec3 {
   friend constexpr Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
   friend constexpr Vec3 operator*(Vec3 a, T s) { return {a.x * s, a.y * s, a.z * s}; }
   friend constexpr Vec3 operator*(T s, Vec3 a) { return a * s; }
-  friend constexpr Vec3 operator*(Vec3 a, Vec3 b) {
-    return {a.x * b.x, a.y * b.y, a.z * b.z};
-  }  // element-wise
+  friend constexpr Vec3 operator*(Vec3 a, Vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }  // element-wise
   friend constexpr Vec3 operator/(Vec3 a, T s) { return {a.x / s, a.y / s, a.z / s}; }
   friend constexpr bool operator==(Vec3, Vec3) = default;
 };

@@ -33,7 +33,8 @@ MissionWay MissionPlanner::Free(Vec3d from, Vec3d to, const TrajectoryLimits& li
   const Vec3d ends[] = {from, to};
   try {
     CheckAboveGround(*tracer_, to, "the goal " + At(to));
-    const CertifiedFlight flight = FlyFree({from, to}, space_.Around(ends), {.limits = limits, .allocation = {.split = true}, .radius = clearance});
+    const CertifiedFlight flight =
+        FlyFree({from, to}, space_.Around(ends), {.limits = limits, .allocation = {.split = true}, .radius = clearance});
     if (!flight.certificate.certified) return {nullptr, to, "no way to " + At(to) + " could be proved free"};
     return {std::make_shared<const PolynomialTrajectory>(flight.flight.trajectory), to, {}};
   } catch (const InputError& error) {

@@ -90,14 +90,18 @@ void CheckNodes(const Mission& mission, std::string_view name) {
       const std::string &to = TextOf(mission, node, 0), &wanted = TextOf(mission, node, 3);
       const auto [before, is_new] = products.emplace(to, wanted);
       if (!is_new && before->second != wanted)
-        Fail(name, node, "products '" + wanted + "' of the dataset '" + to + "', which has '" + before->second + "' elsewhere; give it another name with `to`");
+        Fail(name, node,
+             "products '" + wanted + "' of the dataset '" + to + "', which has '" + before->second +
+                 "' elsewhere; give it another name with `to`");
     }
     if (kind != MissionNode::kGimbal || !mission.world.model) continue;
     const auto& gimbals = mission.world.model->drones[mission.vehicle]->setup().sensors.gimbals;
     const Port& port = mission.tree().ports[node.first_port + 3];
     if (port.is_slot || port.value.number < static_cast<double>(gimbals.size())) continue;
-    Fail(name, node, gimbals.empty() ? "the drone has no gimbal; a sensor file gives it one (docs/reference/sensors.md)"
-                                     : "gimbal " + std::to_string(static_cast<int>(port.value.number)) + " is not in 0 … " + std::to_string(gimbals.size() - 1));
+    Fail(name, node,
+         gimbals.empty()
+             ? "the drone has no gimbal; a sensor file gives it one (docs/reference/sensors.md)"
+             : "gimbal " + std::to_string(static_cast<int>(port.value.number)) + " is not in 0 … " + std::to_string(gimbals.size() - 1));
   }
 }
 
@@ -120,7 +124,8 @@ void CheckMission(std::string_view xml, std::string_view name) { Compile(xml, na
 
 std::shared_ptr<const Mission> ReadMission(std::string_view xml, std::string_view name, MissionWorld world, size_t vehicle) {
   if (vehicle >= world.model->drones.size())
-    throw InputError(std::string(name) + ": drone " + std::to_string(vehicle) + " of " + std::to_string(world.model->drones.size()) + " (from 0)");
+    throw InputError(std::string(name) + ": drone " + std::to_string(vehicle) + " of " + std::to_string(world.model->drones.size()) +
+                     " (from 0)");
   return std::make_shared<const Mission>(Compile(xml, name, std::move(world), vehicle));
 }
 

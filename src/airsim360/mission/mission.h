@@ -47,9 +47,9 @@ struct MissionProgress {
     std::string label;
   };
   Result result = Result::kRunning;
-  double seconds = 0;               ///< since it began
-  std::vector<ActiveNode> active;   ///< nodes that run, from the root on
-  std::vector<std::string> log;     ///< "12.34 s, line 5, Goto: …": what failed and why; the newest kMostLines
+  double seconds = 0;              ///< since it began
+  std::vector<ActiveNode> active;  ///< nodes that run, from the root on
+  std::vector<std::string> log;    ///< "12.34 s, line 5, Goto: …": what failed and why; the newest kMostLines
   size_t captures = 0;
   std::vector<behaviour::BoardEntry> board;  ///< what the keys of the tree hold
 };
@@ -64,7 +64,8 @@ class MissionPilot : public SimPilot {
  public:
   explicit MissionPilot(std::shared_ptr<const Mission> mission);
   ~MissionPilot() override;
-  void BeforeStep(const SimModel& model, const SimState& state, std::span<const SimEvent> happened, std::vector<SimCommand>& commands) override;
+  void BeforeStep(const SimModel& model, const SimState& state, std::span<const SimEvent> happened,
+                  std::vector<SimCommand>& commands) override;
 
   const Mission& mission() const;
   MissionProgress progress() const;

@@ -13,11 +13,21 @@ namespace airsim360 {
 enum class MissionNode : uint8_t {
   // Actions that fly: one of them has the drone
   kTakeoff = static_cast<uint8_t>(behaviour::Node::kFirstLeaf),
-  kLand, kReturn, kGoto, kOrbit, kFollow, kLook,
+  kLand,
+  kReturn,
+  kGoto,
+  kOrbit,
+  kFollow,
+  kLook,
   // Other actions
-  kGimbal, kCapture, kWait,
+  kGimbal,
+  kCapture,
+  kWait,
   // Conditions
-  kNear, kBatteryAbove, kSees, kTimeAfter,
+  kNear,
+  kBatteryAbove,
+  kSees,
+  kTimeAfter,
 };
 
 /// Nodes of missions. Kinds of their ports: w where or who, x products, f name of a folder; numbers: see NumberRange.

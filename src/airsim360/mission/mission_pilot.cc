@@ -48,7 +48,8 @@ void MissionPilot::Impl::Tick(const SimModel& model, const SimState& state, std:
 MissionPilot::MissionPilot(std::shared_ptr<const Mission> mission) : impl_(std::make_unique<Impl>(std::move(mission))) {}
 MissionPilot::~MissionPilot() = default;
 
-void MissionPilot::BeforeStep(const SimModel& model, const SimState& state, std::span<const SimEvent> happened, std::vector<SimCommand>& commands) {
+void MissionPilot::BeforeStep(const SimModel& model, const SimState& state, std::span<const SimEvent> happened,
+                              std::vector<SimCommand>& commands) {
   const std::lock_guard lock(impl_->mutex);
   if (impl_->result != MissionProgress::Result::kRunning || impl_->mission->vehicle >= model.drones.size()) return;
   if (!impl_->begun) {
@@ -81,7 +82,8 @@ MissionProgress MissionPilot::progress() const {
   for (size_t i = 0; i < nodes.size(); ++i)
     if (impl_->run.nodes[i].status == Status::kRunning) progress.active.push_back({nodes[i].line, nodes[i].order, nodes[i].label});
   const Mission& mission = *impl_->mission;
-  progress.board = behaviour::Board(mission.tree(), mission.trees, impl_->run.slots, [&](char, const behaviour::Value& value) { return NameOfThing(*mission.world.model, value); });
+  progress.board = behaviour::Board(mission.tree(), mission.trees, impl_->run.slots,
+                                    [&](char, const behaviour::Value& value) { return NameOfThing(*mission.world.model, value); });
   return progress;
 }
 

@@ -17,11 +17,14 @@ using internal::HummingbirdAt;
 using internal::RoomModel;
 using Result = MissionProgress::Result;
 
-std::string Xml(const std::string& body) { return "<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"m\">\n" + body + "\n</BehaviorTree>\n</root>\n"; }
+std::string Xml(const std::string& body) {
+  return "<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"m\">\n" + body + "\n</BehaviorTree>\n</root>\n";
+}
 
 /// A mission flown in the room, which is x, y = ±5 and z = 0 … 6 with a cube of 1 m at (3, 0, 0.5), called "box".
 struct Flown {
-  explicit Flown(const std::string& body, Vec3d start = {-2, 0, 0.5}, bool airborne = false, double longest = 120) : model(RoomModel({HummingbirdAt(start, airborne)})), loop(model) {
+  explicit Flown(const std::string& body, Vec3d start = {-2, 0, 0.5}, bool airborne = false, double longest = 120)
+      : model(RoomModel({HummingbirdAt(start, airborne)})), loop(model) {
     pilot = std::make_shared<MissionPilot>(ReadMission(Xml(body), "m.xml", {model, {}}));
     loop.Attach(pilot);
     const auto steps = static_cast<int64_t>(longest * 1e9) / model->dt_ns;
@@ -90,8 +93,9 @@ TEST(Mission, AnOrbitHasTheRadiusThatItWasGivenAndLooksAtItsMiddle) {
 }
 
 TEST(Mission, CapturesAreAsManyAndAsFarApartAsAskedFor) {
-  const Flown flown("<Parallel><Goto to=\"-2;3;2\"/><Sequence><Capture count=\"5\" every_s=\"0.4\"/><Capture to=\"more\" products=\"normal,flow\"/></Sequence></Parallel>",
-                    {-2, -3, 2}, true);
+  const Flown flown(
+      "<Parallel><Goto to=\"-2;3;2\"/><Sequence><Capture count=\"5\" every_s=\"0.4\"/><Capture to=\"more\" products=\"normal,flow\"/></Sequence></Parallel>",
+      {-2, -3, 2}, true);
   ASSERT_EQ(flown.pilot->progress().result, Result::kSuccess) << flown.Log();
   const std::vector<MissionCapture> captures = flown.pilot->CapturesFrom(0);
   ASSERT_EQ(captures.size(), 6u);
@@ -120,7 +124,9 @@ TEST(Mission, ConditionsAskTheWorld) {
 }
 
 TEST(Mission, WhatIsSeenCanBeFlownTo) {
-  const Flown flown("<Sequence><Sees what=\"box\" thing=\"{it}\"/><Goto to=\"{it}\" distance=\"1\" height=\"1\"/><Near what=\"{it}\" distance=\"1.6\"/></Sequence>", {-2, 0, 1.5}, true);
+  const Flown flown(
+      "<Sequence><Sees what=\"box\" thing=\"{it}\"/><Goto to=\"{it}\" distance=\"1\" height=\"1\"/><Near what=\"{it}\" distance=\"1.6\"/></Sequence>",
+      {-2, 0, 1.5}, true);
   EXPECT_EQ(flown.pilot->progress().result, Result::kSuccess) << flown.Log();
 }
 
@@ -134,7 +140,8 @@ TEST(Mission, AFailureSaysWhereAndWhyAndFallbackGoesOn) {
 }
 
 TEST(Mission, TwoNodesCannotHaveTheDroneAtOnce) {
-  const Flown flown("<Parallel success_count=\"2\" failure_count=\"1\"><Goto to=\"-2;3;2\"/><Goto to=\"-2;-3;2\"/></Parallel>", {-2, 0, 1.5}, true);
+  const Flown flown("<Parallel success_count=\"2\" failure_count=\"1\"><Goto to=\"-2;3;2\"/><Goto to=\"-2;-3;2\"/></Parallel>",
+                    {-2, 0, 1.5}, true);
   EXPECT_EQ(flown.pilot->progress().result, Result::kFailure);
   EXPECT_NE(flown.Log().find("another node has taken the drone"), std::string::npos);
 }
@@ -148,7 +155,9 @@ TEST(Mission, AHaltedNodeLeavesTheDroneHovering) {
 }
 
 TEST(Mission, TheBlackboardIsToldWithTheNamesOfThings) {
-  const Flown flown("<Sequence><SetBlackboard value=\"7\" output_key=\"{n}\"/><Sees what=\"box\" distance=\"50\" thing=\"{seen}\"/></Sequence>", {-2, 0, 2}, true);
+  const Flown flown(
+      "<Sequence><SetBlackboard value=\"7\" output_key=\"{n}\"/><Sees what=\"box\" distance=\"50\" thing=\"{seen}\"/></Sequence>",
+      {-2, 0, 2}, true);
   EXPECT_EQ(flown.pilot->progress().result, Result::kSuccess);
   std::string board;
   for (const auto& [key, value] : flown.pilot->progress().board) board += key + "=" + value + ";";
@@ -191,17 +200,21 @@ TEST(Mission, TheSameMissionGivesTheSameBytesAndItsRecordingReplays) {
 TEST(Mission, ErrorsNameLineValueAndNearestChoice) {
   EXPECT_EQ(ErrorOf("<Sequence>\n<Takeof/></Sequence>").substr(0, 54), "m.xml:4: unknown node 'Takeof'; did you mean 'Takeoff'");
   EXPECT_NE(ErrorOf("<Goto too=\"1;2;3\"/>").find("m.xml:3: Goto: unknown attribute 'too'; did you mean 'to'?"), std::string::npos);
-  EXPECT_NE(ErrorOf("<Goto to=\"bux\"/>").find("m.xml:3: Goto to: no thing, person or vehicle 'bux' in the world; did you mean 'box'?"), std::string::npos) << ErrorOf("<Goto to=\"bux\"/>");
+  EXPECT_NE(ErrorOf("<Goto to=\"bux\"/>").find("m.xml:3: Goto to: no thing, person or vehicle 'bux' in the world; did you mean 'box'?"),
+            std::string::npos)
+      << ErrorOf("<Goto to=\"bux\"/>");
   EXPECT_NE(ErrorOf("<Goto to=\"60.17N;24.94E\"/>").find("no place on the Earth"), std::string::npos);
   EXPECT_NE(ErrorOf("<Goto to=\"60.17N;24.94\"/>").find("latitude"), std::string::npos);
   EXPECT_NE(ErrorOf("<Goto to=\"1;2;2e18\"/>").find("2e+18 is not in"), std::string::npos);
   for (const char* speed : {"-1", "0", "nan", "1e308", "inf", "x", ""})
-    EXPECT_NE(ErrorOf("<Goto to=\"1;2;3\" speed=\"" + std::string(speed) + "\"/>").find("m.xml:3: Goto speed: "), std::string::npos) << speed;
+    EXPECT_NE(ErrorOf("<Goto to=\"1;2;3\" speed=\"" + std::string(speed) + "\"/>").find("m.xml:3: Goto speed: "), std::string::npos)
+        << speed;
   EXPECT_NE(ErrorOf("<Capture count=\"1.5\"/>").find("1.5 is not a whole number"), std::string::npos);
   EXPECT_NE(ErrorOf("<Capture count=\"200000\"/>").find("is not in 1 … 100000"), std::string::npos);
   EXPECT_NE(ErrorOf("<Capture to=\"../x\"/>").find("no name of a folder"), std::string::npos);
   EXPECT_NE(ErrorOf("<Capture products=\"normals\"/>").find("did you mean 'normal'?"), std::string::npos);
-  EXPECT_NE(ErrorOf("<Sequence><Capture/><Capture products=\"normal\"/></Sequence>").find("products 'normal' of the dataset 'captures'"), std::string::npos);
+  EXPECT_NE(ErrorOf("<Sequence><Capture/><Capture products=\"normal\"/></Sequence>").find("products 'normal' of the dataset 'captures'"),
+            std::string::npos);
   EXPECT_NE(ErrorOf("<Gimbal/>").find("the drone has no gimbal"), std::string::npos);
   EXPECT_THROW(ReadMission("", "m.xml", {RoomModel({HummingbirdAt({})}), {}}), InputError);
   EXPECT_THROW(ReadMission("<root BTCPP_format=\"4\"/>", "m.xml", {RoomModel({HummingbirdAt({})}), {}}), InputError);
@@ -251,7 +264,8 @@ TEST(Mission, FollowsAPersonAtTheDistanceAndLooksAtThem) {
   model->tracer = WithoutBodies(std::make_shared<const RayTracer>(populated.scene), {}, populated.people.get(), nullptr);
   const std::string name = populated.people->cast[0].name;
   SimLoop loop(model);
-  const auto pilot = std::make_shared<MissionPilot>(ReadMission(Xml("<Follow who=\"" + name + "\" distance=\"1.5\" height=\"1\" seconds=\"12\"/>"), "m.xml", {model, {}}));
+  const auto pilot = std::make_shared<MissionPilot>(
+      ReadMission(Xml("<Follow who=\"" + name + "\" distance=\"1.5\" height=\"1\" seconds=\"12\"/>"), "m.xml", {model, {}}));
   loop.Attach(pilot);
   double walked = 0;
   Vec3d before = FindThing(*model, loop.state(), ParseThing(name, &pilot->mission().world))->p_W;

@@ -14,9 +14,9 @@ namespace {
 using behaviour::Status;
 using Phase = DroneInHand::Phase;
 
-constexpr double kStill = 0.2, kStopLimit = 6;     // m/s; seconds for coming to rest
-constexpr double kThere = 0.5, kLateLimit = 10;    // metres from the goal; seconds after the way should have ended
-constexpr double kFaces = 0.05, kTurnLimit = 15;   // rad, seconds
+constexpr double kStill = 0.2, kStopLimit = 6;    // m/s; seconds for coming to rest
+constexpr double kThere = 0.5, kLateLimit = 10;   // metres from the goal; seconds after the way should have ended
+constexpr double kFaces = 0.05, kTurnLimit = 15;  // rad, seconds
 constexpr int64_t kSetpointNs = 100'000'000, kSetpointLifeNs = 500'000'000;  // of Follow
 
 std::string Metres(double value) {
@@ -39,7 +39,9 @@ double PilotLeaves::Bearing(Vec3d p_W) const {
   return std::atan2(way.y, way.x);
 }
 
-bool PilotLeaves::FacesWithin(Vec3d p_W, double error) const { return std::abs(std::remainder(Bearing(p_W) - Heading(), 2 * M_PI)) < error; }
+bool PilotLeaves::FacesWithin(Vec3d p_W, double error) const {
+  return std::abs(std::remainder(Bearing(p_W) - Heading(), 2 * M_PI)) < error;
+}
 
 void PilotLeaves::Command(const airsim360::Command& command, int64_t timeout_ns) {
   commands_.push_back({mission_.vehicle, FlightCommand{command, timeout_ns}});
@@ -88,7 +90,8 @@ Status PilotLeaves::Fly(const Node& node, bool fresh) {
     case MissionNode::kReturn:
       if (fresh && !Flies()) return Status::kSuccess;
       return UntilDone(fresh, ReturnCommand{.height = Number(node, 0)});
-    default: break;
+    default:
+      break;
   }
   if (!Flies()) throw InputError(fresh ? "the drone stands; Takeoff comes first" : "the drone does not fly any more");
   if (kind == MissionNode::kGoto) return Goto(node, fresh);
@@ -203,7 +206,9 @@ Status PilotLeaves::Look(const Node& node, bool fresh) {
     const auto& gimbals = model_.drones[mission_.vehicle]->setup().sensors.gimbals;
     const Vec3d way = at - drone_.motion.X_WB.p;
     if (!gimbals.empty())
-      commands_.push_back({mission_.vehicle, GimbalCommand{0, {.yaw = gimbals[0].spec.stabilise_yaw ? Bearing(at) : 0, .pitch = std::atan2(way.z, std::hypot(way.x, way.y))}}});
+      commands_.push_back({mission_.vehicle, GimbalCommand{0,
+                                                           {.yaw = gimbals[0].spec.stabilise_yaw ? Bearing(at) : 0,
+                                                            .pitch = std::atan2(way.z, std::hypot(way.x, way.y))}}});
     return Status::kRunning;
   }
   if (Seconds(hand_.since_ns) > kTurnLimit) throw InputError("the drone does not turn towards it");

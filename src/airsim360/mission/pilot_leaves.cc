@@ -33,13 +33,15 @@ double PilotLeaves::Number(const Node& node, size_t i) const {
   const Value& value = PortOf(mission_.tree(), node, *run_, i);
   const behaviour::PortInfo& port = node.info->ports[i];
   if (value.kind != Value::Kind::kNumber) throw InputError(std::string(port.name) + ": the key holds no number");
-  if (const std::string problem = NumberProblem(port.kind, value.number); !problem.empty()) throw InputError(std::string(port.name) + ": " + problem);
+  if (const std::string problem = NumberProblem(port.kind, value.number); !problem.empty())
+    throw InputError(std::string(port.name) + ": " + problem);
   return value.number;
 }
 
 std::string PilotLeaves::Text(const Node& node, size_t i) const {
   const Value& value = PortOf(mission_.tree(), node, *run_, i);
-  const bool has_text = value.kind == Value::Kind::kText || (value.kind == Value::Kind::kNumber && value.index < mission_.trees.texts.size());
+  const bool has_text =
+      value.kind == Value::Kind::kText || (value.kind == Value::Kind::kNumber && value.index < mission_.trees.texts.size());
   return has_text ? mission_.trees.texts[value.index] : std::string();
 }
 
@@ -70,8 +72,10 @@ Status PilotLeaves::Act(const Node& node, NodeMemory& memory) {
   const bool fresh = memory.status != Status::kRunning;
   if (IsFlying(kind)) return Fly(node, fresh);
   switch (kind) {
-    case MissionNode::kGimbal: return Gimbal(node, memory, fresh);
-    case MissionNode::kCapture: return Capture(node, memory, fresh);
+    case MissionNode::kGimbal:
+      return Gimbal(node, memory, fresh);
+    case MissionNode::kCapture:
+      return Capture(node, memory, fresh);
     case MissionNode::kWait:
       if (fresh) memory.t_ns = state_.t_ns;
       return Seconds(memory.t_ns) >= Number(node, 0) ? Status::kSuccess : Status::kRunning;
@@ -79,9 +83,12 @@ Status PilotLeaves::Act(const Node& node, NodeMemory& memory) {
       const auto thing = FindThing(model_, state_, Named(node, 0));
       return Yes(thing && DistanceTo(*thing, drone_.motion.X_WB.p) <= Number(node, 1));
     }
-    case MissionNode::kBatteryAbove: return Yes(drone_.drone.charge > Number(node, 0));
-    case MissionNode::kTimeAfter: return Yes(Seconds(memory_.start_ns) >= Number(node, 0));
-    default: return Sees(node);
+    case MissionNode::kBatteryAbove:
+      return Yes(drone_.drone.charge > Number(node, 0));
+    case MissionNode::kTimeAfter:
+      return Yes(Seconds(memory_.start_ns) >= Number(node, 0));
+    default:
+      return Sees(node);
   }
 }
 
@@ -120,11 +127,14 @@ Status PilotLeaves::Capture(const Node& node, NodeMemory& memory, bool fresh) {
   const auto count = static_cast<int32_t>(Number(node, 1));
   const double every = Number(node, 2);
   if (Seconds(memory.t_ns) + 1e-9 < every * memory.count) return Status::kRunning;
-  if (memory_.captures.size() >= kMostMissionCaptures) throw InputError("the mission has " + std::to_string(kMostMissionCaptures) + " frames already");
-  MissionCapture capture{Text(node, 0), {}, {.t_ns = state_.t_ns, .body = drone_.motion, .people = state_.people, .traffic = state_.traffic}};
+  if (memory_.captures.size() >= kMostMissionCaptures)
+    throw InputError("the mission has " + std::to_string(kMostMissionCaptures) + " frames already");
+  MissionCapture capture{
+      Text(node, 0), {}, {.t_ns = state_.t_ns, .body = drone_.motion, .people = state_.people, .traffic = state_.traffic}};
   for (const std::string products = Text(node, 3); const auto part : std::views::split(products, ','))
     capture.products.emplace_back(part.begin(), part.end());
-  const bool is_there = std::ranges::any_of(memory_.captures, [&](const MissionCapture& c) { return c.shot.t_ns == state_.t_ns && c.to == capture.to; });
+  const bool is_there =
+      std::ranges::any_of(memory_.captures, [&](const MissionCapture& c) { return c.shot.t_ns == state_.t_ns && c.to == capture.to; });
   if (!is_there) memory_.captures.push_back(std::move(capture));
   return ++memory.count >= count ? Status::kSuccess : Status::kRunning;
 }

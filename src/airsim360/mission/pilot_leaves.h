@@ -16,13 +16,13 @@ struct DroneInHand {
   enum class Phase : uint8_t { kNone, kStopping, kGoing, kTurning, kCircling };
   const behaviour::TreeNode* owner = nullptr;
   Phase phase = Phase::kNone;
-  int64_t since_ns = 0;      ///< beginning of the phase
-  double duration = 0;       ///< of the way
+  int64_t since_ns = 0;  ///< beginning of the phase
+  double duration = 0;   ///< of the way
   Vec3d goal;
-  ThingNow thing;            ///< as it was when the node began
+  ThingNow thing;                      ///< as it was when the node began
   std::optional<uint64_t> command_id;  ///< of the last command; none: it was given in this tick
-  bool commanded = false;    ///< the node has given a command
-  bool taken = false;        ///< somebody else has given one since
+  bool commanded = false;              ///< the node has given a command
+  bool taken = false;                  ///< somebody else has given one since
 };
 
 /// What a mission remembers besides its tree.
@@ -42,7 +42,14 @@ class PilotLeaves : public behaviour::Leaves {
 
   PilotLeaves(const Mission& mission, const SimModel& model, const SimState& state, MissionPlanner& planner, MissionMemory& memory,
               std::vector<SimCommand>& commands)
-      : mission_(mission), model_(model), state_(state), drone_(state.vehicles[mission.vehicle]), planner_(planner), memory_(memory), hand_(memory.hand), commands_(commands) {}
+      : mission_(mission),
+        model_(model),
+        state_(state),
+        drone_(state.vehicles[mission.vehicle]),
+        planner_(planner),
+        memory_(memory),
+        hand_(memory.hand),
+        commands_(commands) {}
 
   Status Tick(const behaviour::Tree& tree, const Node& node, behaviour::NodeMemory& memory, behaviour::TreeRun& run) override;
   void Halt(const behaviour::Tree& tree, const Node& node, behaviour::NodeMemory& memory, behaviour::TreeRun& run) override;

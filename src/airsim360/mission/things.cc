@@ -57,7 +57,8 @@ Value EarthPoint(const GeoPoint& place, double z, bool has_height, const std::st
   if (!world) return {};
   if (!world->earth) throw InputError(Quoted(text) + ": the world has no place on the Earth (maps have); give x;y;z in metres");
   Vec3d p = GeoFrame({world->earth->latitude_deg, world->earth->longitude_deg, 0}).ToWorld(place);
-  if (!(std::hypot(p.x, p.y) <= kFarthest) || p.z < -kFarthest) throw InputError(Quoted(text) + " lies more than 100 km from the middle of the map");
+  if (!(std::hypot(p.x, p.y) <= kFarthest) || p.z < -kFarthest)
+    throw InputError(Quoted(text) + " lies more than 100 km from the middle of the map");
   p.z = z;
   return PointOf(p, has_height);
 }
@@ -145,22 +146,28 @@ Value ParseThing(const std::string& text, const MissionWorld* world) {
 }
 
 std::string NameOfThing(const SimModel& model, const Value& value) {
-  if (value.kind == Value::Kind::kPerson && model.people && value.index < model.people->cast.size()) return model.people->cast[value.index].name;
-  if (value.kind == Value::Kind::kVehicle && model.traffic && value.index < model.traffic->bodies.size()) return model.traffic->bodies[value.index].name;
+  if (value.kind == Value::Kind::kPerson && model.people && value.index < model.people->cast.size())
+    return model.people->cast[value.index].name;
+  if (value.kind == Value::Kind::kVehicle && model.traffic && value.index < model.traffic->bodies.size())
+    return model.traffic->bodies[value.index].name;
   if (value.kind == Value::Kind::kEntity) return model.tracer->scene().entity(value.index).name;
   return {};
 }
 
 std::optional<ThingNow> FindThing(const SimModel& model, const SimState& state, const Value& value) {
   switch (value.kind) {
-    case Value::Kind::kPoint: return ThingNow{value.point, {}, {}, value.has_height, true};
-    case Value::Kind::kPerson: return PersonNow(model, state, value.index);
-    case Value::Kind::kVehicle: return VehicleNow(model, state, value.index);
+    case Value::Kind::kPoint:
+      return ThingNow{value.point, {}, {}, value.has_height, true};
+    case Value::Kind::kPerson:
+      return PersonNow(model, state, value.index);
+    case Value::Kind::kVehicle:
+      return VehicleNow(model, state, value.index);
     case Value::Kind::kEntity: {
       const Box3f& box = model.tracer->scene().entity(value.index).bounds;
       return ThingNow{VecCast<double>(box.center()), VecCast<double>(box.max - box.min) * 0.5, {}};
     }
-    default: return std::nullopt;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -177,9 +184,12 @@ bool IsInSight(const RayTracer& tracer, const ThingNow& thing, Vec3d p_W) {
   std::vector<Vec3d> looks = {nearest};
   for (int axis = 0; axis < 3; ++axis) {
     Vec3d side = thing.p_W;
-    if (p_W[axis] < low[axis]) side[axis] = low[axis];
-    else if (p_W[axis] > high[axis]) side[axis] = high[axis];
-    else continue;
+    if (p_W[axis] < low[axis])
+      side[axis] = low[axis];
+    else if (p_W[axis] > high[axis])
+      side[axis] = high[axis];
+    else
+      continue;
     looks.push_back(side);
   }
   return std::ranges::any_of(looks, [&](Vec3d look) {
@@ -212,7 +222,8 @@ std::optional<Value> FindInSight(const SimModel& model, const SimState& state, c
     if (HasParts(category.path, what)) wanted.insert(id);
   const std::set<EntityId> moving = MovingEntities(model);
   for (const Entity& entity : scene.entities)
-    if (!wanted.empty() && wanted.contains(entity.category) && !entity.bounds.empty() && !moving.contains(entity.id)) consider(NumberedThing(Value::Kind::kEntity, entity.id));
+    if (!wanted.empty() && wanted.contains(entity.category) && !entity.bounds.empty() && !moving.contains(entity.id))
+      consider(NumberedThing(Value::Kind::kEntity, entity.id));
   std::ranges::stable_sort(candidates, {}, &Candidate::distance);
   for (size_t i = 0; i < std::min(candidates.size(), kMostLooks); ++i)
     if (IsInSight(*model.tracer, *FindThing(model, state, candidates[i].value), p_W)) return candidates[i].value;

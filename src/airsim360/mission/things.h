@@ -39,6 +39,7 @@ bool IsInSight(const RayTracer& tracer, const ThingNow& thing, Vec3d p_W);
 
 /// The nearest thing in sight within `distance` metres whose name is `what`, or whose category path has these parts in a row
 /// ("tree", "vehicle/car"). nullopt: none.
-std::optional<behaviour::Value> FindInSight(const SimModel& model, const SimState& state, const std::string& what, Vec3d p_W, double distance);
+std::optional<behaviour::Value> FindInSight(const SimModel& model, const SimState& state, const std::string& what, Vec3d p_W,
+                                            double distance);
 
 }  // namespace airsim360

@@ -18,7 +18,8 @@ template <class Number>
 Number NumberOf(const std::string& text, const std::string& whole) {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) throw InputError("'" + whole + "': '" + text + "' is no number; data are PATH[:SPLIT][#PERSONS][@SHARE]");
+  if (error != std::errc() || end != text.data() + text.size())
+    throw InputError("'" + whole + "': '" + text + "' is no number; data are PATH[:SPLIT][#PERSONS][@SHARE]");
   return value;
 }
 
@@ -29,7 +30,8 @@ std::vector<MpdeSample> SomePersons(std::vector<MpdeSample> samples, uint64_t pe
   if (persons == 0) return samples;
   std::set<std::pair<uint64_t, uint64_t>> order;
   for (const MpdeSample& sample : samples) order.emplace(MixBits(sample.person ^ MixBits(seed)), sample.person);
-  if (order.size() < persons) throw InputError("#" + std::to_string(persons) + ": there are only " + std::to_string(order.size()) + " persons");
+  if (order.size() < persons)
+    throw InputError("#" + std::to_string(persons) + ": there are only " + std::to_string(order.size()) + " persons");
   std::set<uint64_t> taken;
   for (auto it = order.begin(); taken.size() < persons; ++it) taken.insert(it->second);
   std::erase_if(samples, [&](const MpdeSample& sample) { return !taken.contains(sample.person); });
@@ -65,7 +67,12 @@ std::vector<ViewDraw> ParseViews(const std::string& text, const std::string& con
     if (entry.ends_with(".yaml")) {
       std::string like;
       // Twice: fields that the file names count over those of what it is like.
-      const auto read = [&] { ReadYamlFile(entry, [&](ConfigVisitor& v) { v.Field("like", "views to begin with", like); draw.Visit(v); }); };
+      const auto read = [&] {
+        ReadYamlFile(entry, [&](ConfigVisitor& v) {
+          v.Field("like", "views to begin with", like);
+          draw.Visit(v);
+        });
+      };
       read();
       if (!like.empty()) draw = NamedViews(like), read();
     } else {
@@ -74,7 +81,9 @@ std::vector<ViewDraw> ParseViews(const std::string& text, const std::string& con
     if (!convention.empty()) {
       const auto found = std::ranges::find(kKeypointConventionNames, convention);
       if (found == std::end(kKeypointConventionNames))
-        throw InputError("--convention: " + UnknownChoiceMessage("convention", convention, std::vector<std::string>(std::begin(kKeypointConventionNames), std::end(kKeypointConventionNames))));
+        throw InputError("--convention: " + UnknownChoiceMessage("convention", convention,
+                                                                 std::vector<std::string>(std::begin(kKeypointConventionNames),
+                                                                                          std::end(kKeypointConventionNames))));
       draw.convention = static_cast<KeypointConvention>(found - std::begin(kKeypointConventionNames));
     }
     views.push_back(draw);
@@ -84,7 +93,8 @@ std::vector<ViewDraw> ParseViews(const std::string& text, const std::string& con
 
 std::vector<MpdeSet> ReadTrainingSets(const MpdeDataName& name, std::span<const ViewDraw> views, uint64_t seed) {
   if (IsFile(name.path)) {
-    std::vector<MpdeSample> samples = SomePersons(ReadMonolocoFile(name.path, name.split.empty() ? "train" : name.split), name.persons, seed);
+    std::vector<MpdeSample> samples =
+        SomePersons(ReadMonolocoFile(name.path, name.split.empty() ? "train" : name.split), name.persons, seed);
     if (samples.empty()) throw InputError(name.path + ": its split holds nobody");
     return {{.name = name.path, .samples = std::move(samples), .share = name.share}};
   }

@@ -30,8 +30,7 @@ template <int rows>
 
 void MultiplyPanel(const float* a, const float* panel, float* c, int m, int k, int64_t ldc, int columns) {
   int row = 0;
-  for (; row + kRows <= m; row += kRows)
-    RowsTimesPanel<kRows>(a + static_cast<int64_t>(row) * k, panel, c + row * ldc, k, ldc, columns);
+  for (; row + kRows <= m; row += kRows) RowsTimesPanel<kRows>(a + static_cast<int64_t>(row) * k, panel, c + row * ldc, k, ldc, columns);
   for (; row < m; ++row) RowsTimesPanel<1>(a + static_cast<int64_t>(row) * k, panel, c + row * ldc, k, ldc, columns);
 }
 

@@ -26,9 +26,7 @@ MpdePrediction PredictionOf(std::span<const float> out) {
   return {{distance, std::atan2(out[kSine], out[kCosine])}, spread};
 }
 
-[[noreturn]] void Refuse(const std::filesystem::path& file, const std::string& what) {
-  throw InputError(file.string() + ": " + what);
-}
+[[noreturn]] void Refuse(const std::filesystem::path& file, const std::string& what) { throw InputError(file.string() + ": " + what); }
 
 // Header and data of a safetensors file.
 struct Parts {
@@ -60,7 +58,8 @@ double Number(const Json& metadata, const char* key, const std::filesystem::path
   const std::string text = Entry(metadata, key, file);
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != 0 || !(std::abs(value) < 1e6)) Refuse(file, std::string(key) + ": '" + text.substr(0, 40) + "' is no number in range");
+  if (text.empty() || *end != 0 || !(std::abs(value) < 1e6))
+    Refuse(file, std::string(key) + ": '" + text.substr(0, 40) + "' is no number in range");
   return value;
 }
 
@@ -70,7 +69,8 @@ void Fill(Tensor<float>& tensor, const Parts& parts, const std::filesystem::path
   const uint64_t size = tensor.value.size() * sizeof(float);
   const Json& entry = *found;
   if (!entry.is_object() || entry.value("dtype", Json()) != "F32" || entry.value("shape", Json()) != Json{tensor.rows, tensor.columns})
-    Refuse(file, "tensor '" + tensor.name + "': must be F32 of shape [" + std::to_string(tensor.rows) + ", " + std::to_string(tensor.columns) + "]");
+    Refuse(file, "tensor '" + tensor.name + "': must be F32 of shape [" + std::to_string(tensor.rows) + ", " +
+                     std::to_string(tensor.columns) + "]");
   const Json offsets = entry.value("data_offsets", Json());
   if (!offsets.is_array() || offsets.size() != 2 || !offsets[0].is_number_unsigned() || !offsets[1].is_number_unsigned())
     Refuse(file, "tensor '" + tensor.name + "': data_offsets must be two numbers");
@@ -92,7 +92,8 @@ std::vector<MpdePrediction> Predict(MpdeModel& model, std::span<const MpdeSample
   for (size_t first = 0; first < samples.size(); first += kInferenceRows) {
     const size_t rows = std::min(kInferenceRows, samples.size() - first);
     inputs.resize(rows * width);
-    for (size_t row = 0; row < rows; ++row) Encode(samples[first + row].rays, model.encoding, std::span(inputs).subspan(row * width, width));
+    for (size_t row = 0; row < rows; ++row)
+      Encode(samples[first + row].rays, model.encoding, std::span(inputs).subspan(row * width, width));
     const std::span<const float> outputs = model.network.Infer(inputs, static_cast<int>(rows));
     for (size_t row = 0; row < rows; ++row) predictions.push_back(PredictionOf(outputs.subspan(row * kMpdeOutputs, kMpdeOutputs)));
   }
@@ -113,7 +114,8 @@ std::vector<MpdePrediction> PredictTogether(std::span<MpdeModel> models, std::sp
   }
   std::vector<MpdePrediction> mean;
   const auto n = static_cast<double>(models.size());
-  for (const Sum& sum : sums) mean.push_back({{std::exp(sum.log_distance / n), std::atan2(sum.sine, sum.cosine)}, std::exp(sum.log_spread / n)});
+  for (const Sum& sum : sums)
+    mean.push_back({{std::exp(sum.log_distance / n), std::atan2(sum.sine, sum.cosine)}, std::exp(sum.log_spread / n)});
   return mean;
 }
 
@@ -149,7 +151,8 @@ MpdeModel ReadMpdeModel(const std::filesystem::path& file) {
   const Bytes bytes = ReadFile(file, kLargestFile);
   const Parts parts = Split(bytes, file);
   const Json metadata = parts.header.value("__metadata__", Json());
-  if (Entry(metadata, "format", file) != kFormat) Refuse(file, "format '" + Entry(metadata, "format", file).substr(0, 40) + "' is not " + kFormat);
+  if (Entry(metadata, "format", file) != kFormat)
+    Refuse(file, "format '" + Entry(metadata, "format", file).substr(0, 40) + "' is not " + kFormat);
   const std::string encoding = Entry(metadata, "encoding", file);
   const auto known = std::ranges::find(kMpdeEncodingNames, encoding);
   if (known == std::end(kMpdeEncodingNames)) Refuse(file, "encoding: '" + encoding.substr(0, 40) + "' is neither rays nor shape");

@@ -18,7 +18,8 @@ constexpr int kGroup = 16;         // columns of one task
 void CheckShape(const NetworkShape& shape) {
   const auto check = [](const char* name, double value, double low, double high) {
     if (!(value >= low && value <= high))
-      throw InputError(std::string(name) + ": " + std::to_string(value) + " is not from " + std::to_string(low) + " to " + std::to_string(high));
+      throw InputError(std::string(name) + ": " + std::to_string(value) + " is not from " + std::to_string(low) + " to " +
+                       std::to_string(high));
   };
   check("inputs", shape.inputs, 1, 4096);
   check("hidden", shape.hidden, 1, 4096);

@@ -50,7 +50,10 @@ TEST(MpdeNetwork, GradientsAreThoseOfFiniteDifferencesToAMillionth) {
       double& value = network.tensors()[t].value[i];
       const double kept = value, step = 1e-5;
       // Fourth order: what is left is of the order of the step's fifth power.
-      const auto at = [&](double offset) { value = kept + offset; return loss(); };
+      const auto at = [&](double offset) {
+        value = kept + offset;
+        return loss();
+      };
       const double slope = (8 * (at(step) - at(-step)) - (at(2 * step) - at(-2 * step))) / (12 * step);
       value = kept;
       EXPECT_NEAR(exact[i], slope, 1e-6 * std::max(std::abs(slope), 1e-3)) << network.tensors()[t].name << " " << i;

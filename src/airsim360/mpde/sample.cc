@@ -22,9 +22,7 @@ Point Middle(const KeypointRays& rays, size_t pair) {
 }
 
 // A person of `length` metres that spans `size` on the plane one metre ahead, in the direction of (x, y).
-double DistanceOf(double length, double size, Point p) {
-  return length / std::max(size, kSmallest) * std::sqrt(1 + p.x * p.x + p.y * p.y);
-}
+double DistanceOf(double length, double size, Point p) { return length / std::max(size, kSmallest) * std::sqrt(1 + p.x * p.x + p.y * p.y); }
 
 }  // namespace
 
@@ -48,8 +46,7 @@ void Encode(const KeypointRays& rays, MpdeEncoding encoding, std::span<float> in
   const Point shoulders = Middle(rays, kShoulders), hips = Middle(rays, kHips);
   const Point middle{0.5 * (shoulders.x + hips.x), 0.5 * (shoulders.y + hips.y)};
   double square = 0;
-  for (size_t i = 0; i < kMpdeKeypoints; ++i)
-    square += std::pow(rays[2 * i] - middle.x, 2) + std::pow(rays[2 * i + 1] - middle.y, 2);
+  for (size_t i = 0; i < kMpdeKeypoints; ++i) square += std::pow(rays[2 * i] - middle.x, 2) + std::pow(rays[2 * i + 1] - middle.y, 2);
   const double size = std::max(std::sqrt(square / kMpdeKeypoints), kSmallest);
   for (size_t i = 0; i < kMpdeKeypoints; ++i) {
     inputs[2 * i] = static_cast<float>((rays[2 * i] - middle.x) / size);

@@ -29,7 +29,8 @@ std::vector<double> Numbers(const Json& json, size_t count, const std::string& w
   if (!json.is_array() || json.size() != count) throw InputError(where + ": must be " + std::to_string(count) + " numbers");
   std::vector<double> values;
   for (const Json& entry : json) {
-    if (!entry.is_number() || !(std::abs(entry.get<double>()) < kLargestNumber)) throw InputError(where + ": '" + entry.dump().substr(0, 40) + "' is no number in range");
+    if (!entry.is_number() || !(std::abs(entry.get<double>()) < kLargestNumber))
+      throw InputError(where + ": '" + entry.dump().substr(0, 40) + "' is no number in range");
     values.push_back(entry);
   }
   return values;
@@ -42,7 +43,8 @@ const Json& Member(const Json& json, const char* key, const std::string& where) 
 
 double NumberOf(const Json& json, const char* key, const std::string& where) {
   const Json& value = Member(json, key, where);
-  if (!value.is_number() || !(std::abs(value.get<double>()) < 1e15)) throw InputError(where + ": " + key + ": '" + value.dump().substr(0, 40) + "' is no number in range");
+  if (!value.is_number() || !(std::abs(value.get<double>()) < 1e15))
+    throw InputError(where + ": " + key + ": '" + value.dump().substr(0, 40) + "' is no number in range");
   return value;
 }
 
@@ -62,13 +64,15 @@ std::vector<MpdeSample> ReadMonolocoFile(const fs::path& file, const std::string
   if (!json.is_object() || !json.contains("train")) throw InputError(name + ": has no 'train': it is not in MonoLoco's layout");
   const Json& part = Member(json, split.c_str(), name);
   const Json &X = Member(part, "X", name + ": " + split), &Y = Member(part, "Y", name + ": " + split);
-  if (!X.is_array() || !Y.is_array() || X.size() != Y.size()) throw InputError(name + ": " + split + ": X and Y must be lists of one length");
+  if (!X.is_array() || !Y.is_array() || X.size() != Y.size())
+    throw InputError(name + ": " + split + ": X and Y must be lists of one length");
   constexpr double kPlane = 10;
   const Json names = part.value("names", Json());
   std::vector<MpdeSample> samples;
   for (size_t i = 0; i < X.size(); ++i) {
     const std::string where = name + ": " + split + ": entry " + std::to_string(i);
-    const std::vector<double> x = Numbers(X[i], std::size(KeypointRays{}), where + ": X"), y = Numbers(Y[i], kMonolocoTargets, where + ": Y");
+    const std::vector<double> x = Numbers(X[i], std::size(KeypointRays{}), where + ": X"),
+                              y = Numbers(Y[i], kMonolocoTargets, where + ": Y");
     if (!(y[3] > 0)) throw InputError(where + ": Y: a distance of " + std::to_string(y[3]) + " m is not above 0");
     MpdeSample sample;
     std::ranges::transform(x, sample.rays.begin(), [](double v) { return static_cast<float>(v / kPlane); });
@@ -107,11 +111,13 @@ Picture PictureOf(const Json& line, uint64_t place, const std::string& where) {
 
 PersonShape ShapeOf(const Json& person, const Picture& picture) {
   const Json& keypoints = Member(person, "keypoints_world", picture.where);
-  if (!keypoints.is_array() || keypoints.size() < kMpdeKeypoints) throw InputError(picture.where + ": keypoints_world: must have at least 17 points");
+  if (!keypoints.is_array() || keypoints.size() < kMpdeKeypoints)
+    throw InputError(picture.where + ": keypoints_world: must have at least 17 points");
   const Json& box = Member(person, "box3d_world", picture.where);
   const Vec3d ground = Point(Member(person, "position_world", picture.where), picture.where + ": position_world");
   PersonShape shape;
-  for (size_t i = 0; i < shape.keypoints.size(); ++i) shape.keypoints[i] = Point(keypoints[i], picture.where + ": keypoints_world") - ground;
+  for (size_t i = 0; i < shape.keypoints.size(); ++i)
+    shape.keypoints[i] = Point(keypoints[i], picture.where + ": keypoints_world") - ground;
   shape.center = Point(Member(box, "center", picture.where), picture.where + ": box3d_world") - ground;
   shape.yaw = NumberOf(box, "yaw", picture.where);
   shape.person = MixBits(picture.place) + static_cast<uint64_t>(NumberOf(person, "track_id", picture.where));
@@ -120,9 +126,11 @@ PersonShape ShapeOf(const Json& person, const Picture& picture) {
 
 // As the picture's camera sees the person: the pixels of the keypoints where there are some, else where they would be.
 bool SampleOf(const Json& person, const Picture& picture, const PersonShape& shape, const PeopleFilter& filter, MpdeSample& sample) {
-  const std::vector<double> pixels = Numbers(Member(person, "keypoints", picture.where), 3 * static_cast<size_t>(kMpdeKeypoints), picture.where + ": keypoints");
+  const std::vector<double> pixels =
+      Numbers(Member(person, "keypoints", picture.where), 3 * static_cast<size_t>(kMpdeKeypoints), picture.where + ": keypoints");
   const Json& in_camera = Member(person, "keypoints_cam", picture.where);
-  if (!in_camera.is_array() || in_camera.size() < kMpdeKeypoints) throw InputError(picture.where + ": keypoints_cam: must have at least 17 points");
+  if (!in_camera.is_array() || in_camera.size() < kMpdeKeypoints)
+    throw InputError(picture.where + ": keypoints_cam: must have at least 17 points");
   int visible = 0;
   for (size_t i = 0; i < kMpdeKeypoints; ++i) {
     if (pixels[3 * i + 2] > 0) {
@@ -160,7 +168,8 @@ void ReadPeopleFile(const fs::path& file, uint64_t place, const PeopleFilter& fi
       const PersonShape shape = ShapeOf(person, picture);
       if (seen.emplace(index, shape.person).second) data.shapes.push_back(shape);
       MpdeSample sample;
-      if (picture.pinhole && NumberOf(person, "visible_fraction", where) >= filter.least_visible && SampleOf(person, picture, shape, filter, sample))
+      if (picture.pinhole && NumberOf(person, "visible_fraction", where) >= filter.least_visible &&
+          SampleOf(person, picture, shape, filter, sample))
         data.samples.push_back(sample);
     }
   }
@@ -180,7 +189,8 @@ PeopleData ReadPeopleFolder(const fs::path& folder, const std::string& split, co
   if (!subsets.is_array()) throw InputError(list.string() + ": must be a list");
   for (const Json& subset : subsets) {
     const Json& name = Member(subset, "subset", list.string());
-    if (!name.is_string() || name.get<std::string>().find("..") != std::string::npos) throw InputError(list.string() + ": subset: must be a name");
+    if (!name.is_string() || name.get<std::string>().find("..") != std::string::npos)
+      throw InputError(list.string() + ": subset: must be a name");
     const fs::path file = folder / name.get<std::string>() / "people.jsonl";
     if (!split.empty() && Member(subset, "split", list.string()) != split) continue;
     if (fs::exists(file)) ReadPeopleFile(file, HashName(name.get<std::string>()), filter, data);

@@ -17,10 +17,10 @@ std::vector<MpdeSample> ReadMonolocoFile(const std::filesystem::path& file, cons
 
 /// Which persons of our pictures are taken.
 struct PeopleFilter {
-  double least_visible = 0.5;     ///< visible share of the body
-  int least_keypoints = 8;        ///< visible ones of the 17
-  double most_truncated = 0.2;    ///< share of the body outside the picture
-  double nearest = 1, farthest = 60;  ///< metres
+  double least_visible = 0.5;                       ///< visible share of the body
+  int least_keypoints = 8;                          ///< visible ones of the 17
+  double most_truncated = 0.2;                      ///< share of the body outside the picture
+  double nearest = 1, farthest = 60;                ///< metres
   double pitch_low_deg = -90, pitch_high_deg = 90;  ///< of the camera below the horizon
 };
 

@@ -41,11 +41,13 @@ MpdeSet OurSet(const MpdeTableOptions& options, const char* name, double pitch, 
 Data Gather(const MpdeTableOptions& options) {
   Data data;
   const PeopleData train = ReadPeopleFolder(options.people, "train", {}), test = ReadPeopleFolder(options.people, "test", {});
-  if (train.shapes.empty() || test.shapes.empty()) throw InputError(options.people + ": splits train and test must both hold people; see docs/guide/mpde.md");
+  if (train.shapes.empty() || test.shapes.empty())
+    throw InputError(options.people + ": splits train and test must both hold people; see docs/guide/mpde.md");
   const auto real = [&](const char* name) { return options.real.contains(name) ? options.real.at(name) : std::string(); };
   data.base = real("nuscenes").empty() ? MpdeSet{.name = "stand-in of nuscenes", .shapes = train.shapes, .draw = NamedViews("nuscenes")}
                                        : MpdeSet{.name = "nuscenes", .samples = ReadMonolocoFile(real("nuscenes"), "train")};
-  data.ours = {OurSet(options, "ours", 0, 90, "drone20"), OurSet(options, "ours, pitch 0", 0, kLevel, "drone0"), OurSet(options, "ours, pitch 20", 20, kLevel, "drone20")};
+  data.ours = {OurSet(options, "ours", 0, 90, "drone20"), OurSet(options, "ours, pitch 0", 0, kLevel, "drone0"),
+               OurSet(options, "ours, pitch 20", 20, kLevel, "drone20")};
   for (size_t i = 0; i < kMpdeTests.size(); ++i) {
     const MpdeTestSet& set = kMpdeTests[i];
     if (!real(set.name).empty()) {
@@ -123,8 +125,9 @@ MpdeTable MakeMpdeTable(const MpdeTableOptions& options, const std::function<voi
       const std::vector<MpdeErrors> errors = TestAll(model, data);
       for (size_t i = 0; i < errors.size(); ++i) of_sets[i].push_back(errors[i]);
       char line[160];
-      std::snprintf(line, sizeof line, "%s, seed %llu: %.3f m, %.1f deg over all", kMpdeRows[row], static_cast<unsigned long long>(training.seed),
-                    errors[kMpdeTests.size()].distance_mae_m, errors[kMpdeTests.size()].angle_mae_deg);
+      std::snprintf(line, sizeof line, "%s, seed %llu: %.3f m, %.1f deg over all", kMpdeRows[row],
+                    static_cast<unsigned long long>(training.seed), errors[kMpdeTests.size()].distance_mae_m,
+                    errors[kMpdeTests.size()].angle_mae_deg);
       progress(line);
     }
     MpdeTableRow result;

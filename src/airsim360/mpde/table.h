@@ -26,7 +26,7 @@ inline constexpr std::array<MpdeTestSet, 4> kMpdeTests = {{{"nuscenes", "nuscene
 inline constexpr const char* kMpdeRows[] = {"base", "base + ours, all", "base + ours, pitch 0", "base + ours, pitch 20"};
 
 struct MpdeTableOptions {
-  std::string people;                      ///< folder with subsets.json: splits train and test
+  std::string people;                       ///< folder with subsets.json: splits train and test
   std::map<std::string, std::string> real;  ///< file in MonoLoco's layout by name of test set; nuscenes is trained on as well
   MpdeTraining training;
   uint64_t seeds = 3;
@@ -48,7 +48,7 @@ struct MpdeTableRow {
 };
 struct MpdeTable {
   bool base_is_real = false;
-  std::vector<bool> test_is_real;   ///< as kMpdeTests; ours counts as simulated
+  std::vector<bool> test_is_real;  ///< as kMpdeTests; ours counts as simulated
   std::vector<int64_t> test_count;
   std::vector<double> constant_height_m;  ///< error of the baseline
   std::vector<MpdeTableRow> rows;

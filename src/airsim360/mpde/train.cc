@@ -21,8 +21,10 @@ void CheckTraining(std::span<const MpdeSet> sets, const MpdeTraining& training) 
     if (set.draw.highest < set.draw.lowest || set.draw.farthest < set.draw.nearest)
       throw InputError(set.name + ": views need highest >= lowest and farthest >= nearest");
   }
-  if (training.batch < 2 || training.batch > 65536) throw InputError("batch: " + std::to_string(training.batch) + " is not from 2 to 65536");
-  if (training.steps < 1 || training.steps > 10'000'000) throw InputError("steps: " + std::to_string(training.steps) + " is not from 1 to 10000000");
+  if (training.batch < 2 || training.batch > 65536)
+    throw InputError("batch: " + std::to_string(training.batch) + " is not from 2 to 65536");
+  if (training.steps < 1 || training.steps > 10'000'000)
+    throw InputError("steps: " + std::to_string(training.steps) + " is not from 1 to 10000000");
   if (training.rate_steps < 1) throw InputError("rate_steps: must be at least 1");
 }
 
@@ -108,7 +110,8 @@ void AdamW::Step(Network<float>& network, double rate, double decay) {
   constexpr double kFirst = 0.9, kSecond = 0.999;
   constexpr float kSmall = 1e-8f;
   ++steps_;
-  const double correction = std::sqrt(1 - std::pow(kSecond, static_cast<double>(steps_))) / (1 - std::pow(kFirst, static_cast<double>(steps_)));
+  const double correction =
+      std::sqrt(1 - std::pow(kSecond, static_cast<double>(steps_))) / (1 - std::pow(kFirst, static_cast<double>(steps_)));
   const auto step = static_cast<float>(rate * correction);
   // sqrt(v) / sqrt(1 - b2^t) + e, multiplied through.
   const auto small = static_cast<float>(kSmall * std::sqrt(1 - std::pow(kSecond, static_cast<double>(steps_))));

@@ -154,7 +154,8 @@ TEST(MpdeFile, DamagedFilesAreRefused) {
   fs::remove(file);
 }
 
-const char* const kMonoloco = R"({"train": {"X": [[X1], [X2]], "Y": [[1.4, 1.5, 9.8, 10, 1.7, 0.6, 0.8, 0.6, 0.8, 0.1], [1.7, 1.5, 9.8, 10.2, 1.7, 0.6, 0.8, 0.6, -0.8, 0.1]],
+const char* const kMonoloco =
+    R"({"train": {"X": [[X1], [X2]], "Y": [[1.4, 1.5, 9.8, 10, 1.7, 0.6, 0.8, 0.6, 0.8, 0.1], [1.7, 1.5, 9.8, 10.2, 1.7, 0.6, 0.8, 0.6, -0.8, 0.1]],
   "names": ["a", "a"]}, "val": {"X": [], "Y": []}, "test": {"X": [], "Y": []}})";
 
 std::string Monoloco(const std::string& x) {
@@ -195,15 +196,19 @@ std::string PeopleLine(bool pinhole, double fraction, int visible) {
   std::string world, camera, pixels;
   for (size_t i = 0; i < 17; ++i) {
     const Vec3d p = shape.keypoints[i] + Vec3d{10, 0, 0}, c{-p.y, 1.5 - p.z, p.x};
-    const auto triple = [](double x, double y, double z) { return "[" + std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(z) + "]"; };
+    const auto triple = [](double x, double y, double z) {
+      return "[" + std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(z) + "]";
+    };
     world += (i > 0 ? "," : "") + triple(p.x, p.y, p.z);
     camera += (i > 0 ? "," : "") + triple(c.x, c.y, c.z);
     const bool inside = static_cast<int>(i) < visible;
-    pixels += (i > 0 ? "," : "") + std::to_string(inside ? 721 * c.x / c.z + 600 : 0) + "," + std::to_string(inside ? 721 * c.y / c.z + 180 : 0) + (inside ? ",2" : ",0");
+    pixels += (i > 0 ? "," : "") + std::to_string(inside ? 721 * c.x / c.z + 600 : 0) + "," +
+              std::to_string(inside ? 721 * c.y / c.z + 180 : 0) + (inside ? ",2" : ",0");
   }
-  return std::string(R"({"index":0,"camera":{"yaw_pitch_roll_deg":[0,-20,0])") + (pinhole ? R"(,"K":[[721,0,600],[0,721,180],[0,0,1]])" : "") +
-         R"(},"persons":[{"track_id":3,"position_world":[10,0,0],"truncation":0,"visible_fraction":)" + std::to_string(fraction) + R"(,"keypoints":[)" + pixels +
-         R"(],"keypoints_world":[)" + world + R"(],"keypoints_cam":[)" + camera +
+  return std::string(R"({"index":0,"camera":{"yaw_pitch_roll_deg":[0,-20,0])") +
+         (pinhole ? R"(,"K":[[721,0,600],[0,721,180],[0,0,1]])" : "") +
+         R"(},"persons":[{"track_id":3,"position_world":[10,0,0],"truncation":0,"visible_fraction":)" + std::to_string(fraction) +
+         R"(,"keypoints":[)" + pixels + R"(],"keypoints_world":[)" + world + R"(],"keypoints_cam":[)" + camera +
          R"(],"box3d_world":{"center":[10,0,0.9],"yaw":0},"box3d_cam":{"center":[0,0.6,10],"rotation_y":-1.5707963}}]})" + "\n";
 }
 
@@ -241,7 +246,8 @@ TEST(MpdeSources, NamesOfDataAreTakenApart) {
   EXPECT_EQ(name.persons, 30u);
   EXPECT_EQ(name.share, 0.25);
   EXPECT_EQ(ParseMpdeData("a@b/people").path, "a@b/people");
-  for (const char* bad : {"a@x", "a@0", "a@-1", "a@nan", "a#-3", "a#1e9", ":train", ""}) EXPECT_THROW(ParseMpdeData(bad), InputError) << bad;
+  for (const char* bad : {"a@x", "a@0", "a@-1", "a@nan", "a#-3", "a#1e9", ":train", ""})
+    EXPECT_THROW(ParseMpdeData(bad), InputError) << bad;
 }
 
 TEST(MpdeTable, HasThePapersRowsOnWhateverIsAtHand) {
@@ -261,7 +267,8 @@ TEST(MpdeTable, HasThePapersRowsOnWhateverIsAtHand) {
   EXPECT_FALSE(table.base_is_real);
   const std::vector<MpdeCell>& cells = table.rows[1].cells;
   double all = 0, weight = 0;
-  for (size_t i = 0; i < 4; ++i) all += cells[i].distance_m.mean * static_cast<double>(kMpdeTests[i].weight), weight += static_cast<double>(kMpdeTests[i].weight);
+  for (size_t i = 0; i < 4; ++i)
+    all += cells[i].distance_m.mean * static_cast<double>(kMpdeTests[i].weight), weight += static_cast<double>(kMpdeTests[i].weight);
   EXPECT_NEAR(table.rows[1].all.distance_m.mean, all / weight, 1e-9);
   options.real["kity"] = "x";
   EXPECT_THROW(MakeMpdeTable(options, [](const std::string&) {}), InputError);

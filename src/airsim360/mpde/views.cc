@@ -23,11 +23,30 @@ struct NamedDraw {
 // Heights, fields of view and focal lengths of the rigs of the same names: KITTI 1242 x 375 at 721 px, nuScenes 1600 x 900 at 1266 px,
 // FreeMan's telephones 1920 x 1080 around a stage, and ours in the air.
 std::vector<NamedDraw> Draws() {
-  return {{"kitti", {.lowest = 1.4, .highest = 1.8, .half_height_deg = 14.6, .slope = 0.012, .noise = 0.02}},
-          {"nuscenes", {.lowest = 1.45, .highest = 1.7, .nearest = 4, .bearing_deg = 32, .half_height_deg = 19.5, .focal_px = 1266}},
-          {"freeman", {.lowest = 0.8, .highest = 1.7, .nearest = 2.5, .farthest = 7, .bearing_deg = 25, .pitch_spread_deg = 4, .half_height_deg = 20, .slope = 0, .noise = 0.008, .focal_px = 1480}},
-          {"drone0", {.lowest = 1.6, .highest = 8, .nearest = 3, .farthest = 35, .bearing_deg = 40, .half_height_deg = 30, .focal_px = 935}},
-          {"drone20", {.lowest = 1.6, .highest = 8, .nearest = 3, .farthest = 35, .bearing_deg = 40, .pitch_deg = 20, .half_height_deg = 30, .focal_px = 935}}};
+  return {
+      {"kitti", {.lowest = 1.4, .highest = 1.8, .half_height_deg = 14.6, .slope = 0.012, .noise = 0.02}},
+      {"nuscenes", {.lowest = 1.45, .highest = 1.7, .nearest = 4, .bearing_deg = 32, .half_height_deg = 19.5, .focal_px = 1266}},
+      {"freeman",
+       {.lowest = 0.8,
+        .highest = 1.7,
+        .nearest = 2.5,
+        .farthest = 7,
+        .bearing_deg = 25,
+        .pitch_spread_deg = 4,
+        .half_height_deg = 20,
+        .slope = 0,
+        .noise = 0.008,
+        .focal_px = 1480}},
+      {"drone0", {.lowest = 1.6, .highest = 8, .nearest = 3, .farthest = 35, .bearing_deg = 40, .half_height_deg = 30, .focal_px = 935}},
+      {"drone20",
+       {.lowest = 1.6,
+        .highest = 8,
+        .nearest = 3,
+        .farthest = 35,
+        .bearing_deg = 40,
+        .pitch_deg = 20,
+        .half_height_deg = 30,
+        .focal_px = 935}}};
 }
 
 // Moves two points apart, or together, around their middle.
@@ -79,7 +98,8 @@ ViewDraw NamedViews(std::string_view name) {
 
 PersonShape AsAnnotated(PersonShape shape) {
   // Each length times real people's over ours (medians, apparent metres); outer points first move with what they hang on.
-  constexpr double kTrunk = 1.023, kThigh = 0.952, kShin = 0.937, kUpperArm = 0.850, kForearm = 0.919, kShoulders = 1.029, kHips = 1.382, kEars = 1.374;
+  constexpr double kTrunk = 1.023, kThigh = 0.952, kShin = 0.937, kUpperArm = 0.850, kForearm = 0.919, kShoulders = 1.029, kHips = 1.382,
+                   kEars = 1.374;
   auto& k = shape.keypoints;
   const auto was = k;
   const Vec3d hips = (was[11] + was[12]) * 0.5, shoulders = (was[5] + was[6]) * 0.5;

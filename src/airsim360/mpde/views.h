@@ -40,7 +40,7 @@ struct ViewDraw {
   double noise = 0.012;                 ///< standard deviation of a keypoint, as a share of the person's height in the picture
   double noise_px = 0.5;                ///< and in pixels, of a camera of `focal_px`
   double focal_px = 721;
-  double blunder = 0;                   ///< share of keypoints found `blunder_size` times as badly
+  double blunder = 0;  ///< share of keypoints found `blunder_size` times as badly
   double blunder_size = 5;
   KeypointConvention convention = KeypointConvention::kAnatomy;
 

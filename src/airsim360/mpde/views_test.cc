@@ -108,7 +108,9 @@ TEST(MpdeViews, ThePersonOfTheBaselineIsToldExactly) {
 // Apparent lengths in metres of real people over ours, as measured: medians of whole detections within 20 m and of our adults.
 TEST(MpdeViews, AnnotatorsWidenHipsAndShortenLimbs) {
   const PersonShape joints = StickPerson(1.7), marked = AsAnnotated(joints);
-  const auto ratio = [&](size_t a, size_t b) { return Norm(marked.keypoints[a] - marked.keypoints[b]) / Norm(joints.keypoints[a] - joints.keypoints[b]); };
+  const auto ratio = [&](size_t a, size_t b) {
+    return Norm(marked.keypoints[a] - marked.keypoints[b]) / Norm(joints.keypoints[a] - joints.keypoints[b]);
+  };
   EXPECT_NEAR(ratio(11, 12), 0.178 / 0.129, 3e-3);
   EXPECT_NEAR(ratio(5, 6), 0.265 / 0.257, 3e-3);
   EXPECT_NEAR(ratio(3, 4), 0.136 / 0.099, 3e-3);

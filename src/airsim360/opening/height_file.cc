@@ -53,7 +53,8 @@ class HeightReader {
     const Json source = Info(file_, {"-if", "GTiff"});
     const Scale scale = ScaleOf(source);
     if (!source.contains("coordinateSystem") || source["coordinateSystem"].value("wkt", "").empty() || !source.contains("geoTransform"))
-      throw Bad("has no place on the Earth (no coordinate system); 'gdal_translate -a_srs EPSG:… -a_ullr WEST NORTH EAST SOUTH' gives it one");
+      throw Bad(
+          "has no place on the Earth (no coordinate system); 'gdal_translate -a_srs EPSG:… -a_ullr WEST NORTH EAST SOUTH' gives it one");
     // The whole file as GDAL would lay it in degrees, without reading a height.
     const std::string whole = (scratch_.path() / "whole.vrt").string();
     Warp({"-of", "VRT", "-t_srs", "EPSG:4326"}, file_, whole);
@@ -77,7 +78,8 @@ class HeightReader {
   std::string FirstComplaint() const {
     std::string words = ReadTextFile(log(), 1 << 20);
     // GDAL begins with "ERROR 4: ".
-    if (const size_t at = words.find("ERROR "); at != std::string::npos) words.erase(0, std::min(words.find(' ', at + 6), words.size() - 1) + 1);
+    if (const size_t at = words.find("ERROR "); at != std::string::npos)
+      words.erase(0, std::min(words.find(' ', at + 6), words.size() - 1) + 1);
     if (const size_t end = words.find('\n'); end != std::string::npos) words.resize(end);
     return words;
   }
@@ -129,14 +131,20 @@ class HeightReader {
     const auto cell = [](double place, int64_t most) {
       return static_cast<int64_t>(std::clamp(std::floor(place), 0.0, static_cast<double>(most)));
     };
-    const int64_t x0 = cell((area.west - all.west) / all.lon - 1, all.columns), x1 = cell((area.east - all.west) / all.lon + 2, all.columns),
-                  y0 = cell((all.north - area.north) / all.lat - 1, all.rows), y1 = cell((all.north - area.south) / all.lat + 2, all.rows);
+    const int64_t x0 = cell((area.west - all.west) / all.lon - 1, all.columns),
+                  x1 = cell((area.east - all.west) / all.lon + 2, all.columns), y0 = cell((all.north - area.north) / all.lat - 1, all.rows),
+                  y1 = cell((all.north - area.south) / all.lat + 2, all.rows);
     if (x0 >= x1 || y0 >= y1)
-      throw Bad("covers latitude " + std::to_string(all.north - all.lat * static_cast<double>(all.rows)) + " to " + std::to_string(all.north) +
-                ", longitude " + std::to_string(all.west) + " to " + std::to_string(all.west + all.lon * static_cast<double>(all.columns)) +
-                "; the map lies at " + std::to_string((area.south + area.north) / 2) + ", " + std::to_string((area.west + area.east) / 2));
-    const Cells cut{all.west + all.lon * static_cast<double>(x0), all.north - all.lat * static_cast<double>(y0), all.lon / refine.lon,
-                    all.lat / refine.lat, (x1 - x0) * refine.lon, (y1 - y0) * refine.lat};
+      throw Bad("covers latitude " + std::to_string(all.north - all.lat * static_cast<double>(all.rows)) + " to " +
+                std::to_string(all.north) + ", longitude " + std::to_string(all.west) + " to " +
+                std::to_string(all.west + all.lon * static_cast<double>(all.columns)) + "; the map lies at " +
+                std::to_string((area.south + area.north) / 2) + ", " + std::to_string((area.west + area.east) / 2));
+    const Cells cut{all.west + all.lon * static_cast<double>(x0),
+                    all.north - all.lat * static_cast<double>(y0),
+                    all.lon / refine.lon,
+                    all.lat / refine.lat,
+                    (x1 - x0) * refine.lon,
+                    (y1 - y0) * refine.lat};
     const double count = static_cast<double>(cut.columns) * static_cast<double>(cut.rows);
     if (count > kMostCells)
       throw Bad("gives " + std::to_string(std::llround(count / 1e6)) + " million cells for the map; at most " +
@@ -151,8 +159,9 @@ class HeightReader {
       return std::string(text.data());
     };
     const fs::path raw = scratch_.path() / "heights.bin";
-    Warp({"-of", "ENVI", "-r", filter, "-t_srs", "EPSG:4326", "-te", degrees(cut.west), degrees(cut.north - cut.lat * static_cast<double>(cut.rows)),
-          degrees(cut.west + cut.lon * static_cast<double>(cut.columns)), degrees(cut.north), "-ts", std::to_string(cut.columns), std::to_string(cut.rows)},
+    Warp({"-of", "ENVI", "-r", filter, "-t_srs", "EPSG:4326", "-te", degrees(cut.west),
+          degrees(cut.north - cut.lat * static_cast<double>(cut.rows)), degrees(cut.west + cut.lon * static_cast<double>(cut.columns)),
+          degrees(cut.north), "-ts", std::to_string(cut.columns), std::to_string(cut.rows)},
          file_, raw.string());
     HeightGrid grid{static_cast<int>(cut.columns), static_cast<int>(cut.rows), cut.west, cut.north, cut.lon, cut.lat, {}};
     grid.heights.resize(static_cast<size_t>(cut.columns) * static_cast<size_t>(cut.rows));
@@ -166,7 +175,9 @@ class HeightReader {
       h = sound ? static_cast<float>(metres) : std::numeric_limits<float>::quiet_NaN();
       known |= sound;
     }
-    if (!known) throw Bad("knows no height where the map lies (latitude " + std::to_string(cut.north) + ", longitude " + std::to_string(cut.west) + ")");
+    if (!known)
+      throw Bad("knows no height where the map lies (latitude " + std::to_string(cut.north) + ", longitude " + std::to_string(cut.west) +
+                ")");
     return grid;
   }
 

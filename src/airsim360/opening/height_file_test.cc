@@ -36,9 +36,11 @@ class HeightFile : public testing::Test {
     const fs::path text = folder_ / (name + ".asc"), tiff = folder_ / (name + ".tif");
     std::ofstream out(text);
     out.precision(12);
-    out << "ncols " << kColumns << "\nnrows " << kRows << "\nxllcorner " << west << "\nyllcorner " << south << "\ncellsize " << cell << "\nNODATA_value -9999\n";
+    out << "ncols " << kColumns << "\nnrows " << kRows << "\nxllcorner " << west << "\nyllcorner " << south << "\ncellsize " << cell
+        << "\nNODATA_value -9999\n";
     for (int row = 0; row < kRows; ++row)
-      for (int column = 0; column < kColumns; ++column) out << (row == 20 && column == 30 ? -9999 : HeightAt(column, row)) << (column + 1 < kColumns ? " " : "\n");
+      for (int column = 0; column < kColumns; ++column)
+        out << (row == 20 && column == 30 ? -9999 : HeightAt(column, row)) << (column + 1 < kColumns ? " " : "\n");
     out.close();
     const std::string command = "gdal_translate -q " + flags + " '" + text.string() + "' '" + tiff.string() + "'";
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
@@ -52,7 +54,9 @@ class HeightFile : public testing::Test {
     }
     return "no error";
   }
-  static void ExpectSays(const std::string& message, const std::string& words) { EXPECT_NE(message.find(words), std::string::npos) << message; }
+  static void ExpectSays(const std::string& message, const std::string& words) {
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  }
 
   fs::path folder_;
 };
@@ -111,12 +115,14 @@ TEST_F(HeightFile, FilesThatAreNoHeightsAreToldWhy) {
   ExpectSays(ErrorOf(folder_ / "none.tif"), "no such file");
   ExpectSays(ErrorOf(good, {-70, 0, -69.9, 0.1}), "the map lies at 0.05");
   ExpectSays(ErrorOf(Tiff("lost", kWest, kSouth, kCell, "")), "no place on the Earth");
-  ExpectSays(ErrorOf(Tiff("colours", kWest, kSouth, kCell, "-a_srs EPSG:4326 -ot Byte -b 1 -b 1 -b 1 -colorinterp red,green,blue")), "colour");
+  ExpectSays(ErrorOf(Tiff("colours", kWest, kSouth, kCell, "-a_srs EPSG:4326 -ot Byte -b 1 -b 1 -b 1 -colorinterp red,green,blue")),
+             "colour");
   ExpectSays(ErrorOf(good, {13.3301, 52.5191, 13.3303, 52.5193}), "no error");
   std::ofstream(folder_ / "text.tif") << "hello";
   ExpectSays(ErrorOf(folder_ / "text.tif"), "not a GeoTIFF");
   const Bytes bytes = ReadFile(good);
-  std::ofstream(folder_ / "cut.tif", std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size() / 2));
+  std::ofstream(folder_ / "cut.tif", std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size() / 2));
   ExpectSays(ErrorOf(folder_ / "cut.tif"), "cut.tif: ");
   EXPECT_NE(ErrorOf(folder_ / "cut.tif"), "no error");
 }
@@ -124,7 +130,9 @@ TEST_F(HeightFile, FilesThatAreNoHeightsAreToldWhy) {
 TEST_F(HeightFile, AFileOfAContinentIsReadWhereTheMapLies) {
   // 36,000 x 18,000 cells that claim 2.6 GB; the area needs a few thousand.
   const fs::path huge = folder_ / "huge.tif";
-  const std::string command = "gdal_create -q -of GTiff -co SPARSE_OK=TRUE -co TILED=YES -ot Float32 -outsize 36000 18000 -a_srs EPSG:4326 -a_ullr -180 90 180 -90 '" + huge.string() + "' 2>/dev/null";
+  const std::string command =
+      "gdal_create -q -of GTiff -co SPARSE_OK=TRUE -co TILED=YES -ot Float32 -outsize 36000 18000 -a_srs EPSG:4326 -a_ullr -180 90 180 -90 '" +
+      huge.string() + "' 2>/dev/null";
   if (std::system(command.c_str()) != 0) GTEST_SKIP() << "gdal_create makes no sparse files";
   const HeightGrid grid = ReadHeights(huge, {13, 52, 13.5, 52.5});
   EXPECT_LT(grid.columns, 60);

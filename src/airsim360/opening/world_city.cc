@@ -50,8 +50,7 @@ void WorldAdditions::Visit(ConfigVisitor& v) {
   v.Group("city", "measures of new_york_city", [&](ConfigVisitor& group) { VisitCity(group, city); });
   v.Group("town", "measures of the world town", [&](ConfigVisitor& group) { town.Visit(group); });
   v.Group("building", "measures of the world building", [&](ConfigVisitor& group) { building.Visit(group); });
-  v.List("props", "models of your own", props,
-         [](ConfigVisitor& entry, PropFile& prop) { VisitProp(entry, prop); });
+  v.List("props", "models of your own", props, [](ConfigVisitor& entry, PropFile& prop) { VisitProp(entry, prop); });
 }
 
 void WorldAdditions::Resolve(const std::filesystem::path& file) {

@@ -38,19 +38,14 @@ bool ParseWholeNumber(std::string_view text, double& value) {
   return error == std::errc() && at == text.data() + text.size();
 }
 
-Lamps ParseLamps(const std::string& text) {
-  return ParseChoice<Lamps>("lamps", text, kLampsNames);
-}
+Lamps ParseLamps(const std::string& text) { return ParseChoice<Lamps>("lamps", text, kLampsNames); }
 
-CloudType ParseCloudType(const std::string& text) {
-  return ParseChoice<CloudType>("cloud_type", text, kCloudTypeNames);
-}
+CloudType ParseCloudType(const std::string& text) { return ParseChoice<CloudType>("cloud_type", text, kCloudTypeNames); }
 
 // "AZ,EL" in degrees.
 void SetSun(const std::string& text, Environment& environment) {
   const size_t comma = text.find(',');
-  if (comma == std::string::npos ||
-      !ParseWholeNumber(std::string_view(text).substr(0, comma), environment.sun_azimuth_deg) ||
+  if (comma == std::string::npos || !ParseWholeNumber(std::string_view(text).substr(0, comma), environment.sun_azimuth_deg) ||
       !ParseWholeNumber(std::string_view(text).substr(comma + 1), environment.sun_elevation_deg)) {
     throw InputError("'" + text + "' is not azimuth,elevation in degrees, for example 215,48");
   }
@@ -74,15 +69,13 @@ void ApplySettings(std::string_view text, Environment& environment) {
       continue;
     }
     const auto& fields = EnvironmentFields();
-    const auto field =
-        std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == name; });
+    const auto field = std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == name; });
     if (field == fields.end()) {
       std::vector<std::string> names = {"lamps", "cloud_type"};
       for (const EnvironmentField& f : fields) names.emplace_back(f.name);
       throw InputError(UnknownChoiceMessage("setting", name, names));
     }
-    if (!ParseWholeNumber(value, environment.*field->value))
-      throw InputError(name + ": '" + value + "' is not a number");
+    if (!ParseWholeNumber(value, environment.*field->value)) throw InputError(name + ": '" + value + "' is not a number");
   }
 }
 
@@ -90,11 +83,9 @@ void ApplySettings(std::string_view text, Environment& environment) {
 
 std::shared_ptr<const SkyPicture> LoadSkyPicture(const fs::path& file) {
   std::string extension = file.extension();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const bool radiance = extension == ".hdr" || extension == ".pic";
-  if (!radiance && extension != ".exr")
-    throw InputError(file.string() + ": a sky picture is a .hdr, .pic or .exr file");
+  if (!radiance && extension != ".exr") throw InputError(file.string() + ": a sky picture is a .hdr, .pic or .exr file");
   const Bytes bytes = ReadFile(file, kMaxPictureFile);
   auto picture = std::make_shared<SkyPicture>();
   picture->name = file.filename().string() + " sha256:" + Sha256Hex(bytes);
@@ -140,9 +131,7 @@ Environment EnvironmentWords::Over(Environment base) const {
   Environment environment = weather_.empty() ? std::move(base) : ParseEnvironmentPreset(weather_, base);
   if (!clouds_.empty()) environment = ParseCloudPreset(clouds_, environment);
   // Date and place give the sun, unless its angles follow.
-  if (!date_.empty())
-    SetSunByTime(date_ + "T" + time_, std::to_string(latitude_) + "," + std::to_string(longitude_),
-                 environment);
+  if (!date_.empty()) SetSunByTime(date_ + "T" + time_, std::to_string(latitude_) + "," + std::to_string(longitude_), environment);
   for (size_t i = 0; i < numbers_.size(); ++i) {
     if (!std::isnan(numbers_[i])) environment.*EnvironmentFields()[i].value = numbers_[i];
   }
@@ -155,8 +144,7 @@ Environment EnvironmentWords::Over(Environment base) const {
 
 Environment ApplyFlags(const EnvironmentFlags& flags, const Environment& base) {
   Environment environment = base;
-  if (!flags.weather.empty())
-    Naming("--weather", [&] { environment = ParseEnvironmentPreset(flags.weather, base); });
+  if (!flags.weather.empty()) Naming("--weather", [&] { environment = ParseEnvironmentPreset(flags.weather, base); });
   if (!flags.clouds.empty()) Naming("--clouds", [&] { environment = ParseCloudPreset(flags.clouds, environment); });
   Naming("--time, --place", [&] { SetSunByTime(flags.time, flags.place, environment); });
   if (!flags.sun.empty()) Naming("--sun", [&] { SetSun(flags.sun, environment); });

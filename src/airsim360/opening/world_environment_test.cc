@@ -45,8 +45,7 @@ std::string ErrorOf(const std::function<void()>& action) {
 }
 
 TEST_F(WorldEnvironment, AWorldFileSetsWhatItNamesAndKeepsTheRest) {
-  const fs::path file =
-      Write("w.yaml", "world: box_room\nenvironment:\n  weather: rain\n  rain_mm_h: 12\n  lamps: on\n");
+  const fs::path file = Write("w.yaml", "world: box_room\nenvironment:\n  weather: rain\n  rain_mm_h: 12\n  lamps: on\n");
   const Environment e = LoadWorld({.world = file})->environment;
   EXPECT_EQ(e.rain_mm_h, 12);
   EXPECT_EQ(e.cloud_cover, 1);
@@ -104,8 +103,7 @@ TEST_F(WorldEnvironment, MistakesInAWorldFileAreNamed) {
 TEST_F(WorldEnvironment, FlagsComeInOrderAndNameThemselvesInErrors) {
   Environment base;
   base.turbidity = 5;
-  const Environment e =
-      ApplyFlags({.weather = "overcast", .sun = "10,20", .settings = "cloud_cover=0.5,lamps=off"}, base);
+  const Environment e = ApplyFlags({.weather = "overcast", .sun = "10,20", .settings = "cloud_cover=0.5,lamps=off"}, base);
   EXPECT_EQ(e.turbidity, 5);
   EXPECT_EQ(e.sun_azimuth_deg, 10);
   EXPECT_EQ(e.cloud_cover, 0.5);
@@ -119,8 +117,7 @@ TEST_F(WorldEnvironment, FlagsComeInOrderAndNameThemselvesInErrors) {
 }
 
 TEST_F(WorldEnvironment, CloudsAreAPresetOverWeatherAndUnderSingleValues) {
-  const Environment e = ApplyFlags(
-      {.weather = "sunset", .settings = "cirrus_cover=0.5", .clouds = "stratocumulus", .sky_seed = "41"}, {});
+  const Environment e = ApplyFlags({.weather = "sunset", .settings = "cirrus_cover=0.5", .clouds = "stratocumulus", .sky_seed = "41"}, {});
   EXPECT_EQ(e.sun_elevation_deg, 1.5);
   EXPECT_EQ(e.cloud_type, CloudType::kStratocumulus);
   EXPECT_EQ(e.cloud_cover, 0.75);
@@ -153,8 +150,7 @@ TEST_F(WorldEnvironment, ASkyPictureIsReadAndMustBeAWholeSky) {
   EXPECT_EQ(picture->pixels(5, 5).g, 2);
   EXPECT_EQ(picture->name.rfind("a.exr sha256:", 0), 0u);
   EXPECT_THROW(LoadSkyPicture(write("b.exr", 64, 48)), InputError);
-  EXPECT_NE(DescribeEnvironment(ApplyFlags({.hdri = (folder_ / "a.exr").string()}, {})).find("hdri=a.exr"),
-            std::string::npos);
+  EXPECT_NE(DescribeEnvironment(ApplyFlags({.hdri = (folder_ / "a.exr").string()}, {})).find("hdri=a.exr"), std::string::npos);
 }
 
 }  // namespace

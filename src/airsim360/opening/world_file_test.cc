@@ -33,7 +33,11 @@ std::string MessageOf(const std::string& text) {
 
 TEST(Lamps, OfAWorldFileComeAfterEverythingElseAndShineWithTheirFlux) {
   const auto plain = LoadWorld({.world = "box_room"});
-  const auto lit = LoadWorld({.world = Written("world: box_room\nlamps:\n  - {x: 1, y: 2, z: 3, lumens: 800, kelvin: 4000, radius: 0.2}\n  - {x: 2, y: 2, z: 3, always: true}\n").string()});
+  const auto lit = LoadWorld(
+      {.world =
+           Written(
+               "world: box_room\nlamps:\n  - {x: 1, y: 2, z: 3, lumens: 800, kelvin: 4000, radius: 0.2}\n  - {x: 2, y: 2, z: 3, always: true}\n")
+               .string()});
   ASSERT_EQ(lit->entities.size(), plain->entities.size() + 2);
   for (size_t i = 0; i < plain->entities.size(); ++i) EXPECT_EQ(lit->entities[i].name, plain->entities[i].name);
   const Entity &first = lit->entities[lit->entities.size() - 2], &second = lit->entities.back();

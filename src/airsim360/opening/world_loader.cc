@@ -63,7 +63,8 @@ void VisitLamp(ConfigVisitor& v, PlacedLamp& lamp) {
 }
 
 // The fields of a world YAML, filled into `request` and `environment`, and `lamps:`.
-WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, EnvironmentWords& environment, std::vector<PlacedLamp>* added = nullptr) {
+WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, EnvironmentWords& environment,
+                           std::vector<PlacedLamp>* added = nullptr) {
   std::string world, labels, heights, bbox, centre;
   std::vector<PlacedLamp> lamps;
   double radius = 0;
@@ -80,8 +81,7 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
     v.Field("use_models", "use the models of sweethome3d-furniture where installed", request.use_models);
     request.additions.Visit(v);
     v.List("lamps", "lamps of your own", lamps, [](ConfigVisitor& entry, PlacedLamp& lamp) { VisitLamp(entry, lamp); });
-    v.Group("environment", "sun, sky and weather",
-            [&](ConfigVisitor& group) { environment.Visit(group, file.parent_path()); });
+    v.Group("environment", "sun, sky and weather", [&](ConfigVisitor& group) { environment.Visit(group, file.parent_path()); });
   });
   if (world.empty()) throw InputError(file.string() + ": key 'world' is missing");
   if (IsWorldFile(world)) throw InputError(file.string() + ": world: '" + world + "' is a world file itself");
@@ -109,13 +109,13 @@ CacheKey KeyOf(const WorldRequest& request) {
     key.AddFile(request.world).Add(request.fill).Add(request.heights.empty() ? "" : place(request.heights));
     if (!request.heights.empty()) key.AddFile(request.heights);
     if (request.cut)
-      for (double degrees : {request.cut->box.west, request.cut->box.south, request.cut->box.east, request.cut->box.north}) key.Add(degrees);
+      for (double degrees : {request.cut->box.west, request.cut->box.south, request.cut->box.east, request.cut->box.north})
+        key.Add(degrees);
   }
   request.additions.AddTo(key);
   if (!request.use_models) return key;
   std::vector<fs::path> libraries;
-  for (const auto& file : fs::recursive_directory_iterator(kSweetHomeFolder, error))
-    libraries.push_back(file.path());
+  for (const auto& file : fs::recursive_directory_iterator(kSweetHomeFolder, error)) libraries.push_back(file.path());
   std::sort(libraries.begin(), libraries.end());
   for (const fs::path& library : libraries) key.AddFile(library);
   return key;
@@ -132,8 +132,7 @@ std::shared_ptr<const Scene> BuildAnew(const WorldRequest& request, OsmReport* r
                                       .building = request.additions.building});
   }
   OsmOptions options{.seed = request.seed, .models = models.get(), .cut = request.cut, .fill = request.fill};
-  if (!request.heights.empty())
-    options.heights = [&](const GeoBox& area) { return ReadHeights(request.heights, area); };
+  if (!request.heights.empty()) options.heights = [&](const GeoBox& area) { return ReadHeights(request.heights, area); };
   return BuildOsmWorld(fs::path(request.world), options, report);
 }
 
@@ -164,8 +163,7 @@ std::shared_ptr<const Scene> WithOwnSky(std::shared_ptr<const Scene> scene, uint
 void CheckAdditions(const WorldRequest& request) {
   const bool new_york = request.world == "new_york_city", props = !request.additions.props.empty();
   if ((!request.additions.no_city() && !new_york) || (props && !new_york && request.world != "downtown_west"))
-    throw InputError("'" + request.world +
-                     "': 'city' is for new_york_city, 'props' for it and downtown_west");
+    throw InputError("'" + request.world + "': 'city' is for new_york_city, 'props' for it and downtown_west");
   if (!request.additions.no_town() && request.world != "town") throw InputError("'" + request.world + "': 'town' is for the world town");
   if (!request.additions.no_building() && request.world != "building")
     throw InputError("'" + request.world + "': 'building' is for the world building");
@@ -174,15 +172,13 @@ void CheckAdditions(const WorldRequest& request) {
 std::shared_ptr<const Scene> LoadScene(const WorldRequest& request) {
   const fs::path path = request.world;
   CheckAdditions(request);
-  if (request.cut && !IsOsmFile(path))
-    throw InputError(request.cut->text + ": it cuts maps (.osm, .osm.pbf), not '" + request.world + "'");
+  if (request.cut && !IsOsmFile(path)) throw InputError(request.cut->text + ": it cuts maps (.osm, .osm.pbf), not '" + request.world + "'");
   const bool model = IsPath(path) && !IsOsmFile(path);
   if (model && request.heights.empty()) {
     auto scene = ImportScene(path, {.labels = request.labels, .placement = request.placement});
     return request.fill && IsCityFile(path) ? WithFacades(std::move(scene), request.seed) : scene;
   }
-  if (!request.placement.empty())
-    throw InputError("'" + request.world + "': scale, up, offset and ground are for model files");
+  if (!request.placement.empty()) throw InputError("'" + request.world + "': scale, up, offset and ground are for model files");
   if (!request.heights.empty() && !IsOsmFile(path))
     throw InputError(request.heights.string() + ": heights are for maps (.osm, .osm.pbf), not for '" + request.world + "'");
   return Relabelled(LoadBuilt(request), request.labels);

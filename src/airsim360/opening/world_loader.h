@@ -16,13 +16,13 @@ namespace airsim360 {
 struct WorldRequest {
   std::string world;  ///< name of a built-in world, or path to .glb/.gltf/.obj/.osm/.osm.pbf/.yaml
   uint64_t seed = 0;
-  std::filesystem::path labels = {};  ///< label file, over that of a world .yaml; see docs/guide/labels.md
-  bool use_models = true;             ///< use sweethome3d-furniture where installed
+  std::filesystem::path labels = {};   ///< label file, over that of a world .yaml; see docs/guide/labels.md
+  bool use_models = true;              ///< use sweethome3d-furniture where installed
   std::filesystem::path heights = {};  ///< of the ground of maps: a GeoTIFF, read through GDAL's gdalwarp
-  bool fill = true;              ///< maps: add by rule what they seldom hold, see docs/guide/maps.md
-  ModelPlacement placement = {};  ///< models: units, up axis, ground, place
-  std::optional<MapCut> cut = {};  ///< maps: only this piece
-  WorldAdditions additions = {};  ///< what a world file adds
+  bool fill = true;                    ///< maps: add by rule what they seldom hold, see docs/guide/maps.md
+  ModelPlacement placement = {};       ///< models: units, up axis, ground, place
+  std::optional<MapCut> cut = {};      ///< maps: only this piece
+  WorldAdditions additions = {};       ///< what a world file adds
 };
 
 /// InputError for an unknown name (naming the nearest), a missing or malformed file.

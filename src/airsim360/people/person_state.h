@@ -10,8 +10,26 @@ namespace airsim360 {
 
 /// What a person is seen to do (the behaviour label of a frame). Table 2.3 of the people reference.
 enum class Behaviour : uint8_t {
-  kIdle, kWalk, kJog, kRun, kTalk, kListen, kPhoneCall, kTexting, kTakePhoto, kWave, kSit, kCarry, kPushStroller,
-  kCrouch, kStretch, kPoint, kWait, kLookUp, kWalkDog, kUmbrella,
+  kIdle,
+  kWalk,
+  kJog,
+  kRun,
+  kTalk,
+  kListen,
+  kPhoneCall,
+  kTexting,
+  kTakePhoto,
+  kWave,
+  kSit,
+  kCarry,
+  kPushStroller,
+  kCrouch,
+  kStretch,
+  kPoint,
+  kWait,
+  kLookUp,
+  kWalkDog,
+  kUmbrella,
   kCount
 };
 
@@ -22,18 +40,18 @@ inline constexpr PersonIndex kNoPerson = ~0u;
 /// One person at one instant; a value, copied with SimState. Everything a pose needs besides the body: a pose
 /// is a pure function of (body, motion state, this).
 struct PersonState {
-  Vec3d p_WP;                  ///< ground point between the feet, metres
-  Vec3d v_WP;                  ///< velocity over the ground, m/s
-  double yaw = 0.0;            ///< heading of the body about +Z, radians, 0 = +X (east)
+  Vec3d p_WP;                          ///< ground point between the feet, metres
+  Vec3d v_WP;                          ///< velocity over the ground, m/s
+  double yaw = 0.0;                    ///< heading of the body about +Z, radians, 0 = +X (east)
   Behaviour lower = Behaviour::kIdle;  ///< legs: walk, jog, run, idle, sit, crouch ...
   Behaviour upper = Behaviour::kIdle;  ///< arms and head above the spine; equal to `lower` when nothing is masked
-  int64_t upper_since_ns = 0;  ///< when `upper` began: gestures are timed from here
+  int64_t upper_since_ns = 0;          ///< when `upper` began: gestures are timed from here
   int64_t lower_since_ns = 0;
-  bool speaking = false;       ///< whose turn it is in a talk
-  bool visible = true;         ///< false: not (yet) in the world
-  uint32_t group = 0;          ///< 0 = alone; people who talk or walk together share one
+  bool speaking = false;            ///< whose turn it is in a talk
+  bool visible = true;              ///< false: not (yet) in the world
+  uint32_t group = 0;               ///< 0 = alone; people who talk or walk together share one
   PersonIndex partner = kNoPerson;  ///< whom they face
-  Vec3d p_W_gaze;              ///< where they look, if `has_gaze`
+  Vec3d p_W_gaze;                   ///< where they look, if `has_gaze`
   bool has_gaze = false;
 };
 

@@ -50,9 +50,7 @@ static_assert(std::size(kProps) == kPropCount);
 
 }  // namespace
 
-std::string_view JointName(Joint joint) {
-  return joint < Joint::kCount ? kJoints[static_cast<size_t>(joint)].name : "none";
-}
+std::string_view JointName(Joint joint) { return joint < Joint::kCount ? kJoints[static_cast<size_t>(joint)].name : "none"; }
 
 Joint JointByName(std::string_view name) {
   const auto found = std::ranges::find(kJoints, name, &JointRow::name);

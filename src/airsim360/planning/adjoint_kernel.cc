@@ -12,9 +12,7 @@ template <class Model>
 class AdjointSolver {
  public:
   explicit AdjointSolver(const AdjointArguments& arguments)
-      : args_(arguments),
-        route_(arguments.route),
-        saved_(reinterpret_cast<Saved*>(arguments.route.workspace)) {}
+      : args_(arguments), route_(arguments.route), saved_(reinterpret_cast<Saved*>(arguments.route.workspace)) {}
 
   AIRSIM360_INLINE void Run() {
     Belief belief = StartBelief();
@@ -40,12 +38,8 @@ class AdjointSolver {
   AIRSIM360_INLINE static V4 Splat(double x) { return V4{x, x, x, x}; }
   AIRSIM360_INLINE static double Sum(V4 v) { return (v[0] + v[1]) + (v[2] + v[3]); }
   AIRSIM360_INLINE V4 Knot(size_t k) const { return Load4(route_.knots + 4 * k); }
-  AIRSIM360_INLINE void StoreWaypoint(size_t k, V4 v) const {
-    *reinterpret_cast<V4Memory*>(args_.by_waypoint + 4 * k) = v;
-  }
-  AIRSIM360_INLINE void AddWaypoint(size_t k, V4 v) const {
-    StoreWaypoint(k, Load4(args_.by_waypoint + 4 * k) + v);
-  }
+  AIRSIM360_INLINE void StoreWaypoint(size_t k, V4 v) const { *reinterpret_cast<V4Memory*>(args_.by_waypoint + 4 * k) = v; }
+  AIRSIM360_INLINE void AddWaypoint(size_t k, V4 v) const { StoreWaypoint(k, Load4(args_.by_waypoint + 4 * k) + v); }
 
   AIRSIM360_INLINE void Boundary(const double* end, double duration, V4* state) const {
     double power = duration;
@@ -80,8 +74,7 @@ class AdjointSolver {
   AIRSIM360_INLINE static void CostateLoad(const V4* by_high, V4* load) {
     if constexpr (Model::kIsLinear) {
       const V4 constant = by_high[0] * (-1 / Factorial<double>(D + 1));
-      const V4 linear =
-          by_high[0] * (3 / Factorial<double>(D + 1)) - by_high[1] * (6 / Factorial<double>(D + 2));
+      const V4 linear = by_high[0] * (3 / Factorial<double>(D + 1)) - by_high[1] * (6 / Factorial<double>(D + 2));
       AIRSIM360_UNROLL
       for (int i = 0; i <= D; ++i) {
         load[i] = constant * ConstantEffect<double, D>(i) + linear * LinearEffect<double, D>(i);
@@ -107,8 +100,7 @@ class AdjointSolver {
     const double duration = route_.durations[k], inverse = 1 / duration;
     saved.duration = duration;
     saved.inverse = inverse;
-    if (k > 0)
-      ChangeUnits(Splat(duration * saved_[k - 1].inverse), Splat(saved_[k - 1].duration * inverse), belief);
+    if (k > 0) ChangeUnits(Splat(duration * saved_[k - 1].inverse), Splat(saved_[k - 1].duration * inverse), belief);
 
     V4 by_g[kPowers], jump[D + 1];
     saved.explicit_part = LoadGradient(k, inverse, by_g);
@@ -129,8 +121,7 @@ class AdjointSolver {
     for (int i = 1; i <= D; ++i) {
       AIRSIM360_UNROLL
       for (int j = 1; j <= D; ++j) {
-        belief.mean[1][i - 1] -=
-            belief.covariance[i <= j ? Packed(i, j, D) : Packed(j, i, D)] * saved.load[j - 1];
+        belief.mean[1][i - 1] -= belief.covariance[i <= j ? Packed(i, j, D) : Packed(j, i, D)] * saved.load[j - 1];
       }
     }
     saved.record.start = belief;
@@ -184,8 +175,7 @@ class AdjointSolver {
     for (int i = 1; i <= D; ++i) {
       const V4 before = adjoint_start.at[i] + saved.load[i - 1];
       sum += (before * route_state[i - 1] - adjoint_end.at[i] * state_end[0][i - 1]) * static_cast<double>(i);
-      sum -= (adjoint_state[i - 1] * route_start.at[i] - state_end[1][i - 1] * route_end.at[i]) *
-             static_cast<double>(kUnit - i);
+      sum -= (adjoint_state[i - 1] * route_start.at[i] - state_end[1][i - 1] * route_end.at[i]) * static_cast<double>(kUnit - i);
       after[0][i - 1] = route_start.at[i];
       after[1][i - 1] = before;
     }
@@ -228,7 +218,6 @@ void SolveAdjoint(const AdjointArguments& arguments) {
 
 }  // namespace
 
-const AdjointKernels kAdjointKernels = {
-    {SolveAdjoint<SnapModel>, SolveAdjoint<QuinticModel>, SolveAdjoint<JerkModel>}};
+const AdjointKernels kAdjointKernels = {{SolveAdjoint<SnapModel>, SolveAdjoint<QuinticModel>, SolveAdjoint<JerkModel>}};
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

@@ -16,13 +16,11 @@ struct Ball {
 /// Solid balls, and solid boxes.
 class AnalyticWorld : public ClearanceQuery {
  public:
-  AnalyticWorld(std::vector<Ball> balls, std::vector<Box3d> boxes)
-      : balls_(std::move(balls)), boxes_(std::move(boxes)) {}
+  AnalyticWorld(std::vector<Ball> balls, std::vector<Box3d> boxes) : balls_(std::move(balls)), boxes_(std::move(boxes)) {}
   double Clearance(Vec3d p, double max_distance) const override {
     double distance = max_distance;
     for (const Ball& ball : balls_) distance = std::min(distance, Norm(p - ball.center) - ball.radius);
-    for (const Box3d& box : boxes_)
-      distance = std::min(distance, Norm(Max(Max(box.min - p, p - box.max), Vec3d{})));
+    for (const Box3d& box : boxes_) distance = std::min(distance, Norm(Max(Max(box.min - p, p - box.max), Vec3d{})));
     return std::max(distance, 0.0);
   }
 

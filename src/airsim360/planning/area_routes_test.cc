@@ -33,8 +33,7 @@ TEST(Coverage, NoPointOfTheAreaIsFartherFromALaneThanHalfTheSpacing) {
     for (int i = 0; i < 200; ++i) {
       const Vec3d p{rng.Uniform(area.min.x, area.max.x), rng.Uniform(area.min.y, area.max.y), 12};
       double nearest = 1e9;
-      for (size_t leg = 0; leg + 1 < route.size(); ++leg)
-        nearest = std::min(nearest, DistanceToLeg(p, route[leg], route[leg + 1]));
+      for (size_t leg = 0; leg + 1 < route.size(); ++leg) nearest = std::min(nearest, DistanceToLeg(p, route[leg], route[leg + 1]));
       EXPECT_LE(nearest, area.spacing / 2 + slack);
     }
   }

@@ -77,8 +77,8 @@ class BatchSolver {
     StoreRow(least, check.least + first);
     StoreRow(largest, check.largest + first);
     StoreRow(reach_, check.reach + first);
-    const auto good = (least >= kShortestDuration) & (largest <= kLongestDuration) &
-                      (largest <= least * kEvenRatio) & (reach_ - reach_ == Lanes{});
+    const auto good =
+        (least >= kShortestDuration) & (largest <= kLongestDuration) & (largest <= least * kEvenRatio) & (reach_ - reach_ == Lanes{});
     long long all = -1;
     AIRSIM360_UNROLL
     for (int lane = 0; lane < kLanes; ++lane) all &= good[lane];
@@ -118,9 +118,7 @@ class BatchSolver {
     LoadTransposed(waypoints_, stride_ * (segments_ + 1), [&](size_t i) -> Lanes& { return knot_[i]; });
     LoadTransposed(durations_, segments_, [&](size_t i) -> Lanes& { return saved_[i].duration; });
   }
-  AIRSIM360_INLINE Lanes Knot(size_t k, int axis) const {
-    return knot_[stride_ * k + static_cast<size_t>(axis)];
-  }
+  AIRSIM360_INLINE Lanes Knot(size_t k, int axis) const { return knot_[stride_ * k + static_cast<size_t>(axis)]; }
 
   AIRSIM360_INLINE void ForwardStep(size_t k, bool first, Belief& belief) {
     Prefetch(next_waypoints_, 3 * k, 3);
@@ -128,8 +126,7 @@ class BatchSolver {
     const Lanes duration = saved_[k].duration, inverse = 1.0 / duration;
     saved_[k].inverse = inverse;
     if (!first) ChangeUnits(duration * saved_[k - 1].inverse, saved_[k - 1].duration * inverse, belief);
-    const Lanes delta[3] = {Knot(k + 1, 0) - Knot(k, 0), Knot(k + 1, 1) - Knot(k, 1),
-                            Knot(k + 1, 2) - Knot(k, 2)};
+    const Lanes delta[3] = {Knot(k + 1, 0) - Knot(k, 0), Knot(k + 1, 1) - Knot(k, 1), Knot(k + 1, 2) - Knot(k, 2)};
     if (first) {
       StepFromRest<Model>(Model::kIsLinear, delta, saved_[k].record, belief);
     } else {
@@ -219,8 +216,7 @@ class BatchSolver {
   }
 
   template <int axis, bool kFirst>
-  AIRSIM360_INLINE void BackwardAxis(size_t k, size_t to, const Lanes* scale, const Lanes* costate_scale,
-                                     Lanes* after) {
+  AIRSIM360_INLINE void BackwardAxis(size_t k, size_t to, const Lanes* scale, const Lanes* costate_scale, Lanes* after) {
     const SegmentRecord<Lanes, 3, D>& record = saved_[k].record;
     const Costate<Lanes, D> end = EndCostate(record, axis, after);
     const Costate<Lanes, D> start = StartCostate<double>(end);
@@ -300,8 +296,7 @@ class BatchSolver {
   /// A little at a time: memory takes only so many requests at once.
   AIRSIM360_INLINE static void Prefetch(uintptr_t from, size_t at, size_t lines) {
     if (from == 0) return;
-    for (size_t i = 0; i < lines; ++i)
-      __builtin_prefetch(reinterpret_cast<const void*>(from + 64 * (at + i)));
+    for (size_t i = 0; i < lines; ++i) __builtin_prefetch(reinterpret_cast<const void*>(from + 64 * (at + i)));
   }
 
   size_t segments_, stride_;
@@ -329,8 +324,7 @@ template <class Model>
 void SolveChunks(const ChunkArguments& chunks) {
   for (int first = 0; first < 8; first += kLanes) {
     const bool starts = first == 0 && chunks.has_start, ends = first + kLanes == 8 && chunks.has_end;
-    BatchSolver<Model>(chunks.lanes, first)
-        .RunChunks(chunks.overlap, starts ? chunks.start : nullptr, ends ? chunks.end : nullptr);
+    BatchSolver<Model>(chunks.lanes, first).RunChunks(chunks.overlap, starts ? chunks.start : nullptr, ends ? chunks.end : nullptr);
   }
 }
 

@@ -33,8 +33,7 @@ Bernstein Combine(const Bernstein& a, const Bernstein& b, Operation operation) {
 double SplitPoint(const Bernstein& p) {
   const auto begin = p.control.begin(), end = begin + p.degree + 1;
   const auto top = std::max_element(begin, end);
-  if (top == begin || top == end - 1 || !std::is_sorted(begin, top + 1) ||
-      !std::is_sorted(top, end, std::greater<>())) {
+  if (top == begin || top == end - 1 || !std::is_sorted(begin, top + 1) || !std::is_sorted(top, end, std::greater<>())) {
     return 0.5;
   }
   // Newton's method on the derivative, kept inside the bracket of its sign change.

@@ -10,11 +10,9 @@ namespace {
 
 constexpr double kFarthest = 1e4;  // metres that are looked for the least clearance
 constexpr double kFar = 8;         // metres beyond the radius that exact queries look
-constexpr double kRoomy = 0.75;  // metres beyond the radius at which a coarse bound is good enough to step by
+constexpr double kRoomy = 0.75;    // metres beyond the radius at which a coarse bound is good enough to step by
 
-double Bound(const ClearanceQuery& world, Vec3d p, double radius) {
-  return world.LowerBound(p, radius + kRoomy, radius + kFar);
-}
+double Bound(const ClearanceQuery& world, Vec3d p, double radius) { return world.LowerBound(p, radius + kRoomy, radius + kFar); }
 
 // The longest time in which a point that is now at `speed` cannot have gone farther than `way`: it goes at
 // most speed t + acceleration t^2 / 2, and at most top_speed t.
@@ -39,8 +37,8 @@ struct Stretch {
 
 }  // namespace
 
-Certificate Certify(const PolynomialTrajectory& trajectory, const TrajectoryPeaks& peaks,
-                    const ClearanceQuery& world, double radius, TimeSpan span) {
+Certificate Certify(const PolynomialTrajectory& trajectory, const TrajectoryPeaks& peaks, const ClearanceQuery& world, double radius,
+                    TimeSpan span) {
   const double end = std::min(span.to, trajectory.duration());
   Certificate result;
   result.least_clearance = std::numeric_limits<double>::infinity();
@@ -50,8 +48,7 @@ Certificate Certify(const PolynomialTrajectory& trajectory, const TrajectoryPeak
     const double clearance = Bound(world, point.p, radius);
     ++result.queries;
     // Half of the slack covers the rounding of the way.
-    result.least_clearance = std::min(
-        {result.least_clearance, clearance, Between(last, clearance, way + 0.5 * kCertificateSlack)});
+    result.least_clearance = std::min({result.least_clearance, clearance, Between(last, clearance, way + 0.5 * kCertificateSlack)});
     if (!(clearance >= radius + kCertificateSlack)) {
       result.violation_time = t;
       result.least_clearance = clearance;
@@ -67,12 +64,9 @@ Certificate Certify(const PolynomialTrajectory& trajectory, const TrajectoryPeak
   return result;
 }
 
-double LeastClearanceBound(const PolynomialTrajectory& trajectory, const TrajectoryPeaks& peaks,
-                           const ClearanceQuery& world, int queries) {
+double LeastClearanceBound(const PolynomialTrajectory& trajectory, const TrajectoryPeaks& peaks, const ClearanceQuery& world, int queries) {
   constexpr double kRounding = 5e-5, kTolerance = 1e-4;  // metres
-  const auto clearance = [&](double t) {
-    return std::max(0.0, world.Clearance(trajectory.At(t).p, kFarthest) - kRounding);
-  };
+  const auto clearance = [&](double t) { return std::max(0.0, world.Clearance(trajectory.At(t).p, kFarthest) - kRounding); };
   const auto stretch = [&](double from, double to, double a, double b) {
     const double t = to - from, speed = std::min(Norm(trajectory.At(from).v), Norm(trajectory.At(to).v));
     const double way = std::min(peaks.speed.value * t, speed * t + 0.5 * peaks.acceleration.value * t * t);
@@ -88,8 +82,7 @@ double LeastClearanceBound(const PolynomialTrajectory& trajectory, const Traject
   }
   // The stretch that may come nearest is halved, until it cannot come much nearer than what was met.
   std::make_heap(stretches.begin(), stretches.end());
-  for (int i = static_cast<int>(stretches.size());
-       i < queries && stretches.front().bound < seen - kTolerance && seen > 0; ++i) {
+  for (int i = static_cast<int>(stretches.size()); i < queries && stretches.front().bound < seen - kTolerance && seen > 0; ++i) {
     std::pop_heap(stretches.begin(), stretches.end());
     const Stretch whole = stretches.back();
     const double middle = 0.5 * (whole.from + whole.to), met = clearance(middle);

@@ -29,14 +29,14 @@ struct TimeSpan {
 
 /// Proves that the clearance is at least `radius` at every time of the path within `span`. `peaks` must be
 /// certified for this very path (CertifiedPeaks).
-Certificate Certify(const PolynomialTrajectory& trajectory, const TrajectoryPeaks& peaks,
-                    const ClearanceQuery& world, double radius, TimeSpan span = {});
+Certificate Certify(const PolynomialTrajectory& trajectory, const TrajectoryPeaks& peaks, const ClearanceQuery& world, double radius,
+                    TimeSpan span = {});
 
 /// Metres that the clearance is proved never to fall below on the way, whether a radius is kept or not; 0
 /// where it touches something. As near to the least clearance as `queries` allow, never above it. `peaks` as
 /// of Certify.
-double LeastClearanceBound(const PolynomialTrajectory& trajectory, const TrajectoryPeaks& peaks,
-                           const ClearanceQuery& world, int queries = 4096);
+double LeastClearanceBound(const PolynomialTrajectory& trajectory, const TrajectoryPeaks& peaks, const ClearanceQuery& world,
+                           int queries = 4096);
 
 /// True if the clearance is proved to be at least `radius` everywhere on the straight segment from a to b.
 bool SegmentIsClear(Vec3d a, Vec3d b, const ClearanceQuery& world, double radius);

@@ -44,13 +44,11 @@ TEST(Certificate, CertifiedFlightsKeepTheRadiusAtAMillionTimesAndOthersHaveAViol
   int certified = 0, refused = 0;
   for (int k = 0; k < 60; ++k) {
     std::vector<Ball> balls;
-    for (int i = 0; i < 12; ++i)
-      balls.push_back({{rng.Uniform(-8, 8), rng.Uniform(-8, 8), rng.Uniform(-8, 8)}, rng.Uniform(0.2, 1.2)});
+    for (int i = 0; i < 12; ++i) balls.push_back({{rng.Uniform(-8, 8), rng.Uniform(-8, 8), rng.Uniform(-8, 8)}, rng.Uniform(0.2, 1.2)});
     const AnalyticWorld world(balls, {});
     std::vector<Vec3d> points;
     std::vector<double> durations;
-    for (int i = 0; i < 4; ++i)
-      points.push_back({rng.Uniform(-6, 6), rng.Uniform(-6, 6), rng.Uniform(-6, 6)});
+    for (int i = 0; i < 4; ++i) points.push_back({rng.Uniform(-6, 6), rng.Uniform(-6, 6), rng.Uniform(-6, 6)});
     for (int i = 0; i < 3; ++i) durations.push_back(rng.Uniform(1, 4));
     const PolynomialTrajectory path = SolveMinimumSnap({.waypoints = points, .durations = durations});
     const double radius = 0.3;
@@ -83,14 +81,12 @@ TEST(LeastClearanceBound, IsNeverAboveTheLeastClearanceOfASampleAndNearIt) {
   int certified = 0, touching = 0;
   for (int k = 0; k < 200; ++k) {
     std::vector<Ball> balls;
-    for (int i = 0; i < 8; ++i)
-      balls.push_back({{rng.Uniform(-8, 8), rng.Uniform(-8, 8), rng.Uniform(-8, 8)}, rng.Uniform(0.2, 1.2)});
+    for (int i = 0; i < 8; ++i) balls.push_back({{rng.Uniform(-8, 8), rng.Uniform(-8, 8), rng.Uniform(-8, 8)}, rng.Uniform(0.2, 1.2)});
     const AnalyticWorld world(balls, {{{-50, -50, -9}, {50, 50, rng.Uniform(-8, -6)}}});
     std::vector<Vec3d> points;
     std::vector<double> durations;
     const bool level = k % 4 == 0;
-    for (int i = 0; i < 2 + k % 3; ++i)
-      points.push_back({rng.Uniform(-6, 6), rng.Uniform(-6, 6), level ? -5.0 : rng.Uniform(-6, 6)});
+    for (int i = 0; i < 2 + k % 3; ++i) points.push_back({rng.Uniform(-6, 6), rng.Uniform(-6, 6), level ? -5.0 : rng.Uniform(-6, 6)});
     for (size_t i = 1; i < points.size(); ++i) durations.push_back(rng.Uniform(0.2, 4));
     const PolynomialTrajectory path = SolveMinimumSnap({.waypoints = points, .durations = durations});
     const TrajectoryPeaks peaks = CertifiedPeaks(path);

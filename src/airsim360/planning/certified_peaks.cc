@@ -29,8 +29,7 @@ struct LocalDerivatives {
   Vec3d first, second, third;
 };
 
-LocalDerivatives Evaluate(const PolynomialTrajectory& trajectory, size_t segment, int derivative,
-                          double tau) {
+LocalDerivatives Evaluate(const PolynomialTrajectory& trajectory, size_t segment, int derivative, double tau) {
   const double t = tau * trajectory.durations()[segment];
   LocalDerivatives out;
   for (int axis = 0; axis < 3; ++axis) {
@@ -54,8 +53,7 @@ LocalDerivatives Evaluate(const PolynomialTrajectory& trajectory, size_t segment
 template <int n, int derivative>
 class PeakSearch {
  public:
-  PeakSearch(const PolynomialTrajectory& trajectory, const double* bounds, const double* controls,
-             size_t controls_per_segment)
+  PeakSearch(const PolynomialTrajectory& trajectory, const double* bounds, const double* controls, size_t controls_per_segment)
       : trajectory_(trajectory), bounds_(bounds), controls_(controls), stride_(controls_per_segment) {}
 
   CertifiedPeak Run() {
@@ -77,8 +75,7 @@ class PeakSearch {
     }
     // The most promising segment first: it lifts the floor over most others.
     while (!open.empty()) {
-      const auto top = std::max_element(open.begin(), open.end(),
-                                        [&](size_t a, size_t b) { return bounds_[a] < bounds_[b]; });
+      const auto top = std::max_element(open.begin(), open.end(), [&](size_t a, size_t b) { return bounds_[a] < bounds_[b]; });
       const size_t segment = *top;
       if (bounds_[segment] <= Ceiling()) {
         bound = std::max(bound, bounds_[segment]);
@@ -95,9 +92,7 @@ class PeakSearch {
   }
 
  private:
-  double Control(size_t segment, int k) const {
-    return controls_[(segment / 8 * stride_ + static_cast<size_t>(k)) * 8 + segment % 8];
-  }
+  double Control(size_t segment, int k) const { return controls_[(segment / 8 * stride_ + static_cast<size_t>(k)) * 8 + segment % 8]; }
   double Ceiling() const { return floor_ * (1 + kWidth); }
 
   void Attain(double value, size_t segment, double tau) {
@@ -135,8 +130,8 @@ class PeakSearch {
   double SplitPoint(size_t segment, const Part<n>& part) {
     const auto& c = part.control;
     const auto top = std::max_element(c.begin(), c.end());
-    const bool one_hill = top != c.begin() && top + 1 != c.end() && std::is_sorted(c.begin(), top + 1) &&
-                          std::is_sorted(top, c.end(), std::greater<>());
+    const bool one_hill =
+        top != c.begin() && top + 1 != c.end() && std::is_sorted(c.begin(), top + 1) && std::is_sorted(top, c.end(), std::greater<>());
     const double duration = trajectory_.durations()[segment];
     double low = part.from, high = part.from + part.length;
     if (!one_hill) return 0.5;
@@ -197,18 +192,15 @@ TrajectoryPeaks CertifiedPeaks(const PolynomialTrajectory& trajectory) {
                .acceleration_bounds = acceleration_bounds,
                .speed_controls = speed_controls,
                .acceleration_controls = acceleration_controls});
-  const auto search = [&]<int n, int derivative>(const double* bounds, const double* controls,
-                                                 size_t stride) {
+  const auto search = [&]<int n, int derivative>(const double* bounds, const double* controls, size_t stride) {
     return PeakSearch<n, derivative>(trajectory, bounds, controls, stride).Run();
   };
   if (trajectory.degree() == 7) {
-    return {
-        search.template operator()<12, 1>(speed_bounds, speed_controls, kSpeedControls),
-        search.template operator()<10, 2>(acceleration_bounds, acceleration_controls, kAccelerationControls)};
+    return {search.template operator()<12, 1>(speed_bounds, speed_controls, kSpeedControls),
+            search.template operator()<10, 2>(acceleration_bounds, acceleration_controls, kAccelerationControls)};
   }
-  return {
-      search.template operator()<8, 1>(speed_bounds, speed_controls, kSpeedControls),
-      search.template operator()<6, 2>(acceleration_bounds, acceleration_controls, kAccelerationControls)};
+  return {search.template operator()<8, 1>(speed_bounds, speed_controls, kSpeedControls),
+          search.template operator()<6, 2>(acceleration_bounds, acceleration_controls, kAccelerationControls)};
 }
 
 }  // namespace airsim360

@@ -10,9 +10,7 @@ namespace airsim360 {
 /// Axis-aligned box in double precision, metres in W.
 struct Box3d {
   Vec3d min, max;
-  bool Contains(Vec3d p) const {
-    return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y && p.z >= min.z && p.z <= max.z;
-  }
+  bool Contains(Vec3d p) const { return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y && p.z >= min.z && p.z <= max.z; }
 };
 
 /// Distances to the surfaces of a world. Implementations are immutable and may be asked by several threads.

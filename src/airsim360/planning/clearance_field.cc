@@ -20,8 +20,7 @@ constexpr double kMargin = 1e-4;  // voxels by which triangles are thickened, ag
 
 bool ClearanceField::Find(Vec3d p, int (&cell)[3]) const {
   if (!box_.Contains(p)) return false;
-  for (int i = 0; i < 3; ++i)
-    cell[i] = std::min(static_cast<int>((p[i] - box_.min[i]) / voxel_), size_[i] - 1);
+  for (int i = 0; i < 3; ++i) cell[i] = std::min(static_cast<int>((p[i] - box_.min[i]) / voxel_), size_[i] - 1);
   return true;
 }
 
@@ -40,9 +39,7 @@ bool ClearanceField::Occupied(Vec3d p) const {
   return Find(p, c) && Occupied(c[0], c[1], c[2]);
 }
 
-Vec3d ClearanceField::Center(int x, int y, int z) const {
-  return box_.min + Vec3d{x + 0.5, y + 0.5, z + 0.5} * voxel_;
-}
+Vec3d ClearanceField::Center(int x, int y, int z) const { return box_.min + Vec3d{x + 0.5, y + 0.5, z + 0.5} * voxel_; }
 
 double ClearanceField::TopOfColumn(int x, int y) const {
   for (int z = size_[2]; z-- > 0;) {
@@ -101,15 +98,13 @@ Turned TurnToNormal(Vec3d a, Vec3d b, Vec3d c) {
 
 // True unless an edge of the triangle, seen along w, has the square [u, u + 1] x [v, v + 1] wholly outside.
 bool MayTouchSquare(const Turned& t, double u, double v) {
-  const double turn = (t.p[1][t.u] - t.p[0][t.u]) * (t.p[2][t.v] - t.p[0][t.v]) -
-                      (t.p[1][t.v] - t.p[0][t.v]) * (t.p[2][t.u] - t.p[0][t.u]);
+  const double turn = (t.p[1][t.u] - t.p[0][t.u]) * (t.p[2][t.v] - t.p[0][t.v]) - (t.p[1][t.v] - t.p[0][t.v]) * (t.p[2][t.u] - t.p[0][t.u]);
   const double sign = turn >= 0 ? 1 : -1;
   for (int i = 0; i < 3; ++i) {
     const Vec3d a = t.p[i], b = t.p[(i + 1) % 3];
     const double nu = -(b[t.v] - a[t.v]) * sign, nv = (b[t.u] - a[t.u]) * sign;
     // The corner of the square farthest inwards.
-    const double corner_u = u + (nu > 0 ? 1 + kMargin : -kMargin),
-                 corner_v = v + (nv > 0 ? 1 + kMargin : -kMargin);
+    const double corner_u = u + (nu > 0 ? 1 + kMargin : -kMargin), corner_v = v + (nv > 0 ? 1 + kMargin : -kMargin);
     if (nu * (corner_u - a[t.u]) + nv * (corner_v - a[t.v]) < 0) return false;
   }
   return true;
@@ -132,16 +127,14 @@ void ClearanceFieldBuilder::Add(Vec3d a, Vec3d b, Vec3d c) {
   const auto mark = [&](int x, int y, int z) {
     std::atomic_ref<uint8_t>(field_.cells_[field_.Index(x, y, z)]).store(0, std::memory_order_relaxed);
   };
-  if (first[0] == last[0] && first[1] == last[1] && first[2] == last[2])
-    return mark(first[0], first[1], first[2]);
+  if (first[0] == last[0] && first[1] == last[1] && first[2] == last[2]) return mark(first[0], first[1], first[2]);
 
   // For every square under it, the voxels between the least and greatest height of its plane there.
   const Turned t = TurnToNormal(a, b, c);
   for (int u = first[t.u]; u <= last[t.u]; ++u) {
     for (int v = first[t.v]; v <= last[t.v]; ++v) {
       if (!MayTouchSquare(t, u, v)) continue;
-      const double middle =
-          t.p[0][t.w] + t.slope_u * (u + 0.5 - t.p[0][t.u]) + t.slope_v * (v + 0.5 - t.p[0][t.v]);
+      const double middle = t.p[0][t.w] + t.slope_u * (u + 0.5 - t.p[0][t.u]) + t.slope_v * (v + 0.5 - t.p[0][t.v]);
       const double half = 0.5 * (std::fabs(t.slope_u) + std::fabs(t.slope_v)) + kMargin;
       const int from = std::max(first[t.w], static_cast<int>(std::floor(std::max(middle - half, -1.0))));
       const int to = std::min(last[t.w], static_cast<int>(std::floor(std::min(middle + half, 1e9))));
@@ -222,8 +215,7 @@ ClearanceField ClearanceFieldBuilder::Build() {
   });
   std::fill(first.begin(), first.end(), kFarSquared);
   uint8_t bounds[kFarSquared + 1];
-  for (int i = 0; i <= kFarSquared; ++i)
-    bounds[i] = static_cast<uint8_t>(1 + std::floor(kSteps * std::sqrt(i) + 1e-9));
+  for (int i = 0; i <= kFarSquared; ++i) bounds[i] = static_cast<uint8_t>(1 + std::floor(kSteps * std::sqrt(i) + 1e-9));
   ParallelFor(ny, [&](int64_t y) {
     for (int z = 0; z < nz; ++z) {
       const size_t at = static_cast<size_t>(z) * slice + row * static_cast<size_t>(y);

@@ -21,9 +21,7 @@ std::vector<Triangle> RandomTriangles(uint64_t seed, int count) {
   for (int i = 0; i < count; ++i) {
     const double size = std::exp(rng.Uniform(-4, 2));
     const Vec3d a{rng.Uniform(-2, 14), rng.Uniform(-2, 12), rng.Uniform(-2, 10)};
-    const auto near = [&] {
-      return a + Vec3d{rng.Uniform(-size, size), rng.Uniform(-size, size), rng.Uniform(-size, size)};
-    };
+    const auto near = [&] { return a + Vec3d{rng.Uniform(-size, size), rng.Uniform(-size, size), rng.Uniform(-size, size)}; };
     triangles.push_back({a, near(), near()});
   }
   return triangles;
@@ -37,8 +35,7 @@ Vec3d PointOf(const Triangle& t, RngStream& rng) {
 
 ClearanceField FieldOf(const std::vector<Triangle>& triangles, double voxel) {
   ClearanceFieldBuilder builder({{0, 0, 0}, {12, 10, 8}}, voxel);
-  ParallelFor(static_cast<int64_t>(triangles.size()),
-              [&](int64_t i) { builder.Add(triangles[i].a, triangles[i].b, triangles[i].c); });
+  ParallelFor(static_cast<int64_t>(triangles.size()), [&](int64_t i) { builder.Add(triangles[i].a, triangles[i].b, triangles[i].c); });
   return builder.Build();
 }
 

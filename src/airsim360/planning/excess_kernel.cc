@@ -53,8 +53,7 @@ class Group {
   }
 
   double Run() {
-    for (size_t j = 0; j < args_.samples; j += kShare)
-      Sample(args_.basis + j / kShare * ExcessBasisSize(kShare));
+    for (size_t j = 0; j < args_.samples; j += kShare) Sample(args_.basis + j / kShare * ExcessBasisSize(kShare));
     Store();
     double total = 0;
     for (int lane = 0; lane < 8; ++lane) total += sum_[lane];
@@ -176,9 +175,7 @@ double ExcessShared(const ExcessArguments& arguments) {
                                 : ExcessOf<kPowers, 1>(arguments);
 }
 
-double Excess(const ExcessArguments& arguments) {
-  return arguments.powers == 8 ? ExcessShared<8>(arguments) : ExcessShared<6>(arguments);
-}
+double Excess(const ExcessArguments& arguments) { return arguments.powers == 8 ? ExcessShared<8>(arguments) : ExcessShared<6>(arguments); }
 
 }  // namespace
 

@@ -13,7 +13,7 @@ namespace {
 constexpr int kPowers = 8;
 constexpr double kPositionUnit = 1e-3, kYawUnit = std::numbers::pi / 1800;  // millimetres, tenths of a degree
 constexpr int64_t kLongestPiece = 60'000;                                   // ms; a uint16 holds 65,535
-constexpr int kPoints[4] = {0, 1, 3, 7};  // control points after the first, by type
+constexpr int kPoints[4] = {0, 1, 3, 7};                                    // control points after the first, by type
 enum Type : uint8_t { kConstant = 0, kDegree7 = 3 };
 
 double Binomial(int n, int k) {
@@ -88,16 +88,13 @@ std::vector<uint8_t> CompressTrajectory(const PolynomialTrajectory& path, const 
       ShiftPolynomial(c, shift);
       ToBezier(c, duration, points);
       const bool constant = std::all_of(points, points + kPowers, [&](double p) {
-        return Quantized(p - origin[axis], kPositionUnit) ==
-               Quantized(points[0] - origin[axis], kPositionUnit);
+        return Quantized(p - origin[axis], kPositionUnit) == Quantized(points[0] - origin[axis], kPositionUnit);
       });
       types |= static_cast<uint8_t>((constant ? kConstant : kDegree7) << (2 * axis));
-      for (int i = 1; !constant && i < kPowers; ++i)
-        Append16(body, Quantized(points[i] - origin[axis], kPositionUnit));
+      for (int i = 1; !constant && i < kPowers; ++i) Append16(body, Quantized(points[i] - origin[axis], kPositionUnit));
     }
     if (!yaw.is_constant()) {
-      const std::array<double, kPowers> powers =
-          yaw.Powers(static_cast<double>(cut.from) * 1e-3, duration, last_yaw);
+      const std::array<double, kPowers> powers = yaw.Powers(static_cast<double>(cut.from) * 1e-3, duration, last_yaw);
       double c[kPowers], points[kPowers];
       std::copy(powers.begin(), powers.end(), c);
       ToBezier(c, duration, points);

@@ -57,8 +57,7 @@ double ErrorOf(const Poly4d& row, const Piece& piece) {
   for (int k = 0; k <= kChecks; ++k) {
     const double t = piece.duration * k / kChecks;
     Vec3d error;
-    for (int axis = 0; axis < 3; ++axis)
-      error[axis] = Horner(row.p[axis], static_cast<float>(t)) - Horner(piece.c[axis], t);
+    for (int axis = 0; axis < 3; ++axis) error[axis] = Horner(row.p[axis], static_cast<float>(t)) - Horner(piece.c[axis], t);
     worst = std::max(worst, Norm(error));
   }
   return worst;
@@ -143,16 +142,13 @@ std::vector<Poly4d> ParsePoly4dCsv(std::string_view text, std::string_view name)
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line == 1 || row_text.empty()) continue;  // the header
     const auto fail = [&](size_t column, const std::string& what) -> void {
-      throw InputError(std::string(name) + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " +
-                       what);
+      throw InputError(std::string(name) + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + what);
     };
     float values[kColumns];
     size_t at = 0;
     for (int i = 0; i < kColumns; ++i) {
-      if (i > 0 && (at >= row_text.size() || row_text[at++] != ','))
-        fail(at, std::to_string(kColumns) + " numbers are needed");
-      const auto [stop, error] =
-          std::from_chars(row_text.data() + at, row_text.data() + row_text.size(), values[i]);
+      if (i > 0 && (at >= row_text.size() || row_text[at++] != ',')) fail(at, std::to_string(kColumns) + " numbers are needed");
+      const auto [stop, error] = std::from_chars(row_text.data() + at, row_text.data() + row_text.size(), values[i]);
       if (error != std::errc() || !std::isfinite(values[i])) fail(at + 1, "not a finite number");
       at = static_cast<size_t>(stop - row_text.data());
     }

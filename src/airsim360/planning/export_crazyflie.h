@@ -39,8 +39,7 @@ std::vector<Poly4d> ParsePoly4dCsv(std::string_view text, std::string_view name)
 /// each piece a byte of types (two bits each: constant, line, cubic, degree 7), uint16 milliseconds, and the
 /// Bezier control points after the first (int16). Pieces are cut at whole milliseconds, so that times are
 /// exact. Positions are relative to `origin`. InputError if one is farther than 32.767 m from it.
-std::vector<uint8_t> CompressTrajectory(const PolynomialTrajectory& trajectory, const YawRule& yaw,
-                                        Vec3d origin);
+std::vector<uint8_t> CompressTrajectory(const PolynomialTrajectory& trajectory, const YawRule& yaw, Vec3d origin);
 /// What a firmware flies: position (m, relative to the origin) and yaw (radians) at time t.
 struct CompressedPoint {
   Vec3d p;

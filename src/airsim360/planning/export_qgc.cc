@@ -44,10 +44,9 @@ class Items {
  private:
   void Add(Command command, int frame, const std::string& params, const std::string& extra) {
     if (count_++ > 0) text_ += ",\n";
-    text_ +=
-        "      {\"type\": \"SimpleItem\", \"autoContinue\": true, \"command\": " + std::to_string(command) +
-        ", \"doJumpId\": " + std::to_string(count_) + ", \"frame\": " + std::to_string(frame) + ", " + extra +
-        "\"params\": [" + params + "]}";
+    text_ += "      {\"type\": \"SimpleItem\", \"autoContinue\": true, \"command\": " + std::to_string(command) +
+             ", \"doJumpId\": " + std::to_string(count_) + ", \"frame\": " + std::to_string(frame) + ", " + extra + "\"params\": [" +
+             params + "]}";
   }
   GeoFrame frame_;
   std::string text_;

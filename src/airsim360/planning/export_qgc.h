@@ -15,7 +15,7 @@ namespace airsim360 {
 struct QgcOptions {
   GeoPoint origin;
   double spacing = 5;
-  double speed = 5;  ///< m/s, of the command that sets it
+  double speed = 5;                 ///< m/s, of the command that sets it
   std::optional<YawRule> yaw = {};  ///< heading at the waypoints; none: the vehicle's own choice
 };
 std::string QgcPlan(const PolynomialTrajectory& trajectory, const QgcOptions& options);

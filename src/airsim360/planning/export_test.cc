@@ -27,9 +27,7 @@ PolynomialTrajectory Flight(uint64_t seed, double length, SplineKind kind = Spli
   return AllocateTimes(points, {.speed = 16, .acceleration = 3}, {.kind = kind}).trajectory;
 }
 
-PlanRecord RecordOf(const PolynomialTrajectory& path) {
-  return {.trajectory = path, .peaks = CertifiedPeaks(path)};
-}
+PlanRecord RecordOf(const PolynomialTrajectory& path) { return {.trajectory = path, .peaks = CertifiedPeaks(path)}; }
 
 std::vector<std::vector<double>> ParseNumbers(const std::string& csv) {
   std::vector<std::vector<double>> rows;
@@ -48,8 +46,8 @@ std::vector<std::vector<double>> ParseNumbers(const std::string& csv) {
 
 TEST(Poly4d, ReadsBackExactlyAndFliesWithinAMillimetre) {
   for (uint64_t seed = 0; seed < 12; ++seed) {
-    const PolynomialTrajectory path = Flight(seed, 50 + 10 * static_cast<double>(seed),
-                                             seed % 2 ? SplineKind::kPaperQuintic : SplineKind::kMinimumSnap);
+    const PolynomialTrajectory path =
+        Flight(seed, 50 + 10 * static_cast<double>(seed), seed % 2 ? SplineKind::kPaperQuintic : SplineKind::kMinimumSnap);
     const Poly4dRows rows = ToPoly4d(path, ConstantYaw{0.3});
     const std::vector<Poly4d> back = ParsePoly4dCsv(Poly4dCsv(rows.rows), "test.csv");
     ASSERT_EQ(back.size(), rows.rows.size());
@@ -95,8 +93,7 @@ TEST(Poly4d, ErrorsNameThePlace) {
 
 TEST(Compressed, FliesWithinTwoMillimetresAtEveryTime) {
   for (uint64_t seed = 0; seed < 8; ++seed) {
-    const PolynomialTrajectory path =
-        Flight(seed, 28, seed % 2 ? SplineKind::kPaperQuintic : SplineKind::kMinimumSnap);
+    const PolynomialTrajectory path = Flight(seed, 28, seed % 2 ? SplineKind::kPaperQuintic : SplineKind::kMinimumSnap);
     const Vec3d origin = path.At(0).p;
     const std::vector<uint8_t> bytes = CompressTrajectory(path, ConstantYaw{-1.2}, origin);
     const CompressedTrajectory back(bytes);
@@ -123,8 +120,7 @@ TEST(Compressed, RefusesWhatItCannotHold) {
 // A level circle of four corners flown twice round: the heading turns through more than two whole turns.
 PolynomialTrajectory Rounds() {
   std::vector<Vec3d> points;
-  for (int i = 0; i <= 8; ++i)
-    points.push_back({9 * std::cos(i * std::numbers::pi / 2), 9 * std::sin(i * std::numbers::pi / 2), 5});
+  for (int i = 0; i <= 8; ++i) points.push_back({9 * std::cos(i * std::numbers::pi / 2), 9 * std::sin(i * std::numbers::pi / 2), 5});
   return AllocateTimes(points, {.speed = 6, .acceleration = 3}).trajectory;
 }
 
@@ -212,15 +208,13 @@ TEST(Qgc, WaypointsLieOnTheFlightAtMostTheirSpacingApart) {
   const PolynomialTrajectory path = Flight(5, 80);
   const QgcOptions options{.origin = {47.4, 8.5, 488}, .spacing = 4, .speed = 6};
   const std::string plan = QgcPlan(path, options);
-  for (const char* key :
-       {"\"fileType\": \"Plan\"", "\"plannedHomePosition\": [47.4, 8.5, 488]", "\"vehicleType\": 2",
-        "\"firmwareType\": 12", "\"command\": 22", "\"command\": 178", "\"command\": 21"})
+  for (const char* key : {"\"fileType\": \"Plan\"", "\"plannedHomePosition\": [47.4, 8.5, 488]", "\"vehicleType\": 2",
+                          "\"firmwareType\": 12", "\"command\": 22", "\"command\": 178", "\"command\": 21"})
     EXPECT_NE(plan.find(key), std::string::npos) << key;
   std::vector<Vec3d> places;
   for (size_t at = 0; (at = plan.find("\"params\": [0, 0, 0, null, ", at)) != std::string::npos; ++at) {
     double lat, lon, alt;
-    ASSERT_EQ(std::sscanf(plan.c_str() + at, "\"params\": [0, 0, 0, null, %lf, %lf, %lf", &lat, &lon, &alt),
-              3);
+    ASSERT_EQ(std::sscanf(plan.c_str() + at, "\"params\": [0, 0, 0, null, %lf, %lf, %lf", &lat, &lon, &alt), 3);
     places.push_back(GeoFrame(options.origin).ToWorld({lat, lon, alt + 488}));
   }
   ASSERT_GT(places.size(), 20u);

@@ -74,8 +74,7 @@ std::string TrajectoryJson(const PlanRecord& plan) {
   AppendField(out, "order", path.degree());
   AppendField(out, "duration", path.duration());
   std::vector<double> times = {plan.start_time};
-  for (size_t i = 0; i < path.segments(); ++i)
-    times.push_back(plan.start_time + path.start(i) + path.durations()[i]);
+  for (size_t i = 0; i < path.segments(); ++i) times.push_back(plan.start_time + path.start(i) + path.durations()[i]);
   out += "  \"times\": ";
   AppendList(out, times);
   out += ",\n  \"durations\": ";

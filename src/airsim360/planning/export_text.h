@@ -17,11 +17,11 @@ namespace airsim360 {
 struct PlanRecord {
   const PolynomialTrajectory& trajectory;
   TrajectoryPeaks peaks;
-  double cost_snap = 0;    ///< integral of squared snap, m^2 / s^7
-  double lower_bound = 0;  ///< seconds; 0 = not known (times were given)
-  double start_time = 0;   ///< seconds, of the first waypoint
+  double cost_snap = 0;         ///< integral of squared snap, m^2 / s^7
+  double lower_bound = 0;       ///< seconds; 0 = not known (times were given)
+  double start_time = 0;        ///< seconds, of the first waypoint
   YawRule yaw = ConstantYaw{};  ///< heading all along
-  double radius = 0;       ///< metres, of the certificate
+  double radius = 0;            ///< metres, of the certificate
   std::optional<Certificate> certificate = std::nullopt;
   std::vector<Vec3d> waypoints = {};  ///< as given; empty = the joints of the trajectory
 };

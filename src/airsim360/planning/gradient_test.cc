@@ -11,8 +11,7 @@ namespace {
 using internal::RandomRoute;
 using internal::Route;
 
-constexpr SplineKind kKinds[] = {SplineKind::kMinimumSnap, SplineKind::kPaperQuintic,
-                                 SplineKind::kMinimumJerk};
+constexpr SplineKind kKinds[] = {SplineKind::kMinimumSnap, SplineKind::kPaperQuintic, SplineKind::kMinimumJerk};
 
 /// F of a route by a fixed smooth function of its coefficients and durations, with its partial derivatives.
 struct Probe {
@@ -71,8 +70,7 @@ TEST(Gradients, BackpropagationEqualsFiniteDifferences) {
         solver.Solve(route.Problem(kind, free_jerk));
         RngStream random(2, "weights", segments);
         Probe probe;
-        for (size_t i = 0; i < solver.coefficients().size(); ++i)
-          probe.weights.push_back(random.Uniform(-1, 1));
+        for (size_t i = 0; i < solver.coefficients().size(); ++i) probe.weights.push_back(random.Uniform(-1, 1));
 
         std::vector<double> by_c, by_t;
         probe.Partials(solver, route.durations, by_c, by_t);
@@ -110,8 +108,7 @@ TEST(Gradients, CostGradientEqualsTheHamiltonianAndTheJumpOfTheSeventhDerivative
     double hamiltonian = 0;
     for (size_t axis = 0; axis < 3; ++axis) {
       const double* k = &c[(3 * i + axis) * 8];
-      hamiltonian += std::pow(24 * k[4], 2) - 2 * (6 * k[3]) * (120 * k[5]) + 2 * (2 * k[2]) * (720 * k[6]) -
-                     2 * k[1] * (5040 * k[7]);
+      hamiltonian += std::pow(24 * k[4], 2) - 2 * (6 * k[3]) * (120 * k[5]) + 2 * (2 * k[2]) * (720 * k[6]) - 2 * k[1] * (5040 * k[7]);
     }
     EXPECT_NEAR(by_t[i] / -hamiltonian, 1, 1e-8);
   }

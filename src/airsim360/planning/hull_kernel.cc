@@ -5,9 +5,7 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-AIRSIM360_INLINE constexpr double Choose(int n, int k) {
-  return Factorial<double>(n) / (Factorial<double>(k) * Factorial<double>(n - k));
-}
+AIRSIM360_INLINE constexpr double Choose(int n, int k) { return Factorial<double>(n) / (Factorial<double>(k) * Factorial<double>(n - k)); }
 
 /// h: power coefficients 0 to n of one axis, replaced by binomial(n, i) times the Bernstein control value i:
 /// sum over k of binomial(n - k, i - k) h_k, by additions alone: Q_m = (1 + x) Q_(m-1) + h_m x^m.
@@ -76,17 +74,13 @@ void Hulls(const HullArguments& args) {
     }
     const V8 inverse = Load8(inverses), inverse2 = inverse * inverse;
     const size_t group = first / 8;
-    Store8(SquaredNormControls<n - 1>(v, inverse2, args.speed_controls + group * 8 * kSpeedControls),
-           args.speed_bounds + first);
-    Store8(SquaredNormControls<n - 2>(a, inverse2 * inverse2,
-                                      args.acceleration_controls + group * 8 * kAccelerationControls),
+    Store8(SquaredNormControls<n - 1>(v, inverse2, args.speed_controls + group * 8 * kSpeedControls), args.speed_bounds + first);
+    Store8(SquaredNormControls<n - 2>(a, inverse2 * inverse2, args.acceleration_controls + group * 8 * kAccelerationControls),
            args.acceleration_bounds + first);
   }
 }
 
-void AllHulls(const HullArguments& arguments) {
-  arguments.powers == 8 ? Hulls<8>(arguments) : Hulls<6>(arguments);
-}
+void AllHulls(const HullArguments& arguments) { arguments.powers == 8 ? Hulls<8>(arguments) : Hulls<6>(arguments); }
 
 }  // namespace
 

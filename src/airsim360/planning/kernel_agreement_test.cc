@@ -21,12 +21,11 @@ struct Kernels {
   const HullKernels* hull;
 };
 
-const Kernels kSse42 = {&isa_sse42::kSplineKernels, &isa_sse42::kBatchKernels, &isa_sse42::kAdjointKernels,
-                        &isa_sse42::kExcessKernels, &isa_sse42::kHullKernels};
-const Kernels kAvx2 = {&isa_avx2::kSplineKernels, &isa_avx2::kBatchKernels, &isa_avx2::kAdjointKernels,
-                       &isa_avx2::kExcessKernels, &isa_avx2::kHullKernels};
-const Kernels kAvx512 = {&isa_avx512::kSplineKernels, &isa_avx512::kBatchKernels,
-                         &isa_avx512::kAdjointKernels, &isa_avx512::kExcessKernels,
+const Kernels kSse42 = {&isa_sse42::kSplineKernels, &isa_sse42::kBatchKernels, &isa_sse42::kAdjointKernels, &isa_sse42::kExcessKernels,
+                        &isa_sse42::kHullKernels};
+const Kernels kAvx2 = {&isa_avx2::kSplineKernels, &isa_avx2::kBatchKernels, &isa_avx2::kAdjointKernels, &isa_avx2::kExcessKernels,
+                       &isa_avx2::kHullKernels};
+const Kernels kAvx512 = {&isa_avx512::kSplineKernels, &isa_avx512::kBatchKernels, &isa_avx512::kAdjointKernels, &isa_avx512::kExcessKernels,
                          &isa_avx512::kHullKernels};
 
 /// Everything the kernels compute for one route and kind.
@@ -53,8 +52,8 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
   std::vector<double> all = coefficients;
   if (kind == 0 && segments <= kFewSegments) {
     std::vector<double> few(coefficients.size());
-    const NumberCheck check = kernels.spline->few[segments - 2](flat.data(), route.durations.data(),
-                                                                knots.data(), workspace.data(), few.data());
+    const NumberCheck check =
+        kernels.spline->few[segments - 2](flat.data(), route.durations.data(), knots.data(), workspace.data(), few.data());
     EXPECT_TRUE(check.valid);
     all.insert(all.end(), few.begin(), few.end());
   }
@@ -78,8 +77,7 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
   all.insert(all.end(), check.reach, check.reach + 8);
   all.insert(all.end(), eight.begin(), eight.end());
 
-  std::vector<double> by_c(coefficients.size()), by_t(segments), by_w(4 * (segments + 1)),
-      basis(8 * 16 * 8, 0.25);
+  std::vector<double> by_c(coefficients.size()), by_t(segments), by_w(4 * (segments + 1)), basis(8 * 16 * 8, 0.25);
   double excess[3];
   for (const size_t share : {4, 2, 1}) {
     excess[share / 2] = kernels.excess->excess({.coefficients = coefficients.data(),
@@ -101,10 +99,8 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
   // The same samples, differently added up.
   EXPECT_NEAR(excess[1] / excess[0], 1, 1e-12);
   EXPECT_NEAR(excess[2] / excess[0], 1, 1e-12);
-  kernels.adjoint->adjoint[kind]({.route = arguments,
-                                  .by_coefficient = by_c.data(),
-                                  .by_duration = by_t.data(),
-                                  .by_waypoint = by_w.data()});
+  kernels.adjoint->adjoint[kind](
+      {.route = arguments, .by_coefficient = by_c.data(), .by_duration = by_t.data(), .by_waypoint = by_w.data()});
   all.insert(all.end(), by_t.begin(), by_t.end());
   all.insert(all.end(), by_w.begin(), by_w.end());
 

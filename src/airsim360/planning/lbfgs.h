@@ -95,8 +95,8 @@ class Lbfgs {
 
   /// Moves x to a point of sufficient decrease and curvature by bisection; false if none was found.
   template <class Objective>
-  bool Search(std::vector<double>& x, double& value, double slope, double step, int max_evaluations,
-              int& evaluations, Objective& objective) {
+  bool Search(std::vector<double>& x, double& value, double slope, double step, int max_evaluations, int& evaluations,
+              Objective& objective) {
     constexpr double kDecrease = 1e-4, kCurvature = 0.9;
     const size_t n = x.size();
     double low = 0, high = INFINITY;

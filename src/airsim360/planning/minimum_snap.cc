@@ -23,8 +23,7 @@ using namespace internal;
 
 [[noreturn]] void FailOnCounts(size_t waypoints, size_t durations) {
   if (waypoints < 2) Fail(std::to_string(waypoints) + " waypoints, at least 2 are needed");
-  Fail(std::to_string(waypoints) + " waypoints need " + std::to_string(waypoints - 1) + " durations, not " +
-       std::to_string(durations));
+  Fail(std::to_string(waypoints) + " waypoints need " + std::to_string(waypoints - 1) + " durations, not " + std::to_string(durations));
 }
 
 void CheckCounts(size_t waypoints, size_t durations) {
@@ -32,12 +31,10 @@ void CheckCounts(size_t waypoints, size_t durations) {
 }
 
 /// Names the number that is wrong.
-[[noreturn]] void FailOnNumbers(const CheckKernels& kernels, std::span<const Vec3d> waypoints,
-                                std::span<const double> durations) {
+[[noreturn]] void FailOnNumbers(const CheckKernels& kernels, std::span<const Vec3d> waypoints, std::span<const double> durations) {
   for (size_t i = 0; i < durations.size(); ++i) {
     if (!(durations[i] > 0) || !std::isfinite(durations[i])) {
-      Fail("duration " + std::to_string(i) + " is " + std::to_string(durations[i]) +
-           " s, must be positive and finite");
+      Fail("duration " + std::to_string(i) + " is " + std::to_string(durations[i]) + " s, must be positive and finite");
     }
   }
   for (size_t i = 0; i < waypoints.size(); ++i) {
@@ -58,13 +55,10 @@ bool UnevenFew(std::span<const double> durations) {
 /// them: wider loads would wait for the stores.
 bool AtRest(const MinimumSnapProblem& problem) {
   typedef unsigned long long Pair __attribute__((vector_size(16), aligned(8), may_alias));
-  static_assert(offsetof(MinimumSnapProblem, end) ==
-                    offsetof(MinimumSnapProblem, start) + sizeof(BoundaryDerivatives) &&
+  static_assert(offsetof(MinimumSnapProblem, end) == offsetof(MinimumSnapProblem, start) + sizeof(BoundaryDerivatives) &&
                 2 * sizeof(BoundaryDerivatives) == 9 * sizeof(Pair));
   const Pair* const pairs = reinterpret_cast<const Pair*>(&problem.start);
-  const Pair any =
-      (((pairs[0] | pairs[1]) | (pairs[2] | pairs[3])) | ((pairs[4] | pairs[5]) | (pairs[6] | pairs[7]))) |
-      pairs[8];
+  const Pair any = (((pairs[0] | pairs[1]) | (pairs[2] | pairs[3])) | ((pairs[4] | pairs[5]) | (pairs[6] | pairs[7]))) | pairs[8];
   return (any[0] | any[1]) == 0;
 }
 
@@ -86,13 +80,12 @@ struct MinimumSnapSolver::Impl {
   /// Routes of few segments at rest, whose solution takes less time than the way to the general one.
   bool SolveFew(const MinimumSnapProblem& problem) {
     const size_t segments = problem.durations.size();
-    if (segments - 2 > kFewSegments - 2 || problem.kind != SplineKind::kMinimumSnap || problem.free_jerk ||
-        !AtRest(problem)) {
+    if (segments - 2 > kFewSegments - 2 || problem.kind != SplineKind::kMinimumSnap || problem.free_jerk || !AtRest(problem)) {
       return false;
     }
     Resize(segments, 8);
-    const NumberCheck check = kernels->few[segments - 2](&problem.waypoints[0].x, problem.durations.data(),
-                                                         knots.data(), durations.data(), coefficients.data());
+    const NumberCheck check =
+        kernels->few[segments - 2](&problem.waypoints[0].x, problem.durations.data(), knots.data(), durations.data(), coefficients.data());
     if (!check.valid) FailOnBadNumbers(problem);
     kind = SplineKind::kMinimumSnap;
     free = false;
@@ -141,17 +134,16 @@ struct MinimumSnapSolver::Impl {
 
   RouteArguments Arguments() {
     const size_t segments = durations.size();
-    return {
-        .knots = knots.data(),
-        .durations = durations.data(),
-        .segments = segments,
-        .start = ends[0],
-        .end = ends[1],
-        .free_start = free,
-        .free_end = free,
-        .workspace = workspace.Reserve(std::max({RouteWorkspace(segments), AdjointWorkspace(segments),
-                                                 segments < kLeastChunkedSegments ? 0 : ChunkWorkspace()})),
-        .coefficients = coefficients.data()};
+    return {.knots = knots.data(),
+            .durations = durations.data(),
+            .segments = segments,
+            .start = ends[0],
+            .end = ends[1],
+            .free_start = free,
+            .free_end = free,
+            .workspace = workspace.Reserve(
+                std::max({RouteWorkspace(segments), AdjointWorkspace(segments), segments < kLeastChunkedSegments ? 0 : ChunkWorkspace()})),
+            .coefficients = coefficients.data()};
   }
 
   /// Durations that grow or shrink on and on can leave the range of double precision on the way to an answer
@@ -175,10 +167,8 @@ struct MinimumSnapSolver::Impl {
     durations.clear();
     coefficients.clear();
     char text[160];
-    std::snprintf(
-        text, sizeof(text),
-        "the path leaves the range of numbers: durations from %g to %g s are too small or too different",
-        least, largest);
+    std::snprintf(text, sizeof(text), "the path leaves the range of numbers: durations from %g to %g s are too small or too different",
+                  least, largest);
     Fail(text);
   }
 
@@ -256,16 +246,13 @@ int MinimumSnapSolver::degree() const { return PowersOf(impl_->kind) - 1; }
 
 std::span<const double> MinimumSnapSolver::coefficients() const { return impl_->coefficients; }
 
-PolynomialTrajectory MinimumSnapSolver::Trajectory() const {
-  return PolynomialTrajectory(degree(), impl_->durations, impl_->coefficients);
-}
+PolynomialTrajectory MinimumSnapSolver::Trajectory() const { return PolynomialTrajectory(degree(), impl_->durations, impl_->coefficients); }
 
 double MinimumSnapSolver::Cost() const {
   return IntegralOfSquaredDerivative(Trajectory(), impl_->kind == SplineKind::kMinimumJerk ? 3 : 4);
 }
 
-void MinimumSnapSolver::Backpropagate(std::span<const double> by_coefficient, std::span<double> by_duration,
-                                      std::span<Vec3d> by_waypoint) {
+void MinimumSnapSolver::Backpropagate(std::span<const double> by_coefficient, std::span<double> by_duration, std::span<Vec3d> by_waypoint) {
   Impl& impl = *impl_;
   const size_t segments = impl.durations.size();
   if (by_coefficient.size() != impl.coefficients.size() || by_duration.size() != segments ||
@@ -273,10 +260,8 @@ void MinimumSnapSolver::Backpropagate(std::span<const double> by_coefficient, st
     Fail("sizes of the gradients do not agree with the solution");
   }
   double* const waypoints = impl.waypoint_gradient.Reserve(4 * (segments + 1));
-  impl.adjoints->adjoint[static_cast<int>(impl.kind)]({.route = impl.Arguments(),
-                                                       .by_coefficient = by_coefficient.data(),
-                                                       .by_duration = by_duration.data(),
-                                                       .by_waypoint = waypoints});
+  impl.adjoints->adjoint[static_cast<int>(impl.kind)](
+      {.route = impl.Arguments(), .by_coefficient = by_coefficient.data(), .by_duration = by_duration.data(), .by_waypoint = waypoints});
   for (size_t k = 0; k < by_waypoint.size(); ++k) {
     by_waypoint[k] = {waypoints[4 * k], waypoints[4 * k + 1], waypoints[4 * k + 2]};
   }
@@ -285,15 +270,13 @@ void MinimumSnapSolver::Backpropagate(std::span<const double> by_coefficient, st
 void MinimumSnapSolver::CostGradient(std::span<double> by_duration, std::span<Vec3d> by_waypoint) {
   Impl& impl = *impl_;
   const size_t segments = impl.durations.size();
-  if ((!by_duration.empty() && by_duration.size() != segments) ||
-      (!by_waypoint.empty() && by_waypoint.size() != segments + 1)) {
+  if ((!by_duration.empty() && by_duration.size() != segments) || (!by_waypoint.empty() && by_waypoint.size() != segments + 1)) {
     Fail("sizes of the gradients do not agree with the solution");
   }
   if (impl.kind != SplineKind::kPaperQuintic) return impl.OptimumGradient(by_duration, by_waypoint);
   impl.CostPartials();
   Backpropagate(impl.cost_gradient, impl.direct, by_waypoint);
-  std::copy(impl.direct.begin(), impl.direct.begin() + static_cast<ptrdiff_t>(by_duration.size()),
-            by_duration.begin());
+  std::copy(impl.direct.begin(), impl.direct.begin() + static_cast<ptrdiff_t>(by_duration.size()), by_duration.begin());
 }
 
 PolynomialTrajectory SolveMinimumSnap(const MinimumSnapProblem& problem) {
@@ -302,12 +285,11 @@ PolynomialTrajectory SolveMinimumSnap(const MinimumSnapProblem& problem) {
   return solver.Trajectory();
 }
 
-void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const double> durations, size_t routes,
-                           SplineKind kind, std::span<double> coefficients) {
+void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const double> durations, size_t routes, SplineKind kind,
+                           std::span<double> coefficients) {
   const size_t segments = routes == 0 ? 0 : durations.size() / routes;
   const size_t size = segments * 3 * static_cast<size_t>(PowersOf(kind));
-  if (durations.size() != routes * segments || waypoints.size() != routes * (segments + 1) ||
-      coefficients.size() != routes * size) {
+  if (durations.size() != routes * segments || waypoints.size() != routes * (segments + 1) || coefficients.size() != routes * size) {
     Fail("sizes of the batch do not agree");
   }
   if (routes == 0) return;
@@ -324,10 +306,8 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
   std::vector<size_t> uneven;
   for (size_t first = 0; first < routes; first += 8) {
     // Also behind the end: portions of a batch usually follow each other.
-    arguments.next_waypoints =
-        reinterpret_cast<uintptr_t>(waypoints.data()) + (first + 8) * (segments + 1) * sizeof(Vec3d);
-    arguments.next_durations =
-        reinterpret_cast<uintptr_t>(durations.data()) + (first + 8) * segments * sizeof(double);
+    arguments.next_waypoints = reinterpret_cast<uintptr_t>(waypoints.data()) + (first + 8) * (segments + 1) * sizeof(Vec3d);
+    arguments.next_durations = reinterpret_cast<uintptr_t>(durations.data()) + (first + 8) * segments * sizeof(double);
     for (size_t lane = 0; lane < 8; ++lane) {
       // Lanes beyond the last route repeat it: they write the same numbers once more.
       const size_t route = std::min(first + lane, routes - 1);
@@ -343,8 +323,7 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
         FailOnNumbers(checks, waypoints, durations);
       }
       if (segments == 1 || least < kShortestDuration || largest > kLongestDuration ||
-          (largest > kEvenRatio * least &&
-           (segments <= kFewSegments || checks.any_uneven(arguments.durations[lane], segments)))) {
+          (largest > kEvenRatio * least && (segments <= kFewSegments || checks.any_uneven(arguments.durations[lane], segments)))) {
         uneven.push_back(first + lane);
       }
     }

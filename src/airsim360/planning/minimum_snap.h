@@ -61,8 +61,7 @@ class MinimumSnapSolver {
   /// fixed durations (laid out like coefficients()) and `by_duration` = dF/dT at fixed coefficients; on
   /// return by_duration and by_waypoint hold the total derivatives of F with the coefficients following the
   /// optimum. `by_waypoint` may be empty.
-  void Backpropagate(std::span<const double> by_coefficient, std::span<double> by_duration,
-                     std::span<Vec3d> by_waypoint);
+  void Backpropagate(std::span<const double> by_coefficient, std::span<double> by_duration, std::span<Vec3d> by_waypoint);
   PolynomialTrajectory Trajectory() const;
 
  private:
@@ -77,8 +76,8 @@ PolynomialTrajectory SolveMinimumSnap(const MinimumSnapProblem& problem);
 /// [route][segment], coefficients [route][segment][axis][power] (written). Ends at rest (all prescribed
 /// derivatives zero). Fastest in portions of 8 routes whose coefficients fit the caches. InputError as Solve,
 /// naming the route.
-void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const double> durations, size_t routes,
-                           SplineKind kind, std::span<double> coefficients);
+void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const double> durations, size_t routes, SplineKind kind,
+                           std::span<double> coefficients);
 
 /// Powers of one segment and axis: 8 for kMinimumSnap, else 6.
 constexpr int PowersOf(SplineKind kind) { return kind == SplineKind::kMinimumSnap ? 8 : 6; }

@@ -16,8 +16,7 @@ using internal::LargestDifference;
 using internal::RandomRoute;
 using internal::Route;
 
-constexpr SplineKind kKinds[] = {SplineKind::kMinimumSnap, SplineKind::kPaperQuintic,
-                                 SplineKind::kMinimumJerk};
+constexpr SplineKind kKinds[] = {SplineKind::kMinimumSnap, SplineKind::kPaperQuintic, SplineKind::kMinimumJerk};
 
 struct ExactCost {
   std::vector<double> waypoints;
@@ -80,10 +79,8 @@ TEST(MinimumSnap, ReproducesAnyPolynomialOfItsDegree) {
   double t = 0;
   for (const double duration : durations) waypoints.push_back(whole.At(t += duration).p);
   const TrajectoryPoint first = whole.At(0), last = whole.At(6);
-  const PolynomialTrajectory spline = SolveMinimumSnap({.waypoints = waypoints,
-                                                        .durations = durations,
-                                                        .start = {first.v, first.a, first.jerk},
-                                                        .end = {last.v, last.a, last.jerk}});
+  const PolynomialTrajectory spline = SolveMinimumSnap(
+      {.waypoints = waypoints, .durations = durations, .start = {first.v, first.a, first.jerk}, .end = {last.v, last.a, last.jerk}});
   for (int i = 0; i <= 600; ++i) {
     EXPECT_LT(Norm(spline.At(0.01 * i).p - whole.At(0.01 * i).p), 1e-11 * 3000);
     EXPECT_LT(Norm(spline.At(0.01 * i).snap - whole.At(0.01 * i).snap), 1e-9 * 3000);
@@ -137,8 +134,7 @@ TEST(MinimumSnap, MovesTurnsMirrorsAndStretchesWithItsWaypoints) {
       for (Vec3d& p : moved.waypoints) p = move(p) + Vec3d{5, -3, 2};
       solver.Solve(moved.Problem(kind, false));
       EXPECT_NEAR(solver.Cost() / cost, 1, 1e-10);
-      EXPECT_LT(Norm(solver.Trajectory().At(half).p - (move(original.At(half).p) + Vec3d{5, -3, 2})),
-                1e-12 * scale);
+      EXPECT_LT(Norm(solver.Trajectory().At(half).p - (move(original.At(half).p) + Vec3d{5, -3, 2})), 1e-12 * scale);
 
       // Axes in another order give the same bits.
       Route permuted = route;
@@ -151,8 +147,7 @@ TEST(MinimumSnap, MovesTurnsMirrorsAndStretchesWithItsWaypoints) {
       std::reverse(reversed.waypoints.begin(), reversed.waypoints.end());
       std::reverse(reversed.durations.begin(), reversed.durations.end());
       solver.Solve(reversed.Problem(kind, false));
-      EXPECT_LT(Norm(solver.Trajectory().At(original.duration() - half).p - original.At(half).p),
-                1e-12 * scale);
+      EXPECT_LT(Norm(solver.Trajectory().At(original.duration() - half).p - original.At(half).p), 1e-12 * scale);
 
       // Three times as slow: cost over 3^7, or 3^5 for jerk.
       Route slow = route;
@@ -169,8 +164,7 @@ TEST(MinimumSnap, InfluenceOfOneWaypointDecaysByTheEulerFrobeniusRoot) {
   waypoints[20].x = 1;
   const double root[] = {0.5352804307964, 0, 0.4305753470999738};
   for (const SplineKind kind : {SplineKind::kMinimumSnap, SplineKind::kMinimumJerk}) {
-    const PolynomialTrajectory t =
-        SolveMinimumSnap({.waypoints = waypoints, .durations = durations, .kind = kind});
+    const PolynomialTrajectory t = SolveMinimumSnap({.waypoints = waypoints, .durations = durations, .kind = kind});
     EXPECT_NEAR(-t.At(31).v.x / t.At(30).v.x, root[static_cast<int>(kind)], 1e-3);
   }
 }
@@ -181,8 +175,7 @@ TEST(MinimumSnap, LongAndShortRoutesAgreeWithWideArithmetic) {
       const Route route = RandomRoute(segments, segments, /*moving_ends=*/true);
       const MinimumSnapProblem problem = route.Problem(kind, false);
       const PolynomialTrajectory trajectory = SolveMinimumSnap(problem);
-      EXPECT_LT(LargestDifference(trajectory, internal::WideOptimum(problem)),
-                1e-12 * LargestCoefficient(trajectory))
+      EXPECT_LT(LargestDifference(trajectory, internal::WideOptimum(problem)), 1e-12 * LargestCoefficient(trajectory))
           << segments << " segments, kind " << static_cast<int>(kind);
     }
   }
@@ -209,8 +202,7 @@ TEST(MinimumSnap, VeryUnevenTimesKeepTwelveDigits) {
     for (double& duration : route.durations) duration = 0.005 * std::pow(1e4, random.Uniform());
     const MinimumSnapProblem problem = route.Problem(SplineKind::kMinimumSnap, false);
     const PolynomialTrajectory trajectory = SolveMinimumSnap(problem);
-    EXPECT_LT(LargestDifference(trajectory, internal::WideOptimum(problem)),
-              1e-12 * LargestCoefficient(trajectory));
+    EXPECT_LT(LargestDifference(trajectory, internal::WideOptimum(problem)), 1e-12 * LargestCoefficient(trajectory));
   }
 }
 
@@ -218,12 +210,10 @@ TEST(MinimumSnap, ShortRoutesKeepTwelveDigitsWithALongSegmentAnywhere) {
   RngStream random(7, "short uneven");
   for (int i = 0; i < 600; ++i) {
     Route route = RandomRoute(2 + static_cast<size_t>(i) % 4, static_cast<uint64_t>(i), i % 8 == 0);
-    for (double& duration : route.durations)
-      duration = 0.5 * std::pow(i % 3 == 0 ? 7.9 : 64, random.Uniform());
+    for (double& duration : route.durations) duration = 0.5 * std::pow(i % 3 == 0 ? 7.9 : 64, random.Uniform());
     const MinimumSnapProblem problem = route.Problem(SplineKind::kMinimumSnap, false);
     const PolynomialTrajectory trajectory = SolveMinimumSnap(problem);
-    EXPECT_LT(LargestDifference(trajectory, internal::WideOptimum(problem)),
-              1e-12 * LargestCoefficient(trajectory));
+    EXPECT_LT(LargestDifference(trajectory, internal::WideOptimum(problem)), 1e-12 * LargestCoefficient(trajectory));
   }
 }
 
@@ -234,8 +224,7 @@ TEST(MinimumSnap, LongUnevenRoutesKeepTwelveDigits) {
   for (const SplineKind kind : {SplineKind::kMinimumSnap, SplineKind::kMinimumJerk}) {
     const MinimumSnapProblem problem = route.Problem(kind, false);
     const PolynomialTrajectory trajectory = SolveMinimumSnap(problem);
-    EXPECT_LT(LargestDifference(trajectory, internal::WideOptimum(problem)),
-              1e-12 * LargestCoefficient(trajectory));
+    EXPECT_LT(LargestDifference(trajectory, internal::WideOptimum(problem)), 1e-12 * LargestCoefficient(trajectory));
   }
 }
 
@@ -254,15 +243,12 @@ TEST(MinimumSnap, BatchGivesEachRouteItsOwnSolution) {
       std::vector<double> coefficients(kRoutes * size);
       SolveMinimumSnapBatch(waypoints, durations, kRoutes, kind, coefficients);
       for (size_t i = 0; i < kRoutes; ++i) {
-        const MinimumSnapProblem problem = {
-            .waypoints = std::span(waypoints).subspan(i * (segments + 1), segments + 1),
-            .durations = std::span(durations).subspan(i * segments, segments),
-            .kind = kind};
-        const PolynomialTrajectory batch(PowersOf(kind) - 1,
-                                         {problem.durations.begin(), problem.durations.end()},
+        const MinimumSnapProblem problem = {.waypoints = std::span(waypoints).subspan(i * (segments + 1), segments + 1),
+                                            .durations = std::span(durations).subspan(i * segments, segments),
+                                            .kind = kind};
+        const PolynomialTrajectory batch(PowersOf(kind) - 1, {problem.durations.begin(), problem.durations.end()},
                                          {&coefficients[i * size], &coefficients[i * size] + size});
-        EXPECT_LT(LargestDifference(batch, internal::WideOptimum(problem)),
-                  2e-12 * LargestCoefficient(batch));
+        EXPECT_LT(LargestDifference(batch, internal::WideOptimum(problem)), 2e-12 * LargestCoefficient(batch));
       }
     }
   }
@@ -294,8 +280,7 @@ TEST(MinimumSnap, BadProblemsAreRefused) {
   EXPECT_THROW(SolveMinimumSnap({.waypoints = one, .durations = none}), InputError);
   EXPECT_THROW(SolveMinimumSnap({.waypoints = two, .durations = none}), InputError);
   EXPECT_THROW(SolveMinimumSnap({.waypoints = bad, .durations = good}), InputError);
-  EXPECT_THROW(SolveMinimumSnap({.waypoints = two, .durations = good, .end = {{NAN, 0, 0}, {}, {}}}),
-               InputError);
+  EXPECT_THROW(SolveMinimumSnap({.waypoints = two, .durations = good, .end = {{NAN, 0, 0}, {}, {}}}), InputError);
   for (const std::vector<double>& durations : {zero, negative, nan, endless}) {
     EXPECT_THROW(SolveMinimumSnap({.waypoints = two, .durations = durations}), InputError);
   }

@@ -59,17 +59,14 @@ std::string NpyHeader(const char* type, const std::vector<size_t>& shape) {
 
 }  // namespace
 
-void NpzWriter::AddArray(std::string_view name, const char* type, const void* data, size_t count,
-                         const std::vector<size_t>& shape) {
+void NpzWriter::AddArray(std::string_view name, const char* type, const void* data, size_t count, const std::vector<size_t>& shape) {
   size_t product = 1;
   for (const size_t n : shape) product *= n;
   if (product != count) throw InputError("npz: array '" + std::string(name) + "' does not fit its shape");
   std::string body = NpyHeader(type, shape);
   body.append(static_cast<const char*>(data), count * 8);
-  if (bytes_.size() + body.size() > std::numeric_limits<uint32_t>::max() / 2)
-    throw InputError("npz: more than 2 GiB");
-  Entry entry{std::string(name) + ".npy", Crc32(body), static_cast<uint32_t>(body.size()),
-              static_cast<uint32_t>(bytes_.size())};
+  if (bytes_.size() + body.size() > std::numeric_limits<uint32_t>::max() / 2) throw InputError("npz: more than 2 GiB");
+  Entry entry{std::string(name) + ".npy", Crc32(body), static_cast<uint32_t>(body.size()), static_cast<uint32_t>(bytes_.size())};
   Put(bytes_, kLocal);
   PutHeader(bytes_, entry.crc, entry.size, entry.name.size());
   bytes_ += entry.name;
@@ -161,8 +158,7 @@ std::vector<NpzArray> ReadNpz(std::string_view bytes, std::string_view name) {
   std::vector<NpzArray> arrays;
   size_t at = 0;
   while (bytes.size() >= at + kLocalSize && Get<uint32_t>(bytes, at) == kLocal) {
-    const size_t size = Get<uint32_t>(bytes, at + 18), name_size = Get<uint16_t>(bytes, at + 26),
-                 extra = Get<uint16_t>(bytes, at + 28);
+    const size_t size = Get<uint32_t>(bytes, at + 18), name_size = Get<uint16_t>(bytes, at + 26), extra = Get<uint16_t>(bytes, at + 28);
     if (Get<uint16_t>(bytes, at + 8) != 0) throw InputError(where + ": compressed entries are not read");
     const size_t body = at + kLocalSize + name_size + extra;
     if (bytes.size() < body + size) throw InputError(where + ": it ends early");

@@ -19,8 +19,7 @@ class NpzWriter {
   std::string Finish();
 
  private:
-  void AddArray(std::string_view name, const char* type, const void* data, size_t count,
-                const std::vector<size_t>& shape);
+  void AddArray(std::string_view name, const char* type, const void* data, size_t count, const std::vector<size_t>& shape);
   struct Entry {
     std::string name;
     uint32_t crc, size, offset;

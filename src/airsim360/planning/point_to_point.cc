@@ -56,11 +56,8 @@ SearchResult FindLegs(Vec3d a, Vec3d b, const BoundedClearance& world, double ra
     for (const double margin : {std::max(20.0, 0.5 * distance), 4 * std::max(50.0, distance)}) {
       const BoundedClearance part(world, BoxAround(a, b, margin, world.box()));
       const Vec3d extent = part.box().max - part.box().min;
-      const SearchOptions options{
-          .radius = radius, .spacing = spacing, .heuristic = kGreed, .max_expanded = max_expanded};
-      if (extent.x * extent.y * extent.z / std::pow(spacing, 3) >
-          0.5 * static_cast<double>(options.max_nodes))
-        continue;
+      const SearchOptions options{.radius = radius, .spacing = spacing, .heuristic = kGreed, .max_expanded = max_expanded};
+      if (extent.x * extent.y * extent.z / std::pow(spacing, 3) > 0.5 * static_cast<double>(options.max_nodes)) continue;
       SearchResult found = FindPath(a, b, part, options);
       if (found.outcome == SearchOutcome::kFound) {
         found.path = Shortcut(std::move(found.path), world, radius);
@@ -68,36 +65,30 @@ SearchResult FindLegs(Vec3d a, Vec3d b, const BoundedClearance& world, double ra
       }
       if (found.outcome == SearchOutcome::kGaveUp) break;  // a larger box would not help
       result = std::move(found);
-      if (result.outcome == SearchOutcome::kStartBlocked || result.outcome == SearchOutcome::kGoalBlocked)
-        return result;
+      if (result.outcome == SearchOutcome::kStartBlocked || result.outcome == SearchOutcome::kGoalBlocked) return result;
     }
   }
   return result;
 }
 
-[[noreturn]] void Refuse(const SearchResult& result, size_t leg, Vec3d a, Vec3d b,
-                         const BoundedClearance& world, double radius) {
-  const bool first =
-      result.outcome == SearchOutcome::kStartBlocked || result.outcome == SearchOutcome::kStartEnclosed;
+[[noreturn]] void Refuse(const SearchResult& result, size_t leg, Vec3d a, Vec3d b, const BoundedClearance& world, double radius) {
+  const bool first = result.outcome == SearchOutcome::kStartBlocked || result.outcome == SearchOutcome::kStartEnclosed;
   const Vec3d p = first ? a : b;
   const std::string name = "waypoint " + std::to_string(leg + (first ? 1 : 2)) + " " + Text(p);
   if (!world.box().Contains(p)) {
-    throw InputError(name + " is outside the space for flights, " + Text(world.box().min) + " … " +
-                     Text(world.box().max));
+    throw InputError(name + " is outside the space for flights, " + Text(world.box().min) + " … " + Text(world.box().max));
   }
   if (result.outcome == SearchOutcome::kStartBlocked || result.outcome == SearchOutcome::kGoalBlocked) {
     throw InputError(name + " is only " + Metres(world.Clearance(p, radius + 1)) +
                      " from a surface or the end of the world; the radius is " + Metres(radius));
   }
-  throw InputError("no way from " + Text(a) + " to " + Text(b) + " at radius " + Metres(radius) + ": " +
-                   name + " is enclosed (" + Metres(std::cbrt(result.reached_volume)) +
-                   " cubed can be reached from it)");
+  throw InputError("no way from " + Text(a) + " to " + Text(b) + " at radius " + Metres(radius) + ": " + name + " is enclosed (" +
+                   Metres(std::cbrt(result.reached_volume)) + " cubed can be reached from it)");
 }
 
 }  // namespace
 
-CertifiedFlight FlyThrough(std::vector<Vec3d> waypoints, const ClearanceQuery& world,
-                           const FlightOptions& options) {
+CertifiedFlight FlyThrough(std::vector<Vec3d> waypoints, const ClearanceQuery& world, const FlightOptions& options) {
   const size_t given = waypoints.size();
   for (int round = 0;; ++round) {
     AllocatedTrajectory flight = AllocateTimes(waypoints, options.limits, options.allocation);
@@ -111,8 +102,7 @@ CertifiedFlight FlyThrough(std::vector<Vec3d> waypoints, const ClearanceQuery& w
       more.push_back(waypoints[i]);
       if (k == open.size() || open[k] != i) continue;
       ++k;
-      if (Norm(waypoints[i + 1] - waypoints[i]) > kShortestLeg)
-        more.push_back((waypoints[i] + waypoints[i + 1]) * 0.5);
+      if (Norm(waypoints[i + 1] - waypoints[i]) > kShortestLeg) more.push_back((waypoints[i] + waypoints[i + 1]) * 0.5);
     }
     if (open.empty() || more.size() == waypoints.size() || round == options.rounds) {
       const Certificate certificate = Certify(flight.trajectory, flight.peaks, world, options.radius);
@@ -123,16 +113,14 @@ CertifiedFlight FlyThrough(std::vector<Vec3d> waypoints, const ClearanceQuery& w
   }
 }
 
-CertifiedFlight FlyFree(const std::vector<Vec3d>& waypoints, const BoundedClearance& world,
-                        const FlightOptions& options) {
+CertifiedFlight FlyFree(const std::vector<Vec3d>& waypoints, const BoundedClearance& world, const FlightOptions& options) {
   constexpr size_t kThorough = 200'000, kQuick = 20'000;  // nodes looked at
   // Legs at about the radius itself: if there are none, there is no way.
   const double least = options.radius + 5 * kCertificateSlack;
   std::vector<std::vector<Vec3d>> legs;
   for (size_t i = 0; i + 1 < waypoints.size(); ++i) {
     SearchResult found = FindLegs(waypoints[i], waypoints[i + 1], world, least, kThorough);
-    if (found.outcome != SearchOutcome::kFound)
-      Refuse(found, i, waypoints[i], waypoints[i + 1], world, options.radius);
+    if (found.outcome != SearchOutcome::kFound) Refuse(found, i, waypoints[i], waypoints[i + 1], world, options.radius);
     legs.push_back(std::move(found.path));
   }
   // Legs with room to spare where there are any: a smooth path follows them more easily.
@@ -151,8 +139,7 @@ CertifiedFlight FlyFree(const std::vector<Vec3d>& waypoints, const BoundedCleara
     flight.added = flight.waypoints.size() - waypoints.size();
     if (flight.certificate.certified) return flight;
   }
-  throw InputError("no smooth flight could be proved free at radius " + Metres(options.radius) +
-                   "; try a smaller --radius or --amax");
+  throw InputError("no smooth flight could be proved free at radius " + Metres(options.radius) + "; try a smaller --radius or --amax");
 }
 
 }  // namespace airsim360

@@ -27,12 +27,10 @@ struct CertifiedFlight {
 /// A flight through `waypoints` whose legs are clear. Where it is not proved free the leg gets another
 /// waypoint in its middle and the whole is solved again: it tends to the legs. `certificate` tells whether
 /// that has succeeded.
-CertifiedFlight FlyThrough(std::vector<Vec3d> waypoints, const ClearanceQuery& world,
-                           const FlightOptions& options);
+CertifiedFlight FlyThrough(std::vector<Vec3d> waypoints, const ClearanceQuery& world, const FlightOptions& options);
 
 /// A free flight that passes all `waypoints` in turn, going around what is between them. InputError with the
 /// reason if there is none: a waypoint too close to a surface, enclosed, or no way at this radius.
-CertifiedFlight FlyFree(const std::vector<Vec3d>& waypoints, const BoundedClearance& world,
-                        const FlightOptions& options);
+CertifiedFlight FlyFree(const std::vector<Vec3d>& waypoints, const BoundedClearance& world, const FlightOptions& options);
 
 }  // namespace airsim360

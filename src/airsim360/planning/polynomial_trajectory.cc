@@ -34,8 +34,7 @@ class Multiples {
     // Exact up to the division, which rounds once.
     constexpr int64_t kExact = int64_t{1} << 53;
     const bool exact = places_ >= 0 && places_ <= 22 && digits_ < kExact && static_cast<int64_t>(i) <= kExact / digits_;
-    return exact ? static_cast<double>(static_cast<int64_t>(i) * digits_) / std::pow(10.0, places_)
-                 : static_cast<double>(i) * interval_;
+    return exact ? static_cast<double>(static_cast<int64_t>(i) * digits_) / std::pow(10.0, places_) : static_cast<double>(i) * interval_;
   }
 
  private:
@@ -64,16 +63,14 @@ std::array<double, 5> Evaluate(std::span<const double> c, double t) {
 
 }  // namespace
 
-PolynomialTrajectory::PolynomialTrajectory(int degree, std::vector<double> durations,
-                                           std::vector<double> coefficients)
+PolynomialTrajectory::PolynomialTrajectory(int degree, std::vector<double> durations, std::vector<double> coefficients)
     : degree_(degree), durations_(std::move(durations)), coefficients_(std::move(coefficients)) {
   if (degree != 5 && degree != 7) {
     throw InputError("trajectory: degree " + std::to_string(degree) + ", must be 5 or 7");
   }
   if (durations_.empty() || coefficients_.size() != durations_.size() * 3 * (degree_ + 1)) {
-    throw InputError("trajectory: " + std::to_string(durations_.size()) + " durations and " +
-                     std::to_string(coefficients_.size()) + " coefficients of degree " +
-                     std::to_string(degree_) + " do not agree");
+    throw InputError("trajectory: " + std::to_string(durations_.size()) + " durations and " + std::to_string(coefficients_.size()) +
+                     " coefficients of degree " + std::to_string(degree_) + " do not agree");
   }
   CheckFinite(durations_, "duration");
   CheckFinite(coefficients_, "coefficient");
@@ -81,8 +78,7 @@ PolynomialTrajectory::PolynomialTrajectory(int degree, std::vector<double> durat
   double t = 0;
   for (size_t i = 0; i < durations_.size(); ++i) {
     if (!(durations_[i] > 0)) {
-      throw InputError("trajectory: duration " + std::to_string(i) + " is " + std::to_string(durations_[i]) +
-                       " s, must be positive");
+      throw InputError("trajectory: duration " + std::to_string(i) + " is " + std::to_string(durations_[i]) + " s, must be positive");
     }
     starts_.push_back(t);
     t += durations_[i];
@@ -157,8 +153,7 @@ std::vector<double> SampleTimes(double duration, double interval) {
     throw InputError("sampling: duration " + std::to_string(duration) + " s must be finite and not negative");
   }
   if (!(interval > 0) || duration / interval > 1e9) {
-    throw InputError("sampling: interval " + std::to_string(interval) +
-                     " s must be positive and give at most 1e9 samples");
+    throw InputError("sampling: interval " + std::to_string(interval) + " s must be positive and give at most 1e9 samples");
   }
   const auto whole = static_cast<size_t>(std::floor(duration / interval));
   const Multiples multiple(interval);

@@ -12,9 +12,8 @@ namespace {
 constexpr int kStarts = 200, kTurns = 12;     // draws of a start, and of each leg
 constexpr double kTurn = 0.7, kClimb = 0.12;  // radians, standard deviations from leg to leg
 
-std::optional<Vec3d> DrawStart(const ClearanceField& field, const ReachableSpace& space,
-                               const ClearanceQuery& world, const RandomRouteOptions& options,
-                               RngStream& random) {
+std::optional<Vec3d> DrawStart(const ClearanceField& field, const ReachableSpace& space, const ClearanceQuery& world,
+                               const RandomRouteOptions& options, RngStream& random) {
   for (int i = 0; i < kStarts; ++i) {
     const int x = static_cast<int>(random.Index(static_cast<uint32_t>(field.size(0))));
     const int y = static_cast<int>(random.Index(static_cast<uint32_t>(field.size(1))));
@@ -30,13 +29,10 @@ std::optional<Vec3d> DrawStart(const ClearanceField& field, const ReachableSpace
 
 }  // namespace
 
-std::optional<std::vector<Vec3d>> DrawRoute(const ClearanceField& field, const ReachableSpace& space,
-                                            const ClearanceQuery& world, const RandomRouteOptions& options,
-                                            RngStream& random) {
+std::optional<std::vector<Vec3d>> DrawRoute(const ClearanceField& field, const ReachableSpace& space, const ClearanceQuery& world,
+                                            const RandomRouteOptions& options, RngStream& random) {
   const double length = random.Uniform(options.min_length, options.max_length);
-  const int legs =
-      options.min_legs +
-      static_cast<int>(random.Index(static_cast<uint32_t>(options.max_legs - options.min_legs + 1)));
+  const int legs = options.min_legs + static_cast<int>(random.Index(static_cast<uint32_t>(options.max_legs - options.min_legs + 1)));
   const std::optional<Vec3d> start = DrawStart(field, space, world, options, random);
   if (!start) return std::nullopt;
   // Shares of the length.
@@ -52,8 +48,7 @@ std::optional<std::vector<Vec3d>> DrawRoute(const ClearanceField& field, const R
       // The harder it is to go on, the sharper the turns.
       const double widen = 1 + 0.3 * turn;
       const double yaw = heading + kTurn * widen * random.Normal(), climb = kClimb * widen * random.Normal();
-      const Vec3d direction{std::cos(yaw) * std::cos(climb), std::sin(yaw) * std::cos(climb),
-                            std::sin(climb)};
+      const Vec3d direction{std::cos(yaw) * std::cos(climb), std::sin(yaw) * std::cos(climb), std::sin(climb)};
       const Vec3d next = points.back() + direction * (length * s / sum);
       if (!SegmentIsClear(points.back(), next, world, options.room)) continue;
       points.push_back(next);

@@ -20,8 +20,7 @@ struct RandomRouteOptions {
 /// Waypoints whose first is in the reachable space of `field` and whose legs are clear in `world`, which may
 /// know gaps that the map is too coarse for; nullopt if this draw led nowhere (draw again). A pure function
 /// of the arguments and the state of `random`.
-std::optional<std::vector<Vec3d>> DrawRoute(const ClearanceField& field, const ReachableSpace& space,
-                                            const ClearanceQuery& world, const RandomRouteOptions& options,
-                                            RngStream& random);
+std::optional<std::vector<Vec3d>> DrawRoute(const ClearanceField& field, const ReachableSpace& space, const ClearanceQuery& world,
+                                            const RandomRouteOptions& options, RngStream& random);
 
 }  // namespace airsim360

@@ -30,9 +30,7 @@ ClearanceField Town() {
 class MapWorld : public ClearanceQuery {
  public:
   explicit MapWorld(const ClearanceField& field) : field_(field) {}
-  double Clearance(Vec3d p, double max_distance) const override {
-    return std::min(field_.At(p), max_distance);
-  }
+  double Clearance(Vec3d p, double max_distance) const override { return std::min(field_.At(p), max_distance); }
 
  private:
   const ClearanceField& field_;
@@ -109,15 +107,13 @@ TEST(RandomRoute, FindsGapsThatTheMapIsTooCoarseFor) {
 TEST(ArcLength, IsTheDistanceOnAStraightFlightAndTheSumOfFineChordsOnOthers) {
   const Vec3d points[] = {{0, 0, 0}, {6, 8, 0}, {12, 0, 5}, {12, 9, 9}};
   const double durations[] = {3, 2, 4};
-  const PolynomialTrajectory straight =
-      SolveMinimumSnap({.waypoints = std::span(points, 2), .durations = std::span(durations, 1)});
+  const PolynomialTrajectory straight = SolveMinimumSnap({.waypoints = std::span(points, 2), .durations = std::span(durations, 1)});
   EXPECT_NEAR(ArcLength(straight), 10, 1e-9);
   const PolynomialTrajectory curve = SolveMinimumSnap({.waypoints = points, .durations = durations});
   double chords = 0;
   constexpr int kChords = 200'000;
   for (int i = 0; i < kChords; ++i) {
-    chords +=
-        Norm(curve.At(curve.duration() * (i + 1) / kChords).p - curve.At(curve.duration() * i / kChords).p);
+    chords += Norm(curve.At(curve.duration() * (i + 1) / kChords).p - curve.At(curve.duration() * i / kChords).p);
   }
   EXPECT_NEAR(ArcLength(curve), chords, 1e-6 * chords);
 }

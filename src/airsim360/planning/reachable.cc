@@ -61,8 +61,7 @@ bool ReachableSpace::Contains(Vec3d p) const {
   if (!field_.box().Contains(p)) return false;
   size_t at = 0;
   for (int i = 2; i >= 0; --i) {
-    const int c =
-        std::min(static_cast<int>((p[i] - field_.box().min[i]) / field_.voxel()), field_.size(i) - 1);
+    const int c = std::min(static_cast<int>((p[i] - field_.box().min[i]) / field_.voxel()), field_.size(i) - 1);
     at = at * field_.size(i) + c;
   }
   return reached_[at];

@@ -20,8 +20,7 @@ constexpr size_t kHeadStart = 2000;  // nodes looked at before the goal's side i
 // The nodes and what is known of them.
 class Lattice {
  public:
-  Lattice(Vec3d origin, const BoundedClearance& world, const SearchOptions& options)
-      : world_(world), options_(options) {
+  Lattice(Vec3d origin, const BoundedClearance& world, const SearchOptions& options) : world_(world), options_(options) {
     const Box3d& box = world.box();
     double nodes = 1;
     for (int i = 0; i < 3; ++i) {
@@ -44,9 +43,7 @@ class Lattice {
   }
   uint32_t Nearest(Vec3d p) const {
     int c[3];
-    for (int i = 0; i < 3; ++i)
-      c[i] =
-          std::clamp(static_cast<int>(std::lround((p[i] - corner_[i]) / options_.spacing)), 0, size_[i] - 1);
+    for (int i = 0; i < 3; ++i) c[i] = std::clamp(static_cast<int>(std::lround((p[i] - corner_[i]) / options_.spacing)), 0, size_[i] - 1);
     return static_cast<uint32_t>((c[2] * size_[1] + c[1]) * size_[0] + c[0]);
   }
   // A bound of the clearance of a node, asked for once.
@@ -74,9 +71,7 @@ class Lattice {
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
           const int nx = x + dx, ny = y + dy, nz = z + dz;
-          if ((dx | dy | dz) == 0 || nx < 0 || ny < 0 || nz < 0 || nx >= size_[0] || ny >= size_[1] ||
-              nz >= size_[2])
-            continue;
+          if ((dx | dy | dz) == 0 || nx < 0 || ny < 0 || nz < 0 || nx >= size_[0] || ny >= size_[1] || nz >= size_[2]) continue;
           visit(static_cast<uint32_t>((nz * size_[1] + ny) * size_[0] + nx));
         }
       }
@@ -97,8 +92,7 @@ class Search {
       : lattice_(start, world, options), goal_(goal), options_(options), from_(lattice_.Nearest(start)) {
     cost_.assign(lattice_.size(), std::numeric_limits<double>::infinity());
     previous_.assign(lattice_.size(), kNone);
-    goal_clearance_ =
-        world.LowerBound(goal, options.radius + options.spacing, options.radius + options.spacing);
+    goal_clearance_ = world.LowerBound(goal, options.radius + options.spacing, options.radius + options.spacing);
   }
 
   SearchOutcome Run() {
@@ -114,15 +108,13 @@ class Search {
       if (expanded_ == kHeadStart) BeginFlood();
       if (expanded_ >= kHeadStart && !flood_met_ && !FloodOne()) return SearchOutcome::kGoalEnclosed;
     }
-    return goal_cost_ < std::numeric_limits<double>::infinity() ? SearchOutcome::kFound
-                                                                : SearchOutcome::kStartEnclosed;
+    return goal_cost_ < std::numeric_limits<double>::infinity() ? SearchOutcome::kFound : SearchOutcome::kStartEnclosed;
   }
 
   SearchResult Found(Vec3d start) const {
     SearchResult result;
     result.path = {goal_};
-    for (uint32_t node = goal_from_; node != kNone; node = previous_[node])
-      result.path.push_back(lattice_.At(node));
+    for (uint32_t node = goal_from_; node != kNone; node = previous_[node]) result.path.push_back(lattice_.At(node));
     result.path.back() = start;
     std::reverse(result.path.begin(), result.path.end());
     result.length = goal_cost_;
@@ -144,9 +136,7 @@ class Search {
     seen_.assign(lattice_.size(), false);
     const uint32_t nearest = lattice_.Nearest(goal_);
     const auto join = [&](uint32_t node) {
-      if (lattice_.Free(node) &&
-          lattice_.Joined(lattice_.At(node), lattice_.Clearance(node), goal_, goal_clearance_))
-        Flood(node);
+      if (lattice_.Free(node) && lattice_.Joined(lattice_.At(node), lattice_.Clearance(node), goal_, goal_clearance_)) Flood(node);
     };
     join(nearest);
     lattice_.ForNeighbours(nearest, join);
@@ -165,8 +155,7 @@ class Search {
     flood_.pop();
     lattice_.ForNeighbours(node, [&](uint32_t next) {
       if (!seen_[next] && lattice_.Free(next) &&
-          lattice_.Joined(lattice_.At(node), lattice_.Clearance(node), lattice_.At(next),
-                          lattice_.Clearance(next)))
+          lattice_.Joined(lattice_.At(node), lattice_.Clearance(node), lattice_.At(next), lattice_.Clearance(next)))
         Flood(next);
     });
     return true;
@@ -222,8 +211,7 @@ SearchResult FindPath(Vec3d start, Vec3d goal, const BoundedClearance& world, co
   if (!IsFree(start, world, options.radius)) return failed;
   failed.outcome = SearchOutcome::kGoalBlocked;
   if (!IsFree(goal, world, options.radius)) return failed;
-  if (SegmentIsClear(start, goal, world, options.radius))
-    return {SearchOutcome::kFound, {start, goal}, Norm(goal - start), 0, 0};
+  if (SegmentIsClear(start, goal, world, options.radius)) return {SearchOutcome::kFound, {start, goal}, Norm(goal - start), 0, 0};
 
   Search search(start, goal, world, options);
   const SearchOutcome outcome = search.Run();

@@ -11,9 +11,9 @@
 namespace airsim360 {
 
 struct SearchOptions {
-  double radius = 0.5;   ///< metres to keep from every surface
-  double spacing = 1;    ///< metres between lattice nodes along an axis
-  double heuristic = 1;  ///< weight of the straight distance to go; 0 makes it Dijkstra's search
+  double radius = 0.5;                 ///< metres to keep from every surface
+  double spacing = 1;                  ///< metres between lattice nodes along an axis
+  double heuristic = 1;                ///< weight of the straight distance to go; 0 makes it Dijkstra's search
   size_t max_nodes = size_t{1} << 24;  ///< of the lattice; a larger one is an InputError
   size_t max_expanded = 1'000'000;     ///< nodes looked at from either side
 };
@@ -29,9 +29,9 @@ enum class SearchOutcome {
 
 struct SearchResult {
   SearchOutcome outcome = SearchOutcome::kFound;
-  std::vector<Vec3d> path;  ///< start … goal; every edge proved clear (SegmentIsClear); empty if not found
-  double length = 0;        ///< metres, of the path
-  size_t expanded = 0;      ///< nodes
+  std::vector<Vec3d> path;    ///< start … goal; every edge proved clear (SegmentIsClear); empty if not found
+  double length = 0;          ///< metres, of the path
+  size_t expanded = 0;        ///< nodes
   double reached_volume = 0;  ///< m^3 of the lattice cells that the enclosed side reaches
 };
 

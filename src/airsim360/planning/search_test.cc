@@ -17,13 +17,11 @@ constexpr Box3d kHall = {{-10, -10, 0}, {10, 10, 6}};
 
 // A wall across the hall at x = 0 with a door of 2 m by 2.5 m.
 AnalyticWorld WallWithDoor() {
-  return AnalyticWorld(
-      {}, {{{-0.1, -10, 0}, {0.1, 4, 6}}, {{-0.1, 6, 0}, {0.1, 10, 6}}, {{-0.1, 4, 2.5}, {0.1, 6, 6}}});
+  return AnalyticWorld({}, {{{-0.1, -10, 0}, {0.1, 4, 6}}, {{-0.1, 6, 0}, {0.1, 10, 6}}, {{-0.1, 4, 2.5}, {0.1, 6, 6}}});
 }
 
 void ExpectClear(const std::vector<Vec3d>& path, const ClearanceQuery& world, double radius) {
-  for (size_t i = 0; i + 1 < path.size(); ++i)
-    EXPECT_TRUE(SegmentIsClear(path[i], path[i + 1], world, radius));
+  for (size_t i = 0; i + 1 < path.size(); ++i) EXPECT_TRUE(SegmentIsClear(path[i], path[i + 1], world, radius));
 }
 
 TEST(Search, GoesThroughTheDoorAndShortcutsComeNearTheShortestWay) {
@@ -48,8 +46,7 @@ TEST(Search, IsAsShortAsDijkstraOnTheSameLattice) {
   int found = 0;
   for (int k = 0; k < 12; ++k) {
     std::vector<Ball> balls;
-    for (int i = 0; i < 25; ++i)
-      balls.push_back({{rng.Uniform(-7, 7), rng.Uniform(-9, 9), rng.Uniform(0, 6)}, rng.Uniform(0.5, 2)});
+    for (int i = 0; i < 25; ++i) balls.push_back({{rng.Uniform(-7, 7), rng.Uniform(-9, 9), rng.Uniform(0, 6)}, rng.Uniform(0.5, 2)});
     const AnalyticWorld inner(balls, {});
     const BoundedClearance world(inner, kHall);
     const Vec3d start{-9, rng.Uniform(-8, 8), 3}, goal{9, rng.Uniform(-8, 8), 3};
@@ -117,18 +114,15 @@ TEST(FlyFree, NamesTheWaypointThatCannotBeReached) {
     }
     return "";
   };
-  EXPECT_NE(message({{-8, 0, 1}, {0.2, 0, 1}}, 0.4).find("waypoint 2 (0.20, 0.00, 1.00) is only 0.1 m"),
-            std::string::npos);
-  EXPECT_NE(message({{-8, 0, 1}, {80, 0, 1}}, 0.4).find("waypoint 2 (80.00, 0.00, 1.00) is outside"),
-            std::string::npos);
+  EXPECT_NE(message({{-8, 0, 1}, {0.2, 0, 1}}, 0.4).find("waypoint 2 (0.20, 0.00, 1.00) is only 0.1 m"), std::string::npos);
+  EXPECT_NE(message({{-8, 0, 1}, {80, 0, 1}}, 0.4).find("waypoint 2 (80.00, 0.00, 1.00) is outside"), std::string::npos);
   // The door is 2 m wide: a ball of radius 1.2 does not fit.
   EXPECT_NE(message({{-8, 0, 2}, {8, 0, 2}}, 1.2).find("no way from"), std::string::npos);
 }
 
 TEST(FlyThrough, AddsWaypointsOnlyWhereTheSmoothPathLeavesTheFreeSpace) {
   // A corridor with a right angle, 3 m wide: the smooth path through the corner swings out of it.
-  const AnalyticWorld world(
-      {}, {{{-20, 1.5, -5}, {-1.5, 20, 5}}, {{1.5, -20, -5}, {4, 20, 5}}, {{-20, -4, -5}, {4, -1.5, 5}}});
+  const AnalyticWorld world({}, {{{-20, 1.5, -5}, {-1.5, 20, 5}}, {{1.5, -20, -5}, {4, 20, 5}}, {{-20, -4, -5}, {4, -1.5, 5}}});
   const std::vector<Vec3d> corner = {{-15, 0, 0}, {0, 0, 0}, {0, 15, 0}};
   const FlightOptions options{.limits = {.speed = 8, .acceleration = 4}, .allocation = {}, .radius = 1};
   const CertifiedFlight flight = FlyThrough(corner, world, options);

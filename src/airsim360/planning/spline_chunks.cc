@@ -12,9 +12,7 @@ struct PaddedPiece {
 };
 
 void CopyPadded(const RouteArguments& route, size_t first, size_t count, PaddedPiece piece) {
-  const auto clamp = [](size_t at, size_t limit) {
-    return at < kChunkOverlap ? 0 : std::min(at - kChunkOverlap, limit);
-  };
+  const auto clamp = [](size_t at, size_t limit) { return at < kChunkOverlap ? 0 : std::min(at - kChunkOverlap, limit); };
   for (size_t i = 0; i < count + 2 * kChunkOverlap; ++i) {
     piece.durations[i] = route.durations[clamp(first + i, route.segments - 1)];
   }
@@ -57,8 +55,7 @@ bool AgreesWithNext(const double* c, size_t powers, const double* durations) {
                    std::abs(sum[2] * inverse * inverse - 6 * there[3]) * unit * unit) *
                   unit;
   }
-  const double largest =
-      std::max(LargestTerm(c, powers, durations[0]), LargestTerm(next, powers, durations[1]));
+  const double largest = std::max(LargestTerm(c, powers, durations[0]), LargestTerm(next, powers, durations[1]));
   return difference <= kSeamTolerance * largest;
 }
 
@@ -86,12 +83,8 @@ bool SolveRouteInChunks(SplineKind kind, const BatchKernels& kernels, const Rout
     const size_t first = chunk * (segments - count) / (chunks - 1), lane = chunk % 8;
     const bool has_start = chunk == 0, has_end = chunk + 1 == chunks;
     const size_t before = has_start || has_end ? 0 : first - kChunkOverlap;
-    arguments.lanes.waypoints[lane] = has_start ? head.knots
-                                      : has_end ? tail.knots
-                                                : route.knots + 4 * before;
-    arguments.lanes.durations[lane] = has_start ? head.durations
-                                      : has_end ? tail.durations
-                                                : route.durations + before;
+    arguments.lanes.waypoints[lane] = has_start ? head.knots : has_end ? tail.knots : route.knots + 4 * before;
+    arguments.lanes.durations[lane] = has_start ? head.durations : has_end ? tail.durations : route.durations + before;
     arguments.lanes.coefficients[lane] = route.coefficients + first * size;
     if (lane < 7) continue;
     arguments.has_start = chunk == 7;

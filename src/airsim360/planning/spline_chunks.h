@@ -27,7 +27,6 @@ constexpr size_t ChunkWorkspace() {
 /// prescribed ends, a kind that has a kernel. False where chunks disagree at a seam, for influence does not
 /// decay in units of durations that keep growing; then the coefficients are of no use. The workspace has
 /// ChunkWorkspace() doubles.
-[[nodiscard]] bool SolveRouteInChunks(SplineKind kind, const BatchKernels& kernels,
-                                      const RouteArguments& route);
+[[nodiscard]] bool SolveRouteInChunks(SplineKind kind, const BatchKernels& kernels, const RouteArguments& route);
 
 }  // namespace airsim360::internal

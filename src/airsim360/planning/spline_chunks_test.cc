@@ -48,9 +48,8 @@ std::vector<double> Coefficients(const Problem& problem, int kind, Solve&& solve
 }
 
 std::vector<double> InChunks(const Problem& problem, int kind, const BatchKernels& kernels) {
-  return Coefficients(problem, kind, [&](const RouteArguments& route) {
-    EXPECT_TRUE(SolveRouteInChunks(static_cast<SplineKind>(kind), kernels, route));
-  });
+  return Coefficients(problem, kind,
+                      [&](const RouteArguments& route) { EXPECT_TRUE(SolveRouteInChunks(static_cast<SplineKind>(kind), kernels, route)); });
 }
 
 /// Largest difference of c_k T^k, over the largest c_k T^k.
@@ -83,9 +82,8 @@ TEST(SplineChunks, KeepTwelveDigitsAgainstWideArithmetic) {
     Problem problem = RoughProblem(900, 5);
     for (const bool even : {false, true}) {
       if (even) problem.durations.assign(900, 2.5);
-      const auto wide = Coefficients(problem, kind, [&](const RouteArguments& route) {
-        SolveRouteWide(static_cast<SplineKind>(kind), route);
-      });
+      const auto wide =
+          Coefficients(problem, kind, [&](const RouteArguments& route) { SolveRouteWide(static_cast<SplineKind>(kind), route); });
       const auto chunks = InChunks(problem, kind, *AIRSIM360_SELECT_KERNEL(kBatchKernels));
       EXPECT_LT(Difference(problem, chunks, wide), 1e-12) << "kind " << kind << ", even " << even;
     }
@@ -101,8 +99,7 @@ TEST(SplineChunks, RefusedWhereInfluenceDoesNotDecay) {
   }
   for (const int kind : {0, 2}) {
     Coefficients(problem, kind, [&](const RouteArguments& route) {
-      EXPECT_FALSE(
-          SolveRouteInChunks(static_cast<SplineKind>(kind), *AIRSIM360_SELECT_KERNEL(kBatchKernels), route));
+      EXPECT_FALSE(SolveRouteInChunks(static_cast<SplineKind>(kind), *AIRSIM360_SELECT_KERNEL(kBatchKernels), route));
     });
   }
   // The solver then takes the route in one piece.

@@ -50,8 +50,7 @@ template <class S, class Model>
 AIRSIM360_INLINE constexpr S Noise(int i, int j) {
   constexpr int D = Model::kStates;
   if (Model::kIsLinear) {
-    return ConstantEffect<S, D>(i) * ConstantEffect<S, D>(j) +
-           S(3) * LinearEffect<S, D>(i) * LinearEffect<S, D>(j);
+    return ConstantEffect<S, D>(i) * ConstantEffect<S, D>(j) + S(3) * LinearEffect<S, D>(i) * LinearEffect<S, D>(j);
   }
   return S(1) / (Factorial<S>(D - i) * Factorial<S>(D - j) * S(2 * D + 1 - i - j));
 }
@@ -69,8 +68,7 @@ AIRSIM360_INLINE constexpr double KnownInformation() {
 template <class Model>
 AIRSIM360_INLINE constexpr double KnownCovariance(int i, int j) {
   using S = long double;
-  return static_cast<double>(Noise<S, Model>(i, j) -
-                             Noise<S, Model>(0, i) / Noise<S, Model>(0, 0) * Noise<S, Model>(0, j));
+  return static_cast<double>(Noise<S, Model>(i, j) - Noise<S, Model>(0, i) / Noise<S, Model>(0, 0) * Noise<S, Model>(0, j));
 }
 
 /// Gain and posterior covariance after the first segment when the highest state is free at its start.
@@ -81,15 +79,12 @@ AIRSIM360_INLINE constexpr S FreeGain(int i) {
 template <class S, class Model>
 AIRSIM360_INLINE constexpr S FreeCovariance(int i, int j) {
   constexpr int D = Model::kStates;
-  return Noise<S, Model>(i, j) - FreeGain<S, D>(i) * Noise<S, Model>(0, j) -
-         FreeGain<S, D>(j) * Noise<S, Model>(0, i) +
+  return Noise<S, Model>(i, j) - FreeGain<S, D>(i) * Noise<S, Model>(0, j) - FreeGain<S, D>(j) * Noise<S, Model>(0, i) +
          FreeGain<S, D>(i) * FreeGain<S, D>(j) * Noise<S, Model>(0, 0);
 }
 
 /// Index of (i, j), 1 <= i <= j <= D, in a packed symmetric matrix.
-AIRSIM360_INLINE constexpr int Packed(int i, int j, int d) {
-  return (i - 1) * d - (i - 1) * (i - 2) / 2 + j - i;
-}
+AIRSIM360_INLINE constexpr int Packed(int i, int j, int d) { return (i - 1) * d - (i - 1) * (i - 2) / 2 + j - i; }
 
 /// What the forward pass knows at the start of a segment, in the segment's units.
 template <class V, int A, int D>
@@ -207,15 +202,13 @@ AIRSIM360_INLINE void FilterCovariance(const C* from, C* gain, C& information, C
 }
 
 template <class S, class Model, class V, int A>
-AIRSIM360_INLINE void StepCovariance(SegmentRecord<V, A, Model::kStates>& record,
-                                     KnotBelief<V, A, Model::kStates>& next) {
+AIRSIM360_INLINE void StepCovariance(SegmentRecord<V, A, Model::kStates>& record, KnotBelief<V, A, Model::kStates>& next) {
   FilterCovariance<S, Model>(record.start.covariance, record.gain, record.information, next.covariance);
 }
 
 /// The same for a first segment whose highest derivative is free at its start: infinite prior variance.
 template <class S, class Model, class V, int A>
-AIRSIM360_INLINE void StepFreeCovariance(SegmentRecord<V, A, Model::kStates>& record,
-                                         KnotBelief<V, A, Model::kStates>& next) {
+AIRSIM360_INLINE void StepFreeCovariance(SegmentRecord<V, A, Model::kStates>& record, KnotBelief<V, A, Model::kStates>& next) {
   constexpr int D = Model::kStates;
   record.information = V{};
   AIRSIM360_UNROLL
@@ -230,8 +223,7 @@ AIRSIM360_INLINE void StepFreeCovariance(SegmentRecord<V, A, Model::kStates>& re
 
 /// The same for a first segment whose start is known exactly: covariance zero there.
 template <class Model, class V, int A>
-AIRSIM360_INLINE void StepKnownCovariance(SegmentRecord<V, A, Model::kStates>& record,
-                                          KnotBelief<V, A, Model::kStates>& next) {
+AIRSIM360_INLINE void StepKnownCovariance(SegmentRecord<V, A, Model::kStates>& record, KnotBelief<V, A, Model::kStates>& next) {
   constexpr int D = Model::kStates;
   record.information = V{} + KnownInformation<Model>();
   AIRSIM360_UNROLL
@@ -280,8 +272,7 @@ AIRSIM360_INLINE Costate<V, D> StartCostate(const Costate<V, D>& end) {
 
 /// y at the segment's start: mean - covariance costate.
 template <class V, int A, int D>
-AIRSIM360_INLINE void SmoothStart(const KnotBelief<V, A, D>& belief, int axis, const Costate<V, D>& start,
-                                  V* y) {
+AIRSIM360_INLINE void SmoothStart(const KnotBelief<V, A, D>& belief, int axis, const Costate<V, D>& start, V* y) {
   AIRSIM360_UNROLL
   for (int i = 1; i <= D; ++i) {
     V sum = belief.mean[axis][i - 1];

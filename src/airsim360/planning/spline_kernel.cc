@@ -78,12 +78,8 @@ class RouteSolver {
 
   /// Segments that the two chains walk in step k; beyond its own the backward chain repeats its last.
   AIRSIM360_INLINE size_t Forward(size_t k) const { return k; }
-  AIRSIM360_INLINE size_t Backward(size_t k) const {
-    return Segments() - 1 - (k < Common() ? k : Common() - 1);
-  }
-  AIRSIM360_INLINE V2 Inverse(size_t k) {
-    return V2{SegmentInverse(Forward(k)), SegmentInverse(Backward(k))};
-  }
+  AIRSIM360_INLINE size_t Backward(size_t k) const { return Segments() - 1 - (k < Common() ? k : Common() - 1); }
+  AIRSIM360_INLINE V2 Inverse(size_t k) { return V2{SegmentInverse(Forward(k)), SegmentInverse(Backward(k))}; }
   AIRSIM360_INLINE V2 Duration(size_t k) const { return V2{durations_[Forward(k)], durations_[Backward(k)]}; }
   AIRSIM360_INLINE V4 Knot(size_t k) const { return Load4(knots_ + 4 * k); }
 
@@ -103,8 +99,7 @@ class RouteSolver {
       AIRSIM360_UNROLL
       for (int i = 0; i < D; ++i, power *= duration) {
         const bool known = !kRest && !(kFree && i == D - 1);
-        belief.mean[chain][i] =
-            known ? Load4(end + 4 * i) * (chain == 1 && i % 2 == 0 ? -power : power) : V4{};
+        belief.mean[chain][i] = known ? Load4(end + 4 * i) * (chain == 1 && i % 2 == 0 ? -power : power) : V4{};
       }
     }
   }
@@ -154,8 +149,7 @@ class RouteSolver {
       record.gain[i - 1] = gain[i - 1] = V2{} + (kFree ? FreeGain<double, D>(i) : KnownGain<Model>(i));
       AIRSIM360_UNROLL
       for (int j = i; j <= D; ++j) {
-        covariance[Packed(i, j, D)] =
-            V2{} + (kFree ? FreeCovariance<double, Model>(i, j) : KnownCovariance<Model>(i, j));
+        covariance[Packed(i, j, D)] = V2{} + (kFree ? FreeCovariance<double, Model>(i, j) : KnownCovariance<Model>(i, j));
       }
     }
   }
@@ -221,8 +215,7 @@ class RouteSolver {
       state_[i - 1] = belief.mean[1][i - 1];
       AIRSIM360_UNROLL
       for (int j = 1; j <= D; ++j) {
-        state_[i - 1] -=
-            costate_[1][j - 1] * belief.covariance[i <= j ? Packed(i, j, D) : Packed(j, i, D)][1];
+        state_[i - 1] -= costate_[1][j - 1] * belief.covariance[i <= j ? Packed(i, j, D) : Packed(j, i, D)][1];
       }
     }
   }
@@ -270,8 +263,7 @@ class RouteSolver {
   template <int chain>
   AIRSIM360_INLINE Costate<V4, D> End(const Record& record, bool first) const {
     Costate<V4, D> end;
-    V4 sum =
-        record.innovation[chain] * (first && !kFree ? KnownInformation<Model>() : record.information[chain]);
+    V4 sum = record.innovation[chain] * (first && !kFree ? KnownInformation<Model>() : record.information[chain]);
     AIRSIM360_UNROLL
     for (int i = D; i >= 1; --i) {
       const V4 after = costate_[chain][i - 1];
@@ -314,8 +306,7 @@ class RouteSolver {
     double* const base = coefficients_ + segment * 3 * kPowers;
     double* const out[3] = {base, base + kPowers, base + 2 * kPowers};
     const V4 one = Splat4(1), inverse = Splat4(SegmentInverse(segment)), square = inverse * inverse;
-    const V4 low =
-        __builtin_shufflevector(one, inverse, 0, 5, 2, 7) * __builtin_shufflevector(one, square, 0, 1, 6, 7);
+    const V4 low = __builtin_shufflevector(one, inverse, 0, 5, 2, 7) * __builtin_shufflevector(one, square, 0, 1, 6, 7);
     const V4 scale[2] = {low, low * (square * square)};
     if constexpr (kStill && kPowers == 8) {
       V4 high[4] = {c[4], c[5], c[6], c[7]};
@@ -354,8 +345,7 @@ void SolveRoute(const RouteArguments& arguments) {
 }
 
 template <int kSegments>
-NumberCheck SolveFew(const double* waypoints, const double* durations, double* knots, double* durations_copy,
-                     double* coefficients) {
+NumberCheck SolveFew(const double* waypoints, const double* durations, double* knots, double* durations_copy, double* coefficients) {
   const bool points = Pad(waypoints, kSegments + 1, knots);
   double least = durations[0], largest = least, finite = 0;
   AIRSIM360_UNROLL

@@ -71,8 +71,8 @@ struct SplineKernels {
   /// 1][3] and durations as they come: they are looked at and copied in passing, to knots [segments + 1][4]
   /// and durations_copy. Where numbers are not valid the coefficients are of no use; `uneven` says only that
   /// some duration is more than 8 times another.
-  NumberCheck (*few[kFewSegments - 1])(const double* waypoints, const double* durations, double* knots,
-                                       double* durations_copy, double* coefficients);
+  NumberCheck (*few[kFewSegments - 1])(const double* waypoints, const double* durations, double* knots, double* durations_copy,
+                                       double* coefficients);
 };
 
 struct BatchKernels {

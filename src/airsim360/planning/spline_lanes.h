@@ -21,9 +21,7 @@ AIRSIM360_INLINE V4 Splat4(double x) { return V4{x, x, x, x}; }
 typedef double V8 __attribute__((vector_size(64)));
 typedef double V8Memory __attribute__((vector_size(64), aligned(8), may_alias));
 
-AIRSIM360_INLINE V8 Join(V4 low, V4 high) {
-  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-}
+AIRSIM360_INLINE V8 Join(V4 low, V4 high) { return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7); }
 AIRSIM360_INLINE V4 Low(V8 v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
 AIRSIM360_INLINE V4 High(V8 v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
 AIRSIM360_INLINE V8 Load8(const double* p) { return *reinterpret_cast<const V8Memory*>(p); }
@@ -85,16 +83,12 @@ AIRSIM360_INLINE void Store8(V8 v, double* p) {
   Store4(v.low, p);
   Store4(v.high, p + 4);
 }
-AIRSIM360_INLINE V8 Larger(V8 a, V8 b) {
-  return {a.low > b.low ? a.low : b.low, a.high > b.high ? a.high : b.high};
-}
+AIRSIM360_INLINE V8 Larger(V8 a, V8 b) { return {a.low > b.low ? a.low : b.low, a.high > b.high ? a.high : b.high}; }
 #endif
 
 AIRSIM360_INLINE void Transpose4(V4& a, V4& b, V4& c, V4& d) {
-  const V4 ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6),
-           ab_high = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const V4 cd_low = __builtin_shufflevector(c, d, 0, 4, 2, 6),
-           cd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  const V4 ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_high = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const V4 cd_low = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
   a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
   b = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
   c = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
@@ -134,10 +128,8 @@ template <int D, int A, class M, class V>
 AIRSIM360_INLINE void SolveSymmetric(const M* a, int n, V (*b)[D]) {
   if constexpr (D == 3) {
     if (n == 3) {
-      const M c11 = a[3] * a[5] - a[4] * a[4], c12 = a[2] * a[4] - a[1] * a[5],
-              c13 = a[1] * a[4] - a[2] * a[3];
-      const M c22 = a[0] * a[5] - a[2] * a[2], c23 = a[1] * a[2] - a[0] * a[4],
-              c33 = a[0] * a[3] - a[1] * a[1];
+      const M c11 = a[3] * a[5] - a[4] * a[4], c12 = a[2] * a[4] - a[1] * a[5], c13 = a[1] * a[4] - a[2] * a[3];
+      const M c22 = a[0] * a[5] - a[2] * a[2], c23 = a[1] * a[2] - a[0] * a[4], c33 = a[0] * a[3] - a[1] * a[1];
       const M inverse = 1.0 / (a[0] * c11 + (a[1] * c12 + a[2] * c13));
       AIRSIM360_UNROLL
       for (int axis = 0; axis < A; ++axis) {
@@ -162,8 +154,7 @@ AIRSIM360_INLINE void SolveSymmetric(const M* a, int n, V (*b)[D]) {
 
 /// One forward step: fills the record of a segment, moves the belief to its end.
 template <class Model, class V, int A>
-AIRSIM360_INLINE void Step(const V* delta, SegmentRecord<V, A, Model::kStates>& record,
-                           KnotBelief<V, A, Model::kStates>& belief) {
+AIRSIM360_INLINE void Step(const V* delta, SegmentRecord<V, A, Model::kStates>& record, KnotBelief<V, A, Model::kStates>& belief) {
   record.start = belief;
   StepCovariance<double, Model>(record, belief);
   const V zero[A] = {};
@@ -173,8 +164,7 @@ AIRSIM360_INLINE void Step(const V* delta, SegmentRecord<V, A, Model::kStates>& 
 /// The same for a first segment, whose start has known derivatives of zero, but for the highest where that is
 /// free. The record does not keep the belief there.
 template <class Model, class V, int A>
-AIRSIM360_INLINE void StepFromRest(bool free_start, const V* delta,
-                                   SegmentRecord<V, A, Model::kStates>& record,
+AIRSIM360_INLINE void StepFromRest(bool free_start, const V* delta, SegmentRecord<V, A, Model::kStates>& record,
                                    KnotBelief<V, A, Model::kStates>& belief) {
   if (free_start) {
     StepFreeCovariance<double, Model>(record, belief);

@@ -17,12 +17,7 @@ struct Route {
   BoundaryDerivatives start, end;
 
   MinimumSnapProblem Problem(SplineKind kind, bool free_jerk) const {
-    return {.waypoints = waypoints,
-            .durations = durations,
-            .start = start,
-            .end = end,
-            .kind = kind,
-            .free_jerk = free_jerk};
+    return {.waypoints = waypoints, .durations = durations, .start = start, .end = end, .kind = kind, .free_jerk = free_jerk};
   }
 };
 
@@ -65,16 +60,14 @@ inline double LargestCoefficient(const PolynomialTrajectory& trajectory) {
 inline double LargestDifference(const PolynomialTrajectory& a, const PolynomialTrajectory& b) {
   std::vector<double> difference(a.coefficients().begin(), a.coefficients().end());
   for (size_t i = 0; i < difference.size(); ++i) difference[i] -= b.coefficients()[i];
-  return LargestCoefficient(
-      PolynomialTrajectory(a.degree(), {a.durations().begin(), a.durations().end()}, difference));
+  return LargestCoefficient(PolynomialTrajectory(a.degree(), {a.durations().begin(), a.durations().end()}, difference));
 }
 
 /// The same smoother in 113-bit arithmetic, whatever the durations.
 inline PolynomialTrajectory WideOptimum(const MinimumSnapProblem& problem) {
   std::vector<double> knots;
   for (const Vec3d& p : problem.waypoints) knots.insert(knots.end(), {p.x, p.y, p.z, 0});
-  const bool free = problem.kind == SplineKind::kPaperQuintic ||
-                    (problem.kind == SplineKind::kMinimumSnap && problem.free_jerk);
+  const bool free = problem.kind == SplineKind::kPaperQuintic || (problem.kind == SplineKind::kMinimumSnap && problem.free_jerk);
   double ends[2][12] = {};
   for (int side = 0; side < 2; ++side) {
     const BoundaryDerivatives& end = side == 0 ? problem.start : problem.end;
@@ -84,8 +77,7 @@ inline PolynomialTrajectory WideOptimum(const MinimumSnapProblem& problem) {
       ends[side][8 + axis] = end.jerk[axis];
     }
   }
-  std::vector<double> coefficients(problem.durations.size() * 3 *
-                                   static_cast<size_t>(PowersOf(problem.kind)));
+  std::vector<double> coefficients(problem.durations.size() * 3 * static_cast<size_t>(PowersOf(problem.kind)));
   SolveRouteWide(problem.kind, {.knots = knots.data(),
                                 .durations = problem.durations.data(),
                                 .segments = problem.durations.size(),
@@ -95,8 +87,7 @@ inline PolynomialTrajectory WideOptimum(const MinimumSnapProblem& problem) {
                                 .free_end = free,
                                 .workspace = nullptr,
                                 .coefficients = coefficients.data()});
-  return PolynomialTrajectory(PowersOf(problem.kind) - 1,
-                              {problem.durations.begin(), problem.durations.end()}, coefficients);
+  return PolynomialTrajectory(PowersOf(problem.kind) - 1, {problem.durations.begin(), problem.durations.end()}, coefficients);
 }
 
 /// x = A^-1 b by Gaussian elimination with partial pivoting; A row by row.
@@ -131,8 +122,7 @@ inline std::vector<double> DenseSolve(std::vector<std::vector<long double>> a, s
 /// least integral of the squared derivative under interpolation, continuity and end conditions.
 inline PolynomialTrajectory DenseOptimum(const MinimumSnapProblem& problem) {
   const int powers = PowersOf(problem.kind), order = problem.kind == SplineKind::kMinimumJerk ? 3 : 4;
-  const bool free = problem.kind == SplineKind::kPaperQuintic ||
-                    (problem.kind == SplineKind::kMinimumSnap && problem.free_jerk);
+  const bool free = problem.kind == SplineKind::kPaperQuintic || (problem.kind == SplineKind::kMinimumSnap && problem.free_jerk);
   const size_t segments = problem.durations.size(), unknowns = segments * static_cast<size_t>(powers);
   const int continuity = order - 1, clamped = free ? order - 2 : order - 1;
   std::vector<double> coefficients(unknowns * 3);
@@ -146,8 +136,7 @@ inline PolynomialTrajectory DenseOptimum(const MinimumSnapProblem& problem) {
     // Unknown: c_k T^k. Rows: derivative n at the start (tau = 0) or end (tau = 1) of a segment, in SI.
     std::vector<std::vector<long double>> rows;
     std::vector<long double> values;
-    const auto add = [&](size_t segment, int n, bool at_end, long double sign,
-                         std::vector<long double>& row) {
+    const auto add = [&](size_t segment, int n, bool at_end, long double sign, std::vector<long double>& row) {
       const long double unit = std::pow(static_cast<long double>(problem.durations[segment]), -n);
       for (int k = n; k < (at_end ? powers : n + 1); ++k) {
         row[segment * static_cast<size_t>(powers) + static_cast<size_t>(k)] += sign * unit * falling(k, n);
@@ -159,9 +148,7 @@ inline PolynomialTrajectory DenseOptimum(const MinimumSnapProblem& problem) {
       rows.push_back(row);
       values.push_back(value);
     };
-    const auto given = [&](const BoundaryDerivatives& end, int n) {
-      return n == 1 ? end.v[axis] : n == 2 ? end.a[axis] : end.jerk[axis];
-    };
+    const auto given = [&](const BoundaryDerivatives& end, int n) { return n == 1 ? end.v[axis] : n == 2 ? end.a[axis] : end.jerk[axis]; };
     for (size_t i = 0; i < segments; ++i) {
       fix(i, 0, false, problem.waypoints[i][axis]);
       fix(i, 0, true, problem.waypoints[i + 1][axis]);
@@ -198,8 +185,7 @@ inline PolynomialTrajectory DenseOptimum(const MinimumSnapProblem& problem) {
     for (size_t i = 0; i < segments; ++i) {
       double power = 1;
       for (int k = 0; k < powers; ++k, power *= problem.durations[i]) {
-        coefficients[(i * 3 + static_cast<size_t>(axis)) * static_cast<size_t>(powers) +
-                     static_cast<size_t>(k)] =
+        coefficients[(i * 3 + static_cast<size_t>(axis)) * static_cast<size_t>(powers) + static_cast<size_t>(k)] =
             x[i * static_cast<size_t>(powers) + static_cast<size_t>(k)] / power;
       }
     }

@@ -201,8 +201,7 @@ void RefineUneven(SplineKind kind, const CheckKernels& kernels, const RouteArgum
   for (size_t i = 0; i + 1 < segments; ++i) {
     // Block by block first.
     if (i % kBlock == 0) {
-      while (i + 1 < segments &&
-             !kernels.any_uneven(arguments.durations + i, std::min(kBlock + 2, segments - i))) {
+      while (i + 1 < segments && !kernels.any_uneven(arguments.durations + i, std::min(kBlock + 2, segments - i))) {
         i += kBlock;
       }
       if (i + 1 >= segments) break;

@@ -52,42 +52,38 @@ GroundView::GroundView(const Panel& panel, double min_x, double min_y, double ma
 
 Svg::Svg(int width, int height) {
   const std::string w = std::to_string(width), h = std::to_string(height);
-  out_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h + "\" viewBox=\"0 0 " +
-         w + " " + h + "\" font-family=\"DejaVu Sans, Helvetica, sans-serif\">\n<rect width=\"" + w +
-         "\" height=\"" + h + "\" fill=\"#ffffff\"/>\n";
+  out_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h + "\" viewBox=\"0 0 " + w + " " + h +
+         "\" font-family=\"DejaVu Sans, Helvetica, sans-serif\">\n<rect width=\"" + w + "\" height=\"" + h + "\" fill=\"#ffffff\"/>\n";
 }
 
 void Svg::Text(double x, double y, int size, const std::string& text, const char* anchor) {
-  out_ += "<text x=\"" + Pixels(x) + "\" y=\"" + Pixels(y) + "\" font-size=\"" + std::to_string(size) +
-          "\" text-anchor=\"" + anchor + "\" fill=\"#222222\">" + Escaped(text) + "</text>\n";
+  out_ += "<text x=\"" + Pixels(x) + "\" y=\"" + Pixels(y) + "\" font-size=\"" + std::to_string(size) + "\" text-anchor=\"" + anchor +
+          "\" fill=\"#222222\">" + Escaped(text) + "</text>\n";
 }
 
 void Svg::Line(double x1, double y1, double x2, double y2, const char* color, double width, bool dashed) {
-  out_ += "<path d=\"M" + Pixels(x1) + " " + Pixels(y1) + "L" + Pixels(x2) + " " + Pixels(y2) +
-          "\" stroke=\"" + color + "\" stroke-width=\"" + Pixels(width) + "\"" +
-          (dashed ? " stroke-dasharray=\"6 4\"" : "") + "/>\n";
+  out_ += "<path d=\"M" + Pixels(x1) + " " + Pixels(y1) + "L" + Pixels(x2) + " " + Pixels(y2) + "\" stroke=\"" + color +
+          "\" stroke-width=\"" + Pixels(width) + "\"" + (dashed ? " stroke-dasharray=\"6 4\"" : "") + "/>\n";
 }
 
-void Svg::Polyline(std::span<const double> x, std::span<const double> y, const std::string& color,
-                   double width, double opacity) {
-  out_ += "<polyline fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\" stroke=\"" + color +
-          "\" stroke-width=\"" + Pixels(width) + "\" opacity=\"" + Short(opacity) + "\" points=\"";
+void Svg::Polyline(std::span<const double> x, std::span<const double> y, const std::string& color, double width, double opacity) {
+  out_ += "<polyline fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\" stroke=\"" + color + "\" stroke-width=\"" +
+          Pixels(width) + "\" opacity=\"" + Short(opacity) + "\" points=\"";
   for (size_t i = 0; i < x.size(); ++i) out_ += Pixels(x[i]) + "," + Pixels(y[i]) + " ";
   out_ += "\"/>\n";
 }
 
 void Svg::Dot(double x, double y, double radius, const char* color) {
-  out_ += "<circle cx=\"" + Pixels(x) + "\" cy=\"" + Pixels(y) + "\" r=\"" + Pixels(radius) + "\" fill=\"" +
-          color + "\" stroke=\"#ffffff\" stroke-width=\"1\"/>\n";
+  out_ += "<circle cx=\"" + Pixels(x) + "\" cy=\"" + Pixels(y) + "\" r=\"" + Pixels(radius) + "\" fill=\"" + color +
+          "\" stroke=\"#ffffff\" stroke-width=\"1\"/>\n";
 }
 
 void Svg::Frame(const Panel& p) {
-  out_ += "<rect x=\"" + Pixels(p.x) + "\" y=\"" + Pixels(p.y) + "\" width=\"" + Pixels(p.width) +
-          "\" height=\"" + Pixels(p.height) + "\" fill=\"none\" stroke=\"#888888\"/>\n";
+  out_ += "<rect x=\"" + Pixels(p.x) + "\" y=\"" + Pixels(p.y) + "\" width=\"" + Pixels(p.width) + "\" height=\"" + Pixels(p.height) +
+          "\" fill=\"none\" stroke=\"#888888\"/>\n";
 }
 
-void Svg::Map(const Panel& panel, const GroundView& view, const ClearanceField& map, double low,
-              double high) {
+void Svg::Map(const Panel& panel, const GroundView& view, const ClearanceField& map, double low, double high) {
   constexpr double kPixel = 2.5;  // width of a picture element
   const char* colors[] = {"#e6e2da", "#6b675f"};
   std::string paths[2];
@@ -113,28 +109,25 @@ void Svg::Map(const Panel& panel, const GroundView& view, const ClearanceField& 
       const int now = end ? -1 : shade(x + kPixel / 2, y + kPixel / 2);
       if (now == shown && !end) continue;
       if (shown >= 0)
-        paths[shown] += "M" + Pixels(begin) + " " + Pixels(y) + "h" + Pixels(x - begin) + "v" +
-                        Pixels(kPixel) + "h" + Pixels(begin - x) + "z";
+        paths[shown] +=
+            "M" + Pixels(begin) + " " + Pixels(y) + "h" + Pixels(x - begin) + "v" + Pixels(kPixel) + "h" + Pixels(begin - x) + "z";
       shown = now;
       begin = x;
       if (end) break;
     }
   }
   for (int i = 0; i < 2; ++i)
-    out_ += std::string("<path fill=\"") + colors[i] + "\" shape-rendering=\"crispEdges\" d=\"" + paths[i] +
-            "\"/>\n";
+    out_ += std::string("<path fill=\"") + colors[i] + "\" shape-rendering=\"crispEdges\" d=\"" + paths[i] + "\"/>\n";
 }
 
-void Svg::Diagram(const Panel& p, const std::string& title, std::span<const double> t,
-                  std::span<const double> values, double limit) {
+void Svg::Diagram(const Panel& p, const std::string& title, std::span<const double> t, std::span<const double> values, double limit) {
   double top = *std::max_element(values.begin(), values.end());
   double bottom = std::min(0.0, *std::min_element(values.begin(), values.end()));
   top = std::max(std::max(top, limit) * 1.08, bottom + 1e-9);
   const double end = std::max(t.back(), 1e-9);
   const auto X = [&](double time) { return p.x + p.width * time / end; };
   const auto Y = [&](double value) { return p.y + p.height * (top - value) / (top - bottom); };
-  for (double v = std::ceil(bottom / NiceStep(top - bottom)) * NiceStep(top - bottom); v <= top;
-       v += NiceStep(top - bottom)) {
+  for (double v = std::ceil(bottom / NiceStep(top - bottom)) * NiceStep(top - bottom); v <= top; v += NiceStep(top - bottom)) {
     Line(p.x, Y(v), p.x + p.width, Y(v), "#e4e4e4", 1);
     Text(p.x - 6, Y(v) + 4, 11, Short(std::fabs(v) < 1e-12 ? 0 : v), "end");
   }

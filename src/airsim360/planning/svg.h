@@ -28,16 +28,14 @@ class Svg {
   Svg(int width, int height);
   void Text(double x, double y, int size, const std::string& text, const char* anchor = "start");
   void Line(double x1, double y1, double x2, double y2, const char* color, double width, bool dashed = false);
-  void Polyline(std::span<const double> x, std::span<const double> y, const std::string& color, double width,
-                double opacity = 1);
+  void Polyline(std::span<const double> x, std::span<const double> y, const std::string& color, double width, double opacity = 1);
   void Dot(double x, double y, double radius, const char* color);
   void Frame(const Panel& panel);
   /// Obstacles seen from above: dark where something stands between the heights `low` and `high`, light
   /// where all is lower.
   void Map(const Panel& panel, const GroundView& view, const ClearanceField& map, double low, double high);
   /// A curve over time with axes; a line at `limit` if it is positive.
-  void Diagram(const Panel& panel, const std::string& title, std::span<const double> t,
-               std::span<const double> values, double limit);
+  void Diagram(const Panel& panel, const std::string& title, std::span<const double> t, std::span<const double> values, double limit);
   void ScaleBar(const Panel& panel, const GroundView& view);
   std::string Finish();
 

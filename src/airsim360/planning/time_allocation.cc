@@ -103,22 +103,21 @@ class Objective {
       return std::numeric_limits<double>::infinity();
     }
     solver_.Solve({.waypoints = waypoints_, .durations = durations_, .kind = kind_, .refine = false});
-    const double excess =
-        kernels_->excess({.coefficients = solver_.coefficients().data(),
-                          .durations = durations_.data(),
-                          .segments = durations_.size(),
-                          .powers = PowersOf(kind_),
-                          .basis = basis_,
-                          .samples = stage_.samples,
-                          .share = share_,
-                          .squarings = stage_.squarings,
-                          .inverse_speed = 1 / (limits_.speed * limits_.speed),
-                          .inverse_acceleration = 1 / (limits_.acceleration * limits_.acceleration),
-                          .least_speed = least_speed_,
-                          .least_acceleration = least_speed_ * least_speed_,
-                          .weight = 1 / (total * static_cast<double>(stage_.samples)),
-                          .by_coefficient = by_coefficient_.data(),
-                          .by_duration = by_duration_.data()});
+    const double excess = kernels_->excess({.coefficients = solver_.coefficients().data(),
+                                            .durations = durations_.data(),
+                                            .segments = durations_.size(),
+                                            .powers = PowersOf(kind_),
+                                            .basis = basis_,
+                                            .samples = stage_.samples,
+                                            .share = share_,
+                                            .squarings = stage_.squarings,
+                                            .inverse_speed = 1 / (limits_.speed * limits_.speed),
+                                            .inverse_acceleration = 1 / (limits_.acceleration * limits_.acceleration),
+                                            .least_speed = least_speed_,
+                                            .least_acceleration = least_speed_ * least_speed_,
+                                            .weight = 1 / (total * static_cast<double>(stage_.samples)),
+                                            .by_coefficient = by_coefficient_.data(),
+                                            .by_duration = by_duration_.data()});
     if (!(excess > 4 * kLeastPower) || !std::isfinite(excess)) return std::numeric_limits<double>::infinity();
 
     // log excess / (2 q), and the share of the total time in the weights.
@@ -147,8 +146,7 @@ class Objective {
 
 std::vector<double> Chords(std::span<const Vec3d> waypoints) {
   if (waypoints.size() < 2) {
-    throw InputError("time allocation: " + std::to_string(waypoints.size()) +
-                     " waypoints, at least 2 are needed");
+    throw InputError("time allocation: " + std::to_string(waypoints.size()) + " waypoints, at least 2 are needed");
   }
   std::vector<double> chords;
   for (size_t i = 0; i + 1 < waypoints.size(); ++i) {
@@ -157,8 +155,7 @@ std::vector<double> Chords(std::span<const Vec3d> waypoints) {
       throw InputError("time allocation: waypoint " + std::to_string(i) + " or the next is not finite");
     }
     if (!(chords.back() > 0)) {
-      throw InputError("time allocation: waypoints " + std::to_string(i) + " and " + std::to_string(i + 1) +
-                       " coincide");
+      throw InputError("time allocation: waypoints " + std::to_string(i) + " and " + std::to_string(i + 1) + " coincide");
     }
   }
   return chords;
@@ -166,8 +163,7 @@ std::vector<double> Chords(std::span<const Vec3d> waypoints) {
 
 PolynomialTrajectory Fly(std::span<const Vec3d> waypoints, std::span<const double> durations, SplineKind kind,
                          const TrajectoryLimits& limits) {
-  return ScaleToLimits(SolveMinimumSnap({.waypoints = waypoints, .durations = durations, .kind = kind}),
-                       limits);
+  return ScaleToLimits(SolveMinimumSnap({.waypoints = waypoints, .durations = durations, .kind = kind}), limits);
 }
 
 /// Slowed down where a path within the limits of speed and acceleration breaks another.
@@ -179,8 +175,7 @@ PolynomialTrajectory WithOtherLimits(PolynomialTrajectory path, const Trajectory
 }
 
 /// Improves the durations of a feasible path stage by stage; returns the number of evaluations.
-int Optimise(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, SplineKind kind,
-             std::vector<double>& durations) {
+int Optimise(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, SplineKind kind, std::vector<double>& durations) {
   Objective objective(waypoints, limits, kind);
   objective.SetStart(durations);
   internal::Lbfgs minimiser;
@@ -189,9 +184,8 @@ int Optimise(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, S
   int evaluations = 0;
   for (size_t i = 0; i < std::size(kStages); ++i) {
     objective.SetStage(i);
-    evaluations += minimiser.Minimise(
-        x, {.max_evaluations = kStages[i].max_evaluations, .tolerance = kStages[i].tolerance},
-        std::ref(objective));
+    evaluations +=
+        minimiser.Minimise(x, {.max_evaluations = kStages[i].max_evaluations, .tolerance = kStages[i].tolerance}, std::ref(objective));
   }
   durations = objective.Durations(x);
   return evaluations;
@@ -215,19 +209,17 @@ std::vector<Vec3d> OnTheWay(Vec3d a, Vec3d b, size_t count, const TrajectoryLimi
   std::vector<Vec3d> points = {a};
   for (size_t i = 1; i <= count; ++i) {
     const double t = total * static_cast<double>(i) / static_cast<double>(count + 1);
-    points.push_back(a +
-                     (b - a) * (RestToRestWay(t, distance, limits.speed, limits.acceleration) / distance));
+    points.push_back(a + (b - a) * (RestToRestWay(t, distance, limits.speed, limits.acceleration) / distance));
   }
   points.push_back(b);
   return points;
 }
 
 /// The flight through exactly these waypoints.
-PolynomialTrajectory Fastest(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits,
-                             const AllocationOptions& options, int& evaluations) {
+PolynomialTrajectory Fastest(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, const AllocationOptions& options,
+                             int& evaluations) {
   std::vector<double> durations;
-  for (const double chord : Chords(waypoints))
-    durations.push_back(RestToRestTime(chord, limits.speed, limits.acceleration));
+  for (const double chord : Chords(waypoints)) durations.push_back(RestToRestTime(chord, limits.speed, limits.acceleration));
   // As fast as speed and acceleration allow, which is where the objective has its numbers.
   const TrajectoryLimits norms = {.speed = limits.speed, .acceleration = limits.acceleration};
   PolynomialTrajectory best = Fly(waypoints, durations, options.kind, norms);
@@ -240,8 +232,8 @@ PolynomialTrajectory Fastest(std::span<const Vec3d> waypoints, const TrajectoryL
 }
 
 /// `whole` flies from a to b in one segment: the flight in the fewest that is nearly as short as any.
-PolynomialTrajectory Split(PolynomialTrajectory whole, Vec3d a, Vec3d b, const TrajectoryLimits& limits,
-                           const AllocationOptions& options, int& evaluations) {
+PolynomialTrajectory Split(PolynomialTrajectory whole, Vec3d a, Vec3d b, const TrajectoryLimits& limits, const AllocationOptions& options,
+                           int& evaluations) {
   std::vector<PolynomialTrajectory> flights = {std::move(whole)};
   for (const size_t count : kSplits) {
     const std::vector<Vec3d> points = OnTheWay(a, b, count, limits);
@@ -250,20 +242,17 @@ PolynomialTrajectory Split(PolynomialTrajectory whole, Vec3d a, Vec3d b, const T
   }
   double least = std::numeric_limits<double>::infinity();
   for (const PolynomialTrajectory& flight : flights) least = std::min(least, flight.duration());
-  return *std::ranges::find_if(flights,
-                               [&](const auto& flight) { return flight.duration() <= kWorthASplit * least; });
+  return *std::ranges::find_if(flights, [&](const auto& flight) { return flight.duration() <= kWorthASplit * least; });
 }
 
 }  // namespace
 
 double RestToRestTime(double distance, double max_speed, double max_acceleration) {
   const double ramp = max_speed * max_speed / max_acceleration;
-  return distance >= ramp ? distance / max_speed + max_speed / max_acceleration
-                          : 2 * std::sqrt(distance / max_acceleration);
+  return distance >= ramp ? distance / max_speed + max_speed / max_acceleration : 2 * std::sqrt(distance / max_acceleration);
 }
 
-AllocatedTrajectory AllocateTimes(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits,
-                                  const AllocationOptions& options) {
+AllocatedTrajectory AllocateTimes(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, const AllocationOptions& options) {
   CheckLimits(limits);
   if (!std::isfinite(limits.speed) || !std::isfinite(limits.acceleration)) {
     throw InputError("time allocation: limits on speed and acceleration must be finite");
@@ -280,8 +269,8 @@ AllocatedTrajectory AllocateTimes(std::span<const Vec3d> waypoints, const Trajec
   }
   if (!(best.duration() <= kLongestFlight)) {
     char text[160];
-    std::snprintf(text, sizeof(text), "limits: within %g m/s and %g m/s^2 the flight would take %.3g s",
-                  limits.speed, limits.acceleration, best.duration());
+    std::snprintf(text, sizeof(text), "limits: within %g m/s and %g m/s^2 the flight would take %.3g s", limits.speed, limits.acceleration,
+                  best.duration());
     throw InputError(text);
   }
   const TrajectoryPeaks peaks = CertifiedPeaks(best);

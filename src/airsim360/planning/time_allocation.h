@@ -32,7 +32,6 @@ double RestToRestTime(double distance, double max_speed, double max_acceleration
 /// could be found, exactly within the limits. Speed and acceleration limits must be finite; the other limits
 /// hold by uniform slowing. InputError for fewer than two waypoints, neighbouring ones that coincide, limits
 /// that are not positive or would make the flight take more than 1e9 s.
-AllocatedTrajectory AllocateTimes(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits,
-                                  const AllocationOptions& options = {});
+AllocatedTrajectory AllocateTimes(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, const AllocationOptions& options = {});
 
 }  // namespace airsim360

@@ -21,8 +21,7 @@ std::vector<Vec3d> RandomWalk(size_t segments, uint64_t id) {
 }
 
 TEST(TimeAllocation, StaysWithinTheLimitsAboveTheBoundAndBelowTheTrapezoids) {
-  for (const SplineKind kind :
-       {SplineKind::kMinimumSnap, SplineKind::kPaperQuintic, SplineKind::kMinimumJerk}) {
+  for (const SplineKind kind : {SplineKind::kMinimumSnap, SplineKind::kPaperQuintic, SplineKind::kMinimumJerk}) {
     for (uint64_t id = 0; id < 6; ++id) {
       const std::vector<Vec3d> waypoints = RandomWalk(2 + 3 * id, id);
       const TrajectoryLimits limits = {.speed = 16, .acceleration = 3};
@@ -44,8 +43,7 @@ TEST(TimeAllocation, NoSingleDurationCanBeImprovedMuch) {
     for (const double factor : {0.97, 1.03}) {
       std::vector<double> durations(best.durations().begin(), best.durations().end());
       durations[i] *= factor;
-      const PolynomialTrajectory other =
-          ScaleToLimits(SolveMinimumSnap({.waypoints = waypoints, .durations = durations}), limits);
+      const PolynomialTrajectory other = ScaleToLimits(SolveMinimumSnap({.waypoints = waypoints, .durations = durations}), limits);
       EXPECT_GT(other.duration(), best.duration() * (1 - 2e-3));
     }
   }
@@ -89,8 +87,7 @@ TEST(TimeAllocation, SingleSegmentsTakeTheClosedFormDuration) {
   const std::vector<Vec3d> waypoints = {{0, 0, 0}, {100, 0, 0}};
   const AllocatedTrajectory septic = AllocateTimes(waypoints, {.speed = 16, .acceleration = 3});
   EXPECT_NEAR(septic.trajectory.duration(), std::sqrt(84 * std::sqrt(5.0) / 25 * 100 / 3), 1e-8);
-  const AllocatedTrajectory quintic =
-      AllocateTimes(waypoints, {.speed = 16, .acceleration = 3}, {.kind = SplineKind::kPaperQuintic});
+  const AllocatedTrajectory quintic = AllocateTimes(waypoints, {.speed = 16, .acceleration = 3}, {.kind = SplineKind::kPaperQuintic});
   EXPECT_NEAR(quintic.trajectory.duration(), std::sqrt(10 / std::sqrt(3.0) * 100 / 3), 1e-8);
 }
 
@@ -104,8 +101,7 @@ TEST(TimeAllocation, ScalingLengthsAndLimitsScalesTheTimes) {
 }
 
 TEST(TimeAllocation, WholeSamplesFitTheFlight) {
-  const AllocatedTrajectory path =
-      AllocateTimes(RandomWalk(4, 5), {.speed = 16, .acceleration = 3}, {.sample_interval = 0.5});
+  const AllocatedTrajectory path = AllocateTimes(RandomWalk(4, 5), {.speed = 16, .acceleration = 3}, {.sample_interval = 0.5});
   const double steps = path.trajectory.duration() / 0.5;
   EXPECT_NEAR(steps, std::round(steps), 1e-9);
   EXPECT_TRUE(WithinLimits(path.trajectory, {.speed = 16, .acceleration = 3}));

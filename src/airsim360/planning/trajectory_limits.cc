@@ -35,8 +35,7 @@ Bernstein Derivative(const PolynomialTrajectory& trajectory, size_t segment, int
 Bernstein SquaredNorm(const std::array<Bernstein, 3>& v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
 std::array<Bernstein, 3> Derivatives(const PolynomialTrajectory& trajectory, size_t segment, int n) {
-  return {Derivative(trajectory, segment, 0, n), Derivative(trajectory, segment, 1, n),
-          Derivative(trajectory, segment, 2, n)};
+  return {Derivative(trajectory, segment, 0, n), Derivative(trajectory, segment, 1, n), Derivative(trajectory, segment, 2, n)};
 }
 
 /// Maximum over the path of one polynomial per segment.
@@ -47,8 +46,7 @@ CertifiedPeak Maximum(const PolynomialTrajectory& trajectory, Polynomial polynom
     const Bernstein p = polynomial(segment);
     double magnitude = 0, at = -1;
     for (int i = 0; i <= p.degree; ++i) magnitude = std::max(magnitude, std::abs(p.control[i]));
-    const double tolerance =
-        kWidth * std::max(magnitude * 1e-3, std::abs(floor) < magnitude ? std::abs(floor) : magnitude);
+    const double tolerance = kWidth * std::max(magnitude * 1e-3, std::abs(floor) < magnitude ? std::abs(floor) : magnitude);
     bound = std::max(bound, internal::RaiseMaximum(p, tolerance, floor, at) + kRounding * magnitude);
     if (at >= 0) time = trajectory.start(segment) + at * trajectory.durations()[segment];
   }
@@ -60,8 +58,7 @@ CertifiedPeak Root(CertifiedPeak squared) { return {std::sqrt(std::max(0.0, squa
 }  // namespace
 
 CertifiedPeak PeakOfNorm(const PolynomialTrajectory& trajectory, int derivative) {
-  return Root(Maximum(
-      trajectory, [&](size_t segment) { return SquaredNorm(Derivatives(trajectory, segment, derivative)); }));
+  return Root(Maximum(trajectory, [&](size_t segment) { return SquaredNorm(Derivatives(trajectory, segment, derivative)); }));
 }
 
 CertifiedPeak PeakAlong(const PolynomialTrajectory& trajectory, int derivative, Vec3d direction) {
@@ -95,8 +92,7 @@ CertifiedPeak PeakBodyRate(const PolynomialTrajectory& trajectory) {
       std::array<Bernstein, 3> c = Derivatives(trajectory, segment, 2);
       const std::array<Bernstein, 3> j = Derivatives(trajectory, segment, 3);
       c[2] = Shifted(c[2], kGravity);
-      const std::array<Bernstein, 3> cross = {j[1] * c[2] - j[2] * c[1], j[2] * c[0] - j[0] * c[2],
-                                              j[0] * c[1] - j[1] * c[0]};
+      const std::array<Bernstein, 3> cross = {j[1] * c[2] - j[2] * c[1], j[2] * c[0] - j[0] * c[2], j[0] * c[1] - j[1] * c[0]};
       const Bernstein one = Shifted(Bernstein{.degree = 2}, 1), thrust = SquaredNorm(c);
       return SquaredNorm(cross) * one - thrust * thrust * rate_squared;
     });
@@ -115,8 +111,7 @@ CertifiedPeak PeakBodyRate(const PolynomialTrajectory& trajectory) {
     const double next = rate_at(worst.time);
     // Free fall makes the attitude undefined and the rate unbounded.
     if (!std::isfinite(next)) return {std::numeric_limits<double>::infinity(), worst.time};
-    peak = next > peak.value ? CertifiedPeak{next, worst.time}
-                             : CertifiedPeak{peak.value * (1 + 1e-6) + 1e-12, peak.time};
+    peak = next > peak.value ? CertifiedPeak{next, worst.time} : CertifiedPeak{peak.value * (1 + 1e-6) + 1e-12, peak.time};
   }
   return {std::sqrt(peak.value * (1 + 1e-9)), peak.time};
 }
@@ -124,8 +119,7 @@ CertifiedPeak PeakBodyRate(const PolynomialTrajectory& trajectory) {
 void CheckLimits(const TrajectoryLimits& limits) {
   const auto check = [](double value, const char* name) {
     if (!(value > 0)) {
-      throw InputError(std::string("limits: ") + name + " is " + std::to_string(value) +
-                       ", must be positive");
+      throw InputError(std::string("limits: ") + name + " is " + std::to_string(value) + ", must be positive");
     }
   };
   check(limits.speed, "speed");
@@ -138,8 +132,7 @@ void CheckLimits(const TrajectoryLimits& limits) {
   check(limits.descent, "descent");
   check(limits.body_rate, "body rate");
   if (!(limits.thrust_per_mass > kGravity)) {
-    throw InputError("limits: thrust per mass is " + std::to_string(limits.thrust_per_mass) +
-                     " m/s^2, must exceed gravity (9.80665)");
+    throw InputError("limits: thrust per mass is " + std::to_string(limits.thrust_per_mass) + " m/s^2, must exceed gravity (9.80665)");
   }
 }
 
@@ -151,9 +144,7 @@ bool Finite(double value) { return value < TrajectoryLimits::kNone; }
 double ExactScale(const PolynomialTrajectory& trajectory, const TrajectoryLimits& limits) {
   double scale = 0;
   const auto speed = [&](double peak, double limit) { scale = std::max(scale, peak / limit); };
-  const auto acceleration = [&](double peak, double limit) {
-    scale = std::max(scale, std::sqrt(std::max(0.0, peak) / limit));
-  };
+  const auto acceleration = [&](double peak, double limit) { scale = std::max(scale, std::sqrt(std::max(0.0, peak) / limit)); };
   if (Finite(limits.speed) || Finite(limits.acceleration)) {
     const TrajectoryPeaks peaks = CertifiedPeaks(trajectory);
     speed(peaks.speed.value, limits.speed);

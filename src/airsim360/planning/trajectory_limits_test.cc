@@ -106,10 +106,8 @@ TEST(TrajectoryLimits, MovingEndsAreSolvedAgainUntilTheLimitsHold) {
   const std::vector<Vec3d> waypoints = {{0, 0, 0}, {10, 4, 0}, {20, -5, 3}};
   const std::vector<double> durations = {1, 1};
   const TrajectoryLimits limits = {.speed = 8, .acceleration = 6};
-  const MinimumSnapProblem problem = {.waypoints = waypoints,
-                                      .durations = durations,
-                                      .start = {{3, 0, 0}, {}, {}},
-                                      .end = {{0, 2, 0}, {}, {}}};
+  const MinimumSnapProblem problem = {
+      .waypoints = waypoints, .durations = durations, .start = {{3, 0, 0}, {}, {}}, .end = {{0, 2, 0}, {}, {}}};
   const PolynomialTrajectory path = SolveWithinLimits(problem, limits);
   EXPECT_TRUE(WithinLimits(path, limits));
   EXPECT_NEAR(path.At(0).v.x, 3, 1e-12);

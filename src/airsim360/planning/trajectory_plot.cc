@@ -81,8 +81,7 @@ std::string PlotFlight(const PolynomialTrajectory& path, const PlotOptions& opti
 
   const double x = 790, width = 460, rows = 135, first = 70, step = 175;
   svg.Diagram({x, first, width, rows}, "speed, m/s", t, speed, options.max_speed);
-  svg.Diagram({x, first + step, width, rows}, "acceleration, m/s²", t, acceleration,
-              options.max_acceleration);
+  svg.Diagram({x, first + step, width, rows}, "acceleration, m/s²", t, acceleration, options.max_acceleration);
   svg.Diagram({x, first + 2 * step, width, rows}, "snap, m/s⁴", t, snap, 0);
   svg.Diagram({x, first + 3 * step, width, rows}, "height, m, over time, s", t, height, 0);
   return svg.Finish();

@@ -52,8 +52,7 @@ double Interpolate(const GivenYaw& given, double t) {
 
 void Check(const GivenYaw& given) {
   if (given.times.empty() || given.times.size() != given.yaws.size()) {
-    throw InputError("yaw: " + std::to_string(given.times.size()) + " times and " +
-                     std::to_string(given.yaws.size()) + " headings");
+    throw InputError("yaw: " + std::to_string(given.times.size()) + " times and " + std::to_string(given.yaws.size()) + " headings");
   }
   for (size_t i = 0; i < given.times.size(); ++i) {
     if (!std::isfinite(given.times[i]) || !std::isfinite(given.yaws[i])) {
@@ -67,13 +66,11 @@ void Check(const GivenYaw& given) {
 
 }  // namespace
 
-YawProfile::YawProfile(const PolynomialTrajectory& trajectory, YawRule rule)
-    : trajectory_(trajectory), rule_(std::move(rule)) {
+YawProfile::YawProfile(const PolynomialTrajectory& trajectory, YawRule rule) : trajectory_(trajectory), rule_(std::move(rule)) {
   if (const auto* constant = std::get_if<ConstantYaw>(&rule_); constant && !std::isfinite(constant->yaw)) {
     throw InputError("yaw: the heading is not finite");
   }
-  if (const auto* towards = std::get_if<YawTowards>(&rule_);
-      towards && !std::isfinite(Norm(towards->point))) {
+  if (const auto* towards = std::get_if<YawTowards>(&rule_); towards && !std::isfinite(Norm(towards->point))) {
     throw InputError("yaw: the point to look at is not finite");
   }
   if (const auto* given = std::get_if<GivenYaw>(&rule_)) Check(*given);

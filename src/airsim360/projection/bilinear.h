@@ -26,9 +26,7 @@ struct SphereReader {
 // Holds the border.
 struct ClampReader {
   const Image<Rgb32f>& image;
-  const Rgb32f& operator()(int x, int y) const {
-    return image(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1));
-  }
+  const Rgb32f& operator()(int x, int y) const { return image(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1)); }
 };
 
 // The four pixels around a position, weighted; pixel centres are at +0.5. `read(x, y)` gives pixels, also

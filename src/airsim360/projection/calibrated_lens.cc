@@ -141,9 +141,7 @@ bool IsSymmetric(const CalibratedLens& lens) {
 }
 
 // Largest angle that a law is defined for, its own fold left aside.
-double LastAngle(LensLaw law) {
-  return law == LensLaw::kPerspective || law == LensLaw::kFieldOfView ? kAlmostRight : kPi;
-}
+double LastAngle(LensLaw law) { return law == LensLaw::kPerspective || law == LensLaw::kFieldOfView ? kAlmostRight : kPi; }
 
 // The last angle before `good` turns false, in steps of `last` / 4096.
 template <class Good>
@@ -248,8 +246,7 @@ void CheckShape(const CalibratedLens& lens) {
 LensLimit FindLensLimit(const CalibratedLens& lens) {
   const double last = LastAngle(lens.law);
   // Spherical laws end by themselves, as their lenses do; of polynomials it is a fold.
-  const bool spherical = lens.law == LensLaw::kUnifiedSphere || lens.law == LensLaw::kDoubleSphere ||
-                         lens.law == LensLaw::kExtendedUnified;
+  const bool spherical = lens.law == LensLaw::kUnifiedSphere || lens.law == LensLaw::kDoubleSphere || lens.law == LensLaw::kExtendedUnified;
   const double law = spherical ? Scan(last, [&](double theta) { return OfLaw(lens, theta).slope > 0; }) : last;
   const int azimuths = IsSymmetric(lens) ? 1 : 72;
   std::array<Vec2d, 72> along;
@@ -261,9 +258,7 @@ LensLimit FindLensLimit(const CalibratedLens& lens) {
     return d.divisor > 0 && d.Determinant() > 0 && std::isfinite(d.at.x + d.at.y) && d.xx + d.yy > 0;
   };
   const auto end = along.begin() + azimuths;
-  const double limit = Scan(law, [&](double theta) {
-    return std::all_of(along.begin(), end, [&](Vec2d a) { return good(theta, a); });
-  });
+  const double limit = Scan(law, [&](double theta) { return std::all_of(along.begin(), end, [&](Vec2d a) { return good(theta, a); }); });
   const auto first = std::find_if(along.begin(), end, [&](Vec2d a) { return !good(limit * (1 + 1e-12), a); });
   return {limit, limit < law, first == end ? 0 : std::atan2(first->y, first->x)};
 }
@@ -288,8 +283,7 @@ std::optional<Vec3d> LensRay(const CalibratedLens& lens, Vec2d pixel) {
     if (!at) return std::nullopt;
     const double straight = std::hypot(at->x, at->y);
     if (straight > 0) along = *at * (1 / straight);
-    theta = straight >= rim ? lens.max_theta
-                            : Solve([&](double x) { return OfLaw(lens, x); }, straight, theta, lens.max_theta);
+    theta = straight >= rim ? lens.max_theta : Solve([&](double x) { return OfLaw(lens, x); }, straight, theta, lens.max_theta);
   }
   return Vec3d{std::sin(theta) * along.x, std::sin(theta) * along.y, std::cos(theta)};
 }
@@ -307,9 +301,8 @@ bool FillsPicture(const CalibratedLens& lens) {
 
 void CheckLens(const CalibratedLens& lens) {
   const auto finite = [](double x) { return std::isfinite(x) && std::abs(x) < 1e30; };
-  if (!std::ranges::all_of(lens.shape, finite) || !std::ranges::all_of(lens.radial, finite) ||
-      !std::ranges::all_of(lens.divisor, finite) || !std::ranges::all_of(lens.tangential, finite) ||
-      !std::ranges::all_of(lens.prism, finite))
+  if (!std::ranges::all_of(lens.shape, finite) || !std::ranges::all_of(lens.radial, finite) || !std::ranges::all_of(lens.divisor, finite) ||
+      !std::ranges::all_of(lens.tangential, finite) || !std::ranges::all_of(lens.prism, finite))
     ThrowBadLens("coefficients of a lens must be finite");
   CheckShape(lens);
   const LensLimit limit = FindLensLimit(lens);

@@ -43,30 +43,47 @@ std::vector<Lens> Lenses() {
   };
   return {
       // EuRoC's left camera.
-      {"OPENCV", 752, 480, {458.654, 457.296, 367.715, 248.875, -0.28340811, 0.07395907, 0.00019359, 1.76187114e-05},
+      {"OPENCV",
+       752,
+       480,
+       {458.654, 457.296, 367.715, 248.875, -0.28340811, 0.07395907, 0.00019359, 1.76187114e-05},
        [](const Numbers& p, Vec3d X) { return RadTan(p, X.x / X.z, X.y / X.z); }},
-      {"SIMPLE_RADIAL", 640, 480, {500, 320, 240, 0.11},
+      {"SIMPLE_RADIAL",
+       640,
+       480,
+       {500, 320, 240, 0.11},
        [](const Numbers& p, Vec3d X) {
          const double x = X.x / X.z, y = X.y / X.z;
          return Vec2d{x * (1 + p[0] * (x * x + y * y)), y * (1 + p[0] * (x * x + y * y))};
        }},
-      {"FULL_OPENCV", 800, 600, {600, 610, 390, 310, 12.1, 5.2, 0.001, -0.0007, 0.31, 12.4, 8.1, 1.2},
+      {"FULL_OPENCV",
+       800,
+       600,
+       {600, 610, 390, 310, 12.1, 5.2, 0.001, -0.0007, 0.31, 12.4, 8.1, 1.2},
        [](const Numbers& p, Vec3d X) {
          return OpenCv({p[0], p[1], p[4], p[5], p[6], p[7]}, p[2], p[3], {0, 0, 0, 0}, X.x / X.z, X.y / X.z);
        }},
-      {"OPENCV_THIN_PRISM", 800, 600, {600, 610, 390, 310, -0.1, 0.02, 0.001, -0.0007, 0, 0, 0, 0, 0.003, -0.001, -0.002, 0.0015},
+      {"OPENCV_THIN_PRISM",
+       800,
+       600,
+       {600, 610, 390, 310, -0.1, 0.02, 0.001, -0.0007, 0, 0, 0, 0, 0.003, -0.001, -0.002, 0.0015},
        [](const Numbers& p, Vec3d X) {
          return OpenCv({p[0], p[1], p[4], p[5], p[6], p[7]}, p[2], p[3], {p[8], p[9], p[10], p[11]}, X.x / X.z, X.y / X.z);
        }},
       // TUM-VI's left camera.
-      {"OPENCV_FISHEYE", 512, 512,
+      {"OPENCV_FISHEYE",
+       512,
+       512,
        {190.97847715128717, 190.9733070521226, 255.43170605935475, 257.3974428996504, 0.0034823894022493434, 0.0007150348452162257,
         -0.0020532361418706202, 0.00020293673591811182},
        [=](const Numbers& p, Vec3d X) {
          const double t = Theta(X);
          return along(X, t * (1 + p[0] * t * t + p[1] * std::pow(t, 4) + p[2] * std::pow(t, 6) + p[3] * std::pow(t, 8)));
        }},
-      {"THIN_PRISM_FISHEYE", 640, 480, {310, 312, 318, 243, 0.02, -0.004, 0.0012, -0.0008, 0.0007, -0.0001, 0.0011, -0.0009},
+      {"THIN_PRISM_FISHEYE",
+       640,
+       480,
+       {310, 312, 318, 243, 0.02, -0.004, 0.0012, -0.0008, 0.0007, -0.0001, 0.0011, -0.0009},
        [=](const Numbers& p, Vec3d X) {
          const Vec2d u = along(X, Theta(X));
          const double r2 = u.x * u.x + u.y * u.y;
@@ -75,7 +92,9 @@ std::vector<Lens> Lenses() {
                       u.y + u.y * radial + 2 * p[3] * u.x * u.y + p[2] * (r2 + 2 * u.y * u.y) + p[7] * r2};
        }},
       // Project Aria's FisheyeRadTanThinPrism: tangential and prism terms of the distorted radius.
-      {"RAD_TAN_THIN_PRISM_FISHEYE", 704, 704,
+      {"RAD_TAN_THIN_PRISM_FISHEYE",
+       704,
+       704,
        {305, 306, 352, 351, -0.02, 0.1, -0.06, 0.01, 0.002, -0.0006, 0.0004, -0.0002, 0.0003, -0.0001, 0.0002, -0.00005},
        [=](const Numbers& p, Vec3d X) {
          const double t = Theta(X);
@@ -86,28 +105,43 @@ std::vector<Lens> Lenses() {
          return Vec2d{u.x + p0 * (2 * u.x * u.x + r2) + 2 * p1 * u.x * u.y + p[8] * r2 + p[9] * r2 * r2,
                       u.y + p1 * (2 * u.y * u.y + r2) + 2 * p0 * u.x * u.y + p[10] * r2 + p[11] * r2 * r2};
        }},
-      {"FOV", 640, 480, {250, 251, 322, 238, 0.92},
+      {"FOV",
+       640,
+       480,
+       {250, 251, 322, 238, 0.92},
        [=](const Numbers& p, Vec3d X) {
          const double r = std::hypot(X.x / X.z, X.y / X.z);
          return along(X, std::atan(2 * r * std::tan(p[0] / 2)) / p[0]);
        }},
-      {"EUCM", 640, 480, {220, 221, 319, 241, 0.62, 1.1},
+      {"EUCM",
+       640,
+       480,
+       {220, 221, 319, 241, 0.62, 1.1},
        [](const Numbers& p, Vec3d X) {
          const double d = std::sqrt(p[1] * (X.x * X.x + X.y * X.y) + X.z * X.z), below = p[0] * d + (1 - p[0]) * X.z;
          return Vec2d{X.x / below, X.y / below};
        }},
-      {"DOUBLE_SPHERE", 512, 512, {158, 159, 255, 257, -0.18, 0.59},
+      {"DOUBLE_SPHERE",
+       512,
+       512,
+       {158, 159, 255, 257, -0.18, 0.59},
        [](const Numbers& p, Vec3d X) {
          const double d1 = Norm(X), z = p[0] * d1 + X.z, d2 = std::sqrt(X.x * X.x + X.y * X.y + z * z);
          const double below = p[1] * d2 + (1 - p[1]) * z;
          return Vec2d{X.x / below, X.y / below};
        }},
-      {"OMNI", 752, 480, {670, 672, 370, 245, 1.27, -0.21, 0.13, 0.0006, -0.0004},
+      {"OMNI",
+       752,
+       480,
+       {670, 672, 370, 245, 1.27, -0.21, 0.13, 0.0006, -0.0004},
        [](const Numbers& p, Vec3d X) {
          const Vec3d S = X / Norm(X);
          return RadTan({p[1], p[2], p[3], p[4]}, S.x / (S.z + p[0]), S.y / (S.z + p[0]));
        }},
-      {"F_THETA", 1920, 1208, {1, 1, 958.3, 604.1, 930.5, -12.2, 8.1, -33.7, 10.4, -1.5},
+      {"F_THETA",
+       1920,
+       1208,
+       {1, 1, 958.3, 604.1, 930.5, -12.2, 8.1, -33.7, 10.4, -1.5},
        [=](const Numbers& p, Vec3d X) {
          const double t = Theta(X);
          double r = 0;
@@ -200,7 +234,8 @@ TEST(CalibratedLens, WithoutDistortionItIsThePinholeOrTheFisheyeItself) {
   EXPECT_EQ(MakeCamera("OPENCV_FISHEYE", 640, 480, Numbers{200, 210, 320, 240, 0.01, 0.002, 0, 0}), fisheye);
   EXPECT_EQ(MakeCamera("THIN_PRISM_FISHEYE", 640, 480, Numbers{200, 210, 320, 240, 0.01, 0.002, 0, 0, 0, 0, 0, 0}), fisheye);
   // The general projection agrees with both.
-  CalibratedLens lens{.law = LensLaw::kPerspective, .width = 640, .height = 480, .fx = 500, .fy = 510, .cx = 320, .cy = 240, .max_theta = 1.5};
+  CalibratedLens lens{
+      .law = LensLaw::kPerspective, .width = 640, .height = 480, .fx = 500, .fy = 510, .cx = 320, .cy = 240, .max_theta = 1.5};
   CalibratedLens round = lens;
   round.law = LensLaw::kEquidistant, round.fx = 200, round.fy = 210, round.max_theta = kPi, round.shape = {0.01, 0.002};
   for (int y = 0; y < 480; y += 7) {
@@ -308,7 +343,9 @@ TEST(CalibratedLens, ALensThatFoldsOnOneSideSaysSo) {
     MakeCamera("OPENCV_THIN_PRISM", 160, 20, Numbers{30, 30, 150, 10, 0, 0, 0, 0, 0, 0, 0, 0, -0.2, 0, 0, 0});
     FAIL() << "taken";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("folds over 68.1986 degrees from its axis on a side that is outside of the picture"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("folds over 68.1986 degrees from its axis on a side that is outside of the picture"),
+              std::string::npos)
+        << error.what();
   }
 }
 
@@ -316,7 +353,8 @@ TEST(CalibratedLens, SolidAnglesSumToThoseOfTheWholeField) {
   // A double sphere and a fisheye with prism terms, of 150 degrees: the cap is 2 pi (1 - cos 75 degrees).
   const double cap = 2 * kPi * (1 - std::cos(75 * kPi / 180));
   const Camera a = MakeCamera("DOUBLE_SPHERE", 240, 240, Numbers{63, 64, 122, 121, -0.18, 0.59}, 150);
-  const Camera b = MakeCamera("THIN_PRISM_FISHEYE", 240, 240, Numbers{80, 81, 121, 119, 0.02, -0.004, 0.0012, -0.0008, 0, 0, 0.001, -0.001}, 150);
+  const Camera b =
+      MakeCamera("THIN_PRISM_FISHEYE", 240, 240, Numbers{80, 81, 121, 119, 0.02, -0.004, 0.0012, -0.0008, 0, 0, 0.001, -0.001}, 150);
   for (const Camera& camera : {a, b}) {
     double sum = 0;
     for (int y = 0; y < 240; ++y) {
@@ -346,7 +384,8 @@ TEST(CalibratedLens, ItsNameAndParametersMakeItAgain) {
 }
 
 TEST(CalibratedLens, HalfThePixelsSeeTheSameRays) {
-  const Camera whole = MakeCamera("OPENCV", 752, 480, Numbers{458.654, 457.296, 367.715, 248.875, -0.28340811, 0.07395907, 0.00019359, 1.76187114e-05});
+  const Camera whole =
+      MakeCamera("OPENCV", 752, 480, Numbers{458.654, 457.296, 367.715, 248.875, -0.28340811, 0.07395907, 0.00019359, 1.76187114e-05});
   const Camera half = Resized(whole, 376, 240);
   EXPECT_LT(Norm(*PixelToRay(whole, {100, 60}) - *PixelToRay(half, {50, 30})), 1e-14);
   EXPECT_THROW(Resized(whole, 376, 300), InputError);

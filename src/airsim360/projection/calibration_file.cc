@@ -26,20 +26,20 @@ bool ParseDouble(std::string_view text, double& value) {
 }
 
 // Of a camera of Kalibr. What a recording is called and when its pictures and their lines came says nothing of the lens.
-constexpr const char* kKalibrKeys[] = {"camera_model", "intrinsics", "distortion_model", "distortion_coeffs", "resolution", "T_cam_imu",
-                                       "T_imu_cam", "T_cn_cnm1", "rostopic", "cam_overlaps", "timeshift_cam_imu", "line_delay"};
+constexpr const char* kKalibrKeys[] = {"camera_model", "intrinsics",   "distortion_model",  "distortion_coeffs",
+                                       "resolution",   "T_cam_imu",    "T_imu_cam",         "T_cn_cnm1",
+                                       "rostopic",     "cam_overlaps", "timeshift_cam_imu", "line_delay"};
 // Of OpenCV and ROS.
-constexpr const char* kOpenCvKeys[] = {"image_width", "image_height", "camera_name", "camera_matrix", "distortion_model",
-                                       "distortion_coefficients", "fisheye_model", "rows", "cols", "dt", "data"};
+constexpr const char* kOpenCvKeys[] = {
+    "image_width", "image_height", "camera_name", "camera_matrix", "distortion_model", "distortion_coefficients", "fisheye_model",
+    "rows",        "cols",         "dt",          "data"};
 
 // Reads nodes of one file; messages begin with "file:line: ".
 class Reader {
  public:
   Reader(std::string file, std::string_view camera = {}) : file_(std::move(file)), camera_(camera) {}
 
-  static size_t LineOf(const YAML::Node& node) {
-    return node.Mark().is_null() ? 0 : static_cast<size_t>(node.Mark().line) + 1;
-  }
+  static size_t LineOf(const YAML::Node& node) { return node.Mark().is_null() ? 0 : static_cast<size_t>(node.Mark().line) + 1; }
   /// Of a matrix {rows, cols, data}: where its data begins.
   static size_t LineOfNumbers(const YAML::Node& node) { return LineOf(node.IsMap() ? node["data"] : node); }
   [[noreturn]] void Fail(size_t line, const std::string& what) const {
@@ -106,8 +106,10 @@ class Reader {
     if (node.IsMap()) {
       const std::vector<double> data = Numbers(Need(node, "data"), what);
       const YAML::Node rows = node["rows"], cols = node["cols"];
-      if (rows.IsDefined() && cols.IsDefined() && Side(rows, what + ": rows") * static_cast<int64_t>(Side(cols, what + ": cols")) != std::ssize(data)) {
-        Fail(node, what + ": " + Shown(rows) + " rows of " + Shown(cols) + " columns, but data has " + std::to_string(data.size()) + " numbers");
+      if (rows.IsDefined() && cols.IsDefined() &&
+          Side(rows, what + ": rows") * static_cast<int64_t>(Side(cols, what + ": cols")) != std::ssize(data)) {
+        Fail(node,
+             what + ": " + Shown(rows) + " rows of " + Shown(cols) + " columns, but data has " + std::to_string(data.size()) + " numbers");
       }
       return data;
     }
@@ -155,9 +157,7 @@ void SetKalibrModel(const Reader& in, const YAML::Node& node, Calibration& camer
     std::rotate(v.begin(), v.begin() + static_cast<ptrdiff_t>(own), v.end());
     return v;
   };
-  const auto coefficients = [&](size_t count, const std::string& names) {
-    return in.Numbers(node, "distortion_coeffs", count, names);
-  };
+  const auto coefficients = [&](size_t count, const std::string& names) { return in.Numbers(node, "distortion_coeffs", count, names); };
   const auto append = [&](const std::vector<double>& more) {
     camera.parameters.insert(camera.parameters.end(), more.begin(), more.end());
     camera.lines.resize(camera.parameters.size(), Reader::LineOf(node["distortion_coeffs"]));
@@ -166,7 +166,10 @@ void SetKalibrModel(const Reader& in, const YAML::Node& node, Calibration& camer
     in.Fail(node["distortion_coeffs"], "distortion_coeffs: there are none of distortion_model none");
   if (model == "pinhole") {
     camera.parameters = intrinsics(0, "");
-    camera.model = distortion == "radtan" ? "OPENCV" : distortion == "equidistant" ? "OPENCV_FISHEYE" : distortion == "fov" ? "FOV" : "PINHOLE";
+    camera.model = distortion == "radtan"        ? "OPENCV"
+                   : distortion == "equidistant" ? "OPENCV_FISHEYE"
+                   : distortion == "fov"         ? "FOV"
+                                                 : "PINHOLE";
     if (distortion == "radtan") append(coefficients(4, "k1, k2, p1, p2"));
     if (distortion == "equidistant") append(coefficients(4, "k1, k2, k3, k4"));
     if (distortion == "fov") append(coefficients(1, "w"));
@@ -227,7 +230,8 @@ void ChainPoses(const std::string& file, std::map<int, KalibrPose>& poses, std::
       in.Fail(camera.line, "T_cn_cnm1: it says where " + camera.name + " stands to " + last + ", and the file has no " + last +
                                "; add it, or give T_cam_imu");
     }
-    if (pose.from_last) in.Fail(camera.line, "T_cn_cnm1: it says where " + camera.name + " stands to " + last + ", whose own place is not known");
+    if (pose.from_last)
+      in.Fail(camera.line, "T_cn_cnm1: it says where " + camera.name + " stands to " + last + ", whose own place is not known");
     in.Fail(camera.line, "key 'T_cn_cnm1' is missing, or 'T_cam_imu': where " + camera.name + " stands is not known");
   }
 }
@@ -293,7 +297,8 @@ std::vector<Calibration> ReadOpenCv(const std::string& file, const YAML::Node& r
   const YAML::Node matrix = in.Need(root, "camera_matrix");
   const std::vector<double> K = in.Matrix(matrix, "camera_matrix");
   if (K.size() != 9) in.Fail(matrix, "camera_matrix: expected 9 numbers, found " + std::to_string(K.size()));
-  if (matrix.IsMap() && matrix["rows"].IsDefined() && in.Number(matrix["rows"], "camera_matrix: rows") != 3) in.Fail(matrix, "camera_matrix: expected 3 rows of 3 columns");
+  if (matrix.IsMap() && matrix["rows"].IsDefined() && in.Number(matrix["rows"], "camera_matrix: rows") != 3)
+    in.Fail(matrix, "camera_matrix: expected 3 rows of 3 columns");
   if (K[1] != 0 || K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1)
     in.Fail(matrix, "camera_matrix: expected [fx, 0, cx, 0, fy, cy, 0, 0, 1]; skew is not modelled");
   camera.parameters = {K[0], K[4], K[2] + kHalf, K[5] + kHalf};
@@ -305,7 +310,8 @@ std::vector<Calibration> ReadOpenCv(const std::string& file, const YAML::Node& r
     model = in.Word(node, "distortion_model", {"plumb_bob", "rational_polynomial", "equidistant", "fisheye"});
   if (const YAML::Node node = root["fisheye_model"]; node.IsDefined() && in.Number(node, "fisheye_model") != 0) model = "fisheye";
   if (model == "equidistant" || model == "fisheye") {
-    if (d.size() != 4) in.Fail(of_distortion, "distortion_coefficients: a fisheye has 4 of them (k1 … k4), not " + std::to_string(d.size()));
+    if (d.size() != 4)
+      in.Fail(of_distortion, "distortion_coefficients: a fisheye has 4 of them (k1 … k4), not " + std::to_string(d.size()));
     camera.model = "OPENCV_FISHEYE";
   } else {
     d = OpenCvDistortion(in, of_distortion, d);
@@ -340,7 +346,8 @@ std::vector<Calibration> ReadColmap(const std::string& file, const std::string& 
     if (parts.size() < 5) in.Fail(number, "expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS[], found '" + line.substr(0, 100) + "'");
     Calibration camera{.name = "cam" + std::to_string(ColmapId(in, number, parts[0])), .model = parts[1], .line = number};
     if (camera.model == "EQUIRECTANGULAR")
-      in.Fail(number, "model: EQUIRECTANGULAR is the panorama of this program: write {projection: erp, size: " + parts[2].substr(0, 9) + "x" + parts[3].substr(0, 9) + "} in a rig");
+      in.Fail(number, "model: EQUIRECTANGULAR is the panorama of this program: write {projection: erp, size: " + parts[2].substr(0, 9) +
+                          "x" + parts[3].substr(0, 9) + "} in a rig");
     if (camera.model == "DIVISION" || camera.model == "SIMPLE_DIVISION")
       in.Fail(number, "model: COLMAP's " + camera.model + " is not read; estimate OPENCV or SIMPLE_RADIAL instead");
     for (size_t i = 2; i < parts.size(); ++i) {
@@ -387,9 +394,8 @@ bool IsCalibration(std::string_view text, const std::filesystem::path& file) {
   if (IsColmap(WithoutMark(text), file) || text.starts_with("%YAML:") || internal::IsXml(text)) return true;
   const YAML::Node root = internal::LoadDocument(text, file);
   if (!root.IsMap() || root["cameras"].IsDefined()) return false;
-  return root["camera_matrix"].IsDefined() || root["image_width"].IsDefined() || internal::ForeignFormat(root) || std::ranges::any_of(root, [](const auto& entry) {
-           return entry.first.IsScalar() && KalibrNumber(entry.first.Scalar()) >= 0;
-         });
+  return root["camera_matrix"].IsDefined() || root["image_width"].IsDefined() || internal::ForeignFormat(root) ||
+         std::ranges::any_of(root, [](const auto& entry) { return entry.first.IsScalar() && KalibrNumber(entry.first.Scalar()) >= 0; });
 }
 
 std::vector<Calibration> ReadCalibrations(const std::filesystem::path& path) {

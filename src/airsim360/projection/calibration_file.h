@@ -19,14 +19,15 @@ inline constexpr size_t kMostRigCameras = 64;
 
 /// A camera as a file has it.
 struct Calibration {
-  std::string name = {};  ///< cam0, cam1, … of Kalibr; "cam" and the id of COLMAP; camera_name of ROS in the letters of names, else "camera"
-  std::string model = {};            ///< as MakeCamera takes it
-  int width = 0, height = 0;         ///< pixels
-  std::vector<double> parameters = {};  ///< of the model; the centre of the first pixel is at (0.5, 0.5)
+  std::string name =
+      {};  ///< cam0, cam1, … of Kalibr; "cam" and the id of COLMAP; camera_name of ROS in the letters of names, else "camera"
+  std::string model = {};                   ///< as MakeCamera takes it
+  int width = 0, height = 0;                ///< pixels
+  std::vector<double> parameters = {};      ///< of the model; the centre of the first pixel is at (0.5, 0.5)
   std::optional<RigidTransform> X_IC = {};  ///< pose of the camera (right, down, forward) in the frame of the file
-  size_t line = 0;                   ///< of the file, from 1
-  std::string file = {};             ///< that it is from
-  std::vector<size_t> lines = {};    ///< of each parameter
+  size_t line = 0;                          ///< of the file, from 1
+  std::string file = {};                    ///< that it is from
+  std::vector<size_t> lines = {};           ///< of each parameter
 };
 
 /// MakeCamera of it. InputError naming file, line and camera where a parameter is wrong.

@@ -101,7 +101,8 @@ TEST_F(CalibrationFile, KalibrsPosesAreThoseOfTheImu) {
 }
 
 TEST_F(CalibrationFile, EveryCombinationOfKalibrHasItsModel) {
-  const auto model = [&](const std::string& camera, const std::string& intrinsics, const std::string& distortion, const std::string& coefficients) {
+  const auto model = [&](const std::string& camera, const std::string& intrinsics, const std::string& distortion,
+                         const std::string& coefficients) {
     return Read("c.yaml", "cam0: {camera_model: " + camera + ", intrinsics: [" + intrinsics + "], distortion_model: " + distortion +
                               ", distortion_coeffs: [" + coefficients + "], resolution: [640, 480]}\n")
         .at(0)
@@ -121,10 +122,12 @@ TEST_F(CalibrationFile, WhatIsWrongIsNamedWithItsLine) {
     changed.replace(changed.find(from), from.size(), to);
     return changed;
   };
-  Refused("a.yaml", with("camera_model: pinhole", "camera_model: pinhol"), "a.yaml:8: cam0: camera_model: unknown camera_model 'pinhol'; did you mean 'pinhole'");
+  Refused("a.yaml", with("camera_model: pinhole", "camera_model: pinhol"),
+          "a.yaml:8: cam0: camera_model: unknown camera_model 'pinhol'; did you mean 'pinhole'");
   Refused("a.yaml", with("[458.5, 457.5, 367.25, 248.5]", "[458.5, 457.5, 367.25]"), "a.yaml:11: cam0: intrinsics: expected 4 numbers");
   Refused("a.yaml", with("[458.5,", "[x,"), "a.yaml:11: cam0: intrinsics: expected a number, found 'x'");
-  Refused("a.yaml", with("distortion_coeffs: [-0.28, 0.07, 0.0002, 1.8e-05]", "distortion_coeffs: [-0.28]"), "expected 4 numbers (k1, k2, p1, p2), found 1");
+  Refused("a.yaml", with("distortion_coeffs: [-0.28, 0.07, 0.0002, 1.8e-05]", "distortion_coeffs: [-0.28]"),
+          "expected 4 numbers (k1, k2, p1, p2), found 1");
   Refused("a.yaml", with("distortion_model: none", "distortion_model: radtan"), "does not go with camera_model 'ds'");
   Refused("a.yaml", with("resolution: [752, 480]", "resolution: [752, 0]"), "a.yaml:12");
   Refused("a.yaml", with("- [0.0, -1.0, 0.0, 0.01]", "- [0.0, -1.1, 0.0, 0.01]"), "T_cam_imu: is no rotation");
@@ -141,11 +144,13 @@ TEST_F(CalibrationFile, WhatIsWrongIsNamedWithItsLine) {
 // A camera of a chain, one metre to the right of the one before; `pose` is its key.
 std::string ChainCamera(int number, const std::string& pose, double metres) {
   return "cam" + std::to_string(number) + ":\n  camera_model: pinhole\n  intrinsics: [60, 60, 39.5, 29.5]\n  distortion_model: none\n" +
-         "  resolution: [80, 60]\n" + (pose.empty() ? "" : "  " + pose + ": [[1, 0, 0, " + std::to_string(metres) + "], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n");
+         "  resolution: [80, 60]\n" +
+         (pose.empty() ? "" : "  " + pose + ": [[1, 0, 0, " + std::to_string(metres) + "], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n");
 }
 
 TEST_F(CalibrationFile, ChainsGoByNumberWhateverTheOrderOfTheFile) {
-  for (const std::vector<int>& order : {std::vector{0, 1, 10, 11, 2, 3, 4, 5, 6, 7, 8, 9}, std::vector{11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0}}) {
+  for (const std::vector<int>& order :
+       {std::vector{0, 1, 10, 11, 2, 3, 4, 5, 6, 7, 8, 9}, std::vector{11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0}}) {
     std::string text;
     for (const int number : order) text += ChainCamera(number, number > 0 ? "T_cn_cnm1" : "", -number);
     const std::vector<Calibration> cameras = Read("c.yaml", text);
@@ -159,14 +164,16 @@ TEST_F(CalibrationFile, ChainsGoByNumberWhateverTheOrderOfTheFile) {
 }
 
 TEST_F(CalibrationFile, AChainWithAGapIsRefused) {
-  Refused("c.yaml", ChainCamera(0, "", 0) + ChainCamera(2, "T_cn_cnm1", -1), "cam2: T_cn_cnm1: it says where cam2 stands to cam1, and the file has no cam1");
+  Refused("c.yaml", ChainCamera(0, "", 0) + ChainCamera(2, "T_cn_cnm1", -1),
+          "cam2: T_cn_cnm1: it says where cam2 stands to cam1, and the file has no cam1");
   Refused("c.yaml", ChainCamera(1, "T_cn_cnm1", -1), "the file has no cam0");
   Refused("c.yaml", ChainCamera(0, "", 0) + ChainCamera(1, "", 0), "cam1: key 'T_cn_cnm1' is missing");
   Refused("c.yaml", ChainCamera(0, "", 0) + "cam00" + ChainCamera(0, "", 0).substr(4), "two cameras of the number 0");
   // With the poses of an IMU nothing is missing; what hangs on such a camera, before or after it, goes with it.
   EXPECT_EQ(Read("c.yaml", ChainCamera(0, "T_cam_imu", 0) + ChainCamera(2, "T_cam_imu", -1)).size(), 2u);
-  const std::vector<Calibration> cameras = Read("c.yaml", ChainCamera(0, "", 0) + ChainCamera(1, "T_cn_cnm1", -1) +
-                                                              ChainCamera(2, "T_cn_cnm1", -1) + "  T_cam_imu: [[1, 0, 0, -5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n");
+  const std::vector<Calibration> cameras =
+      Read("c.yaml", ChainCamera(0, "", 0) + ChainCamera(1, "T_cn_cnm1", -1) + ChainCamera(2, "T_cn_cnm1", -1) +
+                         "  T_cam_imu: [[1, 0, 0, -5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n");
   for (size_t i = 0; i < 3; ++i) EXPECT_LT(Norm(cameras[i].X_IC->p - Vec3d{3.0 + static_cast<double>(i), 0, 0}), 1e-12);
   EXPECT_EQ(Read("c.yaml", ChainCamera(1, "", 0)).at(0).X_IC->R.m, CameraInBody().R.m);
 }
@@ -177,7 +184,8 @@ TEST_F(CalibrationFile, PosesOfOpenVinsAreTheInverseOfKalibrs) {
   const RigidTransform kalibr = *Read("a.yaml", kKalibr).at(0).X_IC, openvins = *Read("b.yaml", text).at(0).X_IC;
   EXPECT_LT(Norm((kalibr * openvins).p), 1e-12);
   EXPECT_LT(Norm(openvins.p - Vec3d{0.01, 0.02, 0.03}), 1e-12);
-  Refused("b.yaml", ChainCamera(0, "T_imu_cam", 0) + ChainCamera(0, "T_cam_imu", 0).substr(ChainCamera(0, "", 0).size()), "give one of them");
+  Refused("b.yaml", ChainCamera(0, "T_imu_cam", 0) + ChainCamera(0, "T_cam_imu", 0).substr(ChainCamera(0, "", 0).size()),
+          "give one of them");
   EXPECT_NO_THROW(Read("b.yaml", ChainCamera(0, "", 0) + "  line_delay: 2.0e-05\n"));
 }
 
@@ -227,8 +235,10 @@ TEST_F(CalibrationFile, OpenCvsXmlIsItsYaml) {
 
 TEST_F(CalibrationFile, OpenCvAndRosMistakesAreNamed) {
   Refused("r.yaml", With(kRos, "cols: 3", "cols: 4"), "r.yaml:5: camera_matrix: '3' rows of '4' columns, but data has 9 numbers");
-  Refused("r.yaml", With(kRos, "distortion_coefficients", "distortion_coefficents"), "r.yaml:9: key 'distortion_coefficients' is missing; is it meant by 'distortion_coefficents'?");
-  Refused("r.yaml", With(kRos, "camera_matrix", "camera_matrx"), "r.yaml:4: key 'camera_matrix' is missing; is it meant by 'camera_matrx'?");
+  Refused("r.yaml", With(kRos, "distortion_coefficients", "distortion_coefficents"),
+          "r.yaml:9: key 'distortion_coefficients' is missing; is it meant by 'distortion_coefficents'?");
+  Refused("r.yaml", With(kRos, "camera_matrix", "camera_matrx"),
+          "r.yaml:4: key 'camera_matrix' is missing; is it meant by 'camera_matrx'?");
   Refused("r.yaml", With(kRos, "image_height: 48\n", ""), "r.yaml:1: key 'image_height' is missing");
   Refused("r.yaml", std::string(kRos) + "image_width: 65\n", "r.yaml:13: key 'image_width' is given twice, first in line 1");
 }
@@ -246,7 +256,8 @@ TEST_F(CalibrationFile, FilesThatAreNoneSayWhatTheyAre) {
   says("cameras.bin", std::string(64, '\0'), "model_converter --output_type TXT");
   says("a.yaml", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), "is binary, not text");
   says("a.yaml", "cam0:\n\tcamera_model: pinhole\n", "a.yaml:2: is indented with a tab");
-  says("a.yaml", "cam0:\n  rostopic: " + std::string(40, '[') + std::string(40, ']') + "\n", "a.yaml:2: lists and mappings are nested more than 32 deep");
+  says("a.yaml", "cam0:\n  rostopic: " + std::string(40, '[') + std::string(40, ']') + "\n",
+       "a.yaml:2: lists and mappings are nested more than 32 deep");
   says("a.yaml", "cam0: " + std::string(200000, '[') + "\n", "nested more than 32 deep");
   says("a.yaml", "cam0:\n  intrinsics: [1, 2\n", "the list that begins in line 2 is cut off: its ']' is missing");
   says("a.yaml", "cam0:\n  resolution: [8, 6]\n  resolution: [8, 6]\n", "a.yaml:3: key 'resolution' is given twice, first in line 2");
@@ -255,27 +266,32 @@ TEST_F(CalibrationFile, FilesThatAreNoneSayWhatTheyAre) {
 }
 
 TEST_F(CalibrationFile, FormatsThatAreKnownAndNotReadSayWhatToWrite) {
-  const std::pair<const char*, const char*> kFiles[] = {
-      {"model_type: MEI\nmirror_parameters: {xi: 1}\n", "camodocal"},
-      {"model_type: PINHOLE\nprojection_parameters: {fx: 1}\n", "camodocal"},
-      {"Camera.type: \"PinHole\"\nCamera1.fx: 1\n", "ORB-SLAM"},
-      {"image_Width: 64\nCamera_Matrix: []\nDistortion_Coefficients: []\n", "OpenCV 2.4"},
-      {"M1: []\nD1: []\n", "stereo"},
-      {"sensor_type: camera\nT_BS: {}\ncamera_model: pinhole\n", "T_imu_cam"},
-      {"{\"value0\": {\"intrinsics\": [{\"camera_type\": \"ds\"}]}}", "Basalt"},
-      {"{\"fl_x\": 1, \"frames\": []}", "nerfstudio"},
-      {"{\"frames\": [{\"fl_x\": 1}]}", "nerfstudio"},
-      {"{\"rig\": {\"sensors\": []}}", "F_THETA"},
-      {"width: 64\ndistortion_model: plumb_bob\nd: []\nk: []\n", "ros2 topic echo"}};
+  const std::pair<const char*, const char*> kFiles[] = {{"model_type: MEI\nmirror_parameters: {xi: 1}\n", "camodocal"},
+                                                        {"model_type: PINHOLE\nprojection_parameters: {fx: 1}\n", "camodocal"},
+                                                        {"Camera.type: \"PinHole\"\nCamera1.fx: 1\n", "ORB-SLAM"},
+                                                        {"image_Width: 64\nCamera_Matrix: []\nDistortion_Coefficients: []\n", "OpenCV 2.4"},
+                                                        {"M1: []\nD1: []\n", "stereo"},
+                                                        {"sensor_type: camera\nT_BS: {}\ncamera_model: pinhole\n", "T_imu_cam"},
+                                                        {"{\"value0\": {\"intrinsics\": [{\"camera_type\": \"ds\"}]}}", "Basalt"},
+                                                        {"{\"fl_x\": 1, \"frames\": []}", "nerfstudio"},
+                                                        {"{\"frames\": [{\"fl_x\": 1}]}", "nerfstudio"},
+                                                        {"{\"rig\": {\"sensors\": []}}", "F_THETA"},
+                                                        {"width: 64\ndistortion_model: plumb_bob\nd: []\nk: []\n", "ros2 topic echo"}};
   for (const auto& [text, says] : kFiles) Refused("a.yaml", text, says);
   Refused("a.txt", "#polynomial coefficients for the DIRECT mapping (ocam_model.ss)\n5 1 2 3 4 5\n", "OCamCalib");
 }
 
 TEST_F(CalibrationFile, ColmapsIdsAndModelsAreItsOwn) {
   for (const char* id : {"one", "-1", "99999999999999999999", "4294967295", "1.5"})
-    Refused("cameras.txt", std::string(id) + " PINHOLE 64 48 50 50 32 24\n", std::string("cameras.txt:1: CAMERA_ID: '") + id + "' is not a whole number from 0 to 4294967294");
+    Refused("cameras.txt", std::string(id) + " PINHOLE 64 48 50 50 32 24\n",
+            std::string("cameras.txt:1: CAMERA_ID: '") + id + "' is not a whole number from 0 to 4294967294");
   EXPECT_EQ(Read("cameras.txt", "4294967294 PINHOLE 64 48 50 50 32 24\n").at(0).name, "cam4294967294");
-  EXPECT_EQ(Read("cameras.txt", "\xef\xbb\xbf" "7 PINHOLE 64 48 50 50 32 24\n").at(0).name, "cam7");
+  EXPECT_EQ(Read("cameras.txt",
+                 "\xef\xbb\xbf"
+                 "7 PINHOLE 64 48 50 50 32 24\n")
+                .at(0)
+                .name,
+            "cam7");
   Refused("cameras.txt", "1 EQUIRECTANGULAR 2048 1024 2048 1024\n", "projection: erp, size: 2048x1024");
   Refused("cameras.txt", "1 DIVISION 64 48 50 50 32 24 0.1\n", "DIVISION is not read");
 }
@@ -294,12 +310,14 @@ TEST_F(CalibrationFile, AWrongParameterIsNamedWithItsOwnLine) {
   says("a.yaml", With(kKalibr, "0.59", "1.5"), 1, "a.yaml:23: camera 'cam1': camera: alpha 1.5");
   says("r.yaml", With(kRos, "[50,", "[0,"), 0, "r.yaml:7: camera 'left': fx 0");
   says("r.yaml", With(kRos, "[-0.1, 0.02", "[-3, 0"), 0, "r.yaml:12: camera 'left': the lens folds over");
-  says("cameras.txt", "# Camera list\n1 OPENCVV 64 48 50 50 32 24\n", 0, "cameras.txt:2: camera 'cam1': model: unknown camera model 'OPENCVV'; did you mean 'OPENCV'?");
+  says("cameras.txt", "# Camera list\n1 OPENCVV 64 48 50 50 32 24\n", 0,
+       "cameras.txt:2: camera 'cam1': model: unknown camera model 'OPENCVV'; did you mean 'OPENCV'?");
   says("cameras.txt", "# Camera list\n1 PINHOLE 64 48 50 50 1e9 24\n", 0, "cameras.txt:2: camera 'cam1': cx 1000000000");
 }
 
 TEST_F(CalibrationFile, ReflectionsAndRowsAreNamed) {
-  Refused("a.yaml", With(kKalibr, "- [1.0, 0.0, 0.0, 0.03]", "- [-1.0, 0.0, 0.0, 0.03]"), "a.yaml:3: cam0: T_cam_imu: is a reflection, no rotation: its determinant is -1");
+  Refused("a.yaml", With(kKalibr, "- [1.0, 0.0, 0.0, 0.03]", "- [-1.0, 0.0, 0.0, 0.03]"),
+          "a.yaml:3: cam0: T_cam_imu: is a reflection, no rotation: its determinant is -1");
   Refused("a.yaml", With(kKalibr, "1.0, 0.0, 0.0, -0.11", "1.0, 0.0, 0.0, -110"), "are these millimetres?");
   Refused("a.yaml", With(kKalibr, "- [0.0, 0.0, 0.0, 1.0]", "- [0.0, 0.0, 0.0, 2.0]"), "its last row is not 0, 0, 0, 1");
 }

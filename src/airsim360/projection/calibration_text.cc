@@ -27,7 +27,9 @@ class Checker : public YAML::EventHandler {
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { Entry(mark, nullptr); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { Entry(mark, nullptr); }
   void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string& value) override { Entry(mark, &value); }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override { Open(mark, false); }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    Open(mark, false);
+  }
   void OnSequenceEnd() override { levels_.pop_back(); }
   void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override { Open(mark, true); }
   void OnMapEnd() override { levels_.pop_back(); }
@@ -308,7 +310,8 @@ std::optional<std::string> ForeignFormat(const YAML::Node& root) {
 
 std::optional<std::string> ForeignText(std::string_view text) {
   if (text.find("ocam_model") == std::string_view::npos) return std::nullopt;
-  return Advice(1, "OCamCalib", "'ocam_model'", "fit OPENCV_FISHEYE (fx fy cx cy k1 k2 k3 k4) or F_THETA (1 1 cx cy a1 … a6) to its polynomial and write a rig");
+  return Advice(1, "OCamCalib", "'ocam_model'",
+                "fit OPENCV_FISHEYE (fx fy cx cy k1 k2 k3 k4) or F_THETA (1 1 cx cy a1 … a6) to its polynomial and write a rig");
 }
 
 }  // namespace airsim360::internal

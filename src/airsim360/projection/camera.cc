@@ -14,9 +14,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 // Position in [0, width] x [0, height], edges included so that rounding loses no ray.
-bool Inside(Vec2d pixel, int width, int height) {
-  return pixel.x >= 0 && pixel.x <= width && pixel.y >= 0 && pixel.y <= height;
-}
+bool Inside(Vec2d pixel, int width, int height) { return pixel.x >= 0 && pixel.x <= width && pixel.y >= 0 && pixel.y <= height; }
 
 Vec3d Ray(const Equirectangular& c, Vec2d pixel) {
   const double theta = 2 * kPi * (pixel.x / c.width - 0.5), phi = kPi * (0.5 - pixel.y / c.height);
@@ -29,9 +27,7 @@ Vec3d Ray(const CubeFace& c, Vec2d pixel) {
   return CubeFaceRotation(c.face) * Normalized(ray_F);
 }
 
-Vec3d Ray(const Pinhole& c, Vec2d pixel) {
-  return Normalized(Vec3d{(pixel.x - c.cx) / c.fx, (pixel.y - c.cy) / c.fy, 1});
-}
+Vec3d Ray(const Pinhole& c, Vec2d pixel) { return Normalized(Vec3d{(pixel.x - c.cx) / c.fx, (pixel.y - c.cy) / c.fy, 1}); }
 
 std::optional<Vec3d> Ray(const Fisheye& c, Vec2d pixel) {
   const double x = (pixel.x - c.cx) / c.fx, y = (pixel.y - c.cy) / c.fy;
@@ -98,8 +94,7 @@ Size SizeOf(const Camera& camera) {
 
 void Check(const Equirectangular& c) {
   if (c.width != 2 * int64_t{c.height}) {
-    ThrowBadCamera("an equirectangular picture is twice as wide as high, not " + std::to_string(c.width) +
-                   "x" + std::to_string(c.height));
+    ThrowBadCamera("an equirectangular picture is twice as wide as high, not " + std::to_string(c.width) + "x" + std::to_string(c.height));
   }
 }
 
@@ -107,8 +102,7 @@ void Check(const CubeFace&) {}
 
 template <class C>
 void CheckFocal(const C& c) {
-  const bool finite =
-      std::isfinite(c.fx) && std::isfinite(c.fy) && std::isfinite(c.cx) && std::isfinite(c.cy);
+  const bool finite = std::isfinite(c.fx) && std::isfinite(c.fy) && std::isfinite(c.cx) && std::isfinite(c.cy);
   if (!finite || c.fx <= 0 || c.fy <= 0) ThrowBadCamera("fx and fy must be positive, cx and cy finite");
 }
 
@@ -136,14 +130,7 @@ void Check(const Fisheye& c) {
 Fisheye Fisheye::Equidistant(int width, int height, double fov) {
   if (!(fov > 0 && fov <= 2 * kPi)) ThrowBadCamera("fov must be in (0, 2 pi]");
   const double f = std::min(width, height) / fov;
-  return {.width = width,
-          .height = height,
-          .fx = f,
-          .fy = f,
-          .cx = width / 2.0,
-          .cy = height / 2.0,
-          .k = {},
-          .max_theta = fov / 2};
+  return {.width = width, .height = height, .fx = f, .fy = f, .cx = width / 2.0, .cy = height / 2.0, .k = {}, .max_theta = fov / 2};
 }
 
 int Width(const Camera& camera) { return SizeOf(camera).width; }
@@ -160,8 +147,7 @@ std::optional<Vec2d> RayToPixel(const Camera& camera, Vec3d ray) {
 void CheckCamera(const Camera& camera) {
   const auto [width, height] = SizeOf(camera);
   if (width < 1 || height < 1) {
-    ThrowBadCamera("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                   " pixels has no content");
+    ThrowBadCamera("a picture of " + std::to_string(width) + "x" + std::to_string(height) + " pixels has no content");
   }
   std::visit([](const auto& c) { Check(c); }, camera);
 }

@@ -33,8 +33,8 @@ constexpr ModelRow kModels[] = {
     {"RADIAL", kTan, "f cx cy k1 k2", "f cx cy k0 k1"},
     {"OPENCV", kTan, "fx fy cx cy k1 k2 p1 p2", "fx fy cx cy k0 k1 t0 t1"},
     {"FULL_OPENCV", kTan, "fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6", "fx fy cx cy k0 k1 t0 t1 k2 d0 d1 d2"},
-    {"OPENCV_THIN_PRISM", kTan, "fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4",
-     "fx fy cx cy k0 k1 t0 t1 k2 d0 d1 d2 s0 s1 s2 s3", false},
+    {"OPENCV_THIN_PRISM", kTan, "fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4", "fx fy cx cy k0 k1 t0 t1 k2 d0 d1 d2 s0 s1 s2 s3",
+     false},
     {"SIMPLE_FISHEYE", kAngle, "f cx cy", "f cx cy"},
     {"FISHEYE", kAngle, "fx fy cx cy", "fx fy cx cy"},
     {"SIMPLE_RADIAL_FISHEYE", kAngle, "f cx cy k", "f cx cy h0"},
@@ -96,9 +96,7 @@ bool AllZero(std::span<const double> values) {
   return std::ranges::all_of(values, [](double x) { return x == 0; });
 }
 
-bool HasPlaneTerms(const CalibratedLens& lens) {
-  return !AllZero(lens.divisor) || !AllZero(lens.tangential) || !AllZero(lens.prism);
-}
+bool HasPlaneTerms(const CalibratedLens& lens) { return !AllZero(lens.divisor) || !AllZero(lens.tangential) || !AllZero(lens.prism); }
 
 // A pinhole or a fisheye where the numbers are those of one.
 Camera Simplified(const CalibratedLens& lens, bool limited) {
@@ -110,8 +108,7 @@ Camera Simplified(const CalibratedLens& lens, bool limited) {
   if (lens.law != LensLaw::kEquidistant || lens.shape[4] != 0 || lens.shape[5] != 0) return lens;
   if (!straight && !AllZero(lens.shape)) return lens;
   const double* k = straight ? lens.shape.data() : lens.radial.data();
-  return Fisheye{lens.width, lens.height,  lens.fx, lens.fy, lens.cx, lens.cy, {k[0], k[1], k[2], k[3]},
-                 lens.max_theta};
+  return Fisheye{lens.width, lens.height, lens.fx, lens.fy, lens.cx, lens.cy, {k[0], k[1], k[2], k[3]}, lens.max_theta};
 }
 
 CalibratedLens LensOf(std::string_view model, int width, int height, std::span<const double> parameters) {
@@ -195,18 +192,21 @@ void SetField(CalibratedLens& lens, std::optional<double> fov_deg, size_t blamed
   const Vec2d at = ProjectBeyond(lens, {sine * std::cos(limit.azimuth), sine * std::sin(limit.azimuth), std::cos(lens.max_theta)});
   const bool inside = at.x >= 0 && at.x <= lens.width && at.y >= 0 && at.y <= lens.height;
   const bool round = AllZero(lens.tangential) && AllZero(lens.prism);
-  std::snprintf(text, sizeof text,
-                "the lens folds over %.6g degrees from its axis%s; correct its coefficients, or give fov_deg in a rig, at most %.6g, "
-                "beyond which nothing is seen",
-                limit.theta * 180 / kPi,
-                inside || round ? ", inside of the picture" : " on a side that is outside of the picture, and on another the picture reaches further", most_deg);
+  std::snprintf(
+      text, sizeof text,
+      "the lens folds over %.6g degrees from its axis%s; correct its coefficients, or give fov_deg in a rig, at most %.6g, "
+      "beyond which nothing is seen",
+      limit.theta * 180 / kPi,
+      inside || round ? ", inside of the picture" : " on a side that is outside of the picture, and on another the picture reaches further",
+      most_deg);
   throw LensError(text, blamed);
 }
 
 // InputError unless some pixel sees something. A lens grows outwards from its principal point: the pixel nearest to that is the
 // last one to lose its ray.
 void CheckSees(const CalibratedLens& lens) {
-  const Vec2d nearest{std::clamp(std::floor(lens.cx) + 0.5, 0.5, lens.width - 0.5), std::clamp(std::floor(lens.cy) + 0.5, 0.5, lens.height - 0.5)};
+  const Vec2d nearest{std::clamp(std::floor(lens.cx) + 0.5, 0.5, lens.width - 0.5),
+                      std::clamp(std::floor(lens.cy) + 0.5, 0.5, lens.height - 0.5)};
   if (internal::LensRay(lens, nearest)) return;
   char text[200];
   std::snprintf(text, sizeof text, "no pixel has a ray: of %dx%d pixels with the axis at (%.6g, %.6g) none is within %.4g degrees of it",
@@ -216,8 +216,7 @@ void CheckSees(const CalibratedLens& lens) {
 
 }  // namespace
 
-Camera MakeCamera(std::string_view model, int width, int height, std::span<const double> parameters,
-                  std::optional<double> fov_deg) {
+Camera MakeCamera(std::string_view model, int width, int height, std::span<const double> parameters, std::optional<double> fov_deg) {
   CalibratedLens lens = LensOf(model, width, height, parameters);
   CheckParameters(lens, model, parameters);
   // Numbers first: the limit is of a lens that makes sense.
@@ -245,8 +244,7 @@ std::optional<CameraModel> ModelOf(const Camera& camera) {
     lens = {.law = kTan, .fx = pinhole->fx, .fy = pinhole->fy, .cx = pinhole->cx, .cy = pinhole->cy};
   } else if (const auto* fisheye = std::get_if<Fisheye>(&camera)) {
     const auto& k = fisheye->k;
-    return CameraModel{"OPENCV_FISHEYE",
-                       {fisheye->fx, fisheye->fy, fisheye->cx, fisheye->cy, k[0], k[1], k[2], k[3]}, true};
+    return CameraModel{"OPENCV_FISHEYE", {fisheye->fx, fisheye->fy, fisheye->cx, fisheye->cy, k[0], k[1], k[2], k[3]}, true};
   } else if (const auto* calibrated = std::get_if<CalibratedLens>(&camera)) {
     lens = *calibrated;
   } else {

@@ -28,8 +28,7 @@ class LensError : public InputError {
 /// the nearest), a wrong number of parameters, values out of range, a principal point further than 10 pictures from the picture, a
 /// focal length below a thousandth or above a thousand times its longer side, a lens that no pixel sees through, and a distortion
 /// that folds over inside of the picture, or of fov_deg: LensError where parameters are wrong. FOV with omega = 0 is PINHOLE.
-Camera MakeCamera(std::string_view model, int width, int height, std::span<const double> parameters,
-                  std::optional<double> fov_deg = {});
+Camera MakeCamera(std::string_view model, int width, int height, std::span<const double> parameters, std::optional<double> fov_deg = {});
 
 /// The same with its field as it was written down, radians; nothing is searched for.
 Camera RestoreCamera(std::string_view model, int width, int height, std::span<const double> parameters, double max_theta);

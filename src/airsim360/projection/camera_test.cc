@@ -95,8 +95,7 @@ TEST(Equirectangular, FollowsTheConventionOfTheFrames) {
 
 TEST(Equirectangular, EveryDirectionHasAColumnBelowW) {
   const Camera erp = Equirectangular{8, 4};
-  for (const Vec3d ray :
-       {Vec3d{0, 0, -1}, Vec3d{-0.0, 0, -1}, Vec3d{1e-300, 0, -1}, Vec3d{0, 1, 0}, Vec3d{0, -1, -0.0}}) {
+  for (const Vec3d ray : {Vec3d{0, 0, -1}, Vec3d{-0.0, 0, -1}, Vec3d{1e-300, 0, -1}, Vec3d{0, 1, 0}, Vec3d{0, -1, -0.0}}) {
     const auto pixel = RayToPixel(erp, ray);
     ASSERT_TRUE(pixel);
     EXPECT_GE(pixel->x, 0);
@@ -119,8 +118,7 @@ TEST(CubeFace, FacesAreNamedByTheAxisTheyLookAlongAndRotationsAreProper) {
 
 TEST(CubeFace, SideFacesStandUprightAndUpAndDownAreReachedByPitching) {
   const auto top = [](CubeFaceName face) { return *PixelToRay(CubeFace{face, 4}, {2, -1e9}); };
-  for (const auto face :
-       {CubeFaceName::kPosZ, CubeFaceName::kPosX, CubeFaceName::kNegZ, CubeFaceName::kNegX}) {
+  for (const auto face : {CubeFaceName::kPosZ, CubeFaceName::kPosX, CubeFaceName::kNegZ, CubeFaceName::kNegX}) {
     EXPECT_LT(Norm(top(face) - Vec3d{0, -1, 0}), 1e-6);
   }
   EXPECT_LT(Norm(top(CubeFaceName::kNegY) - Vec3d{0, 0, -1}), 1e-6);  // up face: back at its top
@@ -153,8 +151,7 @@ TEST(Camera, PinholeAndCubeFaceOfNinetyDegreesAreTheSame) {
   const Camera face = CubeFace{CubeFaceName::kPosZ, 32}, pinhole = Pinhole{32, 32, 16, 16, 16, 16};
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 32; ++x) {
-      EXPECT_LT(Angle(*PixelToRay(face, {x + 0.5, y + 0.5}), *PixelToRay(pinhole, {x + 0.5, y + 0.5})),
-                1e-15);
+      EXPECT_LT(Angle(*PixelToRay(face, {x + 0.5, y + 0.5}), *PixelToRay(pinhole, {x + 0.5, y + 0.5})), 1e-15);
       EXPECT_DOUBLE_EQ(SolidAngle(face, x, y), SolidAngle(pinhole, x, y));
     }
   }
@@ -205,11 +202,10 @@ TEST(CheckCamera, RefusesCamerasThatMakeNoSense) {
   EXPECT_THROW(CheckCamera(Pinhole{64, 64, 32, 32, nan, 32}), InputError);
   const Fisheye good{64, 64, 20, 20, 32, 32, {}, 1.5};
   CheckCamera(good);
-  for (const auto& k :
-       {std::array{-0.5, 0.0, 0.0, 0.0}, std::array{0.0, 0.0, 0.0, -1.0}, std::array{nan, 0.0, 0.0, 0.0},
-        std::array{1e308, 1e308, 1e308, 1e308}, std::array{0.0, inf, 0.0, 0.0},
-        // Falls in the middle of the range and grows again: both ends have a positive slope.
-        std::array{-1.0, 0.4, 0.0, 0.0}}) {
+  for (const auto& k : {std::array{-0.5, 0.0, 0.0, 0.0}, std::array{0.0, 0.0, 0.0, -1.0}, std::array{nan, 0.0, 0.0, 0.0},
+                        std::array{1e308, 1e308, 1e308, 1e308}, std::array{0.0, inf, 0.0, 0.0},
+                        // Falls in the middle of the range and grows again: both ends have a positive slope.
+                        std::array{-1.0, 0.4, 0.0, 0.0}}) {
     Fisheye bad = good;
     bad.k = k;
     EXPECT_THROW(CheckCamera(bad), InputError) << k[0] << " " << k[1] << " " << k[2] << " " << k[3];
@@ -231,8 +227,7 @@ TEST(CheckCamera, AgreesWithASampledSlopeForRandomPolynomials) {
     double least = 1;
     for (int i = 0; i <= 20000; ++i) {
       const double theta = c.max_theta * i / 20000, t = theta * theta;
-      least = std::min(least, 1 + 3 * c.k[0] * t + 5 * c.k[1] * t * t + 7 * c.k[2] * t * t * t +
-                                  9 * c.k[3] * t * t * t * t);
+      least = std::min(least, 1 + 3 * c.k[0] * t + 5 * c.k[1] * t * t + 7 * c.k[2] * t * t * t + 9 * c.k[3] * t * t * t * t);
     }
     if (std::abs(least) < 1e-4) continue;
     grows += least > 0;
@@ -281,8 +276,7 @@ TEST(SolidAngle, OfAPinholeMatchesTheArctangentFormula) {
   const auto corner = [](double u, double v) { return std::atan(u * v / std::sqrt(1 + u * u + v * v)); };
   for (int j = 0; j < c.height; ++j) {
     for (int i = 0; i < c.width; ++i) {
-      const double u0 = (i - c.cx) / c.fx, u1 = (i + 1 - c.cx) / c.fx, v0 = (j - c.cy) / c.fy,
-                   v1 = (j + 1 - c.cy) / c.fy;
+      const double u0 = (i - c.cx) / c.fx, u1 = (i + 1 - c.cx) / c.fx, v0 = (j - c.cy) / c.fy, v1 = (j + 1 - c.cy) / c.fy;
       const double expected = corner(u1, v1) - corner(u0, v1) - corner(u1, v0) + corner(u0, v0);
       EXPECT_NEAR(SolidAngle(c, i, j) / expected, 1, 1e-11);
     }
@@ -291,9 +285,8 @@ TEST(SolidAngle, OfAPinholeMatchesTheArctangentFormula) {
 
 TEST(SolidAngle, MatchesTheAreaSpannedByTheCornerRaysForEveryModel) {
   // Second method: a small pixel is nearly a flat parallelogram between its corner rays.
-  for (const Camera& camera :
-       std::vector<Camera>{Equirectangular{2000, 1000}, CubeFace{CubeFaceName::kNegX, 700},
-                           Fisheye{700, 700, 200, 210, 350.5, 349, {0.02, -0.003, 0, 0}, 2}}) {
+  for (const Camera& camera : std::vector<Camera>{Equirectangular{2000, 1000}, CubeFace{CubeFaceName::kNegX, 700},
+                                                  Fisheye{700, 700, 200, 210, 350.5, 349, {0.02, -0.003, 0, 0}, 2}}) {
     for (int j = 101; j < Height(camera); j += 97) {
       for (int i = 99; i < Width(camera); i += 101) {
         const auto ray = [&](double x, double y) { return PixelToRay(camera, {i + x, j + y}); };

@@ -41,8 +41,7 @@ bool RadiusGrows(const Fisheye& c) {
   // dr / dtheta is a polynomial p of degree 4 in t = theta^2; on [0, T] its Bezier ordinates are
   // b_i = sum_j C(i, j) / C(4, j) p_j T^j.
   const double T = c.max_theta * c.max_theta;
-  const std::array<double, 5> p = {1, 3 * c.k[0] * T, 5 * c.k[1] * T * T, 7 * c.k[2] * T * T * T,
-                                   9 * c.k[3] * T * T * T * T};
+  const std::array<double, 5> p = {1, 3 * c.k[0] * T, 5 * c.k[1] * T * T, 7 * c.k[2] * T * T * T, 9 * c.k[3] * T * T * T * T};
   constexpr double kChoose[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
   Bernstein b{};
   for (int i = 0; i < 5; ++i) {

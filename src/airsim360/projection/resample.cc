@@ -43,12 +43,10 @@ Image<Vec2d> ResamplingMap(const Camera& target, const Camera& source, const Mat
   return map;
 }
 
-Image<Rgb32f> ResampleBilinear(const Image<Rgb32f>& source, const Camera& source_camera,
-                               const Image<Vec2d>& map) {
+Image<Rgb32f> ResampleBilinear(const Image<Rgb32f>& source, const Camera& source_camera, const Image<Vec2d>& map) {
   if (source.width() != Width(source_camera) || source.height() != Height(source_camera)) {
-    throw InputError("resampling: the picture has " + std::to_string(source.width()) + "x" +
-                     std::to_string(source.height()) + " pixels, its camera " +
-                     std::to_string(Width(source_camera)) + "x" + std::to_string(Height(source_camera)));
+    throw InputError("resampling: the picture has " + std::to_string(source.width()) + "x" + std::to_string(source.height()) +
+                     " pixels, its camera " + std::to_string(Width(source_camera)) + "x" + std::to_string(Height(source_camera)));
   }
   const bool sphere = std::holds_alternative<Equirectangular>(source_camera);
   return sphere ? ResampleWith(SphereReader{source}, map) : ResampleWith(ClampReader{source}, map);

@@ -36,8 +36,7 @@ Image<Pixel> ResampleNearest(const Image<Pixel>& source, const Image<Vec2d>& map
 /// Bilinear, wrapping columns at the seam and crossing the poles when the source is equirectangular, else
 /// held at the border. Pixels without a source are black. InputError unless the picture has the size of its
 /// camera.
-Image<Rgb32f> ResampleBilinear(const Image<Rgb32f>& source, const Camera& source_camera,
-                               const Image<Vec2d>& map);
+Image<Rgb32f> ResampleBilinear(const Image<Rgb32f>& source, const Camera& source_camera, const Image<Vec2d>& map);
 
 template <class Pixel>
 using CubeFaces = std::array<Image<Pixel>, 6>;  // in the order of kCubeFaceNames, all square and equal

@@ -37,9 +37,7 @@ Vec3d ErpDirection(const Equirectangular& erp, int x, int y) {
   return {std::cos(phi) * std::sin(theta), -std::sin(phi), std::cos(phi) * std::cos(theta)};
 }
 
-uint16_t Encode(double component) {
-  return static_cast<uint16_t>(std::lround((component * 0.5 + 0.5) * 65535));
-}
+uint16_t Encode(double component) { return static_cast<uint16_t>(std::lround((component * 0.5 + 0.5) * 65535)); }
 
 CubeFaces<Rgb16> DirectionFaces(int size) {
   CubeFaces<Rgb16> faces;
@@ -68,8 +66,7 @@ Errors DirectionErrors(const Image<Rgb16>& picture) {
   double sum = 0;
   for (int y = 0; y < erp.height; ++y) {
     for (int x = 0; x < erp.width; ++x) {
-      const double e =
-          std::acos(std::min(1.0, Dot(Decoded(picture(x, y)), ErpDirection(erp, x, y)))) * erp.height / kPi;
+      const double e = std::acos(std::min(1.0, Dot(Decoded(picture(x, y)), ErpDirection(erp, x, y)))) * erp.height / kPi;
       sum += e * e;
       errors.max = std::max(errors.max, e);
     }
@@ -80,8 +77,7 @@ Errors DirectionErrors(const Image<Rgb16>& picture) {
 
 TEST(Stitch, DirectionEncodedFacesComeBackWithinATwentiethOfAPixel) {
   for (int size : {64, 129, 256, 512}) {
-    const Errors errors =
-        DirectionErrors(StitchFiltered(DirectionFaces(size), Equirectangular{4 * size, 2 * size}));
+    const Errors errors = DirectionErrors(StitchFiltered(DirectionFaces(size), Equirectangular{4 * size, 2 * size}));
     EXPECT_LE(errors.rms, 0.05) << size;
     EXPECT_LE(errors.max, 0.35) << size;
     RecordProperty("rms_" + std::to_string(size), std::to_string(errors.rms));
@@ -91,8 +87,7 @@ TEST(Stitch, DirectionEncodedFacesComeBackWithinATwentiethOfAPixel) {
 
 TEST(Stitch, OtherTargetSizesAreAsExact) {
   for (int width : {64, 250, 512, 2048}) {
-    const Errors errors =
-        DirectionErrors(StitchFiltered(DirectionFaces(128), Equirectangular{width, width / 2}));
+    const Errors errors = DirectionErrors(StitchFiltered(DirectionFaces(128), Equirectangular{width, width / 2}));
     EXPECT_LE(errors.rms, 0.05) << width;
     EXPECT_LE(errors.max, 0.35) << width;
   }
@@ -116,9 +111,7 @@ TEST(Stitch, ThereIsNoSeamAtFaceBorders) {
   double inside = 0, border = 0;
   for (int y = 1; y + 1 < erp.height(); ++y) {
     for (int x = 0; x < erp.width(); ++x) {
-      const auto face = [&](int i, int j) {
-        return RayToCube(ErpDirection({4 * kSize, 2 * kSize}, i, j), kSize).face;
-      };
+      const auto face = [&](int i, int j) { return RayToCube(ErpDirection({4 * kSize, 2 * kSize}, i, j), kSize).face; };
       const int left = (x + erp.width() - 1) % erp.width(), right = (x + 1) % erp.width();
       const double bend = std::max(std::abs(erp(left, y).r - 2 * erp(x, y).r + erp(right, y).r),
                                    std::abs(erp(x, y - 1).r - 2 * erp(x, y).r + erp(x, y + 1).r));
@@ -168,8 +161,7 @@ TEST(Stitch, IdFacesGiveExactlyThePixelThatAnIndependentFormulaNames) {
     CubeFaces<uint32_t> faces;
     for (uint32_t f = 0; f < 6; ++f) {
       faces[f] = Image<uint32_t>(size, size);
-      for (size_t i = 0; i < faces[f].size(); ++i)
-        faces[f].pixels()[i] = (f << 20) + static_cast<uint32_t>(i);
+      for (size_t i = 0; i < faces[f].size(); ++i) faces[f].pixels()[i] = (f << 20) + static_cast<uint32_t>(i);
     }
     const Equirectangular target{4 * size, 2 * size};
     const auto erp = StitchNearest(faces, target);
@@ -183,8 +175,7 @@ TEST(Stitch, IdFacesGiveExactlyThePixelThatAnIndependentFormulaNames) {
         }
         // With odd sizes some rays meet an edge of the cube exactly: either face is right there.
         int nearest = 0;
-        for (int f = 0; f < 6; ++f)
-          nearest += Dot(d, FaceDirection(f, 0, 0)) > Dot(d, FaceDirection(face, 0, 0)) - 1e-12;
+        for (int f = 0; f < 6; ++f) nearest += Dot(d, FaceDirection(f, 0, 0)) > Dot(d, FaceDirection(face, 0, 0)) - 1e-12;
         if (nearest > 1) continue;
         const Vec3d forward = FaceDirection(face, 0, 0), right = FaceDirection(face, 1, 0) - forward,
                     down = FaceDirection(face, 0, 1) - forward;
@@ -255,13 +246,11 @@ TEST(Stitch, PlanarDepthOfARoomIsTheRangeOfTheDirectFormulaExceptAtCorners) {
       // and its depth is that of a ray up to half a texel away, as is every plain nearest range.
       const Vec3d hit = p + d * expected;
       const double along = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
-      const bool parallel = (std::abs(d.x) == along && std::abs(hit.x) > 4.999) ||
-                            (std::abs(d.z) == along && std::abs(hit.z) > 4.999) ||
+      const bool parallel = (std::abs(d.x) == along && std::abs(hit.x) > 4.999) || (std::abs(d.z) == along && std::abs(hit.z) > 4.999) ||
                             (std::abs(d.y) == along && (hit.y > 1.999 || hit.y < -3.999));
       // Half a texel within the edge of the wall the nearest texel may belong to the next wall.
       const double margin = 0.05;
-      const int touching = (5 - std::abs(hit.x) < margin) + (5 - std::abs(hit.z) < margin) +
-                           (hit.y > 2 - margin || hit.y < -4 + margin);
+      const int touching = (5 - std::abs(hit.x) < margin) + (5 - std::abs(hit.z) < margin) + (hit.y > 2 - margin || hit.y < -4 + margin);
       if (parallel && touching == 1) {
         ++walls;
         ASSERT_NEAR(exact(x, y) / expected, 1, 2e-7) << x << "," << y;
@@ -273,9 +262,7 @@ TEST(Stitch, PlanarDepthOfARoomIsTheRangeOfTheDirectFormulaExceptAtCorners) {
   EXPECT_GT(walls, static_cast<int>(exact.size()) / 2);
 }
 
-TEST(Stitch, RangeZeroStaysZero) {
-  EXPECT_EQ(RangeFromFaceDepth(Image<float>(3, 3, 0)), Image<float>(3, 3, 0));
-}
+TEST(Stitch, RangeZeroStaysZero) { EXPECT_EQ(RangeFromFaceDepth(Image<float>(3, 3, 0)), Image<float>(3, 3, 0)); }
 
 TEST(Stitch, FacesThatAreNotSquareOrNotEqualAreNamed) {
   CubeFaces<uint8_t> faces;
@@ -352,8 +339,7 @@ Image<Rgb32f> DirectionPicture(const Camera& camera) {
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       const auto ray = PixelToRay(camera, {x + 0.5, y + 0.5});
-      if (ray)
-        picture(x, y) = {static_cast<float>(ray->x), static_cast<float>(ray->y), static_cast<float>(ray->z)};
+      if (ray) picture(x, y) = {static_cast<float>(ray->x), static_cast<float>(ray->y), static_cast<float>(ray->z)};
     }
   }
   return picture;
@@ -361,8 +347,8 @@ Image<Rgb32f> DirectionPicture(const Camera& camera) {
 
 TEST(Resample, DirectionsSurviveBetweenAnyTwoModelsAlsoOverSeamAndPoles) {
   const Mat3d R = RotationX(0.9) * RotationY(2.5) * RotationZ(-0.4);
-  const std::vector<Camera> cameras = {Equirectangular{512, 256}, CubeFace{CubeFaceName::kNegZ, 200},
-                                       Pinhole{160, 120, 90, 95, 75, 66}, Fisheye::Equidistant(200, 200, 4)};
+  const std::vector<Camera> cameras = {Equirectangular{512, 256}, CubeFace{CubeFaceName::kNegZ, 200}, Pinhole{160, 120, 90, 95, 75, 66},
+                                       Fisheye::Equidistant(200, 200, 4)};
   for (const Camera& source : cameras) {
     for (const Camera& target : cameras) {
       const auto map = ResamplingMap(target, source, R);
@@ -375,8 +361,7 @@ TEST(Resample, DirectionsSurviveBetweenAnyTwoModelsAlsoOverSeamAndPoles) {
           // circle's rim.
           const bool closed = source.index() == 0;
           if (std::isnan(at.x)) continue;
-          if (!closed && (at.x < 1 || at.y < 1 || at.x > Width(source) - 1 || at.y > Height(source) - 1))
-            continue;
+          if (!closed && (at.x < 1 || at.y < 1 || at.x > Width(source) - 1 || at.y > Height(source) - 1)) continue;
           if (source.index() == 3 && std::hypot(at.x - 100, at.y - 100) > 97) continue;
           const Vec3d expected = R * *PixelToRay(target, {x + 0.5, y + 0.5});
           const Rgb32f p = picture(x, y);

@@ -36,17 +36,13 @@ double Of(const CubeFace& c, int i, int j) {
   return Rectangle({i * d - 1, j * d - 1}, {d, d});
 }
 
-double Of(const Pinhole& c, int i, int j) {
-  return Rectangle({(i - c.cx) / c.fx, (j - c.cy) / c.fy}, {1 / c.fx, 1 / c.fy});
-}
+double Of(const Pinhole& c, int i, int j) { return Rectangle({(i - c.cx) / c.fx, (j - c.cy) / c.fy}, {1 / c.fx, 1 / c.fy}); }
 
 // Integral of (1 - cos theta) d psi along the straight line from p to q, psi being the angle around the axis
 // and theta held at max_theta outside the circle: Gauss-Legendre with 8 points.
 double EdgePart(const Fisheye& c, Vec2d p, Vec2d q) {
-  constexpr std::array<double, 4> kNode = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
-                                           0.9602898564975363};
-  constexpr std::array<double, 4> kWeight = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                                             0.1012285362903763};
+  constexpr std::array<double, 4> kNode = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
+  constexpr std::array<double, 4> kWeight = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
   const Vec2d middle = (p + q) * 0.5, half = (q - p) * 0.5;
   const double cross = middle.x * half.y - middle.y * half.x;  // r^2 d psi / d s, the same all along a line
   double sum = 0;
@@ -65,8 +61,7 @@ double EdgePart(const Fisheye& c, Vec2d p, Vec2d q) {
 double Edge(const Fisheye& c, Vec2d p, Vec2d q) {
   const Vec2d d = q - p;
   const double radius = internal::RadiusOfTheta(c, c.max_theta);
-  const double a = d.x * d.x + d.y * d.y, b = p.x * d.x + p.y * d.y,
-               e = p.x * p.x + p.y * p.y - radius * radius;
+  const double a = d.x * d.x + d.y * d.y, b = p.x * d.x + p.y * d.y, e = p.x * p.x + p.y * p.y - radius * radius;
   const double root = b * b - a * e;
   double from = 0, sum = 0;
   if (root > 0) {
@@ -89,9 +84,7 @@ double Of(const Fisheye& c, int i, int j) {
 
 // Solid angle of the triangle of three unit vectors (van Oosterom and Strackee 1983), from differences, which do not
 // cancel where it is small.
-double Triangle(Vec3d a, Vec3d b, Vec3d c) {
-  return 2 * std::atan2(Dot(a, Cross(b - a, c - a)), 1 + Dot(a, b) + Dot(b, c) + Dot(c, a));
-}
+double Triangle(Vec3d a, Vec3d b, Vec3d c) { return 2 * std::atan2(Dot(a, Cross(b - a, c - a)), 1 + Dot(a, b) + Dot(b, c) + Dot(c, a)); }
 
 // Of a rectangle of the picture whose corners have rays; nullopt where one has none.
 std::optional<double> Quadrangle(const CalibratedLens& c, Vec2d p, double side) {

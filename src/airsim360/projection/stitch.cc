@@ -32,9 +32,7 @@ struct Rays {
       elevation.push_back({std::cos(phi), std::sin(phi)});
     }
   }
-  Vec3d operator()(size_t i, size_t j) const {
-    return {elevation[j].c * azimuth[i].s, -elevation[j].s, elevation[j].c * azimuth[i].c};
-  }
+  Vec3d operator()(size_t i, size_t j) const { return {elevation[j].c * azimuth[i].s, -elevation[j].s, elevation[j].c * azimuth[i].c}; }
 };
 
 // A face with a border of one texel that continues it over the edge, so that bilinear reads need no cases.
@@ -42,8 +40,7 @@ Image<Rgb32f> WithBorder(const CubeFaces<Rgb32f>& faces, size_t f) {
   const Image<Rgb32f>& face = faces[f];
   const int size = face.width();
   Image<Rgb32f> padded(size + 2, size + 2);
-  for (int y = 0; y < size; ++y)
-    std::copy(face.row(y).begin(), face.row(y).end(), padded.row(y + 1).begin() + 1);
+  for (int y = 0; y < size; ++y) std::copy(face.row(y).begin(), face.row(y).end(), padded.row(y + 1).begin() + 1);
 
   // The border texel at a position of the face's plane beyond the edge: what the neighbour shows in that
   // direction.
@@ -88,8 +85,7 @@ Image<To> Converted(const Image<From>& from, const Convert& convert) {
 }
 
 template <class Pixel, class Decode, class Encode>
-Image<Pixel> StitchConverted(const CubeFaces<Pixel>& faces, const Equirectangular& target,
-                             const Decode& decode, const Encode& encode) {
+Image<Pixel> StitchConverted(const CubeFaces<Pixel>& faces, const Equirectangular& target, const Decode& decode, const Encode& encode) {
   CubeFaces<Rgb32f> numbers;
   for (size_t f = 0; f < 6; ++f) numbers[f] = Converted<Rgb32f>(faces[f], decode);
   return Converted<Pixel>(StitchFiltered(numbers, target), encode);
@@ -104,13 +100,12 @@ int CheckFaces(const std::array<FaceSize, 6>& sizes, const std::array<std::strin
       throw InputError(names[f] + " has " + text(sizes[f]) + " pixels; faces must be square");
     }
     if (sizes[f] != sizes[0]) {
-      throw InputError(names[f] + " has " + text(sizes[f]) + " pixels, " + names[0] + " has " +
-                       text(sizes[0]) + "; all faces must be equal");
+      throw InputError(names[f] + " has " + text(sizes[f]) + " pixels, " + names[0] + " has " + text(sizes[0]) +
+                       "; all faces must be equal");
     }
   }
   // Six faces are indexed by 32 bits.
-  if (sizes[0][0] > 16384)
-    throw InputError(names[0] + " has " + text(sizes[0]) + " pixels; the limit is 16384x16384");
+  if (sizes[0][0] > 16384) throw InputError(names[0] + " has " + text(sizes[0]) + " pixels; the limit is 16384x16384");
   return sizes[0][0];
 }
 
@@ -121,10 +116,8 @@ Image<uint32_t> CubeLookup(int size, const Equirectangular& target) {
   ParallelFor(target.height, [&](int64_t y) {
     for (int x = 0; x < target.width; ++x) {
       const auto [face, at] = RayToCube(rays(static_cast<size_t>(x), static_cast<size_t>(y)), size);
-      const int column = std::min(static_cast<int>(at.x), size - 1),
-                row = std::min(static_cast<int>(at.y), size - 1);
-      const auto line =
-          static_cast<uint32_t>(face) * static_cast<uint32_t>(size) + static_cast<uint32_t>(row);
+      const int column = std::min(static_cast<int>(at.x), size - 1), row = std::min(static_cast<int>(at.y), size - 1);
+      const auto line = static_cast<uint32_t>(face) * static_cast<uint32_t>(size) + static_cast<uint32_t>(row);
       lookup(x, static_cast<int>(y)) = line * static_cast<uint32_t>(size) + static_cast<uint32_t>(column);
     }
   });
@@ -139,8 +132,7 @@ Image<Rgb32f> StitchFiltered(const CubeFaces<Rgb32f>& faces, const Equirectangul
 
   // Texels are least at the edges of a face, 1 / size radians: as many samples as such texels fit a target
   // pixel, so that no texel is skipped.
-  const int samples =
-      std::max(1, static_cast<int>(std::ceil(std::numbers::pi / target.height * size - 1e-9)));
+  const int samples = std::max(1, static_cast<int>(std::ceil(std::numbers::pi / target.height * size - 1e-9)));
   const Rays rays(target, samples, samples);
   const float weight = 1.0f / static_cast<float>(samples * samples);
   Image<Rgb32f> result(target.width, target.height);
@@ -149,8 +141,7 @@ Image<Rgb32f> StitchFiltered(const CubeFaces<Rgb32f>& faces, const Equirectangul
       Rgb32f sum;
       for (int j = 0; j < samples; ++j) {
         for (int i = 0; i < samples; ++i) {
-          const auto [face, at] = RayToCube(
-              rays(static_cast<size_t>(x * samples + i), static_cast<size_t>(y * samples + j)), size);
+          const auto [face, at] = RayToCube(rays(static_cast<size_t>(x * samples + i), static_cast<size_t>(y * samples + j)), size);
           const Rgb32f p = internal::Bilinear(BorderReader{padded[static_cast<size_t>(face)]}, at);
           sum = {sum.r + p.r, sum.g + p.g, sum.b + p.b};
         }
@@ -173,9 +164,7 @@ Image<Rgb8> StitchFiltered(const CubeFaces<Rgb8>& faces, const Equirectangular& 
 }
 
 Image<Rgb16> StitchFiltered(const CubeFaces<Rgb16>& faces, const Equirectangular& target) {
-  const auto round = [](float v) {
-    return static_cast<uint16_t>(std::lround(std::clamp(v, 0.0f, 65535.0f)));
-  };
+  const auto round = [](float v) { return static_cast<uint16_t>(std::lround(std::clamp(v, 0.0f, 65535.0f))); };
   return StitchConverted(
       faces, target,
       [](Rgb16 p) {

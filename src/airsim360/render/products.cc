@@ -12,8 +12,7 @@ std::vector<std::string> ProductNames() {
 
 Products WithProducts(Products products, std::span<const std::string> names, std::string_view where) {
   const std::vector<std::string> choices = ProductNames();
-  for (const std::string& name : names)
-    products.*kProducts[ParseChoice("product", name, choices, where)].wanted = true;
+  for (const std::string& name : names) products.*kProducts[ParseChoice("product", name, choices, where)].wanted = true;
   return products;
 }
 

@@ -23,15 +23,15 @@ struct Products {
 struct ProductInfo {
   const char* name;
   bool Products::*wanted;
-  const char* extension;  ///< of its files in a dataset
-  const char* encoding;   ///< of its files, for meta.json; rgb and semantic have others too, see dataset/meta.cc
-  bool always = false;    ///< in every dataset, rgb unless the tier is labels
+  const char* extension;     ///< of its files in a dataset
+  const char* encoding;      ///< of its files, for meta.json; rgb and semantic have others too, see dataset/meta.cc
+  bool always = false;       ///< in every dataset, rgb unless the tier is labels
   bool needs_light = false;  ///< tier labels has none
 };
 inline constexpr ProductInfo kProducts[] = {
     {"rgb", &Products::rgb, ".png", "8-bit sRGB PNG", true, true},
-    {"range", &Products::range, ".exr",
-     "OpenEXR float32, channel Y: metres along the ray through the pixel centre, 0 = nothing hit (sky)", true},
+    {"range", &Products::range, ".exr", "OpenEXR float32, channel Y: metres along the ray through the pixel centre, 0 = nothing hit (sky)",
+     true},
     {"semantic", &Products::semantic, ".png",
      "8-bit palette PNG: the index stored in a pixel is the category id of `categories`, the palette holds "
      "their colours; PIL's np.asarray(Image.open(f)) gives indices, cv2.imread colours; 0 = void, never written",
@@ -39,10 +39,8 @@ inline constexpr ProductInfo kProducts[] = {
     {"entity", &Products::entity, ".png", "8-bit RGB PNG, entity id = R + 256 G + 65536 B; 0 never appears", true},
     {"normal", &Products::normal, ".png",
      "16-bit RGB PNG, unit world normal towards the camera: n = value / 32767 - 1; (0, 0, 0) = nothing hit"},
-    {"position", &Products::position, ".exr",
-     "OpenEXR float32, channels X, Y, Z: the point hit, in W, metres; (0, 0, 0) = nothing hit"},
-    {"albedo", &Products::albedo, ".png",
-     "8-bit sRGB PNG: base colour of the surface without any light; black = nothing hit"},
+    {"position", &Products::position, ".exr", "OpenEXR float32, channels X, Y, Z: the point hit, in W, metres; (0, 0, 0) = nothing hit"},
+    {"albedo", &Products::albedo, ".png", "8-bit sRGB PNG: base colour of the surface without any light; black = nothing hit"},
     {"material", &Products::material, ".png", "16-bit PNG: key of materials.json; 0 = nothing hit"},
     {"part", &Products::part, ".png",
      "8-bit PNG: key of parts.json, which part of the pixel's entity this is; 0 = its body, or nothing hit"},

@@ -32,13 +32,12 @@ struct RenderRequest : RenderSettings {
 
   // Tiers high and reference.
   bool latitude_sampling = true;  ///< fewer samples where rows of a panorama are shorter
-  bool temporal = false;  ///< high: reuse the last frame of this renderer; off = frames are independent
-  bool light = false;  ///< also Frame::light and Frame::daylight, of which a look makes a picture (render/look)
+  bool temporal = false;          ///< high: reuse the last frame of this renderer; off = frames are independent
+  bool light = false;             ///< also Frame::light and Frame::daylight, of which a look makes a picture (render/look)
 };
 
 /// A request that leaves all other settings as they are by default.
-inline RenderRequest MakeRequest(const Camera& camera, const RigidTransform& X_WC, Tier tier,
-                                 const Products& products = {}) {
+inline RenderRequest MakeRequest(const Camera& camera, const RigidTransform& X_WC, Tier tier, const Products& products = {}) {
   RenderRequest request{{}, camera, X_WC, products};
   request.tier = tier;
   return request;
@@ -47,9 +46,7 @@ inline RenderRequest MakeRequest(const Camera& camera, const RigidTransform& X_W
 /// Colour samples of a pixel on an edge. Tier `fast` takes two if nothing else is asked for, `high` eight, with which it
 /// is level with 16 paths of a pixel; four where shares of entities are a product of another tier (coverage).
 inline int EdgeSamples(const RenderRequest& request) {
-  const int usual = request.tier == Tier::kHigh                                   ? 8
-                    : request.tier == Tier::kFast && !request.products.coverage ? 2
-                                                                                : 4;
+  const int usual = request.tier == Tier::kHigh ? 8 : request.tier == Tier::kFast && !request.products.coverage ? 2 : 4;
   return std::clamp(request.edge_samples > 0 ? request.edge_samples : usual, 1, kMaxEdgeSamples);
 }
 
@@ -118,13 +115,12 @@ class Renderer {
 };
 
 struct RendererOptions {
-  Tier tier = Tier::kLabels;  ///< what it needs beyond tracing (sky, lights, probes) is made at construction
+  Tier tier = Tier::kLabels;                    ///< what it needs beyond tracing (sky, lights, probes) is made at construction
   std::optional<Environment> environment = {};  ///< instead of the scene's own
 };
 
 /// CPU renderer on Embree. What a tier other than the one announced needs is made at its first capture.
-std::unique_ptr<Renderer> MakeCpuRenderer(std::shared_ptr<const RayTracer> tracer,
-                                          const RendererOptions& options = {});
+std::unique_ptr<Renderer> MakeCpuRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options = {});
 /// Renderer for tests of everything above: sky everywhere, range 0, no rays.
 std::unique_ptr<Renderer> MakeNullRenderer(std::shared_ptr<const Scene> scene);
 

@@ -20,9 +20,7 @@ std::vector<Vec2d> OccupiedCells(const Scene& scene) {
   std::map<std::pair<int, int>, int> count;
   for (const Entity& entity : scene.entities) {
     const Vec3f size = entity.bounds.size();
-    if (!scene.tree[entity.category].thing || entity.bounds.empty() ||
-        std::max({size.x, size.y, size.z}) > kEverydaySize)
-      continue;
+    if (!scene.tree[entity.category].thing || entity.bounds.empty() || std::max({size.x, size.y, size.z}) > kEverydaySize) continue;
     const Vec3f center = entity.bounds.center();
     ++count[{static_cast<int>(std::floor(center.x / kCell)), static_cast<int>(std::floor(center.y / kCell))}];
   }
@@ -35,8 +33,7 @@ std::vector<Vec2d> OccupiedCells(const Scene& scene) {
   }
   std::sort(counts.rbegin(), counts.rend());
   int least = 0;
-  for (size_t i = 0;
-       i < counts.size() && static_cast<double>(held) < kHeldByCells * static_cast<double>(total); ++i) {
+  for (size_t i = 0; i < counts.size() && static_cast<double>(held) < kHeldByCells * static_cast<double>(total); ++i) {
     least = counts[i];
     held += least;
   }
@@ -127,9 +124,7 @@ Box2d InhabitedGround(const Scene& scene) {
 std::vector<Vec3d> FindFreePlaces(const RayTracer& tracer, const PlaceOptions& options) {
   const SurveyedGround ground = FindSurveyedGround(tracer.scene());
   const std::vector<Vec3d> candidates = Candidates(tracer, ground, options);
-  const auto is_free = [&](Vec3f p) {
-    return tracer.Clearance(p, static_cast<float>(options.radius + 1)) >= options.radius;
-  };
+  const auto is_free = [&](Vec3f p) { return tracer.Clearance(p, static_cast<float>(options.radius + 1)) >= options.radius; };
   std::vector<uint8_t> free(candidates.size());
   ParallelFor(static_cast<int64_t>(candidates.size()), [&](int64_t k) {
     const Vec3f p = VecCast<float>(candidates[static_cast<size_t>(k)]);
@@ -137,8 +132,7 @@ std::vector<Vec3d> FindFreePlaces(const RayTracer& tracer, const PlaceOptions& o
     free[static_cast<size_t>(k)] = is_free(p) && (may_float || tracer.Intersect(p, {0, 0, -1}));
   });
   std::vector<Vec3d> places;
-  if (const auto& spawn = tracer.scene().spawn; spawn && is_free(*spawn))
-    places.push_back(VecCast<double>(*spawn));
+  if (const auto& spawn = tracer.scene().spawn; spawn && is_free(*spawn)) places.push_back(VecCast<double>(*spawn));
   for (size_t k = 0; k < candidates.size(); ++k) {
     if (free[k]) places.push_back(candidates[k]);
   }

@@ -42,8 +42,7 @@ struct RoadGrid {
 EntityId EntityAt(const Scene& scene, const SurfaceRef& surface) {
   const Instance& instance = scene.instances[surface.instance];
   for (const MeshPart& part : scene.meshes[instance.mesh].parts) {
-    if (surface.triangle - part.first_triangle < part.triangle_count && part.entity != kNoEntity)
-      return part.entity;
+    if (surface.triangle - part.first_triangle < part.triangle_count && part.entity != kNoEntity) return part.entity;
   }
   return instance.entity;
 }
@@ -54,8 +53,8 @@ RoadGrid FindRoads(const RayTracer& tracer) {
   for (const Entity& entity : scene.entities) {
     // What cars drive on, paint and lids in it included.
     const std::string& path = scene.tree[entity.category].path;
-    for (const char* kind : {"ground/road", "ground/crosswalk", "ground/lane_marking", "ground/manhole",
-                             "ground/bike_lane", "ground/parking"})
+    for (const char* kind :
+         {"ground/road", "ground/crosswalk", "ground/lane_marking", "ground/manhole", "ground/bike_lane", "ground/parking"})
       is_road[entity.id] = is_road[entity.id] || path.starts_with(kind);
   }
   const Box3d box = FlightBox(tracer);
@@ -105,8 +104,7 @@ struct Ways {
 
 // Cheapest ways along the road; the edge costs more than the middle.
 Ways FindWays(const RoadGrid& grid, int from) {
-  Ways ways{std::vector<double>(grid.inside.size(), kInfinity), std::vector<int>(grid.inside.size(), -1),
-            from};
+  Ways ways{std::vector<double>(grid.inside.size(), kInfinity), std::vector<int>(grid.inside.size(), -1), from};
   std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
   ways.cost[from] = 0;
   open.emplace(0, from);
@@ -129,8 +127,7 @@ Ways FindWays(const RoadGrid& grid, int from) {
 }
 
 // Douglas-Peucker: drops points nearer than `tolerance` to the chord of those kept.
-void Simplify(const std::vector<Vec3d>& way, size_t first, size_t last, double tolerance,
-              std::vector<Vec3d>& out) {
+void Simplify(const std::vector<Vec3d>& way, size_t first, size_t last, double tolerance, std::vector<Vec3d>& out) {
   const Vec3d u = Normalized(way[last] - way[first]);
   double farthest = 0;
   size_t at = first;
@@ -174,8 +171,7 @@ std::vector<Vec3d> RoadRoute(const RayTracer& tracer, const RoadRouteOptions& op
   if (start < 0) throw InputError("world '" + tracer.scene().name + "' has no road to follow");
   const Ways ways = FindWays(grid, start);
   std::vector<Vec3d> way;
-  for (int cell = ways.farthest; cell >= 0; cell = ways.previous[cell])
-    way.push_back(grid.At(cell, options.height));
+  for (int cell = ways.farthest; cell >= 0; cell = ways.previous[cell]) way.push_back(grid.At(cell, options.height));
   if (way.size() < 2) throw InputError("world '" + tracer.scene().name + "' has no road to follow");
   std::vector<Vec3d> out = {way.front()};
   Simplify(way, 0, way.size() - 1, options.corner, out);

@@ -21,8 +21,7 @@ struct HermiteBasis {
 
 HermiteBasis Position(double s) {
   const double s3 = s * s * s, s4 = s3 * s, s5 = s4 * s;
-  return {1 - 10 * s3 + 15 * s4 - 6 * s5, s - 6 * s3 + 8 * s4 - 3 * s5, -4 * s3 + 7 * s4 - 3 * s5,
-          10 * s3 - 15 * s4 + 6 * s5};
+  return {1 - 10 * s3 + 15 * s4 - 6 * s5, s - 6 * s3 + 8 * s4 - 3 * s5, -4 * s3 + 7 * s4 - 3 * s5, 10 * s3 - 15 * s4 + 6 * s5};
 }
 
 HermiteBasis Velocity(double s) {
@@ -50,8 +49,7 @@ Route::Route(std::vector<RouteNode> nodes) : nodes_(std::move(nodes)) {
   for (size_t i = 0; i < nodes_.size(); ++i) {
     RouteNode& node = nodes_[i];
     const double previous = i ? nodes_[i - 1].t : 0;
-    if (!std::isfinite(node.t) || (i ? node.t <= previous : node.t != 0) || !IsWithinLimit(node.p) ||
-        !IsFinite(node.v)) {
+    if (!std::isfinite(node.t) || (i ? node.t <= previous : node.t != 0) || !IsWithinLimit(node.p) || !IsFinite(node.v)) {
       throw InputError("route: point " + std::to_string(i) + " has no valid time or position");
     }
     if (i) node.yaw = nodes_[i - 1].yaw + std::remainder(node.yaw - nodes_[i - 1].yaw, 2 * kPi);
@@ -80,8 +78,7 @@ Route Route::Along(const PolynomialTrajectory& path, std::optional<double> yaw) 
 RoutePoint Route::At(double t) const {
   if (t <= 0) return {nodes_.front().p, {}, {}, nodes_.front().yaw, 0};
   if (t >= duration()) return {nodes_.back().p, {}, {}, nodes_.back().yaw, 0};
-  const auto next = std::upper_bound(nodes_.begin(), nodes_.end(), t,
-                                     [](double value, const RouteNode& node) { return value < node.t; });
+  const auto next = std::upper_bound(nodes_.begin(), nodes_.end(), t, [](double value, const RouteNode& node) { return value < node.t; });
   const RouteNode& b = *next;
   const RouteNode& a = *(next - 1);
   const double T = b.t - a.t;
@@ -91,9 +88,8 @@ RoutePoint Route::At(double t) const {
     const TrajectoryPoint point = path_->At(t);
     return {point.p, point.v, point.a, a.yaw + turn * s * s * (3 - 2 * s), turn * 6 * s * (1 - s) / T};
   }
-  return {Blend(Position(s), a, b, T), Blend(Velocity(s), a, b, T) / T,
-          Blend(Acceleration(s), a, b, T) / (T * T), a.yaw + turn * s * s * (3 - 2 * s),
-          turn * 6 * s * (1 - s) / T};
+  return {Blend(Position(s), a, b, T), Blend(Velocity(s), a, b, T) / T, Blend(Acceleration(s), a, b, T) / (T * T),
+          a.yaw + turn * s * s * (3 - 2 * s), turn * 6 * s * (1 - s) / T};
 }
 
 Route RouteThrough(const std::vector<Waypoint>& waypoints, double speed) {
@@ -129,14 +125,12 @@ struct Leg {
 };
 
 // Speeds at the corners: slow enough to turn within the rounding and to brake and speed up along the legs.
-std::vector<double> CornerSpeeds(const std::vector<Leg>& legs, const std::vector<double>& cut,
-                                 const FlightLimits& limits) {
+std::vector<double> CornerSpeeds(const std::vector<Leg>& legs, const std::vector<double>& cut, const FlightLimits& limits) {
   // A smooth step of velocity over time T peaks at 1.5 |dv| / T; a corner lasts 2 cut / speed.
   std::vector<double> speeds(legs.size() + 1, 0);
   for (size_t i = 1; i < legs.size(); ++i) {
     const double change = Norm(legs[i].direction - legs[i - 1].direction);
-    speeds[i] =
-        std::min(limits.speed, std::sqrt(cut[i] * limits.acceleration / (0.75 * std::max(change, 1e-6))));
+    speeds[i] = std::min(limits.speed, std::sqrt(cut[i] * limits.acceleration / (0.75 * std::max(change, 1e-6))));
   }
   // A change of speed from u to v takes 0.75 |v^2 - u^2| / acceleration of way.
   const auto reachable = [&](double from, size_t leg) {
@@ -169,8 +163,8 @@ struct LegSpeeds {
 struct LegCuts {
   double in, out;
 };
-void AppendLeg(Vec3d start, const Leg& leg, double heading, LegSpeeds speeds, LegCuts cuts,
-               const FlightLimits& limits, std::vector<RouteNode>& nodes) {
+void AppendLeg(Vec3d start, const Leg& leg, double heading, LegSpeeds speeds, LegCuts cuts, const FlightLimits& limits,
+               std::vector<RouteNode>& nodes) {
   // A change of speed from u to v takes 0.75 |v^2 - u^2| / acceleration of way.
   const double way = leg.length - cuts.in - cuts.out;
   const double from2 = speeds.from * speeds.from, to2 = speeds.to * speeds.to;
@@ -182,8 +176,7 @@ void AppendLeg(Vec3d start, const Leg& leg, double heading, LegSpeeds speeds, Le
   const auto add = [&](double distance, double time, double speed) {
     s += distance;
     t += time;
-    if (time > 1e-9)
-      nodes.push_back({.t = t, .p = start + leg.direction * s, .v = leg.direction * speed, .yaw = heading});
+    if (time > 1e-9) nodes.push_back({.t = t, .p = start + leg.direction * s, .v = leg.direction * speed, .yaw = heading});
   };
   add(0, 2 * cuts.in / speeds.from, speeds.from);
   add(rise, 1.5 * (top - speeds.from) / limits.acceleration, top);
@@ -205,16 +198,14 @@ Route RoundedRoute(std::vector<Vec3d> points, const FlightLimits& limits) {
   }
   std::vector<double> cut(points.size());
   for (size_t i = 0; i < points.size(); ++i) {
-    cut[i] = std::min({limits.corner, 0.45 * legs[i == 0 ? 0 : i - 1].length,
-                       0.45 * legs[std::min(i, legs.size() - 1)].length});
+    cut[i] = std::min({limits.corner, 0.45 * legs[i == 0 ? 0 : i - 1].length, 0.45 * legs[std::min(i, legs.size() - 1)].length});
   }
   const std::vector<double> speeds = CornerSpeeds(legs, cut, limits);
   const std::vector<double> headings = LegHeadings(legs);
 
   std::vector<RouteNode> nodes = {{.t = 0, .p = points[0], .v = {}, .yaw = headings[0]}};
   for (size_t i = 0; i < legs.size(); ++i) {
-    AppendLeg(points[i], legs[i], headings[i], {speeds[i], speeds[i + 1]}, {cut[i], cut[i + 1]}, limits,
-              nodes);
+    AppendLeg(points[i], legs[i], headings[i], {speeds[i], speeds[i + 1]}, {cut[i], cut[i + 1]}, limits, nodes);
   }
   const double landing = 2 * cut.back() / speeds.back();
   nodes.push_back({.t = nodes.back().t + landing, .p = points.back(), .v = {}, .yaw = headings.back()});

@@ -33,8 +33,7 @@ struct Place {
 };
 
 [[noreturn]] void Fail(Place place, size_t column, const std::string& what) {
-  throw InputError(std::string(place.name) + ":" + std::to_string(place.line) + ":" + std::to_string(column) +
-                   ": " + what);
+  throw InputError(std::string(place.name) + ":" + std::to_string(place.line) + ":" + std::to_string(column) + ": " + what);
 }
 
 std::string_view Trimmed(std::string_view text) {
@@ -63,8 +62,7 @@ std::vector<size_t> ParseHeader(const std::vector<Field>& fields, Place place) {
   std::vector<size_t> columns;
   for (const Field& field : fields) {
     const auto found = std::find(kColumns.begin(), kColumns.end(), field.text);
-    if (found == kColumns.end())
-      Fail(place, field.column, UnknownChoiceMessage("column", field.text, kColumns));
+    if (found == kColumns.end()) Fail(place, field.column, UnknownChoiceMessage("column", field.text, kColumns));
     const auto index = static_cast<size_t>(found - kColumns.begin());
     if (std::find(columns.begin(), columns.end(), index) != columns.end()) {
       Fail(place, field.column, "column '" + *found + "' is there twice");
@@ -81,8 +79,7 @@ std::vector<size_t> ParseHeader(const std::vector<Field>& fields, Place place) {
 
 Waypoint ParseRow(const std::vector<Field>& fields, const std::vector<size_t>& columns, Place place) {
   if (fields.size() != columns.size()) {
-    Fail(place, 1,
-         std::to_string(fields.size()) + " values for " + std::to_string(columns.size()) + " columns");
+    Fail(place, 1, std::to_string(fields.size()) + " values for " + std::to_string(columns.size()) + " columns");
   }
   std::array<double, 5> values{};
   Waypoint waypoint;
@@ -127,14 +124,11 @@ std::vector<Waypoint> ParseRouteCsv(std::string_view text, std::string_view name
       columns = ParseHeader(fields, place);
       continue;
     }
-    if (columns.empty())
-      columns = fields.size() == 4 ? std::vector<size_t>{0, 1, 2, 4} : std::vector<size_t>{0, 1, 2};
+    if (columns.empty()) columns = fields.size() == 4 ? std::vector<size_t>{0, 1, 2, 4} : std::vector<size_t>{0, 1, 2};
     waypoints.push_back(ParseRow(fields, columns, place));
     waypoints.back().line = place.line;
-    if (waypoints.size() > kMaxWaypoints)
-      Fail(place, 1, "more than " + std::to_string(kMaxWaypoints) + " points");
-    if (waypoints.size() > 1 && waypoints.back().has_time &&
-        waypoints.back().t <= waypoints[waypoints.size() - 2].t) {
+    if (waypoints.size() > kMaxWaypoints) Fail(place, 1, "more than " + std::to_string(kMaxWaypoints) + " points");
+    if (waypoints.size() > 1 && waypoints.back().has_time && waypoints.back().t <= waypoints[waypoints.size() - 2].t) {
       Fail(place, 1, TimeDoesNotGrow(waypoints[waypoints.size() - 2].t, waypoints.back().t));
     }
   }
@@ -142,8 +136,7 @@ std::vector<Waypoint> ParseRouteCsv(std::string_view text, std::string_view name
   return waypoints;
 }
 
-std::vector<Waypoint> ReadRouteFile(const std::filesystem::path& path,
-                                    const std::optional<GeoPoint>& origin) {
+std::vector<Waypoint> ReadRouteFile(const std::filesystem::path& path, const std::optional<GeoPoint>& origin) {
   std::string extension = path.extension();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const std::string text = ReadTextFile(path, kMaxFileSize), name = path.string();

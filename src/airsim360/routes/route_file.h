@@ -24,14 +24,12 @@ std::vector<Waypoint> ParseRouteYaml(std::string_view text, std::string_view nam
 /// The points of a GPX file (wpt, rtept, trkpt with ele) or the coordinates of a KML file, in file order.
 /// Around `origin`; without one the first point is x = y = 0, and heights are those of the file. Errors
 /// likewise; documents with a DOCTYPE are refused.
-std::vector<Waypoint> ParseRouteXml(std::string_view text, std::string_view name,
-                                    const std::optional<GeoPoint>& origin = std::nullopt);
+std::vector<Waypoint> ParseRouteXml(std::string_view text, std::string_view name, const std::optional<GeoPoint>& origin = std::nullopt);
 
 /// Message for a waypoint whose time is not after that of the one before.
 std::string TimeDoesNotGrow(double before, double t);
 
 /// By the extension: .yaml, .yml, .json, .gpx, .kml; anything else is CSV. Files up to 64 MiB.
-std::vector<Waypoint> ReadRouteFile(const std::filesystem::path& path,
-                                    const std::optional<GeoPoint>& origin = std::nullopt);
+std::vector<Waypoint> ReadRouteFile(const std::filesystem::path& path, const std::optional<GeoPoint>& origin = std::nullopt);
 
 }  // namespace airsim360

@@ -22,8 +22,7 @@ std::string MessageOf(const Parse& parse) {
 }
 
 TEST(RouteYaml, HasTheFieldsOfCsv) {
-  const auto route = ParseRouteYaml(
-      "waypoints:\n- {x: 1, y: 2, z: 3, yaw_deg: 90, t: 0}\n- {x: 4, y: 5, z: 6, t: 2.5}\n", "r.yaml");
+  const auto route = ParseRouteYaml("waypoints:\n- {x: 1, y: 2, z: 3, yaw_deg: 90, t: 0}\n- {x: 4, y: 5, z: 6, t: 2.5}\n", "r.yaml");
   ASSERT_EQ(route.size(), 2u);
   EXPECT_EQ(route[0].p, (Vec3d{1, 2, 3}));
   EXPECT_TRUE(route[0].has_yaw && !route[1].has_yaw);
@@ -76,16 +75,14 @@ TEST(RouteXml, KmlCoordinatesAreLongitudeFirst) {
 
 TEST(RouteXml, ErrorsNameThePlace) {
   const auto message = [](const char* text) { return MessageOf([&] { ParseRouteXml(text, "r.gpx"); }); };
-  EXPECT_NE(message("<gpx>\n<wpt lat=\"x\" lon=\"1\"/>\n</gpx>").find("r.gpx:2:11: 'x' is not a number"),
-            std::string::npos)
+  EXPECT_NE(message("<gpx>\n<wpt lat=\"x\" lon=\"1\"/>\n</gpx>").find("r.gpx:2:11: 'x' is not a number"), std::string::npos)
       << message("<gpx>\n<wpt lat=\"x\" lon=\"1\"/>\n</gpx>");
   EXPECT_NE(message("<gpx>\n<wpt lon=\"1\"/></gpx>").find("attribute 'lat' is missing"), std::string::npos);
   EXPECT_NE(message("<gpx><wpt lat=\"91\" lon=\"1\"/></gpx>").find("latitude 91"), std::string::npos);
   EXPECT_NE(message("<gpx><wpt lat=\"9").find("does not end"), std::string::npos);
   EXPECT_NE(message("<!DOCTYPE x><gpx/>").find("DOCTYPE"), std::string::npos);
   EXPECT_NE(message("<gpx></gpx>").find("no points"), std::string::npos);
-  EXPECT_NE(message("<kml><coordinates>1,2,3,4</coordinates></kml>").find("more than lon,lat,alt"),
-            std::string::npos);
+  EXPECT_NE(message("<kml><coordinates>1,2,3,4</coordinates></kml>").find("more than lon,lat,alt"), std::string::npos);
   EXPECT_NE(message("<kml><coordinates>1</coordinates></kml>").find("is needed"), std::string::npos);
 }
 
@@ -102,8 +99,7 @@ TEST(RouteAlong, IsThePlannedFlightExactlyAndLooksWhereItGoes) {
     EXPECT_EQ(fixed.At(t).yaw, 1.25);
     const Vec3d v = path.At(t).v;
     if (std::hypot(v.x, v.y) > 1) {
-      EXPECT_LT(std::fabs(std::remainder(route.At(t).yaw - std::atan2(v.y, v.x), 2 * std::numbers::pi)),
-                0.15);
+      EXPECT_LT(std::fabs(std::remainder(route.At(t).yaw - std::atan2(v.y, v.x), 2 * std::numbers::pi)), 0.15);
     }
   }
 }

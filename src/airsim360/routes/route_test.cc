@@ -22,8 +22,7 @@ double DistanceToSegment(Vec3d p, Vec3d a, Vec3d b) {
 std::vector<Vec3d> RandomCorners(uint64_t seed, int n) {
   RngStream random(seed, "corners");
   std::vector<Vec3d> corners;
-  for (int i = 0; i < n; ++i)
-    corners.push_back({random.Uniform(-40, 40), random.Uniform(-40, 40), random.Uniform(0, 30)});
+  for (int i = 0; i < n; ++i) corners.push_back({random.Uniform(-40, 40), random.Uniform(-40, 40), random.Uniform(0, 30)});
   return corners;
 }
 
@@ -88,8 +87,7 @@ TEST(RouteThrough, PassesEveryWaypointExactlyAtItsTimeAndHeading) {
   std::vector<Waypoint> waypoints;
   RngStream random(5, "waypoints");
   for (int i = 0; i < 8; ++i) {
-    waypoints.push_back(
-        {{random.Uniform(-9, 9), random.Uniform(-9, 9), 3}, random.Uniform(-3, 3), 2.0 * i + 1, true, true});
+    waypoints.push_back({{random.Uniform(-9, 9), random.Uniform(-9, 9), 3}, random.Uniform(-3, 3), 2.0 * i + 1, true, true});
   }
   const Route route = RouteThrough(waypoints, 3);
   for (int i = 0; i < 8; ++i) {
@@ -139,9 +137,7 @@ TEST(RouteCsv, ErrorsNameFileLineAndColumn) {
   EXPECT_EQ(ParseError("x,y,z,x\n"), "route.csv:1:7: column 'x' is there twice");
   EXPECT_EQ(ParseError("x,y,z,t\n0,0,0,1\n0,0,0,1\n"), "route.csv:3:1: t does not grow: 1 s after 1 s");
   EXPECT_EQ(ParseError("# nothing\n"), "route.csv: no points");
-  EXPECT_NE(
-      ParseError("x,y,z,yawdeg\n").find("route.csv:1:7: unknown column 'yawdeg'; did you mean 'yaw_deg'?"),
-      std::string::npos);
+  EXPECT_NE(ParseError("x,y,z,yawdeg\n").find("route.csv:1:7: unknown column 'yawdeg'; did you mean 'yaw_deg'?"), std::string::npos);
 }
 
 }  // namespace

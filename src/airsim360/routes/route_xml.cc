@@ -22,13 +22,12 @@ class Reader {
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const size_t start = before.rfind('\n');
     const size_t column = start == std::string_view::npos ? before.size() + 1 : before.size() - start;
-    throw InputError(std::string(name_) + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " +
-                     what);
+    throw InputError(std::string(name_) + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + what);
   }
   // Line of a place; places are asked for in order.
   size_t Line(size_t at) {
-    line_ += static_cast<size_t>(std::count(text_.begin() + static_cast<ptrdiff_t>(counted_),
-                                            text_.begin() + static_cast<ptrdiff_t>(at), '\n'));
+    line_ +=
+        static_cast<size_t>(std::count(text_.begin() + static_cast<ptrdiff_t>(counted_), text_.begin() + static_cast<ptrdiff_t>(at), '\n'));
     counted_ = at;
     return line_;
   }
@@ -39,13 +38,10 @@ class Reader {
       const size_t open = text_.find('<', at_);
       if (open == std::string_view::npos) return false;
       before = text_.substr(at_, open - at_);
-      const char* end_mark = text_.substr(open).starts_with("<!--") ? "-->"
-                             : text_.substr(open).starts_with("<?") ? "?>"
-                                                                    : ">";
+      const char* end_mark = text_.substr(open).starts_with("<!--") ? "-->" : text_.substr(open).starts_with("<?") ? "?>" : ">";
       const size_t close = text_.find(end_mark, open);
       if (close == std::string_view::npos) Fail(open, "this tag does not end");
-      if (text_.substr(open).starts_with("<!") && end_mark[0] == '>')
-        Fail(open, "a DOCTYPE or CDATA section is not read");
+      if (text_.substr(open).starts_with("<!") && end_mark[0] == '>') Fail(open, "a DOCTYPE or CDATA section is not read");
       at_ = close + std::string_view(end_mark).size();
       tag = text_.substr(open + 1, close - open - 1);
       if (end_mark[0] == '>') return true;
@@ -96,8 +92,7 @@ std::string_view NameOf(std::string_view tag) {
 void CheckPlace(const Reader& reader, size_t at, const GeoPoint& p) {
   if (std::fabs(p.latitude_deg) <= 90 && std::fabs(p.longitude_deg) <= 360) return;
   char text[96];
-  std::snprintf(text, sizeof(text), "latitude %.9g or longitude %.9g is out of range", p.latitude_deg,
-                p.longitude_deg);
+  std::snprintf(text, sizeof(text), "latitude %.9g or longitude %.9g is out of range", p.latitude_deg, p.longitude_deg);
   reader.Fail(at, text);
 }
 
@@ -149,8 +144,7 @@ std::vector<Found> FindPoints(Reader& reader) {
 
 }  // namespace
 
-std::vector<Waypoint> ParseRouteXml(std::string_view text, std::string_view name,
-                                    const std::optional<GeoPoint>& origin) {
+std::vector<Waypoint> ParseRouteXml(std::string_view text, std::string_view name, const std::optional<GeoPoint>& origin) {
   Reader reader(text, name);
   const std::vector<Found> points = FindPoints(reader);
   if (points.empty()) throw InputError(std::string(name) + ": no points (wpt, rtept, trkpt or coordinates)");

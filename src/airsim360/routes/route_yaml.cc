@@ -40,10 +40,8 @@ std::vector<Waypoint> ParseRouteYaml(std::string_view text, std::string_view nam
   if (entries.empty()) throw InputError(where + ": no points");
   std::vector<Waypoint> waypoints;
   for (const Entry& e : entries) {
-    const std::string entry =
-        where + ":" + std::to_string(e.line) + ": waypoint " + std::to_string(waypoints.size() + 1);
-    if (e.x == kNotGiven || e.y == kNotGiven || e.z == kNotGiven)
-      throw InputError(entry + " lacks x, y or z");
+    const std::string entry = where + ":" + std::to_string(e.line) + ": waypoint " + std::to_string(waypoints.size() + 1);
+    if (e.x == kNotGiven || e.y == kNotGiven || e.z == kNotGiven) throw InputError(entry + " lacks x, y or z");
     Waypoint w;
     w.line = e.line;
     w.p = {e.x, e.y, e.z};
@@ -51,8 +49,7 @@ std::vector<Waypoint> ParseRouteYaml(std::string_view text, std::string_view nam
     if (w.has_yaw) w.yaw = e.yaw_deg * std::numbers::pi / 180;
     w.has_time = e.t != kNotGiven;
     if (w.has_time) w.t = e.t;
-    if (!waypoints.empty() && w.has_time != waypoints.back().has_time)
-      throw InputError(entry + ": all waypoints need a time t, or none");
+    if (!waypoints.empty() && w.has_time != waypoints.back().has_time) throw InputError(entry + ": all waypoints need a time t, or none");
     if (!waypoints.empty() && w.has_time && !(w.t > waypoints.back().t))
       throw InputError(entry + ": " + TimeDoesNotGrow(waypoints.back().t, w.t));
     waypoints.push_back(w);

@@ -14,8 +14,7 @@ namespace airsim360 {
 namespace {
 
 constexpr double kFirstLayer = 2.5;  // metres, height of the lowest layer of viewpoints
-constexpr double kRounding =
-    0.3;  // metres that rounded corners may leave the legs by, and gaps between checks
+constexpr double kRounding = 0.3;    // metres that rounded corners may leave the legs by, and gaps between checks
 
 constexpr int kCandidates = 900;  // places looked at, at least
 
@@ -103,11 +102,9 @@ std::vector<int> OrderTour(const std::vector<std::vector<double>>& cost) {
 }
 
 // Corners of the tour along the roadmap, with corners cut where the straight way is free.
-std::vector<Vec3d> TourPoints(const RayTracer& tracer, const Roadmap& map, const std::vector<int>& stops,
-                              double radius) {
+std::vector<Vec3d> TourPoints(const RayTracer& tracer, const Roadmap& map, const std::vector<int>& stops, double radius) {
   std::vector<CheapestWays> ways(stops.size());
-  ParallelFor(static_cast<int64_t>(stops.size()),
-              [&](int64_t i) { ways[i] = FindCheapestWays(map, stops[i]); });
+  ParallelFor(static_cast<int64_t>(stops.size()), [&](int64_t i) { ways[i] = FindCheapestWays(map, stops[i]); });
   std::vector<std::vector<double>> cost(stops.size(), std::vector<double>(stops.size()));
   for (size_t i = 0; i < stops.size(); ++i) {
     for (size_t j = 0; j < stops.size(); ++j) cost[i][j] = ways[i].cost[stops[j]];
@@ -117,8 +114,7 @@ std::vector<Vec3d> TourPoints(const RayTracer& tracer, const Roadmap& map, const
   std::vector<Vec3d> points = {map.places[stops[tour[0]]]};
   for (size_t k = 0; k + 1 < tour.size(); ++k) {
     std::vector<Vec3d> way;
-    for (int place = stops[tour[k + 1]]; place >= 0; place = ways[tour[k]].previous[place])
-      way.push_back(map.places[place]);
+    for (int place = stops[tour[k + 1]]; place >= 0; place = ways[tour[k]].previous[place]) way.push_back(map.places[place]);
     std::reverse(way.begin(), way.end());
     for (size_t i = 0; i + 1 < way.size();) {
       size_t j = way.size() - 1;
@@ -149,11 +145,9 @@ Route PlanSurvey(const RayTracer& tracer, const SurveyOptions& options) {
     const std::vector<int> stops = ChooseViewpoints(map, start, options.viewpoints);
     if (stops.size() < 2) continue;
     const std::vector<Vec3d> points = TourPoints(tracer, map, stops, radius);
-    return RoundedRoute(
-        points, {.speed = CruiseSpeed(points), .acceleration = 4, .corner = std::min(1.0, clearance)});
+    return RoundedRoute(points, {.speed = CruiseSpeed(points), .acceleration = 4, .corner = std::min(1.0, clearance)});
   }
-  throw InputError("world '" + tracer.scene().name +
-                   "': no free space for a survey route; give one with --route FILE");
+  throw InputError("world '" + tracer.scene().name + "': no free space for a survey route; give one with --route FILE");
 }
 
 }  // namespace airsim360

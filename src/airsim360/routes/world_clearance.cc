@@ -21,13 +21,11 @@ constexpr double kMapVoxel = 0.5, kMapMargin = 40;  // metres; of a map around p
 
 }  // namespace
 
-WorldClearance::WorldClearance(std::shared_ptr<const RayTracer> tracer,
-                               std::shared_ptr<const ClearanceField> field)
+WorldClearance::WorldClearance(std::shared_ptr<const RayTracer> tracer, std::shared_ptr<const ClearanceField> field)
     : tracer_(std::move(tracer)), field_(std::move(field)) {}
 
 double WorldClearance::Clearance(Vec3d p, double max_distance) const {
-  const double error =
-      kRounding * (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) + max_distance);
+  const double error = kRounding * (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) + max_distance);
   const double reach = max_distance + error;
   const double distance = tracer_->Clearance(VecCast<float>(p), static_cast<float>(reach));
   return std::clamp(distance - error, 0.0, max_distance);
@@ -60,8 +58,7 @@ MeshOutline OutlineOf(const Mesh& mesh, float cell) {
       continue;
     }
     const Vec3f at = (box.center() - bounds.min) / cell;
-    const auto key = (static_cast<uint64_t>(at.x) << 42) | (static_cast<uint64_t>(at.y) << 21) |
-                     static_cast<uint64_t>(at.z);
+    const auto key = (static_cast<uint64_t>(at.x) << 42) | (static_cast<uint64_t>(at.y) << 21) | static_cast<uint64_t>(at.z);
     cells[key].Add(box);
   }
   // The order does not matter: a map is the same for any.
@@ -81,8 +78,7 @@ Box3d Transformed(const AffineTransform& X, const Box3f& box) {
   const Vec3d center = VecCast<double>(X * box.center());
   Vec3d reach;
   for (int i = 0; i < 3; ++i)
-    reach[i] =
-        std::fabs(X.A.m[i][0]) * half.x + std::fabs(X.A.m[i][1]) * half.y + std::fabs(X.A.m[i][2]) * half.z;
+    reach[i] = std::fabs(X.A.m[i][0]) * half.x + std::fabs(X.A.m[i][1]) * half.y + std::fabs(X.A.m[i][2]) * half.z;
   const double error = kRounding * (Norm(center) + Norm(reach));
   reach += Vec3d{error, error, error};
   return {center - reach, center + reach};
@@ -113,8 +109,7 @@ std::shared_ptr<const ClearanceField> MapScene(const Scene& scene, const Box3d& 
   std::vector<Box3f> bounds(scene.meshes.size());
   ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
     bounds[m] = scene.meshes[m].Bounds();
-    if (uses[m] > 1 && scale[m] > 0)
-      outlines[m] = OutlineOf(scene.meshes[m], static_cast<float>(voxel / 2) / scale[m]);
+    if (uses[m] > 1 && scale[m] > 0) outlines[m] = OutlineOf(scene.meshes[m], static_cast<float>(voxel / 2) / scale[m]);
   });
 
   constexpr int64_t kPortion = 64;  // instances
@@ -149,8 +144,7 @@ Box3d FlightBox(const RayTracer& tracer, double ceiling) {
   // Up to the highest thing that stands there, not to mountains on the horizon.
   for (const Entity& entity : scene.entities) {
     const Vec3f c = entity.bounds.center(), size = entity.bounds.size();
-    if (entity.bounds.empty() || c.x < box.min.x || c.x > box.max.x || c.y < box.min.y || c.y > box.max.y)
-      continue;
+    if (entity.bounds.empty() || c.x < box.min.x || c.x > box.max.x || c.y < box.min.y || c.y > box.max.y) continue;
     if (std::max(size.x, size.y) > 2 * std::max(box.max.x - box.min.x, box.max.y - box.min.y)) continue;
     box.max.z = std::max(box.max.z, static_cast<double>(entity.bounds.max.z));
   }

@@ -15,8 +15,8 @@ double Given(double value, double otherwise) { return std::isnan(value) ? otherw
 
 // The sensors of a type that the settings name, or one with AirSim's default name.
 template <class Visit>
-void ForSensors(const AirSimSettings& settings, const VehicleSettings& vehicle, SensorType type,
-                const char* default_name, const Visit& visit) {
+void ForSensors(const AirSimSettings& settings, const VehicleSettings& vehicle, SensorType type, const char* default_name,
+                const Visit& visit) {
   const auto& own = vehicle.sensors.empty() ? settings.default_sensors : vehicle.sensors;
   bool found = false;
   for (const auto& [name, sensor] : own) {
@@ -61,8 +61,7 @@ LidarSpec AsLidar(const SensorSettings& sensor, bool cosys) {
 }  // namespace
 
 DroneModel AirSimQuad() {
-  constexpr double kArm = 0.2275, kRotorHeight = 0.025, kTopSpeed = 669.86, kThrust = 4.179446,
-                   kTorque = 0.055562;
+  constexpr double kArm = 0.2275, kRotorHeight = 0.025, kTopSpeed = 669.86, kThrust = 4.179446, kTorque = 0.055562;
   const double d = kArm * std::numbers::sqrt2 / 2;
   DroneModel model;
   model.name = "airsim_quad";
@@ -89,38 +88,34 @@ DroneModel AirSimQuad() {
 
 RigidTransform MountOf(const SettingsPose& pose, const SettingsPose& otherwise) {
   constexpr double kRadians = std::numbers::pi / 180;
-  const Vec3d p_F{Given(pose.x, Given(otherwise.x, 0)), Given(pose.y, Given(otherwise.y, 0)),
-                  Given(pose.z, Given(otherwise.z, 0))};
+  const Vec3d p_F{Given(pose.x, Given(otherwise.x, 0)), Given(pose.y, Given(otherwise.y, 0)), Given(pose.z, Given(otherwise.z, 0))};
   // Yaw turns to the right, pitch and roll are as ours.
   return BodyPose(FrdFromBody(p_F), -Given(pose.yaw, Given(otherwise.yaw, 0)) * kRadians,
-                  Given(pose.pitch, Given(otherwise.pitch, 0)) * kRadians,
-                  Given(pose.roll, Given(otherwise.roll, 0)) * kRadians);
+                  Given(pose.pitch, Given(otherwise.pitch, 0)) * kRadians, Given(pose.roll, Given(otherwise.roll, 0)) * kRadians);
 }
 
 RaySensors MakeRaySensors(const AirSimSettings& settings, const VehicleSettings& vehicle) {
   RaySensors sensors;
   for (const SensorType type : {SensorType::kLidar, SensorType::kGpuLidar}) {
     ForSensors(settings, vehicle, type, nullptr, [&](const std::string& name, const SensorSettings& s) {
-      sensors.lidars.push_back({name, AsLidar(s, settings.cosys), s.sensor_local_frame, type == SensorType::kGpuLidar,
-                                s.noise_sigma, s.noise_sigma * s.noise_scale});
+      sensors.lidars.push_back({name, AsLidar(s, settings.cosys), s.sensor_local_frame, type == SensorType::kGpuLidar, s.noise_sigma,
+                                s.noise_sigma * s.noise_scale});
     });
   }
-  ForSensors(settings, vehicle, SensorType::kDistance, nullptr,
-             [&](const std::string& name, const SensorSettings& s) {
-               RangeFinderSpec spec;
-               spec.mount = AsMount(MountOf(s.pose, {0, 0, 0, 0, 0, 0}));
-               spec.beam_deg = 0;
-               spec.min_range = s.min_distance;
-               spec.max_range = s.max_distance;
-               spec.sigma = spec.sigma_per_metre = 0;
-               sensors.distances.push_back({name, spec});
-             });
+  ForSensors(settings, vehicle, SensorType::kDistance, nullptr, [&](const std::string& name, const SensorSettings& s) {
+    RangeFinderSpec spec;
+    spec.mount = AsMount(MountOf(s.pose, {0, 0, 0, 0, 0, 0}));
+    spec.beam_deg = 0;
+    spec.min_range = s.min_distance;
+    spec.max_range = s.max_distance;
+    spec.sigma = spec.sigma_per_metre = 0;
+    sensors.distances.push_back({name, spec});
+  });
   return sensors;
 }
 
-DroneSetup MakeDroneSetup(const std::string& name, const AirSimSettings& settings,
-                          const VehicleSettings& vehicle, const SimpleFlightGains& gains,
-                          const RigidTransform& X_WB) {
+DroneSetup MakeDroneSetup(const std::string& name, const AirSimSettings& settings, const VehicleSettings& vehicle,
+                          const SimpleFlightGains& gains, const RigidTransform& X_WB) {
   DroneSetup setup;
   setup.name = name;
   setup.model = AirSimQuad();
@@ -132,29 +127,25 @@ DroneSetup MakeDroneSetup(const std::string& name, const AirSimSettings& setting
   setup.X_WB = X_WB;
   SensorSet& set = setup.sensors;
   set = {};
-  ForSensors(settings, vehicle, SensorType::kImu, "imu",
-             [&](const std::string& sensor, const SensorSettings&) {
-               set.imus.push_back({sensor, ImuSpec{.rate_hz = 333}});
-             });
-  ForSensors(settings, vehicle, SensorType::kGps, "gps",
-             [&](const std::string& sensor, const SensorSettings&) {
-               // AirSim's receiver knows its place exactly, 0.2 s late; eph and epv are what it reports.
-               set.gnss.push_back({sensor, GnssSpec{.rate_hz = 50,
-                                                    .horizontal_sigma = 0,
-                                                    .vertical_sigma = 0,
-                                                    .velocity_sigma = 0,
-                                                    .correlation_time = 0,
-                                                    .latency = 0.2,
-                                                    .start_up = 1}});
-             });
-  ForSensors(settings, vehicle, SensorType::kBarometer, "barometer",
-             [&](const std::string& sensor, const SensorSettings&) {
-               set.barometers.push_back({sensor, {}});
-             });
-  ForSensors(settings, vehicle, SensorType::kMagnetometer, "magnetometer",
-             [&](const std::string& sensor, const SensorSettings&) {
-               set.magnetometers.push_back({sensor, {}});
-             });
+  ForSensors(settings, vehicle, SensorType::kImu, "imu", [&](const std::string& sensor, const SensorSettings&) {
+    set.imus.push_back({sensor, ImuSpec{.rate_hz = 333}});
+  });
+  ForSensors(settings, vehicle, SensorType::kGps, "gps", [&](const std::string& sensor, const SensorSettings&) {
+    // AirSim's receiver knows its place exactly, 0.2 s late; eph and epv are what it reports.
+    set.gnss.push_back({sensor, GnssSpec{.rate_hz = 50,
+                                         .horizontal_sigma = 0,
+                                         .vertical_sigma = 0,
+                                         .velocity_sigma = 0,
+                                         .correlation_time = 0,
+                                         .latency = 0.2,
+                                         .start_up = 1}});
+  });
+  ForSensors(settings, vehicle, SensorType::kBarometer, "barometer", [&](const std::string& sensor, const SensorSettings&) {
+    set.barometers.push_back({sensor, {}});
+  });
+  ForSensors(settings, vehicle, SensorType::kMagnetometer, "magnetometer", [&](const std::string& sensor, const SensorSettings&) {
+    set.magnetometers.push_back({sensor, {}});
+  });
   return setup;
 }
 

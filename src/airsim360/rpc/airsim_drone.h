@@ -12,7 +12,7 @@ struct RaySensors {
     std::string name;
     LidarSpec spec;
     bool sensor_local_frame = false;
-    bool gpu = false;  ///< of Cosys-AirSim's type: the first that getGPULidarData finds without a name
+    bool gpu = false;                 ///< of Cosys-AirSim's type: the first that getGPULidarData finds without a name
     double sigma = 0, far_sigma = 0;  ///< metres, of ranges 0 and max_range; in between it grows evenly
   };
   struct Distance {
@@ -28,9 +28,8 @@ struct RaySensors {
 DroneModel AirSimQuad();
 
 /// A drone of the settings at its start. `gains`: what set...ControllerGains have changed.
-DroneSetup MakeDroneSetup(const std::string& name, const AirSimSettings& settings,
-                          const VehicleSettings& vehicle, const SimpleFlightGains& gains,
-                          const RigidTransform& X_WB);
+DroneSetup MakeDroneSetup(const std::string& name, const AirSimSettings& settings, const VehicleSettings& vehicle,
+                          const SimpleFlightGains& gains, const RigidTransform& X_WB);
 
 /// Lidars and distance sensors of a vehicle.
 RaySensors MakeRaySensors(const AirSimSettings& settings, const VehicleSettings& vehicle);

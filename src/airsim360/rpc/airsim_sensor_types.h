@@ -77,8 +77,7 @@ struct LidarData {
   std::vector<int> segmentation;
   template <class V>
   void Visit(V& v) {
-    v("time_stamp", time_stamp), v("point_cloud", point_cloud), v("pose", pose),
-        v("segmentation", segmentation);
+    v("time_stamp", time_stamp), v("point_cloud", point_cloud), v("pose", pose), v("segmentation", segmentation);
   }
 };
 

@@ -126,8 +126,7 @@ struct MultirotorState {
   RCData rc_data;
   template <class V>
   void Visit(V& v) {
-    v("collision", collision), v("kinematics_estimated", kinematics_estimated),
-        v("gps_location", gps_location);
+    v("collision", collision), v("kinematics_estimated", kinematics_estimated), v("gps_location", gps_location);
     v("timestamp", timestamp), v("landed_state", landed_state), v("rc_data", rc_data);
   }
 };

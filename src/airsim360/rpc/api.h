@@ -13,8 +13,7 @@ namespace airsim360 {
 /// arguments, in their order on the wire; `optional` of the last may be missing.
 class Api {
  public:
-  Api(Session& session, ImageService& images, const MemoryLoans& loans)
-      : session_(session), images_(images), loans_(loans) {}
+  Api(Session& session, ImageService& images, const MemoryLoans& loans) : session_(session), images_(images), loans_(loans) {}
 
   MethodTable& table() { return table_; }
   Session& session() { return session_; }
@@ -26,8 +25,7 @@ class Api {
   void Read(const char* name, F f, size_t optional = 0) {
     Add<1>(name, optional, f, [this, f](auto arguments, const Reply& reply) {
       const SnapshotPointer snapshot = session_.snapshot();
-      std::apply([&](auto&... argument) { AnswerWith(reply, [&] { return f(*snapshot, argument...); })(); },
-                 arguments);
+      std::apply([&](auto&... argument) { AnswerWith(reply, [&] { return f(*snapshot, argument...); })(); }, arguments);
     });
   }
 
@@ -36,9 +34,7 @@ class Api {
   void Change(const char* name, F f, size_t optional = 0) {
     Add<1>(name, optional, f, [this, f](auto arguments, const Reply& reply) {
       session_.Post([f, arguments, reply](Session& session) mutable {
-        return std::apply(
-            [&](auto&... argument) { return AnswerWith(reply, [&] { return f(session, argument...); }); },
-            arguments);
+        return std::apply([&](auto&... argument) { return AnswerWith(reply, [&] { return f(session, argument...); }); }, arguments);
       });
     });
   }
@@ -65,9 +61,7 @@ class Api {
     Add<2>(name, optional, f, [this, f](auto arguments, const Reply& reply) {
       images_.Post([f, arguments, reply, snapshot = session_.snapshot()](ImageService& images) mutable {
         if (!reply.wanted()) return;
-        std::apply(
-            [&](auto&... argument) { AnswerWith(reply, [&] { return f(images, snapshot, argument...); })(); },
-            arguments);
+        std::apply([&](auto&... argument) { AnswerWith(reply, [&] { return f(images, snapshot, argument...); })(); }, arguments);
       });
     });
   }
@@ -92,9 +86,7 @@ class Api {
   void Add(const char* name, size_t optional, const F&, Run run) {
     using Arguments = typename internal::TupleTail<Skip, typename internal::Signature<F>::Arguments>::type;
     table_.Add(name, std::tuple_size_v<Arguments>, optional,
-               [run](const std::vector<WireValue>& values, const Reply& reply) {
-                 run(MethodTable::Read<F, Skip>(values), reply);
-               });
+               [run](const std::vector<WireValue>& values, const Reply& reply) { run(MethodTable::Read<F, Skip>(values), reply); });
   }
 
   Session& session_;

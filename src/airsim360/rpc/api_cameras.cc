@@ -29,19 +29,16 @@ airsim::ProjectionMatrix ProjectionMatrixOf(const CaptureSettings& capture) {
   return projection;
 }
 
-airsim::CameraInfo InfoOf(const Snapshot& now, const CameraName& name, Text vehicle,
-                          const External& external) {
+airsim::CameraInfo InfoOf(const Snapshot& now, const CameraName& name, Text vehicle, const External& external) {
   const bool of_world = external.external && vehicle.empty();
   const size_t index = of_world ? 0 : now.Find(vehicle);
-  const CameraSetup& camera =
-      FindCamera(of_world ? now.world->external_cameras : now.world->cameras[index], name.text);
+  const CameraSetup& camera = FindCamera(of_world ? now.world->external_cameras : now.world->cameras[index], name.text);
   const CaptureSettings& capture = camera.captures.at(airsim::ImageType::kScene);
   airsim::CameraInfo info;
   info.fov = camera.panorama == PanoramaKind::kNone ? static_cast<float>(capture.fov_degrees) : 360;
   info.proj_mat = ProjectionMatrixOf(capture);
 
-  info.pose = of_world ? airsim::ToMount(camera.X_BA)
-                       : airsim::ToPose(CameraPoseIn(now, index, camera), now.vehicles[index].origin_W);
+  info.pose = of_world ? airsim::ToMount(camera.X_BA) : airsim::ToPose(CameraPoseIn(now, index, camera), now.vehicles[index].origin_W);
   return info;
 }
 
@@ -64,8 +61,7 @@ void AddCameraCalls(Api& api) {
       1);
   api.Change(
       "simSetCameraPose",
-      [](Session& s, const CameraName& camera, const airsim::Pose& pose, Text vehicle,
-         const External& external) {
+      [](Session& s, const CameraName& camera, const airsim::Pose& pose, Text vehicle, const External& external) {
         CameraToChange(s, camera, vehicle, external).X_BA = airsim::FromMount(pose);
       },
       1);
@@ -73,8 +69,7 @@ void AddCameraCalls(Api& api) {
       "simSetCameraFov",
       [](Session& s, const CameraName& camera, float degrees, Text vehicle, const External& external) {
         constexpr float kWidest = 179;
-        if (!(degrees > 0.1f && degrees <= kWidest))
-          throw std::invalid_argument("fov must be in 0.1 ... 179 degrees");
+        if (!(degrees > 0.1f && degrees <= kWidest)) throw std::invalid_argument("fov must be in 0.1 ... 179 degrees");
         for (auto& [type, capture] : CameraToChange(s, camera, vehicle, external).captures) {
           capture.fov_degrees = degrees;
         }
@@ -84,15 +79,12 @@ void AddCameraCalls(Api& api) {
       "simGetDistortionParams",
       [](const Snapshot& now, const CameraName& camera, Text vehicle, const External& external) {
         const bool of_world = external.external && vehicle.empty();
-        return FindCamera(of_world ? now.world->external_cameras : now.world->cameras[now.Find(vehicle)],
-                          camera.text)
-            .distortion;
+        return FindCamera(of_world ? now.world->external_cameras : now.world->cameras[now.Find(vehicle)], camera.text).distortion;
       },
       1);
   api.Change(
       "simSetDistortionParam",
-      [](Session& s, const CameraName& camera, Text parameter, float value, Text vehicle,
-         const External& external) {
+      [](Session& s, const CameraName& camera, Text parameter, float value, Text vehicle, const External& external) {
         CameraToChange(s, camera, vehicle, external).distortion[DistortionIndex(parameter)] = value;
         NoticeOnce("simSetDistortionParam: kept, but pictures are not distorted");
       },
@@ -101,10 +93,8 @@ void AddCameraCalls(Api& api) {
       "simGetCurrentFieldOfView",
       [](const Snapshot& now, const CameraName& camera, Text vehicle, const External& external) {
         const airsim::CameraInfo info = InfoOf(now, camera, vehicle, external);
-        const float vertical =
-            2 * std::atan(1 / info.proj_mat.matrix[1][1]) * 180 / std::numbers::pi_v<float>;
-        return "Current camera field of view:\nHorizontal: " + std::to_string(info.fov) +
-               "\nVertical: " + std::to_string(vertical);
+        const float vertical = 2 * std::atan(1 / info.proj_mat.matrix[1][1]) * 180 / std::numbers::pi_v<float>;
+        return "Current camera field of view:\nHorizontal: " + std::to_string(info.fov) + "\nVertical: " + std::to_string(vertical);
       },
       1);
 }

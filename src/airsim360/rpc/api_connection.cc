@@ -7,21 +7,17 @@ namespace {
 
 constexpr double kLongestContinue = 1e6;  // seconds
 
-airsim::GeoPoint ToWire(const GeoPoint& point) {
-  return {point.latitude_deg, point.longitude_deg, static_cast<float>(point.altitude)};
-}
+airsim::GeoPoint ToWire(const GeoPoint& point) { return {point.latitude_deg, point.longitude_deg, static_cast<float>(point.altitude)}; }
 
 void AddClockCalls(Api& api) {
   api.Change("simPause", [](Session& s, bool is_paused) { s.pacer().Pause(is_paused, s.state().t_ns); });
   api.Read("simIsPaused", [](const Snapshot& now) { return now.paused; });
   api.Start("simContinueForTime", [](Session& s, const Reply& reply, double seconds) {
-    if (!(seconds >= 0 && seconds <= kLongestContinue))
-      throw std::invalid_argument("seconds must be in 0 ... 1e6");
+    if (!(seconds >= 0 && seconds <= kLongestContinue)) throw std::invalid_argument("seconds must be in 0 ... 1e6");
     s.pacer().Continue(s.state().t_ns, std::llround(seconds * 1e9), reply);
   });
-  api.Start("simContinueForFrames", [](Session& s, const Reply& reply, uint32_t frames) {
-    s.pacer().Continue(s.state().t_ns, frames * kFrameNs, reply);
-  });
+  api.Start("simContinueForFrames",
+            [](Session& s, const Reply& reply, uint32_t frames) { s.pacer().Continue(s.state().t_ns, frames * kFrameNs, reply); });
 }
 
 }  // namespace
@@ -42,12 +38,11 @@ void AddConnectionCalls(Api& api) {
   api.Read("getHomeGeoPoint", [&api](const Snapshot& now, const std::string& vehicle) {
     return ToWire(api.session().earth().ToGeodetic(now.vehicles[now.Find(vehicle)].origin_W));
   });
-  api.Read("simPrintLogMessage",
-           [](const Snapshot&, const std::string& message, const std::string& parameter, uint8_t severity) {
-             constexpr size_t kLongest = 1000;
-             const std::string text = (message + parameter).substr(0, kLongest);
-             severity > 0 ? LogWarning("client: " + text) : LogInfo("client: " + text);
-           });
+  api.Read("simPrintLogMessage", [](const Snapshot&, const std::string& message, const std::string& parameter, uint8_t severity) {
+    constexpr size_t kLongest = 1000;
+    const std::string text = (message + parameter).substr(0, kLongest);
+    severity > 0 ? LogWarning("client: " + text) : LogInfo("client: " + text);
+  });
   api.Change("startRecording", [](Session& s) { s.recorder().Start(); });
   api.Change("stopRecording", [](Session& s) { s.recorder().Stop(); });
   // Asked of the recorder itself: a recording can end at any time, also while time stands still.

@@ -14,8 +14,7 @@ std::vector<std::string> ListedNames(const Api& api, const Snapshot& now) {
   std::vector<std::string> names;
   for (const Entity& entity : const_cast<Api&>(api).session().objects().scene().entities) {
     const ObjectIndex& objects = const_cast<Api&>(api).session().objects();
-    if (!PlaceNow(now, objects, entity.id).hidden)
-      names.push_back(objects.NameOf(entity.id, now.world->names));
+    if (!PlaceNow(now, objects, entity.id).hidden) names.push_back(objects.NameOf(entity.id, now.world->names));
   }
   return names;
 }
@@ -26,8 +25,7 @@ std::vector<airsim::Pose> ObjectPoses(Api& api, const Snapshot& now) {
   for (const Entity& entity : objects.scene().entities) {
     const ObjectPlace place = PlaceNow(now, objects, entity.id);
     if (place.hidden) continue;
-    poses.push_back({airsim::ToVector(NedFromWorld(place.X_WO.p - api.session().origin_W())),
-                     airsim::ToQuaternionr(NedAttitude(place))});
+    poses.push_back({airsim::ToVector(NedFromWorld(place.X_WO.p - api.session().origin_W())), airsim::ToQuaternionr(NedAttitude(place))});
   }
   return poses;
 }
@@ -35,8 +33,7 @@ std::vector<airsim::Pose> ObjectPoses(Api& api, const Snapshot& now) {
 // The layer of a name, made at its first use.
 std::vector<uint32_t>& LayerToChange(Session& s, Text layer) {
   auto& layers = s.world().annotations;
-  if (!layers.contains(layer) && layers.size() >= kMostLayers)
-    throw std::invalid_argument("more than 64 layers");
+  if (!layers.contains(layer) && layers.size() >= kMostLayers) throw std::invalid_argument("more than 64 layers");
   auto& values = layers[layer];
   values.resize(s.objects().scene().entities.size() + 1, 0);
   return values;
@@ -72,41 +69,34 @@ void AddAnnotationCalls(Api& api) {
     if (id < 0 || id >= 1 << 24) throw std::invalid_argument("object_id must be in 0 ... 16777215");
     return SetAnnotation(s, layer, mesh, static_cast<uint32_t>(id), is_regex);
   });
-  api.Read("simGetAnnotationObjectID", [&api](const Snapshot& now, Text layer, Text mesh) {
-    return static_cast<int>(AnnotationOf(api, now, layer, mesh));
+  api.Read("simGetAnnotationObjectID",
+           [&api](const Snapshot& now, Text layer, Text mesh) { return static_cast<int>(AnnotationOf(api, now, layer, mesh)); });
+  api.Change("simSetAnnotationObjectColor", [](Session& s, Text layer, Text mesh, int r, int g, int b, bool is_regex) {
+    return SetAnnotation(s, layer, mesh, Packed(r, g, b), is_regex);
   });
-  api.Change("simSetAnnotationObjectColor",
-             [](Session& s, Text layer, Text mesh, int r, int g, int b, bool is_regex) {
-               return SetAnnotation(s, layer, mesh, Packed(r, g, b), is_regex);
-             });
   api.Read("simGetAnnotationObjectColor", [&api](const Snapshot& now, Text layer, Text mesh) {
     const uint32_t c = AnnotationOf(api, now, layer, mesh);
     return std::to_string(c & 255) + "," + std::to_string(c >> 8 & 255) + "," + std::to_string(c >> 16 & 255);
   });
-  api.Change("simSetAnnotationObjectValue",
-             [](Session& s, Text layer, Text mesh, float value, bool is_regex) {
-               if (!(value >= 0 && value <= 1))
-                 throw std::invalid_argument("greyscale_value must be in 0 ... 1");
-               const int gray = static_cast<int>(value * 255 + 0.5f);
-               return SetAnnotation(s, layer, mesh, Packed(gray, gray, gray), is_regex);
-             });
+  api.Change("simSetAnnotationObjectValue", [](Session& s, Text layer, Text mesh, float value, bool is_regex) {
+    if (!(value >= 0 && value <= 1)) throw std::invalid_argument("greyscale_value must be in 0 ... 1");
+    const int gray = static_cast<int>(value * 255 + 0.5f);
+    return SetAnnotation(s, layer, mesh, Packed(gray, gray, gray), is_regex);
+  });
   api.Read("simGetAnnotationObjectValue", [&api](const Snapshot& now, Text layer, Text mesh) {
     return static_cast<float>(AnnotationOf(api, now, layer, mesh) & 255) / 255;
   });
   api.Read("simListAnnotationObjects", [&api](const Snapshot& now, Text) { return ListedNames(api, now); });
-  api.Read("simListAnnotationPoses",
-           [&api](const Snapshot& now, Text, bool, bool) { return ObjectPoses(api, now); });
+  api.Read("simListAnnotationPoses", [&api](const Snapshot& now, Text, bool, bool) { return ObjectPoses(api, now); });
 }
 
 }  // namespace
 
 void AddCosysCalls(Api& api) {
   AddAnnotationCalls(api);
-  api.Read("simListInstanceSegmentationObjects",
-           [&api](const Snapshot& now) { return ListedNames(api, now); });
-  api.Read(
-      "simListInstanceSegmentationPoses",
-      [&api](const Snapshot& now, bool /*ned*/, bool /*only_visible*/) { return ObjectPoses(api, now); });
+  api.Read("simListInstanceSegmentationObjects", [&api](const Snapshot& now) { return ListedNames(api, now); });
+  api.Read("simListInstanceSegmentationPoses",
+           [&api](const Snapshot& now, bool /*ned*/, bool /*only_visible*/) { return ObjectPoses(api, now); });
   // Colour of instance i: its bytes, as panorama_entity shows them.
   api.Read("simGetInstanceSegmentationColorMap", [&api](const Snapshot& now) {
     // In the order of the names above.
@@ -115,8 +105,7 @@ void AddCosysCalls(Api& api) {
     for (uint32_t id = 1; id <= count; ++id) {
       const auto place = now.world->places.find(id);
       if (place != now.world->places.end() && place->second.hidden) continue;
-      colors.push_back({static_cast<float>(id & 255), static_cast<float>(id >> 8 & 255),
-                        static_cast<float>(id >> 16 & 255)});
+      colors.push_back({static_cast<float>(id & 255), static_cast<float>(id >> 8 & 255), static_cast<float>(id >> 16 & 255)});
     }
     return colors;
   });

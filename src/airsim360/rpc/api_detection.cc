@@ -21,8 +21,7 @@ DetectionFilter& FilterOf(Session& s, const CameraName& camera, Text vehicle) {
 void AddDetectionCalls(Api& api) {
   api.Change(
       "simAddDetectionFilterMeshName",
-      [](Session& s, const CameraName& camera, airsim::ImageType, Text pattern, Text vehicle,
-         const External&) {
+      [](Session& s, const CameraName& camera, airsim::ImageType, Text pattern, Text vehicle, const External&) {
         auto& patterns = FilterOf(s, camera, vehicle).patterns;
         if (patterns.size() >= kMostPatterns) throw std::invalid_argument("more than 1000 filters");
         patterns.push_back(std::make_shared<const Pattern>(Pattern::Wildcard(pattern)));
@@ -30,8 +29,9 @@ void AddDetectionCalls(Api& api) {
       1);
   api.Change(
       "simSetDetectionFilterRadius",
-      [](Session& s, const CameraName& camera, airsim::ImageType, float radius_cm, Text vehicle,
-         const External&) { FilterOf(s, camera, vehicle).radius = radius_cm / 100; },
+      [](Session& s, const CameraName& camera, airsim::ImageType, float radius_cm, Text vehicle, const External&) {
+        FilterOf(s, camera, vehicle).radius = radius_cm / 100;
+      },
       1);
   api.Change(
       "simClearDetectionMeshNames",
@@ -41,8 +41,8 @@ void AddDetectionCalls(Api& api) {
       1);
   api.Picture(
       "simGetDetections",
-      [](ImageService& images, const SnapshotPointer& now, const CameraName& camera, airsim::ImageType type,
-         Text vehicle, const External&) {
+      [](ImageService& images, const SnapshotPointer& now, const CameraName& camera, airsim::ImageType type, Text vehicle,
+         const External&) {
         const size_t index = now->Find(vehicle);
         const auto filter = now->world->detection.find({index, CanonicalCamera(camera.text)});
         if (filter == now->world->detection.end() || filter->second.patterns.empty()) {

@@ -49,7 +49,8 @@ VehicleControl& DroneOf(Session& s, Text name) {
 void Fly(Session& s, Text xml, Text vehicle) {
   VehicleControl& control = DroneOf(s, vehicle);
   if (!control.status().api_control)
-    throw std::invalid_argument("simFlyMission: vehicle '" + control.status().name + "' is not under API control; call enableApiControl(True) first");
+    throw std::invalid_argument("simFlyMission: vehicle '" + control.status().name +
+                                "' is not under API control; call enableApiControl(True) first");
   s.FlyMission(control, ReadMission(xml, "mission", {s.shared_model(), s.earth().origin()}, control.index()));
 }
 
@@ -69,9 +70,12 @@ MissionInfo InfoOf(Session& s, Text vehicle) {
 }  // namespace
 
 void AddMissionCalls(Api& api) {
-  api.Change("simFlyMission", [](Session& s, Text xml, Text vehicle) { Fly(s, xml, vehicle); }, 1);
-  api.Change("simGetMission", [](Session& s, Text vehicle) { return InfoOf(s, vehicle); }, 1);
-  api.Change("simStopMission", [](Session& s, Text vehicle) { s.StopMission(DroneOf(s, vehicle)); }, 1);
+  api.Change(
+      "simFlyMission", [](Session& s, Text xml, Text vehicle) { Fly(s, xml, vehicle); }, 1);
+  api.Change(
+      "simGetMission", [](Session& s, Text vehicle) { return InfoOf(s, vehicle); }, 1);
+  api.Change(
+      "simStopMission", [](Session& s, Text vehicle) { s.StopMission(DroneOf(s, vehicle)); }, 1);
 }
 
 }  // namespace airsim360

@@ -57,8 +57,7 @@ Vec3d CheckedScale(const airsim::Vector3r& scale) {
   constexpr double kSmallest = 1e-4, kLargest = 1e4;  // smaller ones cannot be undone in float
   const Vec3d factor = airsim::FromVector(scale);
   for (int i = 0; i < 3; ++i) {
-    if (!(factor[i] >= kSmallest && factor[i] <= kLargest))
-      throw std::invalid_argument("scale must be in 0.0001 ... 10000");
+    if (!(factor[i] >= kSmallest && factor[i] <= kLargest)) throw std::invalid_argument("scale must be in 0.0001 ... 10000");
   }
   return factor;
 }
@@ -70,14 +69,12 @@ void AddPoseCalls(Api& api) {
         // Cosys' second argument asks for an engine's own axes, which there are none of here.
         size_t index = 0;
         const Vec3d origin_W = api.session().origin_W();
-        if (VehicleNamed(now, name, index))
-          return airsim::ToPose(now.state.vehicles[index].motion.X_WB, origin_W);
+        if (VehicleNamed(now, name, index)) return airsim::ToPose(now.state.vehicles[index].motion.X_WB, origin_W);
         const EntityId entity = api.session().objects().Find(name, now.world->names);
         if (entity == kNoEntity) return NoPose();
         const ObjectPlace place = PlaceNow(now, api.session().objects(), entity);
         if (place.hidden) return NoPose();
-        return airsim::Pose{airsim::ToVector(NedFromWorld(place.X_WO.p - origin_W)),
-                            airsim::ToQuaternionr(NedAttitude(place))};
+        return airsim::Pose{airsim::ToVector(NedFromWorld(place.X_WO.p - origin_W)), airsim::ToQuaternionr(NedAttitude(place))};
       },
       1);
   api.Change("simSetObjectPose", [](Session& s, Text name, const airsim::Pose& pose, bool /*teleport*/) {
@@ -112,14 +109,12 @@ void AddListCalls(Api& api) {
     for (const EntityId id : api.session().objects().Match(regex, now->world->names)) {
       const Entity& entity = scene.entity(id);
       const ObjectIndex& objects = api.session().objects();
-      if (!PlaceNow(*now, objects, id).hidden)
-        tags.emplace_back(objects.NameOf(id, now->world->names), scene.tree[entity.category].path);
+      if (!PlaceNow(*now, objects, id).hidden) tags.emplace_back(objects.NameOf(id, now->world->names), scene.tree[entity.category].path);
     }
     return tags;
   });
-  api.Change("simDestroyObject", [](Session& s, Text name) {
-    return MoveObject(s, name, [](ObjectPlace& place) { place.hidden = true; });
-  });
+  api.Change("simDestroyObject",
+             [](Session& s, Text name) { return MoveObject(s, name, [](ObjectPlace& place) { place.hidden = true; }); });
 }
 
 std::vector<EntityId> Named(Session& s, Text name, bool is_regex) {
@@ -144,8 +139,8 @@ void AddSegmentationCalls(Api& api) {
 
 void AddSpawnCalls(Api& api) {
   api.Read("simListAssets", [&api](const Snapshot&) { return api.session().AssetNames(); });
-  api.Change("simSpawnObject", [](Session& s, Text name, Text asset, const airsim::Pose& pose,
-                                  const airsim::Vector3r& scale, bool physics, bool /*is_blueprint*/) {
+  api.Change("simSpawnObject", [](Session& s, Text name, Text asset, const airsim::Pose& pose, const airsim::Vector3r& scale, bool physics,
+                                  bool /*is_blueprint*/) {
     if (physics) NoticeOnce("simSpawnObject: objects stay where they are put, also with physics_enabled");
     const Vec3d p_W = airsim::FromPose(pose, s.origin_W()).p;
     const Mat3d R = ObjectRotation(airsim::FromQuaternionr(pose.orientation));

@@ -21,7 +21,8 @@ struct PersonInfo {
   airsim::Vector3r velocity;
   template <class V>
   void Visit(V& v) {
-    v("name", name), v("behaviour", behaviour), v("locomotion", locomotion), v("state", state), v("cause", cause), v("entity_id", entity_id);
+    v("name", name), v("behaviour", behaviour), v("locomotion", locomotion), v("state", state), v("cause", cause),
+        v("entity_id", entity_id);
     v("track_id", track_id), v("group_id", group_id), v("speaking", speaking), v("visible", visible);
     v("pose", pose), v("velocity", velocity);
   }
@@ -61,8 +62,7 @@ void AddReading(Api& api) {
   });
   api.Read("simGetPeople", [&api](const Snapshot& now) {
     const SimPeople& people = PeopleOf(*now.model);
-    const double later =
-        static_cast<double>(now.state.t_ns + people.epoch_ns - now.state.people->crowd.t_ns) * 1e-9;
+    const double later = static_cast<double>(now.state.t_ns + people.epoch_ns - now.state.people->crowd.t_ns) * 1e-9;
     std::vector<PersonInfo> list;
     for (size_t i = 0; i < people.cast.size(); ++i) {
       const PersonState& state = now.state.people->crowd.people[i];
@@ -104,7 +104,10 @@ void AddCommands(Api& api) {
       1);
   api.Change(
       "simSetPersonState",
-      [](Session& s, Text name, Text state, double seconds) { Command(s, name, SetPersonState{state, seconds}); }, 1);
+      [](Session& s, Text name, Text state, double seconds) {
+        Command(s, name, SetPersonState{state, seconds});
+      },
+      1);
   api.Change("simMessagePerson", [](Session& s, Text name, Text type) { Command(s, name, MessagePerson{type}); });
   api.Change("simReleasePerson", [](Session& s, Text name) { Command(s, name, ReleasePerson{}); });
 }

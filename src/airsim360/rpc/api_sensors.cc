@@ -54,15 +54,13 @@ airsim::BarometerData Barometer(const Snapshot& now, Text name, Text vehicle) {
   const size_t i = SensorIndex(sensors.set.barometers, name, "barometer");
   const BarometerReading& reading = sensors.states.barometers[i].last;
   constexpr double kHectopascal = 0.01;
-  return {Stamp(now, reading.t_ns), static_cast<float>(reading.altitude),
-          static_cast<float>(reading.pressure),
+  return {Stamp(now, reading.t_ns), static_cast<float>(reading.altitude), static_cast<float>(reading.pressure),
           static_cast<float>(sensors.set.barometers[i].spec.qnh * kHectopascal)};
 }
 
 airsim::MagnetometerData Magnetometer(const Snapshot& now, Text name, Text vehicle) {
   const DroneSensors sensors = SensorsOf(now, now.Find(vehicle), name, "magnetometer");
-  const MagnetometerReading& reading =
-      sensors.states.magnetometers[SensorIndex(sensors.set.magnetometers, name, "magnetometer")].last;
+  const MagnetometerReading& reading = sensors.states.magnetometers[SensorIndex(sensors.set.magnetometers, name, "magnetometer")].last;
   constexpr double kGauss = 1e4;  // in one tesla
   airsim::MagnetometerData data;
   data.time_stamp = Stamp(now, reading.t_ns);
@@ -79,8 +77,7 @@ airsim::GpsData Gps(const Snapshot& now, Text name, Text vehicle) {
   if (!reading.has_fix) return data;
   constexpr int kFix3d = 3;
   constexpr float kReportedError = 0.1f;  // metres, what AirSim's eph and epv settle at
-  data.gnss.geo_point = {reading.place.latitude_deg, reading.place.longitude_deg,
-                         static_cast<float>(reading.place.altitude)};
+  data.gnss.geo_point = {reading.place.latitude_deg, reading.place.longitude_deg, static_cast<float>(reading.place.altitude)};
   data.gnss.velocity = airsim::ToVector(NedFromWorld(reading.v_WS));
   data.gnss.eph = data.gnss.epv = kReportedError;
   data.gnss.fix_type = kFix3d;
@@ -96,8 +93,8 @@ airsim::DistanceSensorData Distance(ImageService& images, const Snapshot& now, T
   const RigidTransform X_BS = spec.mount.pose(), X_WS = now.state.vehicles[v].motion.X_WB * X_BS;
   const SensorKey key{now.model->world.seed, static_cast<uint32_t>(v), static_cast<uint32_t>(i)};
   const RangeReading reading = MeasureRange(spec, key, *images.TracerOf(now, v), X_WS, now.state.t_ns);
-  return {now.time_stamp(), static_cast<float>(reading.range), static_cast<float>(spec.min_range),
-          static_cast<float>(spec.max_range), airsim::ToMount(X_BS)};
+  return {now.time_stamp(), static_cast<float>(reading.range), static_cast<float>(spec.min_range), static_cast<float>(spec.max_range),
+          airsim::ToMount(X_BS)};
 }
 
 constexpr uint64_t kBytesOfPoint = 128;  // from the ray to the wire, at the most
@@ -124,8 +121,7 @@ void AddNoise(const RaySensors::Lidar& lidar, const SensorKey& key, int64_t t_ns
 Scan ScanOf(ImageService& images, const Snapshot& now, Text name, size_t v, bool gpu) {
   const auto& lidars = now.world->ray_sensors[v].lidars;
   const auto first = std::ranges::find(lidars, gpu, &RaySensors::Lidar::gpu);
-  const size_t i = name.empty() && first != lidars.end() ? static_cast<size_t>(first - lidars.begin())
-                                                        : SensorIndex(lidars, name, "lidar");
+  const size_t i = name.empty() && first != lidars.end() ? static_cast<size_t>(first - lidars.begin()) : SensorIndex(lidars, name, "lidar");
   CheckReplyBytes(lidars[i].spec.channels * lidars[i].spec.columns * kBytesOfPoint,
                   "give the lidar fewer points a turn (NumberOfChannels, PointsPerSecond / RotationsPerSecond)");
   const RigidTransform X_BS = lidars[i].spec.mount.pose();
@@ -140,8 +136,7 @@ Scan ScanOf(ImageService& images, const Snapshot& now, Text name, size_t v, bool
     AddNoise(lidars[i], key, now.state.t_ns, point);
     const Vec3d p_S = VecCast<double>(point.p_S);
     // VehicleInertialFrame: N, with the vehicle as origin.
-    out.points_F.push_back(lidars[i].sensor_local_frame ? FrdFromBody(p_S)
-                                                        : NedFromWorld(X_WS * p_S - body.X_WB.p));
+    out.points_F.push_back(lidars[i].sensor_local_frame ? FrdFromBody(p_S) : NedFromWorld(X_WS * p_S - body.X_WB.p));
   }
   return out;
 }
@@ -168,9 +163,8 @@ airsim::GpuLidarData GpuLidar(ImageService& images, const Snapshot& now, Text na
     const LidarPoint& point = scan.scan.points[i];
     const airsim::Vector3r p = airsim::ToVector(scan.points_F[i]);
     const Rgb8 c = SegmentationColor(now.world->segmentation[point.entity]);
-    data.point_cloud.insert(
-        data.point_cloud.end(),
-        {p.x_val, p.y_val, p.z_val, static_cast<float>(c.r << 16 | c.g << 8 | c.b), point.intensity});
+    data.point_cloud.insert(data.point_cloud.end(),
+                            {p.x_val, p.y_val, p.z_val, static_cast<float>(c.r << 16 | c.g << 8 | c.b), point.intensity});
   }
   return data;
 }
@@ -178,14 +172,10 @@ airsim::GpuLidarData GpuLidar(ImageService& images, const Snapshot& now, Text na
 }  // namespace
 
 void AddSensorCalls(Api& api) {
-  api.Read("getImuData",
-           [](const Snapshot& now, Text name, Text vehicle) { return Imu(now, name, vehicle); });
-  api.Read("getBarometerData",
-           [](const Snapshot& now, Text name, Text vehicle) { return Barometer(now, name, vehicle); });
-  api.Read("getMagnetometerData",
-           [](const Snapshot& now, Text name, Text vehicle) { return Magnetometer(now, name, vehicle); });
-  api.Read("getGpsData",
-           [](const Snapshot& now, Text name, Text vehicle) { return Gps(now, name, vehicle); });
+  api.Read("getImuData", [](const Snapshot& now, Text name, Text vehicle) { return Imu(now, name, vehicle); });
+  api.Read("getBarometerData", [](const Snapshot& now, Text name, Text vehicle) { return Barometer(now, name, vehicle); });
+  api.Read("getMagnetometerData", [](const Snapshot& now, Text name, Text vehicle) { return Magnetometer(now, name, vehicle); });
+  api.Read("getGpsData", [](const Snapshot& now, Text name, Text vehicle) { return Gps(now, name, vehicle); });
   // Rays are cast in the thread of the pictures, so that nobody waits for them.
   const auto picture = [&](const char* name, auto reading) {
     api.Picture(name, [reading](ImageService& images, const SnapshotPointer& now, Text sensor, Text vehicle) {

@@ -59,43 +59,34 @@ void AddEngineCalls(Api& api) {
   static constexpr const char* kEngine = "there is no game engine behind this server";
   static constexpr const char* kMaterials = "materials of a world do not change";
   static constexpr const char* kLights = "lights of a world do not change";
-  api.Read("simRunConsoleCommand",
-           [](const Snapshot&, Text) { return Notice("simRunConsoleCommand", kEngine), false; });
-  api.Read("simLoadLevel", [](const Snapshot&, Text) {
-    return Notice("simLoadLevel", "the world is chosen with airsim360 serve --world"), false;
-  });
+  api.Read("simRunConsoleCommand", [](const Snapshot&, Text) { return Notice("simRunConsoleCommand", kEngine), false; });
+  api.Read("simLoadLevel",
+           [](const Snapshot&, Text) { return Notice("simLoadLevel", "the world is chosen with airsim360 serve --world"), false; });
   api.Read("simGetMeshPositionVertexBuffers", [](const Snapshot&) {
     Notice("simGetMeshPositionVertexBuffers", "use airsim360 world export");
     return std::vector<airsim::MeshPositionVertexBuffersResponse>{};
   });
-  api.Read("simSwapTextures", [](const Snapshot&, Text, int, int, int) {
-    return Notice("simSwapTextures", kMaterials), std::vector<std::string>{};
-  });
+  api.Read("simSwapTextures",
+           [](const Snapshot&, Text, int, int, int) { return Notice("simSwapTextures", kMaterials), std::vector<std::string>{}; });
   for (const char* name : {"simSetObjectMaterial", "simSetObjectMaterialFromTexture"}) {
     api.Read(name, [name](const Snapshot&, Text, Text, int) { return Notice(name, kMaterials), false; });
   }
   for (const char* name : {"simSetLightIntensity", "simSetWorldLightIntensity"}) {
     api.Read(name, [name](const Snapshot&, Text, float) { return Notice(name, kLights), false; });
   }
-  api.Read("simSetWorldLightVisibility",
-           [](const Snapshot&, Text, bool) { return Notice("simSetWorldLightVisibility", kLights), false; });
-  api.Read("simSetVehicleLightVisibility", [](const Snapshot&, Text, Text, bool) {
-    return Notice("simSetVehicleLightVisibility", kLights), false;
-  });
-  api.Read("simSetVehicleLightIntensity", [](const Snapshot&, Text, Text, float) {
-    return Notice("simSetVehicleLightIntensity", kLights), false;
-  });
+  api.Read("simSetWorldLightVisibility", [](const Snapshot&, Text, bool) { return Notice("simSetWorldLightVisibility", kLights), false; });
+  api.Read("simSetVehicleLightVisibility",
+           [](const Snapshot&, Text, Text, bool) { return Notice("simSetVehicleLightVisibility", kLights), false; });
+  api.Read("simSetVehicleLightIntensity",
+           [](const Snapshot&, Text, Text, float) { return Notice("simSetVehicleLightIntensity", kLights), false; });
   for (const char* name : {"simSetAnnotationObjectTextureByPath"}) {
-    api.Read(name,
-             [name](const Snapshot&, Text, Text, Text, bool) { return Notice(name, kMaterials), false; });
+    api.Read(name, [name](const Snapshot&, Text, Text, Text, bool) { return Notice(name, kMaterials), false; });
   }
-  api.Read("simEnableAnnotationObjectTextureByPath", [](const Snapshot&, Text, Text, bool) {
-    return Notice("simEnableAnnotationObjectTextureByPath", kMaterials), false;
-  });
+  api.Read("simEnableAnnotationObjectTextureByPath",
+           [](const Snapshot&, Text, Text, bool) { return Notice("simEnableAnnotationObjectTextureByPath", kMaterials), false; });
   api.Read("simGetAnnotationObjectTexturePath", [](const Snapshot&, Text, Text) { return std::string(); });
-  api.Read("simSetExtForce", [](const Snapshot&, const airsim::Vector3r&) {
-    Notice("simSetExtForce", "forces from outside are wind and contacts");
-  });
+  api.Read("simSetExtForce",
+           [](const Snapshot&, const airsim::Vector3r&) { Notice("simSetExtForce", "forces from outside are wind and contacts"); });
 }
 
 void AddOtherVehicleCalls(Api& api) {
@@ -104,19 +95,15 @@ void AddOtherVehicleCalls(Api& api) {
   api.Read("getCarState", [none](const Snapshot&, Text vehicle) { none(vehicle); });
   api.Read("getCarControls", [none](const Snapshot&, Text vehicle) { none(vehicle); });
   api.Read("setCarControls", [none](const Snapshot&, const CarControls&, Text vehicle) { none(vehicle); });
-  api.Read("setSafety",
-           [](const Snapshot&, uint32_t, float, int, float, const airsim::Vector3r&, float, float, float,
-              Text) -> bool {
-             throw std::invalid_argument("The setSafety call requires safety_eval_ptr_ to be set first");
-           });
+  api.Read("setSafety", [](const Snapshot&, uint32_t, float, int, float, const airsim::Vector3r&, float, float, float, Text) -> bool {
+    throw std::invalid_argument("The setSafety call requires safety_eval_ptr_ to be set first");
+  });
   api.Read("setEchoData", [](const Snapshot&, Text sensor, Text, const AnyMap&) {
     throw std::runtime_error("No sensor with name " + sensor + " exist on vehicle");
   });
-  for (const char* name :
-       {"getEchoData", "getUWBData", "getUWBSensorData", "getWifiData", "getWifiSensorData"}) {
-    api.Read(name, [](const Snapshot&, Text sensor, Text) {
-      throw std::runtime_error("No sensor with name " + sensor + " exist on vehicle");
-    });
+  for (const char* name : {"getEchoData", "getUWBData", "getUWBSensorData", "getWifiData", "getWifiSensorData"}) {
+    api.Read(name,
+             [](const Snapshot&, Text sensor, Text) { throw std::runtime_error("No sensor with name " + sensor + " exist on vehicle"); });
   }
 }
 

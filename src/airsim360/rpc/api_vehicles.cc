@@ -23,36 +23,25 @@ void SetKinematics(Session& s, const airsim::KinematicsState& state, const std::
 }
 
 void AddControlCalls(Api& api) {
-  api.Change("enableApiControl", [](Session& s, bool enabled, const std::string& vehicle) {
-    s.control(vehicle).EnableApi(enabled);
-  });
-  api.Read("isApiControlEnabled", [](const Snapshot& now, const std::string& vehicle) {
-    return now.vehicles[now.Find(vehicle)].api_control;
-  });
-  api.Change("armDisarm",
-             [](Session& s, bool arm, const std::string& vehicle) { return s.control(vehicle).Arm(arm); });
+  api.Change("enableApiControl", [](Session& s, bool enabled, const std::string& vehicle) { s.control(vehicle).EnableApi(enabled); });
+  api.Read("isApiControlEnabled",
+           [](const Snapshot& now, const std::string& vehicle) { return now.vehicles[now.Find(vehicle)].api_control; });
+  api.Change("armDisarm", [](Session& s, bool arm, const std::string& vehicle) { return s.control(vehicle).Arm(arm); });
   api.Change("cancelLastTask", [](Session& s, const std::string& vehicle) { s.control(vehicle).Cancel(); });
-  api.Change("moveByRC", [](Session& s, const airsim::RCData& rc, const std::string& vehicle) {
-    s.control(vehicle).rc() = rc;
-  });
+  api.Change("moveByRC", [](Session& s, const airsim::RCData& rc, const std::string& vehicle) { s.control(vehicle).rc() = rc; });
 }
 
 void AddStateCalls(Api& api) {
   api.Read("getMultirotorState", [&api](const Snapshot& now, const std::string& vehicle) {
     return MultirotorStateOf(now, now.Find(vehicle), api.session().settings().collision_in_state);
   });
-  api.Read("getRotorStates", [](const Snapshot& now, const std::string& vehicle) {
-    return RotorStatesOf(now, now.Find(vehicle));
-  });
-  api.Read("simGetGroundTruthKinematics", [](const Snapshot& now, const std::string& vehicle) {
-    return KinematicsOf(now, now.Find(vehicle));
-  });
-  api.Read("simGetPhysicsRawKinematics", [](const Snapshot& now, const std::string& vehicle) {
-    return KinematicsOf(now, now.Find(vehicle));
-  });
-  api.Read("simGetGroundTruthEnvironment", [](const Snapshot& now, const std::string& vehicle) {
-    return EnvironmentOf(now, now.Find(vehicle));
-  });
+  api.Read("getRotorStates", [](const Snapshot& now, const std::string& vehicle) { return RotorStatesOf(now, now.Find(vehicle)); });
+  api.Read("simGetGroundTruthKinematics",
+           [](const Snapshot& now, const std::string& vehicle) { return KinematicsOf(now, now.Find(vehicle)); });
+  api.Read("simGetPhysicsRawKinematics",
+           [](const Snapshot& now, const std::string& vehicle) { return KinematicsOf(now, now.Find(vehicle)); });
+  api.Read("simGetGroundTruthEnvironment",
+           [](const Snapshot& now, const std::string& vehicle) { return EnvironmentOf(now, now.Find(vehicle)); });
   // Reading the collision ends it.
   api.Change("simGetCollisionInfo", [](Session& s, const std::string& vehicle) {
     VehicleControl& control = s.control(vehicle);
@@ -65,22 +54,18 @@ void AddPoseCalls(Api& api) {
     const size_t i = now.Find(vehicle);
     return airsim::ToPose(now.state.vehicles[i].motion.X_WB, now.vehicles[i].origin_W);
   });
-  api.Change("simSetVehiclePose",
-             [](Session& s, const airsim::Pose& pose, bool /*ignore_collision*/, const std::string& vehicle) {
-               const VehicleControl& control = s.control(vehicle);
-               s.Teleport(control, airsim::FromPose(pose, control.status().origin_W));
-             });
-  api.Change("simSetKinematics",
-             [](Session& s, const airsim::KinematicsState& state, bool /*ignore_collision*/,
-                const std::string& vehicle) { SetKinematics(s, state, vehicle); });
-  api.Change("simSetPhysicsRawKinematics",
-             [](Session& s, const airsim::KinematicsState& state, const std::string& vehicle) {
-               SetKinematics(s, state, vehicle);
-             });
-  api.Change("simAddVehicle", [](Session& s, const std::string& name, const std::string& type,
-                                 const airsim::Pose& pose, const std::string& /*pawn_path*/) {
-    return s.AddVehicle(name, type, airsim::FromPose(pose, s.origin_W()));
+  api.Change("simSetVehiclePose", [](Session& s, const airsim::Pose& pose, bool /*ignore_collision*/, const std::string& vehicle) {
+    const VehicleControl& control = s.control(vehicle);
+    s.Teleport(control, airsim::FromPose(pose, control.status().origin_W));
   });
+  api.Change("simSetKinematics", [](Session& s, const airsim::KinematicsState& state, bool /*ignore_collision*/,
+                                    const std::string& vehicle) { SetKinematics(s, state, vehicle); });
+  api.Change("simSetPhysicsRawKinematics",
+             [](Session& s, const airsim::KinematicsState& state, const std::string& vehicle) { SetKinematics(s, state, vehicle); });
+  api.Change("simAddVehicle",
+             [](Session& s, const std::string& name, const std::string& type, const airsim::Pose& pose, const std::string& /*pawn_path*/) {
+               return s.AddVehicle(name, type, airsim::FromPose(pose, s.origin_W()));
+             });
 }
 
 Vec3d ThreeGains(const std::vector<float>& gains) {
@@ -93,8 +78,7 @@ void NoticeGains(const char* name, const std::vector<float>& ki, const std::vect
   ThreeGains(ki), ThreeGains(kd);
   for (size_t i = 0; i < 3; ++i) {
     if ((ki[i] != 0 && !(std::string_view(name) == "velocity" && i == 2)) || kd[i] != 0) {
-      NoticeOnce(std::string(name) +
-                 " controller: integral and derivative gains count for nothing, but the " +
+      NoticeOnce(std::string(name) + " controller: integral and derivative gains count for nothing, but the " +
                  "integral of the vertical velocity");
     }
   }
@@ -102,35 +86,31 @@ void NoticeGains(const char* name, const std::vector<float>& ki, const std::vect
 
 void AddGainCalls(Api& api) {
   using Gains = const std::vector<float>&;
-  api.Change("setAngleRateControllerGains",
-             [](Session& s, Gains kp, Gains ki, Gains kd, const std::string& vehicle) {
-               VehicleControl& control = s.control(vehicle);
-               NoticeGains("angle rate", ki, kd);
-               control.gains.rate_p = ThreeGains(kp);
-               s.GainsChanged(control);
-             });
-  api.Change("setAngleLevelControllerGains",
-             [](Session& s, Gains kp, Gains ki, Gains kd, const std::string& vehicle) {
-               VehicleControl& control = s.control(vehicle);
-               NoticeGains("angle level", ki, kd);
-               control.gains.level_p = ThreeGains(kp);
-               s.GainsChanged(control);
-             });
-  api.Change("setVelocityControllerGains",
-             [](Session& s, Gains kp, Gains ki, Gains kd, const std::string& vehicle) {
-               VehicleControl& control = s.control(vehicle);
-               NoticeGains("velocity", ki, kd);
-               control.gains.velocity_p = ThreeGains(kp);
-               control.gains.velocity_i_z = ki[2];
-               s.GainsChanged(control);
-             });
-  api.Change("setPositionControllerGains",
-             [](Session& s, Gains kp, Gains ki, Gains kd, const std::string& vehicle) {
-               VehicleControl& control = s.control(vehicle);
-               NoticeGains("position", ki, kd);
-               control.gains.position_p = ThreeGains(kp);
-               s.GainsChanged(control);
-             });
+  api.Change("setAngleRateControllerGains", [](Session& s, Gains kp, Gains ki, Gains kd, const std::string& vehicle) {
+    VehicleControl& control = s.control(vehicle);
+    NoticeGains("angle rate", ki, kd);
+    control.gains.rate_p = ThreeGains(kp);
+    s.GainsChanged(control);
+  });
+  api.Change("setAngleLevelControllerGains", [](Session& s, Gains kp, Gains ki, Gains kd, const std::string& vehicle) {
+    VehicleControl& control = s.control(vehicle);
+    NoticeGains("angle level", ki, kd);
+    control.gains.level_p = ThreeGains(kp);
+    s.GainsChanged(control);
+  });
+  api.Change("setVelocityControllerGains", [](Session& s, Gains kp, Gains ki, Gains kd, const std::string& vehicle) {
+    VehicleControl& control = s.control(vehicle);
+    NoticeGains("velocity", ki, kd);
+    control.gains.velocity_p = ThreeGains(kp);
+    control.gains.velocity_i_z = ki[2];
+    s.GainsChanged(control);
+  });
+  api.Change("setPositionControllerGains", [](Session& s, Gains kp, Gains ki, Gains kd, const std::string& vehicle) {
+    VehicleControl& control = s.control(vehicle);
+    NoticeGains("position", ki, kd);
+    control.gains.position_p = ThreeGains(kp);
+    s.GainsChanged(control);
+  });
 }
 
 }  // namespace

@@ -10,17 +10,7 @@
 namespace airsim360 {
 namespace {
 
-enum class WeatherParameter : int {
-  kRain,
-  kRoadWetness,
-  kSnow,
-  kRoadSnow,
-  kMapleLeaf,
-  kRoadLeaf,
-  kDust,
-  kFog,
-  kEnabled
-};
+enum class WeatherParameter : int { kRain, kRoadWetness, kSnow, kRoadSnow, kMapleLeaf, kRoadLeaf, kDust, kFog, kEnabled };
 
 // AirSim's 0 ... 1 at 1: a cloudburst, a snowstorm, fog one sees 15 m in, dust one sees 100 m in.
 constexpr double kHeaviestRain = 30, kHeaviestSnow = 8, kThickestFog = 15, kThickestDust = 100, kHaziest = 10;
@@ -34,8 +24,7 @@ double InQuarters(double share) { return std::ceil(4 * share) / 4; }
 
 bool IsSame(const Environment& a, const Environment& b) {
   return a.lamps == b.lamps && a.cloud_type == b.cloud_type && a.hdri == b.hdri &&
-         std::ranges::all_of(EnvironmentFields(),
-                             [&](const EnvironmentField& field) { return a.*field.value == b.*field.value; });
+         std::ranges::all_of(EnvironmentFields(), [&](const EnvironmentField& field) { return a.*field.value == b.*field.value; });
 }
 
 // The environment with the weather that calls have asked for.
@@ -52,8 +41,7 @@ void ApplyWeather(Session& s) {
     weather.wetness = std::max(weather.wetness, Of(world, WeatherParameter::kRoadWetness));
     weather.snow_depth = std::max(weather.snow_depth, Of(world, WeatherParameter::kRoadSnow));
     weather.turbidity = std::max(weather.turbidity, 2.5 + (kHaziest - 2.5) * InQuarters(dust));
-    const double visibility =
-        std::min(fog > 0 ? kThickestFog / fog : 1e9, dust > 0 ? kThickestDust / dust : 1e9);
+    const double visibility = std::min(fog > 0 ? kThickestFog / fog : 1e9, dust > 0 ? kThickestDust / dust : 1e9);
     if (visibility < 1e9) weather.visibility_m = visibility;
   }
   if (IsSame(weather, world.environment)) return;
@@ -68,8 +56,7 @@ std::string LocalTime(const std::string& text, double longitude_deg) {
     throw std::invalid_argument("start_datetime '" + text.substr(0, 40) + "' is not YYYY-MM-DD HH:MM:SS" + why);
   };
   int end = 0;
-  const int found = std::sscanf(text.c_str(), "%4d-%2d-%2d %2d:%2d%n:%2d%n", &year, &month, &day, &hour, &minute, &end,
-                                &second, &end);
+  const int found = std::sscanf(text.c_str(), "%4d-%2d-%2d %2d:%2d%n:%2d%n", &year, &month, &day, &hour, &minute, &end, &second, &end);
   if (found < 5 || static_cast<size_t>(end) != text.size()) fail("");
   using namespace std::chrono;
   const year_month_day date{std::chrono::year(year) / month / day};
@@ -77,8 +64,7 @@ std::string LocalTime(const std::string& text, double longitude_deg) {
   if (hour < 0 || hour > 23 || minute < 0 || minute > 59 || second < 0 || second > 60) fail(": there is no such time");
   const int zone = static_cast<int>(std::lround(longitude_deg / 15));
   char out[64];
-  std::snprintf(out, sizeof out, "%04d-%02d-%02dT%02d:%02d%c%02d:00", year, month, day, hour, minute,
-                zone < 0 ? '-' : '+', std::abs(zone));
+  std::snprintf(out, sizeof out, "%04d-%02d-%02dT%02d:%02d%c%02d:00", year, month, day, hour, minute, zone < 0 ? '-' : '+', std::abs(zone));
   return out;
 }
 
@@ -91,8 +77,7 @@ void AddWeatherCalls(Api& api) {
   });
   api.Change("simSetWeatherParameter", [](Session& s, WeatherParameter parameter, float value) {
     if (parameter < WeatherParameter::kRain || parameter > WeatherParameter::kEnabled) {
-      throw std::invalid_argument("there is no weather parameter " +
-                                  std::to_string(static_cast<int>(parameter)));
+      throw std::invalid_argument("there is no weather parameter " + std::to_string(static_cast<int>(parameter)));
     }
     if (parameter == WeatherParameter::kMapleLeaf || parameter == WeatherParameter::kRoadLeaf) {
       NoticeOnce("simSetWeatherParameter: there are no falling leaves");
@@ -104,19 +89,17 @@ void AddWeatherCalls(Api& api) {
     }
     ApplyWeather(s);
   });
-  api.Change("simSetTimeOfDay",
-             [](Session& s, bool is_enabled, const std::string& start, bool /*is_dst*/,
-                float celestial_clock_speed, float /*update_interval_secs*/, bool /*move_sun*/) {
-               Environment& base = s.world().base_environment;
-               if (!is_enabled || start.empty()) return;
-               const airsim::GeoPoint& origin = s.settings().origin;
-               char place[64];
-               std::snprintf(place, sizeof place, "%.6f,%.6f", origin.latitude, origin.longitude);
-               SetSunByTime(LocalTime(start, origin.longitude), place, base);
-               if (celestial_clock_speed != 1)
-                 NoticeOnce("simSetTimeOfDay: the sun is set once and stays there");
-               ApplyWeather(s);
-             });
+  api.Change("simSetTimeOfDay", [](Session& s, bool is_enabled, const std::string& start, bool /*is_dst*/, float celestial_clock_speed,
+                                   float /*update_interval_secs*/, bool /*move_sun*/) {
+    Environment& base = s.world().base_environment;
+    if (!is_enabled || start.empty()) return;
+    const airsim::GeoPoint& origin = s.settings().origin;
+    char place[64];
+    std::snprintf(place, sizeof place, "%.6f,%.6f", origin.latitude, origin.longitude);
+    SetSunByTime(LocalTime(start, origin.longitude), place, base);
+    if (celestial_clock_speed != 1) NoticeOnce("simSetTimeOfDay: the sun is set once and stays there");
+    ApplyWeather(s);
+  });
 }
 
 }  // namespace airsim360

@@ -27,8 +27,8 @@ bool Sees(const Snapshot& now, Vec3d from_W, Vec3d to_W) {
 // Occupied cells of a box as a binvox file (Min and Zhang's format: runs of value and count; y fastest, then
 // z, then x). A cell is occupied when a surface is within half its diagonal of its centre.
 std::string Binvox(const RayTracer& tracer, Vec3d centre_W, Vec3u cells, double size) {
-  std::string text = "#binvox 1\ndim " + std::to_string(cells.x) + " " + std::to_string(cells.z) + " " +
-                     std::to_string(cells.y) + "\ntranslate 0 0 0\nscale 1\ndata\n";
+  std::string text = "#binvox 1\ndim " + std::to_string(cells.x) + " " + std::to_string(cells.z) + " " + std::to_string(cells.y) +
+                     "\ntranslate 0 0 0\nscale 1\ndata\n";
   const auto reach = static_cast<float>(size * std::sqrt(3.0) / 2);
   char value = 0;
   uint8_t run = 0;
@@ -53,8 +53,8 @@ std::string Binvox(const RayTracer& tracer, Vec3d centre_W, Vec3u cells, double 
   return text;
 }
 
-bool CreateVoxelGrid(const Session& session, const Snapshot& now, const airsim::Vector3r& position,
-                     Vec3u sizes, float resolution, Text file) {
+bool CreateVoxelGrid(const Session& session, const Snapshot& now, const airsim::Vector3r& position, Vec3u sizes, float resolution,
+                     Text file) {
   constexpr double kMostCells = 2e7;
   if (!(resolution > 0)) throw std::invalid_argument("res must be positive");
   const auto count = [&](uint32_t metres) { return std::ceil(metres / static_cast<double>(resolution)); };
@@ -76,20 +76,18 @@ bool CreateVoxelGrid(const Session& session, const Snapshot& now, const airsim::
 }
 
 void AddSightCalls(Api& api) {
-  api.Picture("simTestLineOfSightToPoint",
-              [](ImageService&, const SnapshotPointer& now, const airsim::GeoPoint& point, Text vehicle) {
-                const Vec3d eye = now->state.vehicles[now->Find(vehicle)].motion.X_WB.p;
-                return Sees(*now, eye, now->model->world.frame.ToWorld(FromWire(point)));
-              });
-  api.Picture("simTestLineOfSightBetweenPoints", [](ImageService&, const SnapshotPointer& now,
-                                                    const airsim::GeoPoint& a, const airsim::GeoPoint& b) {
-    const GeoFrame& earth = now->model->world.frame;
-    return Sees(*now, earth.ToWorld(FromWire(a)), earth.ToWorld(FromWire(b)));
+  api.Picture("simTestLineOfSightToPoint", [](ImageService&, const SnapshotPointer& now, const airsim::GeoPoint& point, Text vehicle) {
+    const Vec3d eye = now->state.vehicles[now->Find(vehicle)].motion.X_WB.p;
+    return Sees(*now, eye, now->model->world.frame.ToWorld(FromWire(point)));
   });
+  api.Picture("simTestLineOfSightBetweenPoints",
+              [](ImageService&, const SnapshotPointer& now, const airsim::GeoPoint& a, const airsim::GeoPoint& b) {
+                const GeoFrame& earth = now->model->world.frame;
+                return Sees(*now, earth.ToWorld(FromWire(a)), earth.ToWorld(FromWire(b)));
+              });
   api.Read("simGetWorldExtents", [&api](const Snapshot& now) {
     const Box3f& bounds = api.session().objects().scene().bounds;
-    return std::vector<airsim::GeoPoint>{GeoPointOf(now, VecCast<double>(bounds.min)),
-                                         GeoPointOf(now, VecCast<double>(bounds.max))};
+    return std::vector<airsim::GeoPoint>{GeoPointOf(now, VecCast<double>(bounds.min)), GeoPointOf(now, VecCast<double>(bounds.max))};
   });
 }
 
@@ -110,11 +108,10 @@ void AddWorldCalls(Api& api) {
     if (!(Norm(wind_W) <= kStrongest)) throw std::invalid_argument("a wind of more than 200 m/s");
     s.state().wind_W = wind_W;
   });
-  api.Picture("simCreateVoxelGrid",
-              [](ImageService& images, const SnapshotPointer& now, const airsim::Vector3r& position,
-                 uint32_t x, uint32_t y, uint32_t z, float resolution, Text file) {
-                return CreateVoxelGrid(images.session(), *now, position, {x, y, z}, resolution, file);
-              });
+  api.Picture("simCreateVoxelGrid", [](ImageService& images, const SnapshotPointer& now, const airsim::Vector3r& position, uint32_t x,
+                                       uint32_t y, uint32_t z, float resolution, Text file) {
+    return CreateVoxelGrid(images.session(), *now, position, {x, y, z}, resolution, file);
+  });
 }
 
 void AddPlotCalls(Api& api) {
@@ -125,17 +122,16 @@ void AddPlotCalls(Api& api) {
       AddPlot(s.world(), points.size(), is_persistent);
     });
   }
-  api.Change("simPlotArrows", [](Session& s, Points from, Points, Color, float, float, airsim::Seconds,
-                                 bool is_persistent) { AddPlot(s.world(), from.size(), is_persistent); });
-  api.Change("simPlotStrings", [](Session& s, const std::vector<std::string>& texts, Points, float, Color,
-                                  airsim::Seconds) { AddPlot(s.world(), texts.size(), false); });
-  api.Change("simPlotTransforms",
-             [](Session& s, const std::vector<airsim::Pose>& poses, float, float, airsim::Seconds, bool is_persistent) {
-               AddPlot(s.world(), poses.size(), is_persistent);
-             });
-  api.Change("simPlotTransformsWithNames",
-             [](Session& s, const std::vector<airsim::Pose>& poses, const std::vector<std::string>&, float,
-                float, float, Color, airsim::Seconds) { AddPlot(s.world(), poses.size(), false); });
+  api.Change("simPlotArrows", [](Session& s, Points from, Points, Color, float, float, airsim::Seconds, bool is_persistent) {
+    AddPlot(s.world(), from.size(), is_persistent);
+  });
+  api.Change("simPlotStrings", [](Session& s, const std::vector<std::string>& texts, Points, float, Color, airsim::Seconds) {
+    AddPlot(s.world(), texts.size(), false);
+  });
+  api.Change("simPlotTransforms", [](Session& s, const std::vector<airsim::Pose>& poses, float, float, airsim::Seconds,
+                                     bool is_persistent) { AddPlot(s.world(), poses.size(), is_persistent); });
+  api.Change("simPlotTransformsWithNames", [](Session& s, const std::vector<airsim::Pose>& poses, const std::vector<std::string>&, float,
+                                              float, float, Color, airsim::Seconds) { AddPlot(s.world(), poses.size(), false); });
   api.Change("simFlushPersistentMarkers", [](Session& s) { s.world().plots.persistent = 0; });
   api.Read("simSetTraceLine", [](const Snapshot& now, Color, float, Text vehicle) {
     now.Find(vehicle);

@@ -94,8 +94,7 @@ Camera PinholeOf(const CaptureSettings& capture) {
 }
 
 Camera ProjectionOf(const CameraSetup& setup, airsim::ImageType type) {
-  if (setup.panorama != PanoramaKind::kNone)
-    return Equirectangular{setup.panorama_width, setup.panorama_height};
+  if (setup.panorama != PanoramaKind::kNone) return Equirectangular{setup.panorama_width, setup.panorama_height};
   return PinholeOf(setup.captures.at(type));
 }
 

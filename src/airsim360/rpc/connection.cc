@@ -12,7 +12,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr size_t kReadBytes = size_t{64} << 10;   // in one turn
+constexpr size_t kReadBytes = size_t{64} << 10;  // in one turn
 constexpr size_t kFlushBytes = size_t{1} << 20;  // in one turn of the server's thread
 
 bool WouldBlock(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }

@@ -46,9 +46,7 @@ class Connection {
   void Abandon();
 
   /// Whether nothing is to be read from the client before it has got answers.
-  bool is_full() const {
-    return unanswered_ >= limits_.unanswered || unanswered_bytes_ >= limits_.unanswered_bytes;
-  }
+  bool is_full() const { return unanswered_ >= limits_.unanswered || unanswered_bytes_ >= limits_.unanswered_bytes; }
   /// A message of so many bytes that was handed over is answered.
   void Settle(size_t message_bytes);
   bool has_called() const { return has_called_; }

@@ -36,15 +36,14 @@ airsim::DetectionInfo Describe(const Entity& entity, const std::string& name, co
   }
   info.box3D.min = airsim::ToVector(low);
   info.box3D.max = airsim::ToVector(high);
-  info.relative_pose = {airsim::ToVector(FrdFromBody(X_AO.p)),
-                        airsim::ToQuaternionr(NedRotation(X_WA.R).transpose() * NedAttitude(place))};
+  info.relative_pose = {airsim::ToVector(FrdFromBody(X_AO.p)), airsim::ToQuaternionr(NedRotation(X_WA.R).transpose() * NedAttitude(place))};
   return info;
 }
 
 }  // namespace
 
-std::vector<airsim::DetectionInfo> DetectionsIn(const ImageService::View& view, const Snapshot& now,
-                                                const ObjectIndex& objects, const DetectionFilter& filter) {
+std::vector<airsim::DetectionInfo> DetectionsIn(const ImageService::View& view, const Snapshot& now, const ObjectIndex& objects,
+                                                const DetectionFilter& filter) {
   std::map<EntityId, Pixels> seen;
   const Image<EntityId>& entities = view.frame->entity;
   for (int y = 0; y < entities.height(); ++y) {
@@ -59,8 +58,7 @@ std::vector<airsim::DetectionInfo> DetectionsIn(const ImageService::View& view, 
   for (const auto& [id, pixels] : seen) {
     const Entity& entity = objects.scene().entity(id);
     const std::string& name = objects.NameOf(id, now.world->names);
-    const bool wanted =
-        std::ranges::any_of(matchers, [&](PatternMatcher& matcher) { return matcher.Matches(name); });
+    const bool wanted = std::ranges::any_of(matchers, [&](PatternMatcher& matcher) { return matcher.Matches(name); });
     if (!wanted || id == objects.scene().sky_entity) continue;
     const ObjectPlace place = PlaceNow(now, objects, id);
     if (Norm(place.X_WO.p - X_WA.p) > filter.radius) continue;

@@ -6,7 +6,7 @@
 namespace airsim360 {
 
 /// Objects seen in the labels of a view whose names match and whose centres are near enough.
-std::vector<airsim::DetectionInfo> DetectionsIn(const ImageService::View& view, const Snapshot& now,
-                                                const ObjectIndex& objects, const DetectionFilter& filter);
+std::vector<airsim::DetectionInfo> DetectionsIn(const ImageService::View& view, const Snapshot& now, const ObjectIndex& objects,
+                                                const DetectionFilter& filter);
 
 }  // namespace airsim360

@@ -71,14 +71,9 @@ class RotateTask : public FlightTask {
 
 class ManualTask : public FlightTask {
  public:
-  ManualTask(const FlightView& start, double vx_max, double vy_max, double z_min, double duration,
-             airsim::DrivetrainType drivetrain, const airsim::YawMode& yaw)
-      : start_yaw_(start.yaw_deg / kDegrees),
-        vx_max_(vx_max),
-        vy_max_(vy_max),
-        z_min_(z_min),
-        drivetrain_(drivetrain),
-        yaw_(yaw) {
+  ManualTask(const FlightView& start, double vx_max, double vy_max, double z_min, double duration, airsim::DrivetrainType drivetrain,
+             const airsim::YawMode& yaw)
+      : start_yaw_(start.yaw_deg / kDegrees), vx_max_(vx_max), vy_max_(vy_max), z_min_(z_min), drivetrain_(drivetrain), yaw_(yaw) {
     timeout = duration;
     result_at_timeout = true;
   }
@@ -108,13 +103,11 @@ double CheckedLookahead(const PathOptions& options) {
   const double turn_distance = options.velocity * kTaskPeriod, lookahead = options.lookahead;
   if (lookahead == 0) throw std::invalid_argument("lookahead distance cannot be 0");
   if (lookahead > 0 && turn_distance > lookahead) {
-    throw std::invalid_argument("lookahead value " + std::to_string(lookahead) +
-                                " is too small for velocity " + std::to_string(options.velocity) +
-                                ". It must be at least " + std::to_string(turn_distance));
+    throw std::invalid_argument("lookahead value " + std::to_string(lookahead) + " is too small for velocity " +
+                                std::to_string(options.velocity) + ". It must be at least " + std::to_string(turn_distance));
   }
   if (lookahead > 0 && kDistanceAccuracy > lookahead) {
-    throw std::invalid_argument("lookahead value " + std::to_string(lookahead) +
-                                " is smaller than drone's distance accuracy " +
+    throw std::invalid_argument("lookahead value " + std::to_string(lookahead) + " is smaller than drone's distance accuracy " +
                                 std::to_string(kDistanceAccuracy) + ".");
   }
   if (lookahead > 0) return lookahead;
@@ -125,8 +118,7 @@ double CheckedLookahead(const PathOptions& options) {
 
 class PathTask : public FlightTask {
  public:
-  PathTask(const FlightView& start, const std::vector<Vec3d>& path_N, double seconds,
-           const PathOptions& options)
+  PathTask(const FlightView& start, const std::vector<Vec3d>& path_N, double seconds, const PathOptions& options)
       : options_(options), lookahead_(CheckedLookahead(options)) {
     timeout = seconds;
     points_.push_back(start.p_N);
@@ -148,9 +140,8 @@ class PathTask : public FlightTask {
  private:
   // The place at arc length s.
   Vec3d At(double s) const {
-    const size_t next = std::min<size_t>(
-        static_cast<size_t>(std::upper_bound(lengths_.begin(), lengths_.end(), s) - lengths_.begin()),
-        lengths_.size() - 1);
+    const size_t next = std::min<size_t>(static_cast<size_t>(std::upper_bound(lengths_.begin(), lengths_.end(), s) - lengths_.begin()),
+                                         lengths_.size() - 1);
     const double length = lengths_[next] - lengths_[next - 1];
     const double share = length > 0 ? std::clamp((s - lengths_[next - 1]) / length, 0.0, 1.0) : 1;
     return points_[next - 1] + (points_[next] - points_[next - 1]) * share;
@@ -202,25 +193,20 @@ airsim::YawMode AdjustYaw(Vec3d v_N, airsim::DrivetrainType drivetrain, airsim::
   if (drivetrain != airsim::DrivetrainType::kForwardOnly || yaw.is_rate) return yaw;
   // Too slow for a direction: the heading stays.
   if (Norm(v_N) <= kDistanceAccuracy) return kNoTurning;
-  yaw.yaw_or_rate =
-      static_cast<float>(NormalizedDegrees(yaw.yaw_or_rate + std::atan2(v_N.y, v_N.x) * kDegrees));
+  yaw.yaw_or_rate = static_cast<float>(NormalizedDegrees(yaw.yaw_or_rate + std::atan2(v_N.y, v_N.x) * kDegrees));
   return yaw;
 }
 
-TaskPointer MakeTimedTask(Command command, double duration) {
-  return std::make_unique<TimedTask>(std::move(command), duration);
-}
-TaskPointer MakePathTask(const FlightView& start, const std::vector<Vec3d>& path_N, double timeout,
-                         const PathOptions& options) {
+TaskPointer MakeTimedTask(Command command, double duration) { return std::make_unique<TimedTask>(std::move(command), duration); }
+TaskPointer MakePathTask(const FlightView& start, const std::vector<Vec3d>& path_N, double timeout, const PathOptions& options) {
   return std::make_unique<PathTask>(start, path_N, timeout, options);
 }
 TaskPointer MakeLandTask(double timeout) { return std::make_unique<LandTask>(timeout); }
-TaskPointer MakeRotateTask(const FlightView& start, double yaw_deg, double margin_deg, double timeout,
-                           bool wrap) {
+TaskPointer MakeRotateTask(const FlightView& start, double yaw_deg, double margin_deg, double timeout, bool wrap) {
   return std::make_unique<RotateTask>(start, yaw_deg, margin_deg, timeout, wrap);
 }
-TaskPointer MakeManualTask(const FlightView& start, double vx_max, double vy_max, double z_min,
-                           double duration, airsim::DrivetrainType drivetrain, const airsim::YawMode& yaw) {
+TaskPointer MakeManualTask(const FlightView& start, double vx_max, double vy_max, double z_min, double duration,
+                           airsim::DrivetrainType drivetrain, const airsim::YawMode& yaw) {
   return std::make_unique<ManualTask>(start, vx_max, vy_max, z_min, duration, drivetrain, yaw);
 }
 

@@ -15,8 +15,8 @@ inline constexpr double kTaskPeriod = 0.02;  ///< seconds between commands
 /// What a move sees of its drone: N relative to the drone's own origin.
 struct FlightView {
   Vec3d p_N, v_N;
-  double yaw_deg = 0;   ///< clockwise from north
-  double yaw_rate = 0;  ///< rad/s, about F's z axis
+  double yaw_deg = 0;    ///< clockwise from north
+  double yaw_rate = 0;   ///< rad/s, about F's z axis
   bool touches = false;  ///< something, within the last tenth of a second
   Vec3d origin_W;
   airsim::RCData rc;
@@ -51,17 +51,15 @@ using TaskPointer = std::unique_ptr<FlightTask>;
 TaskPointer MakeTimedTask(Command command, double duration);
 /// Chases a point that runs along the polyline from where the drone is. std::invalid_argument with AirSim's
 /// texts for a lookahead that makes no sense.
-TaskPointer MakePathTask(const FlightView& start, const std::vector<Vec3d>& path_N, double timeout,
-                         const PathOptions& options);
+TaskPointer MakePathTask(const FlightView& start, const std::vector<Vec3d>& path_N, double timeout, const PathOptions& options);
 /// Sinks at 0.2 m/s until something below has stopped it. (AirSim's also ends where a faster descent is caught so hard that
 /// the drone rises for a moment: scripts that then disarm drop it.)
 TaskPointer MakeLandTask(double timeout);
 /// Turns in place. `wrap`: the error is measured round the circle (AirSim does not).
-TaskPointer MakeRotateTask(const FlightView& start, double yaw_deg, double margin_deg, double timeout,
-                           bool wrap);
+TaskPointer MakeRotateTask(const FlightView& start, double yaw_deg, double margin_deg, double timeout, bool wrap);
 /// Follows the sticks of the remote control.
-TaskPointer MakeManualTask(const FlightView& start, double vx_max, double vy_max, double z_min,
-                           double duration, airsim::DrivetrainType drivetrain, const airsim::YawMode& yaw);
+TaskPointer MakeManualTask(const FlightView& start, double vx_max, double vy_max, double z_min, double duration,
+                           airsim::DrivetrainType drivetrain, const airsim::YawMode& yaw);
 
 /// The yaw mode of a velocity: along it where the drone may only fly forwards.
 airsim::YawMode AdjustYaw(Vec3d v_N, airsim::DrivetrainType drivetrain, airsim::YawMode yaw);

@@ -35,8 +35,8 @@ std::optional<bool> Fly(FlightTask& task, ToyDrone& drone, double seconds, doubl
 TEST(FlightTask, PathsEndNearTheirLastPoint) {
   for (const double velocity : {0.5, 2.0, 5.0}) {
     ToyDrone drone;
-    const auto task = MakePathTask(drone.view, {{10, 0, -5}, {10, 10, -5}, {0, 10, -5}}, 1e9,
-                                   {.velocity = velocity, .drivetrain = {}, .yaw = kYaw});
+    const auto task =
+        MakePathTask(drone.view, {{10, 0, -5}, {10, 10, -5}, {0, 10, -5}}, 1e9, {.velocity = velocity, .drivetrain = {}, .yaw = kYaw});
     double fastest = 0;
     EXPECT_EQ(Fly(*task, drone, 400, &fastest), true) << velocity;
     EXPECT_LT(Norm(drone.view.p_N - Vec3d{0, 10, -5}), 0.6 + 0.3 * velocity);
@@ -46,8 +46,7 @@ TEST(FlightTask, PathsEndNearTheirLastPoint) {
 
 TEST(FlightTask, ShortWaysAreFlownThoughTheLookaheadIsLonger) {
   ToyDrone drone;
-  const auto task =
-      MakePathTask(drone.view, {{2, 0, 0}}, 1e9, {.velocity = 5, .drivetrain = {}, .yaw = kYaw});
+  const auto task = MakePathTask(drone.view, {{2, 0, 0}}, 1e9, {.velocity = 5, .drivetrain = {}, .yaw = kYaw});
   EXPECT_EQ(Fly(*task, drone, 60), true);
   EXPECT_GT(drone.view.p_N.x, 1.4);
 }
@@ -55,8 +54,7 @@ TEST(FlightTask, ShortWaysAreFlownThoughTheLookaheadIsLonger) {
 TEST(FlightTask, NowhereToGoEndsAtOnce) {
   ToyDrone drone;
   drone.view.p_N = {1, 2, 3};
-  const auto task =
-      MakePathTask(drone.view, {{1, 2, 3}}, 1e9, {.velocity = 5, .drivetrain = {}, .yaw = kYaw});
+  const auto task = MakePathTask(drone.view, {{1, 2, 3}}, 1e9, {.velocity = 5, .drivetrain = {}, .yaw = kYaw});
   EXPECT_EQ(task->Turn(drone.view).result, true);
 }
 
@@ -77,8 +75,7 @@ TEST(FlightTask, CreepingWithinTheAccuracyOfTheEndIsTheEnd) {
 TEST(FlightTask, SlowingDownOvershootsLess) {
   const auto overshoot = [](bool slow_down) {
     ToyDrone drone;
-    const auto task = MakePathTask(drone.view, {{30, 0, 0}}, 1e9,
-                                   {.velocity = 8, .drivetrain = {}, .yaw = kYaw, .slow_down = slow_down});
+    const auto task = MakePathTask(drone.view, {{30, 0, 0}}, 1e9, {.velocity = 8, .drivetrain = {}, .yaw = kYaw, .slow_down = slow_down});
     Fly(*task, drone, 100);
     // Afterwards it is told to stop.
     for (int i = 0; i < 200; ++i) drone.Follow(NedVelocity({}, kYaw));
@@ -90,9 +87,7 @@ TEST(FlightTask, SlowingDownOvershootsLess) {
 
 TEST(FlightTask, LookaheadsThatMakeNoSenseAreRefused) {
   const FlightView view;
-  const auto refused = [&](PathOptions options) {
-    EXPECT_THROW(MakePathTask(view, {{1, 0, 0}}, 1, options), std::invalid_argument);
-  };
+  const auto refused = [&](PathOptions options) { EXPECT_THROW(MakePathTask(view, {{1, 0, 0}}, 1, options), std::invalid_argument); };
   refused({.velocity = 1, .drivetrain = {}, .yaw = kYaw, .lookahead = 0});
   refused({.velocity = 1, .drivetrain = {}, .yaw = kYaw, .lookahead = 0.4});
   refused({.velocity = 100, .drivetrain = {}, .yaw = kYaw, .lookahead = 1});
@@ -130,8 +125,7 @@ TEST(FlightTask, ForwardOnlyTurnsAlongTheWay) {
   const airsim::YawMode yaw = AdjustYaw({0, 2, 0}, airsim::DrivetrainType::kForwardOnly, {false, 10});
   EXPECT_NEAR(yaw.yaw_or_rate, 100, 1e-4);
   EXPECT_TRUE(AdjustYaw({0.1, 0, 0}, airsim::DrivetrainType::kForwardOnly, {false, 10}).is_rate);
-  EXPECT_NEAR(AdjustYaw({0, 2, 0}, airsim::DrivetrainType::kMaxDegreeOfFreedom, {false, 10}).yaw_or_rate, 10,
-              0);
+  EXPECT_NEAR(AdjustYaw({0, 2, 0}, airsim::DrivetrainType::kMaxDegreeOfFreedom, {false, 10}).yaw_or_rate, 10, 0);
 }
 
 TEST(NedCommands, SignsAreOurs) {

@@ -69,9 +69,7 @@ Rgb8 FlowColor(const FlowPixel& flow) {
   return {channel(5), channel(3), channel(1)};
 }
 
-uint8_t UnitByte(float value) {
-  return static_cast<uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
-}
+uint8_t UnitByte(float value) { return static_cast<uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))); }
 
 // World normal as a game engine paints it: north, east, up from -1 … 1 to 0 … 255.
 Rgb8 NormalColor(Vec3f n_W) {
@@ -79,8 +77,7 @@ Rgb8 NormalColor(Vec3f n_W) {
   return {UnitByte(0.5f + 0.5f * n_W.y), UnitByte(0.5f + 0.5f * n_W.x), UnitByte(0.5f + 0.5f * n_W.z)};
 }
 
-Rgb8 ColorAt(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options,
-             int x, int y) {
+Rgb8 ColorAt(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options, int x, int y) {
   const auto gray = [](uint8_t v) { return Rgb8{v, v, v}; };
   switch (content) {
     case ImageContent::kColor:
@@ -106,15 +103,13 @@ Rgb8 ColorAt(ImageContent content, const Frame& frame, const Camera& camera, con
       return gray(UnitByte(DepthAt(content, frame, camera, x, y, false)));
     default: {
       const float range = frame.range(x, y);
-      if (options.centimetres)
-        return gray(range <= 0 ? 255 : static_cast<uint8_t>(std::min(range * 100, 255.0f)));
+      if (options.centimetres) return gray(range <= 0 ? 255 : static_cast<uint8_t>(std::min(range * 100, 255.0f)));
       return gray(UnitByte(DepthAt(ImageContent::kDepthShade, frame, camera, x, y, false)));
     }
   }
 }
 
-float FloatAt(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options,
-              int x, int y) {
+float FloatAt(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options, int x, int y) {
   switch (content) {
     case ImageContent::kEntity:
       return static_cast<float>(frame.entity(x, y));
@@ -146,9 +141,8 @@ float RoundToHalf(float value) {
 
 ImageContent ContentOf(const CameraSetup& camera, airsim::ImageType type) {
   using airsim::ImageType;
-  constexpr ImageContent kPanoramas[] = {
-      ImageContent::kColor,  ImageContent::kColor,  ImageContent::kRange, ImageContent::kSegmentation,
-      ImageContent::kEntity, ImageContent::kNormal, ImageContent::kFlow};
+  constexpr ImageContent kPanoramas[] = {ImageContent::kColor,  ImageContent::kColor,  ImageContent::kRange, ImageContent::kSegmentation,
+                                         ImageContent::kEntity, ImageContent::kNormal, ImageContent::kFlow};
   if (type == ImageType::kScene) return kPanoramas[static_cast<int>(camera.panorama)];
   switch (type) {
     case ImageType::kDepthPlanar:
@@ -210,8 +204,7 @@ bool CommonRow(ImageContent content, const Frame& frame, int y, bool rgb_order, 
   static_assert(sizeof(Rgb8) == 3 && sizeof(EntityId) == 4 && std::endian::native == std::endian::little);
   if (content == ImageContent::kColor) {
     const auto row = frame.rgb.row(y);
-    rgb_order ? (void)std::memcpy(out, row.data(), row.size_bytes())
-              : SwapTriples<sizeof(Rgb8)>(row.data(), row.size(), out);
+    rgb_order ? (void)std::memcpy(out, row.data(), row.size_bytes()) : SwapTriples<sizeof(Rgb8)>(row.data(), row.size(), out);
     return true;
   }
   if (content == ImageContent::kEntity && !rgb_order) {
@@ -233,13 +226,10 @@ bool CommonRow(ImageContent content, const Frame& frame, int y, bool half, float
   return true;
 }
 
-bool IsFlow(ImageContent content) {
-  return content == ImageContent::kFlow || content == ImageContent::kFlowShade;
-}
+bool IsFlow(ImageContent content) { return content == ImageContent::kFlow || content == ImageContent::kFlowShade; }
 
 // Row y as floats, one a pixel or two of flow.
-void FloatRow(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options, int y,
-              float* out) {
+void FloatRow(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options, int y, float* out) {
   if (CommonRow(content, frame, y, options.half_depth, out)) return;
   for (int x = 0; x < Width(camera); ++x) {
     if (IsFlow(content)) {
@@ -251,19 +241,14 @@ void FloatRow(ImageContent content, const Frame& frame, const Camera& camera, co
   }
 }
 
-size_t FloatsInRow(ImageContent content, const Camera& camera) {
-  return static_cast<size_t>(Width(camera)) * (IsFlow(content) ? 2 : 1);
-}
+size_t FloatsInRow(ImageContent content, const Camera& camera) { return static_cast<size_t>(Width(camera)) * (IsFlow(content) ? 2 : 1); }
 
 }  // namespace
 
-std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
-                                 const PixelOptions& options) {
+std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options) {
   const size_t row = FloatsInRow(content, camera);
   std::vector<float> pixels(row * static_cast<size_t>(Height(camera)));
-  ForRows(camera, [&](int y) {
-    FloatRow(content, frame, camera, options, y, pixels.data() + row * static_cast<size_t>(y));
-  });
+  ForRows(camera, [&](int y) { FloatRow(content, frame, camera, options, y, pixels.data() + row * static_cast<size_t>(y)); });
   return pixels;
 }
 
@@ -273,8 +258,8 @@ size_t PixelBytes(ImageContent content, const Camera& camera, bool as_float, boo
   return FloatsInRow(content, camera) * rows * (binary ? sizeof(float) : kWireFloatBytes);
 }
 
-airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const Camera& camera,
-                                 const PixelOptions& options, bool binary, const TakeBytes& take) {
+airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options, bool binary,
+                                 const TakeBytes& take) {
   const size_t row = FloatsInRow(content, camera), count = row * static_cast<size_t>(Height(camera));
   const size_t size = binary ? sizeof(float) : kWireFloatBytes;
   const std::shared_ptr<char[]> bytes = take(PixelBytes(content, camera, true, binary));
@@ -288,8 +273,7 @@ airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const
   return {count, binary, {bytes, count * size}};
 }
 
-WireBlock BytePixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
-                      const PixelOptions& options, const TakeBytes& take) {
+WireBlock BytePixelsOf(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options, const TakeBytes& take) {
   const int width = Width(camera);
   const size_t size = PixelBytes(content, camera, false, false);
   const std::shared_ptr<char[]> pixels = take(size);
@@ -305,8 +289,7 @@ WireBlock BytePixelsOf(ImageContent content, const Frame& frame, const Camera& c
   return {pixels, size};
 }
 
-std::string PngOf(ImageContent content, const Frame& frame, const Camera& camera,
-                  const PixelOptions& options) {
+std::string PngOf(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options) {
   Image<Rgb8> image(Width(camera), Height(camera));
   ForRows(camera, [&](int y) {
     for (int x = 0; x < image.width(); ++x) image(x, y) = ColorAt(content, frame, camera, options, x, y);

@@ -30,9 +30,9 @@ ImageContent ContentOf(const CameraSetup& camera, airsim::ImageType type);
 void AddProducts(ImageContent content, Products& products);
 
 struct PixelOptions {
-  bool half_depth = true;    ///< depth is rounded to half precision, as AirSim's readback does
-  bool centimetres = false;  ///< 8-bit range is centimetres, held at 255
-  bool rgb_order = false;    ///< bytes of uncompressed pictures are R, G, B
+  bool half_depth = true;                               ///< depth is rounded to half precision, as AirSim's readback does
+  bool centimetres = false;                             ///< 8-bit range is centimetres, held at 255
+  bool rgb_order = false;                               ///< bytes of uncompressed pictures are R, G, B
   std::vector<uint32_t> const* segmentation = nullptr;  ///< id by entity
   std::vector<uint32_t> const* annotation = nullptr;
 };
@@ -44,17 +44,14 @@ inline constexpr float kSkyDepth = 65504;
 /// binary and five else.
 size_t PixelBytes(ImageContent content, const Camera& camera, bool as_float, bool binary);
 /// One float a pixel, two of flow.
-std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
-                                 const PixelOptions& options);
+std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options);
 /// The same as it is sent; see airsim::FloatPixels.
-airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const Camera& camera,
-                                 const PixelOptions& options, bool binary, const TakeBytes& take);
+airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options, bool binary,
+                                 const TakeBytes& take);
 /// Three bytes a pixel in the order B, G, R, or R, G, B as the options say.
-WireBlock BytePixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
-                      const PixelOptions& options, const TakeBytes& take);
+WireBlock BytePixelsOf(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options, const TakeBytes& take);
 /// A PNG of the same picture.
-std::string PngOf(ImageContent content, const Frame& frame, const Camera& camera,
-                  const PixelOptions& options);
+std::string PngOf(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options);
 
 /// Rounded to the nearest half-precision number, ties to even; at most 65504.
 float RoundToHalf(float value);

@@ -108,9 +108,9 @@ TEST(ImageProducts, EveryPixelOfARowIsSwappedAndNothingBehindIt) {
       const WireBlock block = BytePixelsOf(content, frame, camera, {}, guarded);
       for (int x = 0; x < width; ++x) {
         const EntityId id = frame.entity(x, 0);
-        const Rgb8 c = content == ImageContent::kColor ? frame.rgb(x, 0)
-                                                       : Rgb8{static_cast<uint8_t>(id), static_cast<uint8_t>(id >> 8),
-                                                              static_cast<uint8_t>(id >> 16)};
+        const Rgb8 c = content == ImageContent::kColor
+                           ? frame.rgb(x, 0)
+                           : Rgb8{static_cast<uint8_t>(id), static_cast<uint8_t>(id >> 8), static_cast<uint8_t>(id >> 16)};
         const uint8_t expected[] = {c.b, c.g, c.r};
         ASSERT_EQ(std::memcmp(block.data() + 3 * x, expected, 3), 0) << width << " " << x;
       }

@@ -105,12 +105,10 @@ std::shared_ptr<const SceneState> ImageService::StateOf(const Snapshot& snapshot
 }
 
 // Adds the objects that calls have moved.
-std::shared_ptr<const SceneState> ImageService::WithObjects(const Snapshot& snapshot,
-                                                            std::shared_ptr<const SceneState> bodies) const {
+std::shared_ptr<const SceneState> ImageService::WithObjects(const Snapshot& snapshot, std::shared_ptr<const SceneState> bodies) const {
   if (snapshot.world->places.empty()) return bodies;
   auto state = bodies ? std::make_shared<SceneState>(*bodies) : std::make_shared<SceneState>();
-  for (const auto& [entity, place] : snapshot.world->places)
-    session_.objects().Move(entity, place, state->moved);
+  for (const auto& [entity, place] : snapshot.world->places) session_.objects().Move(entity, place, state->moved);
   std::sort(state->moved.begin(), state->moved.end(),
             [](const MovedInstance& a, const MovedInstance& b) { return a.instance < b.instance; });
   return state;
@@ -137,9 +135,8 @@ const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot
   return frame_;
 }
 
-airsim::ImageResponse ImageService::Respond(const airsim::ImageRequest& request, ImageContent content,
-                                            const Snapshot& snapshot, const Shot& shot,
-                                            Vec3d origin_W, LentRegion* region) {
+airsim::ImageResponse ImageService::Respond(const airsim::ImageRequest& request, ImageContent content, const Snapshot& snapshot,
+                                            const Shot& shot, Vec3d origin_W, LentRegion* region) {
   airsim::ImageResponse response;
   response.camera_name = request.camera_name.text;
   response.image_type = request.image_type;
@@ -154,8 +151,7 @@ airsim::ImageResponse ImageService::Respond(const airsim::ImageRequest& request,
   response.camera_orientation = pose.orientation;
 
   const AirSimSettings& settings = session_.settings();
-  PixelOptions options{.half_depth = !settings.float32_depth && !request.binary_float &&
-                                     std::holds_alternative<Pinhole>(shot.camera),
+  PixelOptions options{.half_depth = !settings.float32_depth && !request.binary_float && std::holds_alternative<Pinhole>(shot.camera),
                        .centimetres = settings.depth_in_centimetres && content == ImageContent::kRange,
                        .rgb_order = settings.cosys,
                        .segmentation = &snapshot.world->segmentation};
@@ -193,16 +189,14 @@ size_t ImageService::SocketBytes(const std::vector<Shot>& shots, const std::vect
 }
 
 // Requests that the same rays can answer are one shot.
-std::vector<ImageService::Shot> ImageService::PlanShots(const std::vector<airsim::ImageRequest>& requests,
-                                                        const Snapshot& snapshot, size_t vehicle,
-                                                        bool external) const {
+std::vector<ImageService::Shot> ImageService::PlanShots(const std::vector<airsim::ImageRequest>& requests, const Snapshot& snapshot,
+                                                        size_t vehicle, bool external) const {
   const CameraMap& cameras = external ? snapshot.world->external_cameras : snapshot.world->cameras[vehicle];
   std::vector<Shot> shots;
   for (size_t i = 0; i < requests.size(); ++i) {
     const airsim::ImageType type = requests[i].image_type;
     if (static_cast<unsigned>(type) >= static_cast<unsigned>(airsim::ImageType::kCount)) {
-      throw std::invalid_argument("image_type " + std::to_string(static_cast<int>(type)) +
-                                  " is not in 0 ... 11");
+      throw std::invalid_argument("image_type " + std::to_string(static_cast<int>(type)) + " is not in 0 ... 11");
     }
     const CameraSetup& camera = FindCamera(cameras, requests[i].camera_name.text);
     Shot shot;
@@ -216,8 +210,7 @@ std::vector<ImageService::Shot> ImageService::PlanShots(const std::vector<airsim
       shot.X_BA = camera.X_BA;
     }
     const auto same = std::find_if(shots.begin(), shots.end(), [&](const Shot& other) {
-      return SameProjection(other.camera, shot.camera) && other.X_WA.p == shot.X_WA.p &&
-             other.X_WA.R == shot.X_WA.R;
+      return SameProjection(other.camera, shot.camera) && other.X_WA.p == shot.X_WA.p && other.X_WA.R == shot.X_WA.R;
     });
     Shot& chosen = same == shots.end() ? shots.emplace_back(std::move(shot)) : *same;
     const ImageContent content = ContentOf(camera, type);
@@ -228,23 +221,19 @@ std::vector<ImageService::Shot> ImageService::PlanShots(const std::vector<airsim
 }
 
 // Where a panorama is asked for, everything is of the instant of its trigger.
-SnapshotPointer ImageService::InstantFor(const std::vector<airsim::ImageRequest>& requests,
-                                         const SnapshotPointer& now, size_t vehicle) {
-  const bool panorama =
-      std::any_of(requests.begin(), requests.end(), [&](const airsim::ImageRequest& request) {
-        const CameraSetup& camera = FindCamera(now->world->cameras[vehicle], request.camera_name.text);
-        return camera.panorama != PanoramaKind::kNone;
-      });
+SnapshotPointer ImageService::InstantFor(const std::vector<airsim::ImageRequest>& requests, const SnapshotPointer& now, size_t vehicle) {
+  const bool panorama = std::any_of(requests.begin(), requests.end(), [&](const airsim::ImageRequest& request) {
+    const CameraSetup& camera = FindCamera(now->world->cameras[vehicle], request.camera_name.text);
+    return camera.panorama != PanoramaKind::kNone;
+  });
   if (!panorama) return now;
   const std::lock_guard lock(mutex_);
   const auto found = triggered_.find(now->vehicles[vehicle].name);
   return found == triggered_.end() ? now : found->second;
 }
 
-std::vector<airsim::ImageResponse> ImageService::Capture(const SnapshotPointer& now,
-                                                         const std::vector<airsim::ImageRequest>& requests,
-                                                         const std::string& vehicle, bool external,
-                                                         LentRegion* region) {
+std::vector<airsim::ImageResponse> ImageService::Capture(const SnapshotPointer& now, const std::vector<airsim::ImageRequest>& requests,
+                                                         const std::string& vehicle, bool external, LentRegion* region) {
   // Cameras of the world need no vehicle.
   external = external && vehicle.empty();
   const size_t index = external ? 0 : now->Find(vehicle);
@@ -270,8 +259,7 @@ std::vector<airsim::ImageResponse> ImageService::Capture(const SnapshotPointer& 
   return responses;
 }
 
-ImageService::View ImageService::RenderLabels(const Snapshot& snapshot, size_t vehicle,
-                                              const std::string& name, airsim::ImageType type) {
+ImageService::View ImageService::RenderLabels(const Snapshot& snapshot, size_t vehicle, const std::string& name, airsim::ImageType type) {
   const CameraSetup& camera = FindCamera(snapshot.world->cameras[vehicle], name);
   Shot shot;
   shot.camera = ProjectionOf(camera, type);

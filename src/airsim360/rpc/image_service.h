@@ -36,18 +36,15 @@ class ImageService {
   /// `region`: pixels that are not compressed are written there as far as they fit. std::exception for a camera or vehicle
   /// that there is not, and, before anything is rendered, for an answer beyond kMostReplyBytes; compressed pictures count when
   /// they are made.
-  std::vector<airsim::ImageResponse> Capture(const SnapshotPointer& now,
-                                             const std::vector<airsim::ImageRequest>& requests,
-                                             const std::string& vehicle, bool external,
-                                             LentRegion* region = nullptr);
+  std::vector<airsim::ImageResponse> Capture(const SnapshotPointer& now, const std::vector<airsim::ImageRequest>& requests,
+                                             const std::string& vehicle, bool external, LentRegion* region = nullptr);
   /// Labels (range, semantic, entity) of an ordinary camera now, and its pose.
   struct View {
     const Frame* frame;
     Camera camera;
     RigidTransform X_WC;
   };
-  View RenderLabels(const Snapshot& snapshot, size_t vehicle, const std::string& camera,
-                    airsim::ImageType type);
+  View RenderLabels(const Snapshot& snapshot, size_t vehicle, const std::string& camera, airsim::ImageType type);
   /// The scene of a snapshot as ray sensors of `vehicle` meet it: other drones, people and moved objects in their
   /// places, its own body hidden.
   std::shared_ptr<const RayTracer> TracerOf(const Snapshot& snapshot, size_t vehicle);
@@ -63,16 +60,13 @@ class ImageService {
   void FollowEnvironment(const WorldView& world);
   void MakeRendererFor(const WorldView& world);
   std::shared_ptr<const SceneState> StateOf(const Snapshot& snapshot, size_t self) const;
-  std::shared_ptr<const SceneState> WithObjects(const Snapshot& snapshot,
-                                                std::shared_ptr<const SceneState> bodies) const;
-  std::vector<Shot> PlanShots(const std::vector<airsim::ImageRequest>& requests, const Snapshot& snapshot,
-                              size_t vehicle, bool external) const;
-  SnapshotPointer InstantFor(const std::vector<airsim::ImageRequest>& requests, const SnapshotPointer& now,
-                             size_t vehicle);
-  static size_t SocketBytes(const std::vector<Shot>& shots, const std::vector<airsim::ImageRequest>& requests,
-                            const LentRegion* region);
-  airsim::ImageResponse Respond(const airsim::ImageRequest& request, ImageContent content,
-                                const Snapshot& snapshot, const Shot& shot, Vec3d origin_W, LentRegion* region);
+  std::shared_ptr<const SceneState> WithObjects(const Snapshot& snapshot, std::shared_ptr<const SceneState> bodies) const;
+  std::vector<Shot> PlanShots(const std::vector<airsim::ImageRequest>& requests, const Snapshot& snapshot, size_t vehicle,
+                              bool external) const;
+  SnapshotPointer InstantFor(const std::vector<airsim::ImageRequest>& requests, const SnapshotPointer& now, size_t vehicle);
+  static size_t SocketBytes(const std::vector<Shot>& shots, const std::vector<airsim::ImageRequest>& requests, const LentRegion* region);
+  airsim::ImageResponse Respond(const airsim::ImageRequest& request, ImageContent content, const Snapshot& snapshot, const Shot& shot,
+                                Vec3d origin_W, LentRegion* region);
 
   Session& session_;
   Stage& stage_;

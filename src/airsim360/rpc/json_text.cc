@@ -140,8 +140,7 @@ class Parser {
     unsigned code = 0;
     const std::string_view digits = c == 'u' ? text_.substr(at_ + 1, 4) : std::string_view();
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code, 16);
-    if (digits.size() != 4 || error != std::errc() || end != digits.data() + 4)
-      Fail("unknown escape in a text");
+    if (digits.size() != 4 || error != std::errc() || end != digits.data() + 4) Fail("unknown escape in a text");
     at_ += 4;
     AppendUtf8(code, out);
   }

@@ -11,9 +11,8 @@ void CheckReplyBytes(uint64_t bytes, std::string_view help) {
   if (bytes <= kMostReplyBytes) return;
   constexpr double kMib = 1 << 20;
   char text[160];
-  std::snprintf(text, sizeof text, "the answer would take %.1f MiB (%llu bytes) of at most %.0f MiB; ",
-                static_cast<double>(bytes) / kMib, static_cast<unsigned long long>(bytes),
-                static_cast<double>(kMostReplyBytes) / kMib);
+  std::snprintf(text, sizeof text, "the answer would take %.1f MiB (%llu bytes) of at most %.0f MiB; ", static_cast<double>(bytes) / kMib,
+                static_cast<unsigned long long>(bytes), static_cast<double>(kMostReplyBytes) / kMib);
   throw std::invalid_argument(text + std::string(help));
 }
 
@@ -40,10 +39,8 @@ void CheckVelocity(std::string_view name, Vec3d velocity, std::string_view unit)
   if (size <= kFastestState) return;
   const Vec3d nearest = velocity * (kFastestState / size);
   char text[320];
-  std::snprintf(text, sizeof text,
-                "%.40s: (%g, %g, %g) is %g %.10s, more than %g; the nearest is (%g, %g, %g)",
-                std::string(name).c_str(), velocity.x, velocity.y, velocity.z, size,
-                std::string(unit).c_str(), kFastestState, nearest.x, nearest.y, nearest.z);
+  std::snprintf(text, sizeof text, "%.40s: (%g, %g, %g) is %g %.10s, more than %g; the nearest is (%g, %g, %g)", std::string(name).c_str(),
+                velocity.x, velocity.y, velocity.z, size, std::string(unit).c_str(), kFastestState, nearest.x, nearest.y, nearest.z);
   throw std::invalid_argument(text);
 }
 

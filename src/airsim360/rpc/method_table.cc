@@ -12,13 +12,12 @@ void MethodTable::Call(const RpcMessage& message, const Reply& reply) const {
   const size_t given = message.arguments->items.size();
   const auto found = methods_.find(message.method);
   if (found == methods_.end()) {
-    return reply.Error("rpclib: server could not find function '" + std::string(message.method) +
-                       "' with argument count " + std::to_string(given) + ".");
+    return reply.Error("rpclib: server could not find function '" + std::string(message.method) + "' with argument count " +
+                       std::to_string(given) + ".");
   }
   const Method& method = found->second;
   if (given > method.most || given + method.optional < method.most) {
-    return reply.Error("rpclib: Function '" + found->first +
-                       "' was called with an invalid number of arguments. " +
+    return reply.Error("rpclib: Function '" + found->first + "' was called with an invalid number of arguments. " +
                        "Expected: " + std::to_string(method.most) + ", got: " + std::to_string(given));
   }
   try {

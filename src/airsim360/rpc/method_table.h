@@ -28,8 +28,7 @@ struct TupleTail<0, Tuple> {
   using type = Tuple;
 };
 template <size_t N, class First, class... Rest>
-struct TupleTail<N, std::tuple<First, Rest...>, std::enable_if_t<(N > 0)>>
-    : TupleTail<N - 1, std::tuple<Rest...>> {};
+struct TupleTail<N, std::tuple<First, Rest...>, std::enable_if_t<(N > 0)>> : TupleTail<N - 1, std::tuple<Rest...>> {};
 }  // namespace internal
 
 class MethodTable {

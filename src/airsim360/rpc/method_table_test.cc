@@ -26,7 +26,8 @@ class Caller {
     const RpcMessage message = ParseMessage(value);
     {
       const Reply reply(
-          message.id, method, count, [this](WireBlocks blocks) {
+          message.id, method, count,
+          [this](WireBlocks blocks) {
             answer.clear();
             for (const WireBlock& block : blocks) answer += block.view();
             ++answers;
@@ -36,9 +37,7 @@ class Caller {
     }
     return Decoded(answer);
   }
-  static WireValue Decoded(const std::string& bytes) {
-    return DecodeWire({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
-  }
+  static WireValue Decoded(const std::string& bytes) { return DecodeWire({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}); }
 
  private:
   std::string request_;
@@ -58,9 +57,8 @@ MethodTable SumTable() {
 TEST(MethodTable, CallsWithAllOrWithoutOptionalArguments) {
   const MethodTable table = SumTable();
   Caller caller;
-  WireValue answer = caller.Call(table, "add", 3, [](WireWriter& w) {
-    w.Double(1.5), w.MapHeader(1), w.String("x_val"), w.Int(2), w.Bool(true);
-  });
+  WireValue answer =
+      caller.Call(table, "add", 3, [](WireWriter& w) { w.Double(1.5), w.MapHeader(1), w.String("x_val"), w.Int(2), w.Bool(true); });
   EXPECT_EQ(answer.items[1].integer, 7);
   EXPECT_EQ(answer.items[2].kind, WireValue::Kind::kNil);
   EXPECT_EQ(answer.items[3].real, 4.5);
@@ -74,16 +72,14 @@ TEST(MethodTable, ErrorsAreThoseOfRpclib) {
   const auto error = [&](const char* method, size_t count, const auto& write) {
     return std::string(caller.Call(table, method, count, write).items[2].text);
   };
-  EXPECT_EQ(error("sub", 0, [](WireWriter&) {}),
-            "rpclib: server could not find function 'sub' with argument count 0.");
+  EXPECT_EQ(error("sub", 0, [](WireWriter&) {}), "rpclib: server could not find function 'sub' with argument count 0.");
   EXPECT_EQ(error("add", 1, [](WireWriter& w) { w.Int(1); }),
             "rpclib: Function 'add' was called with an invalid number of arguments. Expected: 3, got: 1");
   EXPECT_EQ(error("add", 2, [](WireWriter& w) { w.String("1"), w.MapHeader(0); }),
             "rpclib: function 'add' (called with 2 arg(s)) threw an exception. The exception contained this "
             "information: "
             "std::bad_cast. argument 1: a text is not a number.");
-  EXPECT_NE(error("add", 2, [](WireWriter& w) { w.Double(std::nan("")), w.MapHeader(0); }).find("nan"),
-            std::string::npos);
+  EXPECT_NE(error("add", 2, [](WireWriter& w) { w.Double(std::nan("")), w.MapHeader(0); }).find("nan"), std::string::npos);
 }
 
 TEST(Reply, IsGivenOnceAndNeverForgotten) {

@@ -22,9 +22,7 @@ double SwapHeading(double yaw) { return std::remainder(std::numbers::pi / 2 - ya
 
 namespace airsim {
 
-Vector3r ToVector(Vec3d v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
+Vector3r ToVector(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 Vec3d FromVector(const Vector3r& v) { return {v.x_val, v.y_val, v.z_val}; }
 
 Quaternionr ToQuaternionr(const Mat3d& R) {
@@ -35,8 +33,7 @@ Quaternionr ToQuaternionr(const Mat3d& R) {
 Mat3d FromQuaternionr(const Quaternionr& q) {
   const double w = q.w_val, x = q.x_val, y = q.y_val, z = q.z_val;
   const double length = std::sqrt(w * w + x * x + y * y + z * z);
-  if (!(length > 1e-6) || !std::isfinite(length))
-    throw std::invalid_argument("the orientation is no rotation");
+  if (!(length > 1e-6) || !std::isfinite(length)) throw std::invalid_argument("the orientation is no rotation");
   return ToMatrix({w / length, x / length, y / length, z / length});
 }
 
@@ -48,9 +45,7 @@ RigidTransform FromPose(const Pose& pose, Vec3d origin_W) {
   return {WorldRotation(FromQuaternionr(pose.orientation)), origin_W + NedFromWorld(FromVector(pose.position))};
 }
 
-Pose ToMount(const RigidTransform& X_BA) {
-  return {ToVector(FrdFromBody(X_BA.p)), ToQuaternionr(FrdRotation(X_BA.R))};
-}
+Pose ToMount(const RigidTransform& X_BA) { return {ToVector(FrdFromBody(X_BA.p)), ToQuaternionr(FrdRotation(X_BA.R))}; }
 
 RigidTransform FromMount(const Pose& pose) {
   return {FrdRotation(FromQuaternionr(pose.orientation)), FrdFromBody(FromVector(pose.position))};

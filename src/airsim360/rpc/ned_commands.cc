@@ -43,13 +43,11 @@ Command NedPosition(Vec3d p_N, const airsim::YawMode& yaw, Vec3d origin_W) {
   return command;
 }
 
-Command FrdAttitude(double roll, double pitch, double yaw, bool yaw_is_rate, NedVertical vertical,
-                    Vec3d origin_W) {
+Command FrdAttitude(double roll, double pitch, double yaw, bool yaw_is_rate, NedVertical vertical, Vec3d origin_W) {
   AttitudeCommand command;
   command.roll = roll;
   command.pitch = pitch;
-  command.yaw = yaw_is_rate ? YawTarget{YawTarget::Mode::kRate, -yaw}
-                            : YawTarget{YawTarget::Mode::kAngle, SwapHeading(yaw)};
+  command.yaw = yaw_is_rate ? YawTarget{YawTarget::Mode::kRate, -yaw} : YawTarget{YawTarget::Mode::kAngle, SwapHeading(yaw)};
   command.vertical = Vertical(vertical, origin_W);
   return command;
 }

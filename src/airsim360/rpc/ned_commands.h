@@ -18,8 +18,7 @@ Command NedVelocity(Vec3d v_N, const airsim::YawMode& yaw);
 Command NedVelocityZ(double vx, double vy, double z, const airsim::YawMode& yaw, Vec3d origin_W);
 Command NedPosition(Vec3d p_N, const airsim::YawMode& yaw, Vec3d origin_W);
 /// `yaw` is an angle of N, or a rate.
-Command FrdAttitude(double roll, double pitch, double yaw, bool yaw_is_rate, NedVertical vertical,
-                    Vec3d origin_W);
+Command FrdAttitude(double roll, double pitch, double yaw, bool yaw_is_rate, NedVertical vertical, Vec3d origin_W);
 Command FrdRates(Vec3d rates_F, NedVertical vertical, Vec3d origin_W);
 /// Signals 0 to 1 in AirSim's order: front right, rear left, front left, rear right.
 Command MotorSignals(const std::array<double, 4>& signals);

@@ -11,9 +11,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-void ExpectNear(Vec3d a, Vec3d b, double tolerance = 1e-6) {
-  EXPECT_LT(Norm(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
-}
+void ExpectNear(Vec3d a, Vec3d b, double tolerance = 1e-6) { EXPECT_LT(Norm(a - b), tolerance) << a.x << " " << a.y << " " << a.z; }
 
 TEST(Ned, NorthEastDownAreWhereTheNamesSay) {
   ExpectNear(NedFromWorld({0, 1, 0}), {1, 0, 0});   // north
@@ -42,8 +40,7 @@ TEST(Ned, NoseUpAndRightSideDownArePositivePitchAndRollOfF) {
 
 TEST(Ned, PosesComeBackAsTheyWent) {
   for (int i = 0; i < 50; ++i) {
-    const RigidTransform X =
-        BodyPose({i * 0.7 - 3, 2.0 - i, 0.3 * i}, i * 0.37, std::sin(i) * 1.2, i * 0.11 - 2);
+    const RigidTransform X = BodyPose({i * 0.7 - 3, 2.0 - i, 0.3 * i}, i * 0.37, std::sin(i) * 1.2, i * 0.11 - 2);
     const Vec3d origin{3, -4, 5};
     const RigidTransform back = airsim::FromPose(airsim::ToPose(X, origin), origin);
     ExpectNear(back.p, X.p, 1e-5);

@@ -43,9 +43,7 @@ const std::string& ObjectIndex::NameOf(EntityId entity, const ObjectNames& given
   return found == given.end() ? scene_->entity(entity).name : found->second;
 }
 
-const std::vector<uint32_t>& ObjectIndex::InstancesOf(EntityId entity) const {
-  return instances_[entity - 1];
-}
+const std::vector<uint32_t>& ObjectIndex::InstancesOf(EntityId entity) const { return instances_[entity - 1]; }
 
 ObjectPlace ObjectIndex::PlaceOf(EntityId entity) const {
   ObjectPlace place;
@@ -79,9 +77,7 @@ void ObjectIndex::Move(EntityId entity, const ObjectPlace& place, std::vector<Mo
   }
 }
 
-Mat3d NedAttitude(const ObjectPlace& place) {
-  return place.is_body ? NedRotation(place.X_WO.R) : ObjectRotation(place.X_WO.R);
-}
+Mat3d NedAttitude(const ObjectPlace& place) { return place.is_body ? NedRotation(place.X_WO.R) : ObjectRotation(place.X_WO.R); }
 
 ObjectPlace PlaceIn(const WorldView& world, const ObjectIndex& objects, EntityId entity) {
   const auto found = world.places.find(entity);
@@ -90,8 +86,7 @@ ObjectPlace PlaceIn(const WorldView& world, const ObjectIndex& objects, EntityId
 
 ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId entity) {
   for (size_t i = 0; i < now.model->drones.size(); ++i) {
-    if (now.model->drones[i]->setup().entity == entity)
-      return {.X_WO = now.state.vehicles[i].motion.X_WB, .is_body = true};
+    if (now.model->drones[i]->setup().entity == entity) return {.X_WO = now.state.vehicles[i].motion.X_WB, .is_body = true};
   }
   if (now.model->people && now.state.people && IsPerson(*now.model->people, entity)) {
     const SimPeople& people = *now.model->people;
@@ -114,8 +109,7 @@ std::vector<uint32_t> InitialSegmentation(const Scene& scene, const std::string&
   if (init_method == "None") return ids;
   for (const Entity& entity : scene.entities) {
     // The sky is no mesh of AirSim's and has no id.
-    if (entity.id != scene.sky_entity)
-      ids[entity.id] = static_cast<uint32_t>(DefaultSegmentationId(entity.name));
+    if (entity.id != scene.sky_entity) ids[entity.id] = static_cast<uint32_t>(DefaultSegmentationId(entity.name));
   }
   return ids;
 }

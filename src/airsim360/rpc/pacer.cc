@@ -62,8 +62,7 @@ void Pacer::Measure(int64_t t_ns, Clock::time_point now) {
   measured_ns_ = t_ns;
   if (factor_ >= kSlowFactor) return;
   char text[120];
-  std::snprintf(text, sizeof text, "the simulation does not keep up: real-time factor %.2f",
-                factor_ * speed_);
+  std::snprintf(text, sizeof text, "the simulation does not keep up: real-time factor %.2f", factor_ * speed_);
   LogWarning(text);
 }
 

@@ -9,8 +9,7 @@
 
 namespace airsim360 {
 
-inline constexpr int64_t kFrameNs =
-    20'000'000;  ///< what simContinueForFrames counts: AirSim's command period
+inline constexpr int64_t kFrameNs = 20'000'000;  ///< what simContinueForFrames counts: AirSim's command period
 
 class Pacer {
  public:

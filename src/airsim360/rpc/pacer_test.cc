@@ -21,8 +21,7 @@ Reply Counting(int& answers) {
 
 class EveryDuration : public testing::TestWithParam<int64_t> {};
 
-INSTANTIATE_TEST_SUITE_P(Pacer, EveryDuration,
-                         testing::Values(0, 1, 3 * kMs, kFrameNs, 250 * kMs, 3'600'000 * kMs));
+INSTANTIATE_TEST_SUITE_P(Pacer, EveryDuration, testing::Values(0, 1, 3 * kMs, kFrameNs, 250 * kMs, 3'600'000 * kMs));
 
 TEST_P(EveryDuration, InLockstepPassesAtOnceAndNoFurther) {
   Pacer pacer(true, 1);

@@ -23,8 +23,7 @@ std::filesystem::path NewFolder(const std::filesystem::path& parent) {
   ::localtime_r(&now, &local);
   std::strftime(name, sizeof name, "%Y-%m-%d-%H-%M-%S", &local);
   const char* home = std::getenv("HOME");
-  const std::filesystem::path folder =
-      parent.empty() ? std::filesystem::path(home ? home : ".") / "Documents" / "AirSim" : parent;
+  const std::filesystem::path folder = parent.empty() ? std::filesystem::path(home ? home : ".") / "Documents" / "AirSim" : parent;
   // Two recordings may start in one second.
   std::filesystem::path unused = folder / name;
   std::error_code error;
@@ -93,12 +92,10 @@ void FolderRecording::Append(const std::string& line) {
 }
 
 std::string FolderRecording::WriteImage(const airsim::ImageResponse& image, const std::string& vehicle) {
-  const std::string name = "img_" + vehicle + "_" +
-                           std::filesystem::path(image.camera_name).filename().string() + "_" +
-                           std::to_string(static_cast<int>(image.image_type)) + "_" +
-                           std::to_string(image.time_stamp) + (image.pixels_as_float ? ".pfm" : ".png");
-  WriteFileAtomically(folder_ / "images" / name,
-                      image.pixels_as_float ? Pfm(image) : std::string(image.image_data_uint8.bytes.view()));
+  const std::string name = "img_" + vehicle + "_" + std::filesystem::path(image.camera_name).filename().string() + "_" +
+                           std::to_string(static_cast<int>(image.image_type)) + "_" + std::to_string(image.time_stamp) +
+                           (image.pixels_as_float ? ".pfm" : ".png");
+  WriteFileAtomically(folder_ / "images" / name, image.pixels_as_float ? Pfm(image) : std::string(image.image_data_uint8.bytes.view()));
   return name;
 }
 
@@ -134,9 +131,8 @@ void FolderRecording::WriteVehicle(ImageService& images, const SnapshotPointer& 
   const auto& p = pose.position;
   const auto& q = pose.orientation;
   std::ostringstream line;
-  line << vehicle.name << '\t' << snapshot->time_stamp() / 1000000 << '\t' << p.x_val << '\t' << p.y_val << '\t'
-       << p.z_val << '\t' << q.w_val << '\t' << q.x_val << '\t' << q.y_val << '\t' << q.z_val << '\t' << files
-       << '\n';
+  line << vehicle.name << '\t' << snapshot->time_stamp() / 1000000 << '\t' << p.x_val << '\t' << p.y_val << '\t' << p.z_val << '\t'
+       << q.w_val << '\t' << q.x_val << '\t' << q.y_val << '\t' << q.z_val << '\t' << files << '\n';
   Append(line.str());
 }
 

@@ -27,8 +27,7 @@ struct Reply::State {
   }
 };
 
-Reply::Reply(std::optional<uint32_t> id, std::string method, size_t argument_count, AnswerSink sink,
-             std::function<bool()> alive)
+Reply::Reply(std::optional<uint32_t> id, std::string method, size_t argument_count, AnswerSink sink, std::function<bool()> alive)
     : state_(new State{id, std::move(method), argument_count, std::move(sink), std::move(alive)}) {}
 
 bool Reply::Begin(WireWriter& writer) const {

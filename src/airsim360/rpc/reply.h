@@ -18,8 +18,7 @@ using AnswerSink = std::function<void(WireBlocks bytes)>;
 class Reply {
  public:
   /// `id` empty: a notification. `alive` says whether somebody still waits.
-  Reply(std::optional<uint32_t> id, std::string method, size_t argument_count, AnswerSink sink,
-        std::function<bool()> alive);
+  Reply(std::optional<uint32_t> id, std::string method, size_t argument_count, AnswerSink sink, std::function<bool()> alive);
 
   template <class T>
   void Result(const T& value) const {

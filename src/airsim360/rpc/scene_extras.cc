@@ -77,14 +77,12 @@ Mesh Sphere() {
 }
 
 // Adds one body and then copies of it, each with a name of its own; their refs are the last `count`.
-void AddCopies(const std::string& name, const std::string& category, const Model& model, Vec3d somewhere,
-               size_t count, std::vector<DroneBodySpec>& bodies) {
+void AddCopies(const std::string& name, const std::string& category, const Model& model, Vec3d somewhere, size_t count,
+               std::vector<DroneBodySpec>& bodies) {
   const size_t first = bodies.size();
   for (size_t i = 0; i < count; ++i) {
-    DroneBodySpec body{.name = i == 0 ? name : name + " " + std::to_string(i + 1),
-                       .model = {},
-                       .X_WB = {{}, somewhere},
-                       .category = category};
+    DroneBodySpec body{
+        .name = i == 0 ? name : name + " " + std::to_string(i + 1), .model = {}, .X_WB = {{}, somewhere}, .category = category};
     i == 0 ? (void)(body.model = model) : (void)(body.same_as = first);
     bodies.push_back(std::move(body));
   }
@@ -107,8 +105,7 @@ size_t CopiesOf(const SpawnAsset& asset) {
   return asset.category == kShapeCategory ? kShapes : kProps;
 }
 
-std::vector<DroneBodySpec> ExtraBodies(const Scene& scene, const AirSimSettings& settings,
-                                       const std::vector<SpawnAsset>& assets) {
+std::vector<DroneBodySpec> ExtraBodies(const Scene& scene, const AirSimSettings& settings, const std::vector<SpawnAsset>& assets) {
   const Vec3d somewhere = VecCast<double>(FirstViewpoint(scene));
   std::vector<DroneBodySpec> bodies;
   const Model drone = DroneBodyModel(AirSimQuad());
@@ -117,8 +114,7 @@ std::vector<DroneBodySpec> ExtraBodies(const Scene& scene, const AirSimSettings&
     AddCopies(name, "uav/other", drone, somewhere, 1, bodies);
   }
   AddCopies("unused drone", "uav/other", drone, somewhere, kSpareDrones, bodies);
-  for (const SpawnAsset& asset : assets)
-    AddCopies("unused " + asset.name, asset.category, asset.model, somewhere, CopiesOf(asset), bodies);
+  for (const SpawnAsset& asset : assets) AddCopies("unused " + asset.name, asset.category, asset.model, somewhere, CopiesOf(asset), bodies);
   return bodies;
 }
 

@@ -36,8 +36,7 @@ inline constexpr size_t kSpareDrones = 32;
 size_t CopiesOf(const SpawnAsset& asset);
 
 /// All of them, the drones first, to be added to a scene.
-std::vector<DroneBodySpec> ExtraBodies(const Scene& scene, const AirSimSettings& settings,
-                                       const std::vector<SpawnAsset>& assets);
+std::vector<DroneBodySpec> ExtraBodies(const Scene& scene, const AirSimSettings& settings, const std::vector<SpawnAsset>& assets);
 /// What became of the bodies of ExtraBodies.
 SceneExtras SortExtras(std::span<const DroneBodyRef> bodies, const std::vector<SpawnAsset>& assets);
 

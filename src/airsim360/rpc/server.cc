@@ -61,31 +61,29 @@ BodiesOfScene ServedBodies(const ServerOptions& options) {
   return [settings = options.settings, assets = options.assets](const Scene& scene) { return ExtraBodies(scene, settings, assets); };
 }
 
-AirSimServer::AirSimServer(std::shared_ptr<Stage> stage, const ServerOptions& options)
-    : impl_(std::make_unique<Impl>()) {
+AirSimServer::AirSimServer(std::shared_ptr<Stage> stage, const ServerOptions& options) : impl_(std::make_unique<Impl>()) {
   impl_->stage = stage->bodies().empty() ? std::make_shared<Stage>(stage, PeopleRequest{}, ServedBodies(options)) : std::move(stage);
   impl_->session = std::make_unique<Session>(*impl_->stage, SortExtras(impl_->stage->bodies(), options.assets),
                                              SessionOptions{.settings = options.settings, .lockstep = options.lockstep});
   impl_->images = std::make_unique<ImageService>(*impl_->session, *impl_->stage, options.picture);
   WriteRecordings(*impl_->session, *impl_->images);
   impl_->api = std::make_unique<Api>(*impl_->session, *impl_->images, impl_->loans);
-  for (const auto add : {AddConnectionCalls, AddVehicleCalls, AddMoveCalls, AddImageCalls, AddCameraCalls,
-                         AddDetectionCalls, AddSensorCalls, AddObjectCalls, AddWorldCalls, AddWeatherCalls, AddPeopleCalls,
-                         AddMissionCalls, AddPlotCalls, AddCosysCalls, AddUnavailableCalls}) {
+  for (const auto add :
+       {AddConnectionCalls, AddVehicleCalls, AddMoveCalls, AddImageCalls, AddCameraCalls, AddDetectionCalls, AddSensorCalls, AddObjectCalls,
+        AddWorldCalls, AddWeatherCalls, AddPeopleCalls, AddMissionCalls, AddPlotCalls, AddCosysCalls, AddUnavailableCalls}) {
     add(*impl_->api);
   }
   for (const std::string& notice : options.settings.notices) LogInfo(notice);
   // The first message may come before the constructor has returned.
   const std::lock_guard lock(impl_->tcp_mutex);
-  impl_->tcp = std::make_unique<TcpServer>(
-      options.address, options.port,
-      TcpHandlers{.on_message =
-                      [impl = impl_.get()](ConnectionId id, std::string message) {
-                        { const std::lock_guard wait(impl->tcp_mutex); }
-                        impl->OnMessage(id, message);
-                      },
-                  .on_close = [impl = impl_.get()](ConnectionId id) { impl->connections.Close(id); }},
-      options.limits);
+  impl_->tcp = std::make_unique<TcpServer>(options.address, options.port,
+                                           TcpHandlers{.on_message =
+                                                           [impl = impl_.get()](ConnectionId id, std::string message) {
+                                                             { const std::lock_guard wait(impl->tcp_mutex); }
+                                                             impl->OnMessage(id, message);
+                                                           },
+                                                       .on_close = [impl = impl_.get()](ConnectionId id) { impl->connections.Close(id); }},
+                                           options.limits);
   impl_->loans.Listen(impl_->tcp->port());
 }
 

@@ -20,7 +20,7 @@ struct ServerOptions {
   bool lockstep = false;
   RenderSettings picture = {};  ///< how colour pictures are made
   TcpLimits limits = {};
-  std::vector<SpawnAsset> assets = ShapeAssets();     ///< what simSpawnObject can make
+  std::vector<SpawnAsset> assets = ShapeAssets();  ///< what simSpawnObject can make
 };
 
 /// For StageOptions::bodies: drones and what calls can put into the world. A server adds them itself to a stage without

@@ -24,9 +24,8 @@ Vec3d FindOrigin(const RayTracer& tracer) {
 }
 
 uint64_t WallClockNs() {
-  return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                   std::chrono::system_clock::now().time_since_epoch())
-                                   .count());
+  return static_cast<uint64_t>(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count());
 }
 
 }  // namespace
@@ -48,8 +47,7 @@ size_t Snapshot::Find(const std::string& name) const {
 Session::Session(Stage& stage, SceneExtras extras, const SessionOptions& options)
     : options_(options),
       objects_(stage.shared_scene()),
-      earth_(GeoPoint{options.settings.origin.latitude, options.settings.origin.longitude,
-                      options.settings.origin.altitude}),
+      earth_(GeoPoint{options.settings.origin.latitude, options.settings.origin.longitude, options.settings.origin.altitude}),
       extras_(std::move(extras)),
       base_tracer_(stage.solid()),
       dynamic_tracer_(stage.tracer()),
@@ -59,8 +57,7 @@ Session::Session(Stage& stage, SceneExtras extras, const SessionOptions& options
   auto world = std::make_shared<WorldView>();
   world->segmentation = InitialSegmentation(objects_.scene(), options_.settings.segmentation_init);
   // What is held ready is not there yet.
-  for (const DroneBodyRef& body : stage.bodies())
-    world->places[body.entity] = {objects_.PlaceOf(body.entity).X_WO, {1, 1, 1}, true};
+  for (const DroneBodyRef& body : stage.bodies()) world->places[body.entity] = {objects_.PlaceOf(body.entity).X_WO, {1, 1, 1}, true};
   world->external_cameras = MakeExternalCameras(options_.settings);
   world->environment = world->base_environment = stage.environment();
   world_ = std::move(world);
@@ -89,8 +86,7 @@ RigidTransform Session::StartPose(const VehicleSettings& settings) const {
   return X_WB;
 }
 
-void Session::AddToModel(const std::string& name, const VehicleSettings& settings,
-                         const RigidTransform& X_WB) {
+void Session::AddToModel(const std::string& name, const VehicleSettings& settings, const RigidTransform& X_WB) {
   const bool is_drone = settings.type != "ComputerVision";
   auto model = std::make_shared<SimModel>(loop_->model());
   // Drones come before all others in the simulation.
@@ -110,8 +106,7 @@ void Session::AddToModel(const std::string& name, const VehicleSettings& setting
       if (options_.settings.segmentation_init != "None")
         world().segmentation[body.entity] = static_cast<uint32_t>(DefaultSegmentationId(name));
     } else {
-      LogWarning("vehicle '" + name + "' is not seen by others: " + std::to_string(extras_.drones.size()) +
-                 " drones have bodies");
+      LogWarning("vehicle '" + name + "' is not seen by others: " + std::to_string(extras_.drones.size()) + " drones have bodies");
     }
     model->drones.push_back(std::make_shared<const SimDrone>(std::move(setup), model->dt_ns));
     loop_->SetModel(model);
@@ -126,8 +121,7 @@ void Session::AddToModel(const std::string& name, const VehicleSettings& setting
   } else {
     state().vehicles.push_back(VehicleAt(loop_->model(), X_WB));
   }
-  controls_.insert(controls_.begin() + place,
-                   std::make_unique<VehicleControl>(index, name, settings, is_drone, start.p));
+  controls_.insert(controls_.begin() + place, std::make_unique<VehicleControl>(index, name, settings, is_drone, start.p));
   world().cameras.insert(world().cameras.begin() + place, MakeCameras(options_.settings, settings));
   world().ray_sensors.insert(world().ray_sensors.begin() + place, MakeRaySensors(options_.settings, settings));
 }
@@ -137,8 +131,7 @@ void Session::MakeRoomAt(size_t index) {
   if (index == controls_.size()) return;
   for (size_t i = index; i < controls_.size(); ++i) controls_[i]->MoveUp();
   decltype(WorldView::detection) detection;
-  for (auto& [key, filter] : world().detection)
-    detection[{key.first + (key.first >= index ? 1 : 0), key.second}] = std::move(filter);
+  for (auto& [key, filter] : world().detection) detection[{key.first + (key.first >= index ? 1 : 0), key.second}] = std::move(filter);
   world().detection = std::move(detection);
 }
 
@@ -146,8 +139,7 @@ void Session::BuildVehicles(Stage& stage) {
   auto model = std::make_shared<SimModel>(stage.Model(kPhysicsStepNs));
   model->world.frame = earth_;
   // The wind of the settings is that of simSetWind; a wind file says more.
-  if (const Vec3d wind_W = NedFromWorld(airsim::FromVector(options_.settings.wind)); Norm(wind_W) > 0)
-    model->wind.mean_W = wind_W;
+  if (const Vec3d wind_W = NedFromWorld(airsim::FromVector(options_.settings.wind)); Norm(wind_W) > 0) model->wind.mean_W = wind_W;
   SimState start;
   start.wind_W = model->wind.mean_W;
   StartLife(*model, start);
@@ -236,8 +228,7 @@ void Session::Run() {
 }
 
 bool Session::HasVehicle(const std::string& name) const {
-  return std::any_of(controls_.begin(), controls_.end(),
-                     [&](const auto& control) { return control->status().name == name; });
+  return std::any_of(controls_.begin(), controls_.end(), [&](const auto& control) { return control->status().name == name; });
 }
 
 VehicleControl& Session::control(const std::string& name) {

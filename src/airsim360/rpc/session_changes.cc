@@ -56,15 +56,14 @@ void Session::GainsChanged(const VehicleControl& control) {
 
 bool Session::AddVehicle(const std::string& name, const std::string& type, const RigidTransform& X_WB) {
   std::string lower = type;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   constexpr size_t kMostVehicles = 256;
   const char* why = HasVehicle(name) || name.empty()    ? "the name is empty or taken"
                     : lower != "simpleflight"           ? "there are vehicles of type SimpleFlight alone"
                     : controls_.size() >= kMostVehicles ? "256 vehicles are the most"
                     : loop_->model().drones.empty() && !controls_.empty()
                         ? "where all vehicles are of type ComputerVision there are no drones"
-                                                        : nullptr;
+                        : nullptr;
   if (why != nullptr) {
     NoticeOnce("simAddVehicle: '" + name.substr(0, 100) + "' was not added: " + why);
     return false;
@@ -101,10 +100,8 @@ std::string Session::Spawn(const std::string& name, const std::string& asset, co
   constexpr size_t kLongestName = 200;
   const std::string& known = IsEngineCube(asset) ? "Cube" : asset;
   const auto stock = std::ranges::find(extras_.stock, known, &SpawnStock::asset);
-  if (stock == extras_.stock.end())
-    throw std::runtime_error("There were no assets with name " + asset + " found in the Registry");
-  if (name.empty() || name.size() > kLongestName)
-    throw std::invalid_argument("object_name has 1 ... 200 bytes");
+  if (stock == extras_.stock.end()) throw std::runtime_error("There were no assets with name " + asset + " found in the Registry");
+  if (name.empty() || name.size() > kLongestName) throw std::invalid_argument("object_name has 1 ... 200 bytes");
   const auto free = std::ranges::find_if(stock->copies, [&](const DroneBodyRef& copy) {
     const auto at = world().places.find(copy.entity);
     return at != world().places.end() && at->second.hidden;

@@ -19,8 +19,7 @@ constexpr double kCosysSettingsVersion = 2;
 constexpr int kLargestSide = 8192;
 
 void ReadPose(SettingsObject& object, SettingsPose& pose) {
-  object.Read("X", pose.x, -kFar, kFar), object.Read("Y", pose.y, -kFar, kFar),
-      object.Read("Z", pose.z, -kFar, kFar);
+  object.Read("X", pose.x, -kFar, kFar), object.Read("Y", pose.y, -kFar, kFar), object.Read("Z", pose.z, -kFar, kFar);
   object.Read("Roll", pose.roll, -360, 360), object.Read("Pitch", pose.pitch, -360, 360);
   object.Read("Yaw", pose.yaw, -360, 360);
 }
@@ -49,8 +48,7 @@ std::map<airsim::ImageType, CaptureSettings> ReadCaptures(SettingsObject& parent
   std::map<airsim::ImageType, CaptureSettings> captures;
   const JsonNode* list = parent.Take("CaptureSettings");
   if (list == nullptr) return captures;
-  if (list->kind != JsonNode::Kind::kArray)
-    parent.Fail(*list, "CaptureSettings: expected a list in brackets");
+  if (list->kind != JsonNode::Kind::kArray) parent.Fail(*list, "CaptureSettings: expected a list in brackets");
   for (const JsonNode& item : list->items) {
     SettingsObject object(item, parent.file(), parent.notices());
     CaptureSettings& capture = captures[ReadImageType(object)];
@@ -76,8 +74,7 @@ CameraSettings ReadCamera(const JsonNode& node, SettingsObject& parent) {
 
 // Of a type that there is not here everything is read and left.
 SensorType ReadSensorType(SettingsObject& object) {
-  static constexpr const char* kHere =
-      "1 barometer, 2 imu, 3 gps, 4 magnetometer, 5 distance, 6 lidar, 8 GPU lidar";
+  static constexpr const char* kHere = "1 barometer, 2 imu, 3 gps, 4 magnetometer, 5 distance, 6 lidar, 8 GPU lidar";
   int type = 0;
   object.Read("SensorType", type, 0, 1000);
   if (type == 0) object.Fail(object.node(), std::string("SensorType: missing or 0; there are ") + kHere);
@@ -107,15 +104,46 @@ void ReadNoise(SettingsObject& object, SensorSettings& sensor) {
 }
 
 // Keys of sensors that change nothing here: of drawing, and of noise models that other keys stand for.
-constexpr const char* kOtherSensorKeys[] = {
-    "DrawDebugPoints", "DrawSensor", "DrawMode", "External", "ExternalLocal", "LimitPoints", "Resolution",
-    "IgnoreMarked", "GroundTruth", "InstanceSegmentation", "Annotation", "GenerateIntensity",
-    "rangeMaxLambertianPercentage", "rainMaxIntensity", "rainConstantA", "rainConstantB",
-    "ExternalController", "UpdateLatency", "UpdateFrequency", "StartupDelay", "AngularRandomWalk",
-    "GyroBiasStabilityTau", "GyroBiasStability", "VelocityRandomWalk", "AccelBiasStabilityTau",
-    "AccelBiasStability", "EphTimeConstant", "EpvTimeConstant", "EphInitial", "EpvInitial", "EphFinal",
-    "EpvFinal", "EphMin3d", "EphMin2d", "PressureFactorSigma", "PressureFactorTau", "UncorrelatedNoiseSigma",
-    "NoiseSigma", "NoiseBias", "ScaleFactor"};
+constexpr const char* kOtherSensorKeys[] = {"DrawDebugPoints",
+                                            "DrawSensor",
+                                            "DrawMode",
+                                            "External",
+                                            "ExternalLocal",
+                                            "LimitPoints",
+                                            "Resolution",
+                                            "IgnoreMarked",
+                                            "GroundTruth",
+                                            "InstanceSegmentation",
+                                            "Annotation",
+                                            "GenerateIntensity",
+                                            "rangeMaxLambertianPercentage",
+                                            "rainMaxIntensity",
+                                            "rainConstantA",
+                                            "rainConstantB",
+                                            "ExternalController",
+                                            "UpdateLatency",
+                                            "UpdateFrequency",
+                                            "StartupDelay",
+                                            "AngularRandomWalk",
+                                            "GyroBiasStabilityTau",
+                                            "GyroBiasStability",
+                                            "VelocityRandomWalk",
+                                            "AccelBiasStabilityTau",
+                                            "AccelBiasStability",
+                                            "EphTimeConstant",
+                                            "EpvTimeConstant",
+                                            "EphInitial",
+                                            "EpvInitial",
+                                            "EphFinal",
+                                            "EpvFinal",
+                                            "EphMin3d",
+                                            "EphMin2d",
+                                            "PressureFactorSigma",
+                                            "PressureFactorTau",
+                                            "UncorrelatedNoiseSigma",
+                                            "NoiseSigma",
+                                            "NoiseBias",
+                                            "ScaleFactor"};
 
 SensorSettings ReadSensor(const JsonNode& node, SettingsObject& parent) {
   SettingsObject object(node, parent.file(), parent.notices());
@@ -125,8 +153,7 @@ SensorSettings ReadSensor(const JsonNode& node, SettingsObject& parent) {
   object.Read("Enabled", sensor.enabled);
   ReadPose(object, sensor.pose);
   if (sensor.type == SensorType::kGpuLidar) sensor.channels = 64, sensor.measurements_per_cycle = 2048, sensor.range = 50;
-  object.Read("MinDistance", sensor.min_distance, 0, kFar),
-      object.Read("MaxDistance", sensor.max_distance, 0.01, kFar);
+  object.Read("MinDistance", sensor.min_distance, 0, kFar), object.Read("MaxDistance", sensor.max_distance, 0.01, kFar);
   object.Read("NumberOfChannels", sensor.channels, 1, 1024), object.Read("Range", sensor.range, 0.01, kFar);
   object.Read("PointsPerSecond", sensor.points_per_second, 1, 1e7);
   object.Read("MeasurementsPerCycle", sensor.measurements_per_cycle, 1, 36000);
@@ -165,12 +192,11 @@ std::map<std::string, T> ReadNamed(SettingsObject& parent, const char* key, cons
 
 constexpr const char* kPx4 = "PX4Multirotor";
 // What such a vehicle says of its autopilot and of the links to it (docs/px4_setup.md there).
-constexpr const char* kOfPx4[] = {"ControlIp",     "ControlPort",      "ControlPortLocal", "ControlPortRemote", "LocalHostIp",
-                                  "LogViewerHostIp", "LogViewerPort",  "LogViewerSendPort", "Logs",             "ParamFile",
-                                  "QgcHostIp",     "QgcPort",          "SerialBaudRate",   "SerialPort",        "SimSysID",
-                                  "SimCompID",     "SitlIp",           "SitlPort",         "TcpPort",           "UdpIp",
-                                  "UdpPort",       "VehicleSysID",     "VehicleCompID",    "OffboardSysID",     "OffboardCompID",
-                                  "AirSimSysID",   "AirSimCompID"};
+constexpr const char* kOfPx4[] = {
+    "ControlIp",         "ControlPort",   "ControlPortLocal", "ControlPortRemote", "LocalHostIp", "LogViewerHostIp", "LogViewerPort",
+    "LogViewerSendPort", "Logs",          "ParamFile",        "QgcHostIp",         "QgcPort",     "SerialBaudRate",  "SerialPort",
+    "SimSysID",          "SimCompID",     "SitlIp",           "SitlPort",          "TcpPort",     "UdpIp",           "UdpPort",
+    "VehicleSysID",      "VehicleCompID", "OffboardSysID",    "OffboardCompID",    "AirSimSysID", "AirSimCompID"};
 
 VehicleSettings ReadVehicle(const JsonNode& node, SettingsObject& parent) {
   static const std::vector<std::string> kTypes = {"SimpleFlight", "ComputerVision", kPx4};
@@ -279,8 +305,7 @@ void ReadWorld(SettingsObject& root, AirSimSettings& settings) {
     segmentation.Finish();
   }
   if (const JsonNode* node = root.TakeObject("TimeOfDay")) {
-    static constexpr const char* kOther[] = {"StartDateTimeDst", "CelestialClockSpeed", "UpdateIntervalSecs",
-                                             "MoveSun"};
+    static constexpr const char* kOther[] = {"StartDateTimeDst", "CelestialClockSpeed", "UpdateIntervalSecs", "MoveSun"};
     SettingsObject time(*node, root.file(), root.notices());
     bool enabled = false;
     std::string start;
@@ -291,8 +316,7 @@ void ReadWorld(SettingsObject& root, AirSimSettings& settings) {
   }
   if (const JsonNode* node = root.TakeObject("AirSim360")) {
     SettingsObject own(*node, root.file(), root.notices());
-    own.Read("CollisionInState", settings.collision_in_state),
-        own.Read("Float32Depth", settings.float32_depth);
+    own.Read("CollisionInState", settings.collision_in_state), own.Read("Float32Depth", settings.float32_depth);
     own.Read("WrapYaw", settings.wrap_yaw), own.Read("SlowDownAtEndOfPath", settings.slow_down);
     own.Read("DepthInCentimetres", settings.depth_in_centimetres);
     own.Finish();
@@ -307,8 +331,7 @@ void ReadMode(SettingsObject& root, AirSimSettings& settings) {
   root.Read("SimMode", settings.sim_mode);
   if (settings.sim_mode.empty()) settings.sim_mode = kModes[0];
   if (std::find(kModes.begin(), kModes.end(), settings.sim_mode) == kModes.end()) {
-    root.Fail(*root.node().Find("SimMode"),
-              "SimMode: " + UnknownChoiceMessage("mode", settings.sim_mode, kModes));
+    root.Fail(*root.node().Find("SimMode"), "SimMode: " + UnknownChoiceMessage("mode", settings.sim_mode, kModes));
   }
   root.Read("ClockSpeed", settings.clock_speed, 0.001, 1000);
   root.Read("LocalHostIp", settings.local_host_ip);
@@ -318,13 +341,12 @@ void ReadMode(SettingsObject& root, AirSimSettings& settings) {
 }  // namespace
 
 AirSimSettings ParseSettings(std::string_view text, std::string_view name) {
-  static constexpr const char* kOther[] = {
-      "SeeDocsAt",          "ClockType",         "ViewMode",
-      "SubWindows",         "CameraDirector",    "PawnPaths",
-      "PhysicsEngineName",  "SpeedUnitFactor",   "SpeedUnitLabel",
-      "LogMessagesVisible", "ShowLosDebugLines", "RpcEnabled",
-      "EngineSound",        "PhysicsPeriod",     "RC",
-      "EnableTrace",        "Weather",           "InitialInstanceSegmentation"};
+  static constexpr const char* kOther[] = {"SeeDocsAt",          "ClockType",         "ViewMode",
+                                           "SubWindows",         "CameraDirector",    "PawnPaths",
+                                           "PhysicsEngineName",  "SpeedUnitFactor",   "SpeedUnitLabel",
+                                           "LogMessagesVisible", "ShowLosDebugLines", "RpcEnabled",
+                                           "EngineSound",        "PhysicsPeriod",     "RC",
+                                           "EnableTrace",        "Weather",           "InitialInstanceSegmentation"};
   AirSimSettings settings;
   settings.text = text;
   const JsonNode node = ParseJson(text, name);
@@ -353,8 +375,7 @@ AirSimSettings ReadSettings(const std::filesystem::path& file) {
 
 AirSimSettings DefaultSettings() { return ParseSettings("{}", "settings"); }
 
-CaptureSettings CaptureOf(const AirSimSettings& settings, const CameraSettings& camera,
-                          airsim::ImageType type) {
+CaptureSettings CaptureOf(const AirSimSettings& settings, const CameraSettings& camera, airsim::ImageType type) {
   if (const auto own = camera.captures.find(type); own != camera.captures.end()) return own->second;
   if (const auto common = settings.camera_defaults.find(type); common != settings.camera_defaults.end()) {
     return common->second;

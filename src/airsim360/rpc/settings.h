@@ -52,8 +52,8 @@ struct SensorSettings {
   int measurements_per_cycle = 0;  ///< shots of a channel in one turn; 0 = by points_per_second
   double range = 100, rotations_per_second = 10;
   double points_per_second = SettingsPose::kNotGiven;  ///< of all channels; 100,000 in AirSim
-  double noise_sigma = 0;  ///< metres at the lidar
-  double noise_scale = 1;  ///< times that at `range`
+  double noise_sigma = 0;                              ///< metres at the lidar
+  double noise_scale = 1;                              ///< times that at `range`
   double horizontal_fov_start = 0, horizontal_fov_end = 359;
   double vertical_fov_upper = -15, vertical_fov_lower = -45;
   bool sensor_local_frame = false;
@@ -112,7 +112,6 @@ AirSimSettings ReadSettings(const std::filesystem::path& file);
 AirSimSettings DefaultSettings();
 
 /// Size and field of view of a camera's images of one type.
-CaptureSettings CaptureOf(const AirSimSettings& settings, const CameraSettings& camera,
-                          airsim::ImageType type);
+CaptureSettings CaptureOf(const AirSimSettings& settings, const CameraSettings& camera, airsim::ImageType type);
 
 }  // namespace airsim360

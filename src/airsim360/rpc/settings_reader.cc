@@ -28,9 +28,7 @@ const JsonNode* SettingsObject::Typed(const char* key, JsonNode::Kind kind, cons
   return member;
 }
 
-const JsonNode* SettingsObject::TakeObject(const char* key) {
-  return Typed(key, JsonNode::Kind::kObject, "an object in braces");
-}
+const JsonNode* SettingsObject::TakeObject(const char* key) { return Typed(key, JsonNode::Kind::kObject, "an object in braces"); }
 
 void SettingsObject::Read(const char* key, bool& value) {
   if (const JsonNode* member = Typed(key, JsonNode::Kind::kBool, "true or false")) value = member->flag;
@@ -42,8 +40,8 @@ void SettingsObject::Read(const char* key, double& value, double low, double hig
   if (member == nullptr || (member->kind == JsonNode::Kind::kString && member->text == "NaN")) return;
   if (member->kind != JsonNode::Kind::kNumber) Fail(*member, std::string(key) + ": expected a number");
   if (!(member->number >= low && member->number <= high)) {
-    Fail(*member, std::string(key) + ": " + std::to_string(member->number) + " is not in " +
-                      std::to_string(low) + " … " + std::to_string(high));
+    Fail(*member,
+         std::string(key) + ": " + std::to_string(member->number) + " is not in " + std::to_string(low) + " … " + std::to_string(high));
   }
   value = member->number;
 }

@@ -68,17 +68,13 @@ TEST(Settings, ErrorsNameFileLineAndKey) {
   EXPECT_EQ(ErrorOf("{\n\n\"SimMode\": \"Multirotr\"}"),
             "settings.json:3: SimMode: unknown mode 'Multirotr'; did you mean 'Multirotor'? (choices: "
             "Multirotor, ComputerVision)");
-  EXPECT_NE(
-      ErrorOf("{\"Vehicles\": {\n\"A\": {\"VehicleType\": \"px4\"}}}").find("settings.json:2: VehicleType"),
-      std::string::npos);
+  EXPECT_NE(ErrorOf("{\"Vehicles\": {\n\"A\": {\"VehicleType\": \"px4\"}}}").find("settings.json:2: VehicleType"), std::string::npos);
   EXPECT_EQ(ErrorOf("{\"Vehicles\": {\n\"../../evil\": {\"VehicleType\": \"SimpleFlight\"}}}"),
             "settings.json:2: Vehicles: '../../evil' holds a '/': it becomes the name of a file");
   EXPECT_NE(ErrorOf("{\"ExternalCameras\": {\"a\\u0000b\": {}}}").find("control character"), std::string::npos);
   EXPECT_EQ(ErrorOf("{\"ClockSpeed\": 1,\n}"), "settings.json:2: expected a key in quotation marks");
   EXPECT_EQ(ErrorOf("{\"ClockSpeed\": 1"), "settings.json:1: the text ends too early");
-  EXPECT_NE(ErrorOf("{\"CameraDefaults\": {\"CaptureSettings\": [\n{\"Width\": 0}]}}")
-                .find("settings.json:2: Width"),
-            std::string::npos);
+  EXPECT_NE(ErrorOf("{\"CameraDefaults\": {\"CaptureSettings\": [\n{\"Width\": 0}]}}").find("settings.json:2: Width"), std::string::npos);
   EXPECT_NE(ErrorOf("{\"a\": tru}").find("expected a value"), std::string::npos);
   EXPECT_NE(ErrorOf("{} {}").find("follows the end"), std::string::npos);
   EXPECT_NE(ErrorOf(std::string(200, '[')).find("too deeply"), std::string::npos);
@@ -113,15 +109,17 @@ TEST(Settings, LidarsOfCosysAirSimHaveTheResolutionThatTheyAskFor) {
   EXPECT_DOUBLE_EQ(lidar("gpu").far_sigma, 0.06);
   EXPECT_EQ(lidar("gpu2").spec.shots(), 64u * 2048);
   EXPECT_EQ(lidar("gpu2").sigma, 0);
-  const AirSimSettings old = ParseSettings(R"({"Vehicles": {"A": {"VehicleType": "SimpleFlight", "Sensors": {"c": {"SensorType": 6}}}}})", "");
+  const AirSimSettings old =
+      ParseSettings(R"({"Vehicles": {"A": {"VehicleType": "SimpleFlight", "Sensors": {"c": {"SensorType": 6}}}}})", "");
   EXPECT_EQ(MakeRaySensors(old, old.vehicles.at("A")).lidars.at(0).spec.columns, 625u);
 }
 
 TEST(Settings, SensorsThatThereAreNotAreReadWithANotice) {
   for (int type = 1; type <= 1000; type += type < 20 ? 1 : 97) {
     const bool here = type <= 6 || type == 8;
-    const std::string text = "{\"Vehicles\": {\"A\": {\"VehicleType\": \"SimpleFlight\", \"Sensors\": {\n\"s\": {\"SensorType\": " +
-                             std::to_string(type) + ", \"Enabled\": true, \"NumberOfTraces\": 100}}}}}";
+    const std::string text =
+        "{\"Vehicles\": {\"A\": {\"VehicleType\": \"SimpleFlight\", \"Sensors\": {\n\"s\": {\"SensorType\": " + std::to_string(type) +
+        ", \"Enabled\": true, \"NumberOfTraces\": 100}}}}}";
     const AirSimSettings settings = ParseSettings(text, "settings.json");
     const bool noticed = Noticed(settings, {"settings.json:2: SensorType", "there are no sensors of type " + std::to_string(type)});
     EXPECT_EQ(noticed, !here) << type;

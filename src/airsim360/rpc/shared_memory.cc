@@ -96,9 +96,7 @@ std::shared_ptr<char[]> LentRegion::Take(size_t size) {
   return {memory_, bytes};
 }
 
-bool LentRegion::Has(const char* bytes) const {
-  return bytes >= memory_->data() + begin_ && bytes < memory_->data() + next_;
-}
+bool LentRegion::Has(const char* bytes) const { return bytes >= memory_->data() + begin_ && bytes < memory_->data() + next_; }
 
 struct MemoryLoans::Impl {
   struct Lender {

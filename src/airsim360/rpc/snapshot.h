@@ -22,7 +22,7 @@ namespace airsim360 {
 
 /// What SetDetectionFilter… calls have asked of one camera.
 struct DetectionFilter {
-  double radius = 20;                 ///< metres
+  double radius = 20;                                    ///< metres
   std::vector<std::shared_ptr<const Pattern>> patterns;  ///< wildcards; case counts
 };
 
@@ -33,9 +33,9 @@ struct PlotCounts {
 
 /// The part of the world that calls change and steps do not. Copied when it changes.
 struct WorldView {
-  std::map<EntityId, ObjectPlace> places;  ///< objects that are not where the scene has them
-  ObjectNames names;                       ///< of drones and objects that calls have added
-  std::vector<uint32_t> segmentation;      ///< id by entity; [0] for what is none
+  std::map<EntityId, ObjectPlace> places;                    ///< objects that are not where the scene has them
+  ObjectNames names;                                         ///< of drones and objects that calls have added
+  std::vector<uint32_t> segmentation;                        ///< id by entity; [0] for what is none
   std::map<std::string, std::vector<uint32_t>> annotations;  ///< Cosys layers: value by entity
   std::vector<CameraMap> cameras;                            ///< by vehicle
   CameraMap external_cameras;
@@ -43,9 +43,9 @@ struct WorldView {
   std::map<std::pair<size_t, std::string>, DetectionFilter> detection;  ///< by vehicle and camera
   Environment base_environment;                                         ///< without the weather of calls
   bool weather_enabled = false;                                         ///< simEnableWeather
-  std::array<float, 8> weather{};    ///< simSetWeatherParameter, 0 ... 1, by WeatherParameter
-  Environment environment;           ///< what is rendered
-  uint64_t environment_version = 0;  ///< grows with every change of `environment`
+  std::array<float, 8> weather{};                                       ///< simSetWeatherParameter, 0 ... 1, by WeatherParameter
+  Environment environment;                                              ///< what is rendered
+  uint64_t environment_version = 0;                                     ///< grows with every change of `environment`
   PlotCounts plots;
 };
 

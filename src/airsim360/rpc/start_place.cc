@@ -8,8 +8,7 @@ namespace airsim360 {
 std::string StartFault(const RayTracer& tracer, Vec3d p_W, double radius) {
   // The ground that it stands on is near: what is level with its upper side counts.
   const Vec3f above = VecCast<float>(p_W + Vec3d{0, 0, radius});
-  if (tracer.Clearance(above, static_cast<float>(radius)) < 0.9f * static_cast<float>(radius))
-    return "in something or against it";
+  if (tracer.Clearance(above, static_cast<float>(radius)) < 0.9f * static_cast<float>(radius)) return "in something or against it";
   return tracer.Intersect(above, {0, 0, -1}) ? "" : "over no ground";
 }
 

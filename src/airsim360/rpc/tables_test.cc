@@ -96,8 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Settings, EverySettingsKey, testing::Range<size_t>(0, s
 TEST_P(EverySettingsKey, OfTheWrongKindIsNamedWithItsFileAndLine) {
   const bool number = key().low < key().high, text = key().kind == std::string_view("a text");
   for (const char* value : {"7", "true", "\"seven\"", "[1]", "{}"}) {
-    const bool right =
-        (number && value[0] == '7') || (text && value[0] == '"') || (!number && !text && value[0] == 't');
+    const bool right = (number && value[0] == '7') || (text && value[0] == '"') || (!number && !text && value[0] == 't');
     if (right) continue;
     ExpectNamed(ErrorOf(value));
     EXPECT_NE(ErrorOf(value).find(key().kind), std::string::npos) << ErrorOf(value);
@@ -180,8 +179,7 @@ TEST_P(EveryHeading, VelocitiesAndPlacesOfCommandsAreThoseOfTheWorld) {
 
 class EverySizeOfVelocity : public testing::TestWithParam<double> {};
 
-INSTANTIATE_TEST_SUITE_P(Limits, EverySizeOfVelocity,
-                         testing::Values(0.0, 1.0, 999.9, 1000.0, 1000.1, 5000.0, 1e12));
+INSTANTIATE_TEST_SUITE_P(Limits, EverySizeOfVelocity, testing::Values(0.0, 1.0, 999.9, 1000.0, 1000.1, 5000.0, 1e12));
 
 TEST_P(EverySizeOfVelocity, IsTakenUpToTheFastestStateInEveryDirection) {
   for (const Vec3d way : {Vec3d{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0.6, 0, -0.8}}) {
@@ -321,8 +319,7 @@ TEST(Segmentation, IdsFollowFromNamesAndColoursAreDistinct) {
   const ObjectIndex objects = Boxes();
   for (uint32_t id : InitialSegmentation(objects.scene(), "None")) EXPECT_EQ(id, 0u);
   const auto ids = InitialSegmentation(objects.scene(), "CommonObjectsRandomIDs");
-  for (const Entity& entity : objects.scene().entities)
-    EXPECT_EQ(static_cast<int>(ids[entity.id]), DefaultSegmentationId(entity.name));
+  for (const Entity& entity : objects.scene().entities) EXPECT_EQ(static_cast<int>(ids[entity.id]), DefaultSegmentationId(entity.name));
   std::set<std::tuple<int, int, int>> seen;
   for (uint32_t id = 0; id < 1000; ++id) {
     const Rgb8 c = SegmentationColor(id);

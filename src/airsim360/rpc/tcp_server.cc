@@ -37,13 +37,11 @@ struct Descriptor {
 };
 
 [[noreturn]] void Fail(const std::string& address, int port, const char* what) {
-  throw RuntimeError("cannot " + std::string(what) + " on " + (address.empty() ? "0.0.0.0" : address) + ":" +
-                     std::to_string(port) + ": " + std::strerror(errno));
+  throw RuntimeError("cannot " + std::string(what) + " on " + (address.empty() ? "0.0.0.0" : address) + ":" + std::to_string(port) + ": " +
+                     std::strerror(errno));
 }
 
-void SetOption(int fd, int level, int option, int value) {
-  ::setsockopt(fd, level, option, &value, sizeof value);
-}
+void SetOption(int fd, int level, int option, int value) { ::setsockopt(fd, level, option, &value, sizeof value); }
 
 // A listening socket; `port` becomes the one it has.
 int Listen(const std::string& address, int& port) {
@@ -59,8 +57,7 @@ int Listen(const std::string& address, int& port) {
   if (socket.fd < 0) Fail(address, port, "open a socket");
   // Connections of an earlier process that has crashed do not keep the port.
   SetOption(socket.fd, SOL_SOCKET, SO_REUSEADDR, 1);
-  if (::bind(socket.fd, reinterpret_cast<const sockaddr*>(&where), sizeof where) != 0)
-    Fail(address, port, "bind");
+  if (::bind(socket.fd, reinterpret_cast<const sockaddr*>(&where), sizeof where) != 0) Fail(address, port, "bind");
   if (::listen(socket.fd, SOMAXCONN) != 0) Fail(address, port, "listen");
   socklen_t size = sizeof where;
   ::getsockname(socket.fd, reinterpret_cast<sockaddr*>(&where), &size);
@@ -153,8 +150,7 @@ struct TcpServer::Impl {
       }
     }
     if (!idle) return false;
-    log.Warn("a client that never called was disconnected: " + std::to_string(limits.connections) +
-             " are connected");
+    log.Warn("a client that never called was disconnected: " + std::to_string(limits.connections) + " are connected");
     Close(*idle);
     return true;
   }
@@ -166,13 +162,12 @@ struct TcpServer::Impl {
       {
         const std::lock_guard lock(mutex);
         for (const auto& [id, connection] : open) {
-          if (connection->output_waits() && (!slowest || connection->last_read() < slowest->last_read()))
-            slowest = connection;
+          if (connection->output_waits() && (!slowest || connection->last_read() < slowest->last_read())) slowest = connection;
         }
       }
       if (!slowest) return;
-      log.Warn("a client was disconnected: all together leave more than " +
-               std::to_string(limits.total_output_bytes >> 20) + " MiB of answers unread");
+      log.Warn("a client was disconnected: all together leave more than " + std::to_string(limits.total_output_bytes >> 20) +
+               " MiB of answers unread");
       Lose(*slowest);
     }
   }
@@ -203,9 +198,7 @@ struct TcpServer::Impl {
       bool ended = (events & (EPOLLERR | EPOLLHUP)) != 0;
       if (!ended && events & EPOLLOUT) ended = !connection->Flush();
       if (!ended && events & (EPOLLIN | EPOLLRDHUP)) {
-        ended = connection->ReadSome([&](std::string message) {
-          handlers.on_message(id, std::move(message));
-        }) == Connection::Read::kEnded;
+        ended = connection->ReadSome([&](std::string message) { handlers.on_message(id, std::move(message)); }) == Connection::Read::kEnded;
       }
       if (ended) return Close(id);
       Rearm(*connection);
@@ -259,8 +252,8 @@ void TcpServer::Answer(ConnectionId id, size_t message_bytes, WireBlocks bytes) 
   connection->Settle(message_bytes);
   const Connection::Sent sent = connection->Send(std::move(bytes));
   if (sent == Connection::Sent::kTooSlow) {
-    impl_->log.Warn("a client was disconnected: it leaves more than " +
-                    std::to_string(impl_->limits.output_bytes >> 20) + " MiB of answers unread");
+    impl_->log.Warn("a client was disconnected: it leaves more than " + std::to_string(impl_->limits.output_bytes >> 20) +
+                    " MiB of answers unread");
   }
   if (sent != Connection::Sent::kYes) return impl_->Lose(*connection);
   impl_->FreeOutput();

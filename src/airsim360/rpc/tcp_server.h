@@ -18,7 +18,7 @@ struct TcpLimits {
   WireLimits message;
   /// Then the one that has waited longest without a call makes room, or a further one is closed at once.
   size_t connections = 256;
-  size_t unanswered = 1024;  ///< messages of a connection: then nothing more is read from it
+  size_t unanswered = 1024;                    ///< messages of a connection: then nothing more is read from it
   size_t unanswered_bytes = size_t{16} << 20;  ///< the same
   /// Unanswered of all clients, half messages included: then who sends on and has more than small_input_bytes is closed.
   size_t total_input_bytes = size_t{256} << 20, small_input_bytes = size_t{1} << 20;

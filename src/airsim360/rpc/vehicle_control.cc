@@ -26,8 +26,7 @@ double MotorOutput(const DroneModel& model, const Vehicle& vehicle) {
 
 }  // namespace
 
-VehicleControl::VehicleControl(size_t index, const std::string& name, const VehicleSettings& settings,
-                               bool is_drone, Vec3d origin_W)
+VehicleControl::VehicleControl(size_t index, const std::string& name, const VehicleSettings& settings, bool is_drone, Vec3d origin_W)
     : index_(index), settings_(settings) {
   status_.name = name;
   status_.is_drone = is_drone;

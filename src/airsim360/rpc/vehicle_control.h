@@ -14,8 +14,7 @@ namespace airsim360 {
 /// Belongs to the simulation's thread.
 class VehicleControl {
  public:
-  VehicleControl(size_t index, const std::string& name, const VehicleSettings& settings, bool is_drone,
-                 Vec3d origin_W);
+  VehicleControl(size_t index, const std::string& name, const VehicleSettings& settings, bool is_drone, Vec3d origin_W);
 
   /// The vehicle as it is after a reset: nobody controls it.
   void Reset(bool armed);

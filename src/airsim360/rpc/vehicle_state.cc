@@ -36,8 +36,7 @@ airsim::CollisionInfo CollisionOf(const Snapshot& now, size_t vehicle, bool has_
   info.position = ToVector(NedFromWorld(last.p_WB - origin_W));
   if (last.entity != kNoEntity) {
     const auto given = now.world->names.find(last.entity);
-    info.object_name = given != now.world->names.end() ? given->second
-                                                       : now.model->tracer->scene().entity(last.entity).name;
+    info.object_name = given != now.world->names.end() ? given->second : now.model->tracer->scene().entity(last.entity).name;
     info.object_id = static_cast<int>(now.world->segmentation[last.entity]);
   }
   return info;
@@ -64,8 +63,7 @@ airsim::RotorStates RotorStatesOf(const Snapshot& now, size_t vehicle) {
     const double speed = now.state.vehicles[vehicle].drone.rotor_speeds[i];
     const double thrust = ThrustAtSpeed(rotors[i], speed);
     // Torque about F's down axis, with the sign of the turning direction.
-    states.rotors.push_back({static_cast<float>(thrust),
-                             static_cast<float>(-rotors[i].direction * thrust * rotors[i].torque_ratio),
+    states.rotors.push_back({static_cast<float>(thrust), static_cast<float>(-rotors[i].direction * thrust * rotors[i].torque_ratio),
                              static_cast<float>(speed)});
   }
   return states;

@@ -16,8 +16,7 @@ class WireBlock {
  public:
   WireBlock() = default;
   explicit WireBlock(std::string text);
-  WireBlock(std::shared_ptr<char[]> bytes, size_t size)
-      : owner_(bytes), bytes_(bytes.get()), size_(size) {}
+  WireBlock(std::shared_ptr<char[]> bytes, size_t size) : owner_(bytes), bytes_(bytes.get()), size_(size) {}
 
   const char* data() const { return bytes_; }
   size_t size() const { return size_; }

@@ -59,8 +59,7 @@ void ThrowWrongKind(const WireValue& value, const char* wanted) {
 }
 
 void ThrowOutOfRange(const WireValue& value, int64_t low, uint64_t high) {
-  throw BadArgument(BadArgument::Reason::kKind,
-                    Shown(value) + " is not in " + std::to_string(low) + " … " + std::to_string(high));
+  throw BadArgument(BadArgument::Reason::kKind, Shown(value) + " is not in " + std::to_string(low) + " … " + std::to_string(high));
 }
 
 double RealFromWire(const WireValue& value, double limit) {

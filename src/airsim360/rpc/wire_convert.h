@@ -70,8 +70,7 @@ void FromWire(const WireValue& value, T& out) {
     out = static_cast<T>(value.natural);
     return;
   }
-  if (value.kind != WireValue::Kind::kInt && value.kind != WireValue::Kind::kUint)
-    ThrowWrongKind(value, "a whole number");
+  if (value.kind != WireValue::Kind::kInt && value.kind != WireValue::Kind::kUint) ThrowWrongKind(value, "a whole number");
   if (value.kind == WireValue::Kind::kUint || !std::in_range<T>(value.integer)) {
     using Limits = std::numeric_limits<T>;
     ThrowOutOfRange(value, static_cast<int64_t>(Limits::min()), static_cast<uint64_t>(Limits::max()));
@@ -92,8 +91,7 @@ void FromWire(const WireValue& value, T& out) {
   out = static_cast<T>(number);
 }
 inline void FromWire(const WireValue& value, std::string& out) {
-  if (value.kind != WireValue::Kind::kString && value.kind != WireValue::Kind::kBinary)
-    ThrowWrongKind(value, "a text");
+  if (value.kind != WireValue::Kind::kString && value.kind != WireValue::Kind::kBinary) ThrowWrongKind(value, "a text");
   out = value.text;
 }
 template <class T>

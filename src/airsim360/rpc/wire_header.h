@@ -9,19 +9,7 @@ namespace airsim360::internal {
 
 /// What the first bytes of an object say.
 struct WireHeader {
-  enum class Form : uint8_t {
-    kNil,
-    kBool,
-    kInt,
-    kUint,
-    kFloat32,
-    kFloat64,
-    kString,
-    kBinary,
-    kExtension,
-    kArray,
-    kMap
-  };
+  enum class Form : uint8_t { kNil, kBool, kInt, kUint, kFloat32, kFloat64, kString, kBinary, kExtension, kArray, kMap };
   Form form = Form::kNil;
   uint32_t header_bytes = 1;   ///< tag, length and number
   uint64_t payload_bytes = 0;  ///< that follow: texts, binaries, extensions

@@ -11,9 +11,7 @@
 namespace airsim360 {
 namespace {
 
-std::span<const uint8_t> Span(const std::string& text) {
-  return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
-}
+std::span<const uint8_t> Span(const std::string& text) { return {reinterpret_cast<const uint8_t*>(text.data()), text.size()}; }
 std::string Hex(std::initializer_list<int> bytes) {
   std::string text;
   for (int byte : bytes) text.push_back(static_cast<char>(byte));
@@ -53,16 +51,13 @@ TEST(Wire, ReadsEveryFormOfTheSpecification) {
 
 TEST(Wire, WhatIsWrittenReadsBack) {
   WireWriter writer;
-  const std::vector<int64_t> integers = {
-      0,         127,      128, 255,  256,  65535,  65536,  4294967295, 4294967296,
-      -1,        -32,      -33, -128, -129, -32768, -32769, INT32_MIN,  int64_t{INT32_MIN} - 1,
-      INT64_MIN, INT64_MAX};
-  ToWire(writer, std::vector<std::string>{std::string(31, 'a'), std::string(32, 'b'), std::string(256, 'c'),
-                                          std::string(70000, 'd')});
+  const std::vector<int64_t> integers = {0,         127,      128, 255,  256,  65535,  65536,  4294967295, 4294967296,
+                                         -1,        -32,      -33, -128, -129, -32768, -32769, INT32_MIN,  int64_t{INT32_MIN} - 1,
+                                         INT64_MIN, INT64_MAX};
+  ToWire(writer, std::vector<std::string>{std::string(31, 'a'), std::string(32, 'b'), std::string(256, 'c'), std::string(70000, 'd')});
   const std::string texts = writer.bytes();
   const WireValue text_value = DecodeWire(Span(texts));
-  for (size_t i = 0; i < 4; ++i)
-    EXPECT_EQ(text_value.items[i].text.size(), (std::vector<size_t>{31, 32, 256, 70000}[i]));
+  for (size_t i = 0; i < 4; ++i) EXPECT_EQ(text_value.items[i].text.size(), (std::vector<size_t>{31, 32, 256, 70000}[i]));
   for (const int64_t integer : integers) {
     WireWriter one;
     one.Int(integer);
@@ -124,8 +119,7 @@ TEST(Wire, StructsTakeWhatIsThereAndRefuseWrongTypes) {
   EXPECT_EQ(v.y_val, 7);
   EXPECT_EQ(v.z_val, 2.5f);
 
-  const std::string number = Hex({0x05}), text = Hex({0xa1, 'x'}), half = Hex({0xca, 0x3f, 0, 0, 0}),
-                    negative = Hex({0xff});
+  const std::string number = Hex({0x05}), text = Hex({0xa1, 'x'}), half = Hex({0xca, 0x3f, 0, 0, 0}), negative = Hex({0xff});
   bool flag = false;
   uint32_t count = 0;
   std::string word;
@@ -150,8 +144,7 @@ TEST(Wire, MessagesAreRequestsOrNotifications) {
   EXPECT_FALSE(ParseMessage(other).id);
   for (const std::string& bad :
        {Hex({0xc0}), Hex({0x90}), Hex({0x94, 0x01, 0x05, 0xc0, 0xc0}), Hex({0x93, 0x00, 0x05, 0x90}),
-        Hex({0x94, 0x00, 0xff, 0xa1, 'x', 0x90}), Hex({0x94, 0x00, 0x05, 0x01, 0x90}),
-        Hex({0x94, 0x00, 0x05, 0xa1, 'x', 0x80})}) {
+        Hex({0x94, 0x00, 0xff, 0xa1, 'x', 0x90}), Hex({0x94, 0x00, 0x05, 0x01, 0x90}), Hex({0x94, 0x00, 0x05, 0xa1, 'x', 0x80})}) {
     const WireValue decoded = DecodeWire(Span(bad));
     EXPECT_THROW(ParseMessage(decoded), WireError);
   }

@@ -35,8 +35,7 @@ std::optional<size_t> WireScanner::Scan(std::span<const uint8_t> bytes) {
     if (offset_ > bytes.size()) return std::nullopt;
     const auto header = ReadWireHeader(bytes.subspan(offset_));
     if (!header) return std::nullopt;
-    if (header->payload_bytes > limits_.bytes ||
-        offset_ + header->header_bytes + header->payload_bytes > limits_.bytes) {
+    if (header->payload_bytes > limits_.bytes || offset_ + header->header_bytes + header->payload_bytes > limits_.bytes) {
       throw WireError("message too long");
     }
     if (++values_ > limits_.values) throw WireError("too many values");
@@ -82,8 +81,7 @@ class Decoder {
 
  private:
   std::string_view Payload(const WireHeader& header) const {
-    return {reinterpret_cast<const char*>(bytes_.data()) + offset_,
-            static_cast<size_t>(header.payload_bytes)};
+    return {reinterpret_cast<const char*>(bytes_.data()) + offset_, static_cast<size_t>(header.payload_bytes)};
   }
 
   WireValue Scalar(const WireHeader& header) const {

@@ -21,13 +21,13 @@ struct RoomOutline {
 
 /// A door or a passage; drones pass those that are open.
 struct RoomDoor {
-  uint32_t id = 0;           ///< N of the entity "door N open" or "door N closed"; 0 for passages, which have no leaf
-  std::string kind;          ///< "door", "double_door", "sliding_door", "dock_door", "lift_door", "passage"
-  double open = 0;           ///< 0 shut … 1 as far as it goes
-  Vec3f center = {};              ///< of the free opening, in W
-  Vec2f through = {};             ///< unit, level, across the wall towards larger coordinates
-  float width = 0, height = 0;      ///< of the clear opening, metres
-  uint32_t rooms[2] = {0, 0};       ///< ids of the rooms before and behind it along `through`; 0 = outside
+  uint32_t id = 0;              ///< N of the entity "door N open" or "door N closed"; 0 for passages, which have no leaf
+  std::string kind;             ///< "door", "double_door", "sliding_door", "dock_door", "lift_door", "passage"
+  double open = 0;              ///< 0 shut … 1 as far as it goes
+  Vec3f center = {};            ///< of the free opening, in W
+  Vec2f through = {};           ///< unit, level, across the wall towards larger coordinates
+  float width = 0, height = 0;  ///< of the clear opening, metres
+  uint32_t rooms[2] = {0, 0};   ///< ids of the rooms before and behind it along `through`; 0 = outside
 };
 
 struct BuildingRooms {
@@ -39,7 +39,8 @@ struct BuildingRooms {
     for (const RoomOutline& room : rooms) {
       const Vec2f low = room.corners[0], high = room.corners[2];
       if (p_W.x >= static_cast<double>(low.x) && p_W.x <= static_cast<double>(high.x) && p_W.y >= static_cast<double>(low.y) &&
-          p_W.y <= static_cast<double>(high.y) && p_W.z >= static_cast<double>(room.floor_z) && p_W.z <= static_cast<double>(room.ceiling_z))
+          p_W.y <= static_cast<double>(high.y) && p_W.z >= static_cast<double>(room.floor_z) &&
+          p_W.z <= static_cast<double>(room.ceiling_z))
         return &room;
     }
     return nullptr;

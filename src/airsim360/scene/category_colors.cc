@@ -20,11 +20,10 @@ struct Family {
 };
 
 constexpr Family kFamilies[] = {
-    {"animal", 35, .10, .15, 30},       {"barrier", 300, .06, .12, 30}, {"construction", 55, .02, .08, 60},
-    {"furniture", 80, .07, .15, 60},    {"ground", 325, .04, .14, 40},  {"human", 18, .14, .20, 30},
-    {"nature", 115, .03, .09, 30},      {"object", 355, .10, .18, 30},  {"signage", 108, .10, .17, 30},
-    {"sky", 235, .06, .12, 30},         {"traffic", 50, .13, .19, 30},  {"uav", 195, .07, .13, 30},
-    {"vegetation", 138, .06, .17, 30},  {"vehicle", 268, .08, .20, 30}, {"water", 215, .06, .14, 30},
+    {"animal", 35, .10, .15, 30},      {"barrier", 300, .06, .12, 30}, {"construction", 55, .02, .08, 60}, {"furniture", 80, .07, .15, 60},
+    {"ground", 325, .04, .14, 40},     {"human", 18, .14, .20, 30},    {"nature", 115, .03, .09, 30},      {"object", 355, .10, .18, 30},
+    {"signage", 108, .10, .17, 30},    {"sky", 235, .06, .12, 30},     {"traffic", 50, .13, .19, 30},      {"uav", 195, .07, .13, 30},
+    {"vegetation", 138, .06, .17, 30}, {"vehicle", 268, .08, .20, 30}, {"water", 215, .06, .14, 30},
 };
 constexpr Family kOther = {"", 0, .02, .2, 360};
 
@@ -67,8 +66,7 @@ const Family& FamilyOf(std::string_view path) {
 Rgb8 ColorOf(const Family& family, double k) {
   const auto part = [&](double step) { return k * step - std::floor(k * step); };
   const double lightness = 0.42 + 0.46 * part(0.8191725133961645);
-  const double chroma =
-      family.least_chroma + (family.most_chroma - family.least_chroma) * part(0.6710436067037893);
+  const double chroma = family.least_chroma + (family.most_chroma - family.least_chroma) * part(0.6710436067037893);
   return OklchColor(lightness, chroma, family.hue_deg + family.spread_deg * (part(0.5497004779019703) - 0.5));
 }
 
@@ -81,16 +79,13 @@ std::array<Rgb8, kFirstCustomId> MakePalette() {
   std::map<std::string_view, int> next;  // of the sequence of each family
   const SemanticTree tree;
   for (const auto& [id, category] : tree.categories()) {
-    if (const auto* known = std::ranges::find(kCityscapes, category.path, &Known::path);
-        known != std::end(kCityscapes)) {
+    if (const auto* known = std::ranges::find(kCityscapes, category.path, &Known::path); known != std::end(kCityscapes)) {
       palette[id] = known->color;
       continue;
     }
     const Family& family = FamilyOf(category.path);
     const auto is_near = [&](Rgb8 a) {
-      return std::ranges::any_of(taken, [&](Rgb8 b) {
-        return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b) < kLeast;
-      });
+      return std::ranges::any_of(taken, [&](Rgb8 b) { return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b) < kLeast; });
     };
     int& k = next[family.root];
     for (int i = 0; i == 0 || (i < kTries && is_near(palette[id])); ++i) palette[id] = ColorOf(family, ++k);

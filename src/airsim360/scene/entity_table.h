@@ -15,12 +15,12 @@ struct EntityRow {
   EntityId id = kNoEntity;
   std::string name;
   CategoryId category = kVoid;
-  std::string path;       ///< of the category: "vegetation/tree/conifer/pine"
-  bool thing = true;      ///< countable
+  std::string path;   ///< of the category: "vegetation/tree/conifer/pine"
+  bool thing = true;  ///< countable
   RigidTransform X_WE;
-  bool has_box = false;   ///< false: the sky, and things without a surface
-  Box3f box;              ///< in W, axis-aligned
-  uint32_t instances = 0; ///< placed meshes that are its own
+  bool has_box = false;    ///< false: the sky, and things without a surface
+  Box3f box;               ///< in W, axis-aligned
+  uint32_t instances = 0;  ///< placed meshes that are its own
 };
 
 /// All entities, by id.

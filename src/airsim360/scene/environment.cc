@@ -81,14 +81,13 @@ void ValidateEnvironment(const Environment& environment, std::string_view where)
   for (const EnvironmentField& field : EnvironmentFields()) {
     const double value = environment.*field.value;
     if (value >= field.low && value <= field.high) continue;
-    const double nearest =
-        std::isnan(value) ? Environment{}.*field.value : std::clamp(value, field.low, field.high);
-    throw InputError(std::string(where) + ": " + field.name + " is " + Number(value) + ", not in " +
-                     Number(field.low) + " … " + Number(field.high) + "; the nearest is " + Number(nearest));
+    const double nearest = std::isnan(value) ? Environment{}.*field.value : std::clamp(value, field.low, field.high);
+    throw InputError(std::string(where) + ": " + field.name + " is " + Number(value) + ", not in " + Number(field.low) + " … " +
+                     Number(field.high) + "; the nearest is " + Number(nearest));
   }
   if (environment.sky_seed != std::floor(environment.sky_seed)) {
-    throw InputError(std::string(where) + ": sky_seed is " + Number(environment.sky_seed) +
-                     ", not a whole number; the nearest is " + Number(std::round(environment.sky_seed)));
+    throw InputError(std::string(where) + ": sky_seed is " + Number(environment.sky_seed) + ", not a whole number; the nearest is " +
+                     Number(std::round(environment.sky_seed)));
   }
   constexpr double kLowest = 100;  // below it a cloud is fog
   if (environment.cloud_base_m > 0 && environment.cloud_base_m < kLowest) {
@@ -147,14 +146,11 @@ double SkySeedOf(std::string_view world, uint64_t seed) {
 std::string DescribeEnvironment(const Environment& environment) {
   const Environment usual;
   std::string text;
-  const auto add = [&](const std::string& name, const std::string& value) {
-    text += (text.empty() ? "" : ",") + name + "=" + value;
-  };
+  const auto add = [&](const std::string& name, const std::string& value) { text += (text.empty() ? "" : ",") + name + "=" + value; };
   for (const EnvironmentField& field : EnvironmentFields()) {
     if (environment.*field.value != usual.*field.value) add(field.name, Number(environment.*field.value));
   }
-  if (environment.cloud_type != usual.cloud_type)
-    add("cloud_type", kCloudTypeNames[static_cast<int>(environment.cloud_type)]);
+  if (environment.cloud_type != usual.cloud_type) add("cloud_type", kCloudTypeNames[static_cast<int>(environment.cloud_type)]);
   if (environment.lamps != usual.lamps) add("lamps", kLampsNames[static_cast<int>(environment.lamps)]);
   if (environment.hdri) add("hdri", environment.hdri->name);
   return text;

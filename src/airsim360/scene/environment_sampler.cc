@@ -35,9 +35,7 @@ double Rounded(double value, double step) { return std::round(value / step) * st
 double Tenth(double value) { return std::round(value * 10) / 10; }
 double Hundredth(double value) { return std::round(value * 100) / 100; }
 
-double Between(RngStream& random, const double (&range)[2]) {
-  return Hundredth(random.Uniform(range[0], range[1]));
-}
+double Between(RngStream& random, const double (&range)[2]) { return Hundredth(random.Uniform(range[0], range[1])); }
 
 // -1 in the middle of winter … 1 in the middle of summer.
 double Warmth(int month, int day, double latitude) {
@@ -57,8 +55,7 @@ void DrawTime(RngStream& random, const Climate& climate, EnvironmentSample& samp
     sample.month = 1 + static_cast<int>(random.Index(12));
     sample.day = 1 + static_cast<int>(random.Index(28));
     sample.solar_hour = Rounded(random.Uniform(0, 24), 1.0 / 60);
-    const SunAngles sun =
-        SunPosition({2025, sample.month, sample.day, sample.solar_hour}, {climate.latitude_deg, 0});
+    const SunAngles sun = SunPosition({2025, sample.month, sample.day, sample.solar_hour}, {climate.latitude_deg, 0});
     e.sun_azimuth_deg = Tenth(sun.azimuth_deg), e.sun_elevation_deg = Tenth(sun.elevation_deg);
     if (e.sun_elevation_deg >= climate.least_sun_elevation_deg) return;
   }
@@ -100,8 +97,8 @@ void DrawWeather(RngStream& random, const Climate& climate, double warmth, bool 
 void CheckClimate(const Climate& climate) {
   const auto check = [](const char* name, double value, double low, double high) {
     if (value >= low && value <= high) return;
-    throw InputError(std::string(name) + " is " + std::to_string(value) + ", not in " +
-                     std::to_string(static_cast<int>(low)) + " … " + std::to_string(static_cast<int>(high)));
+    throw InputError(std::string(name) + " is " + std::to_string(value) + ", not in " + std::to_string(static_cast<int>(low)) + " … " +
+                     std::to_string(static_cast<int>(high)));
   };
   check("latitude", climate.latitude_deg, -Climate::kMaxLatitude, Climate::kMaxLatitude);
   check("the least elevation of the sun", climate.least_sun_elevation_deg, -90, Climate::kMaxLeastSun);

@@ -11,11 +11,11 @@ namespace airsim360 {
 
 /// Where the samples are drawn from. Default: a town of the middle latitudes by day.
 struct Climate {
-  static constexpr double kMaxLatitude = 70;     ///< beyond it the statistics below do not hold
-  static constexpr double kMaxLeastSun = 20;     ///< degrees; reached on some hour of the year at every latitude allowed
-  double latitude_deg = 45;                      ///< north positive, ± kMaxLatitude
-  double least_sun_elevation_deg = 2;            ///< samples have the sun at least so high, -90 … kMaxLeastSun
-  bool urban = true;                             ///< town air is hazier by a third of Linke's turbidity above 2
+  static constexpr double kMaxLatitude = 70;  ///< beyond it the statistics below do not hold
+  static constexpr double kMaxLeastSun = 20;  ///< degrees; reached on some hour of the year at every latitude allowed
+  double latitude_deg = 45;                   ///< north positive, ± kMaxLatitude
+  double least_sun_elevation_deg = 2;         ///< samples have the sun at least so high, -90 … kMaxLeastSun
+  bool urban = true;                          ///< town air is hazier by a third of Linke's turbidity above 2
 };
 
 /// What an environment was drawn as.

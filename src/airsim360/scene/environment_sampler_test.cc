@@ -45,8 +45,7 @@ TEST(EnvironmentSampler, KindsOfSkyHaveTheirShares) {
 TEST(EnvironmentSampler, EverySampleHasTheSunAskedForAndStandsInItsSeason) {
   for (const double latitude : {-70.0, -34.0, 0.0, 52.0, 70.0}) {
     for (uint64_t seed = 0; seed < 300; ++seed) {
-      const EnvironmentSample s =
-          DrawEnvironment(seed, {.latitude_deg = latitude, .least_sun_elevation_deg = 15});
+      const EnvironmentSample s = DrawEnvironment(seed, {.latitude_deg = latitude, .least_sun_elevation_deg = 15});
       EXPECT_NO_THROW(ValidateEnvironment(s.environment, "sample"));
       EXPECT_GE(s.environment.sun_elevation_deg, 15);
       const bool northern_summer = s.month >= 6 && s.month <= 8;

@@ -43,8 +43,7 @@ TEST(Environment, RefusesWhatIsOutOfRangeAndNamesTheNearest) {
 }
 
 TEST(Environment, AWrongPresetNamesTheNearest) {
-  EXPECT_NE(ErrorOf([] { ParseEnvironmentPreset("sunsat"); }).find("did you mean 'sunset'"),
-            std::string::npos);
+  EXPECT_NE(ErrorOf([] { ParseEnvironmentPreset("sunsat"); }).find("did you mean 'sunset'"), std::string::npos);
 }
 
 TEST(Environment, PresetsKeepTheMoonAndAirOfTheWorld) {
@@ -111,13 +110,11 @@ TEST(SunPosition, OffsetAndUtcAreTheSameMoment) {
 }
 
 TEST(SunPosition, RefusesWhatIsNoTimeOrPlace) {
-  for (const char* text :
-       {"", "2026", "2026-13-01T10:00", "2026-02-29T10:00", "2026-06-21 14:30", "2026-06-21T25:00",
-        "2026-06-21T14:30+2", "2026-06-21T14:30Zx", "2026-6-21T14:30", "2026-06-21T-1:30"}) {
+  for (const char* text : {"", "2026", "2026-13-01T10:00", "2026-02-29T10:00", "2026-06-21 14:30", "2026-06-21T25:00", "2026-06-21T14:30+2",
+                           "2026-06-21T14:30Zx", "2026-6-21T14:30", "2026-06-21T-1:30"}) {
     EXPECT_THROW(ParseTime(text), InputError) << text;
   }
-  for (const char* text : {"", "1", "1,", "91,0", "0,181", "a,b", "1,2,3", "nan,0"})
-    EXPECT_THROW(ParsePlace(text), InputError) << text;
+  for (const char* text : {"", "1", "1,", "91,0", "0,181", "a,b", "1,2,3", "nan,0"}) EXPECT_THROW(ParsePlace(text), InputError) << text;
 }
 
 }  // namespace

@@ -20,8 +20,7 @@ Image<Rgba8> HalfSize(const Image<Rgba8>& fine, bool srgb) {
     for (int x = 0; x < coarse.width(); ++x) {
       float r = 0, g = 0, b = 0, a = 0;
       for (int k = 0; k < 4; ++k) {
-        const Rgba8 p =
-            fine(std::min(2 * x + (k & 1), fine.width() - 1), std::min(2 * y + (k >> 1), fine.height() - 1));
+        const Rgba8 p = fine(std::min(2 * x + (k & 1), fine.width() - 1), std::min(2 * y + (k >> 1), fine.height() - 1));
         r += decode(p.r);
         g += decode(p.g);
         b += decode(p.b);

@@ -77,10 +77,9 @@ struct Material {
   bool interior = false;  ///< kGlass: a furnished room is seen behind each pane (interior mapping)
   bool lamp = false;      ///< emission shines only while Environment::lamps_on(); with kGlass and without `beam` it is that of a
                           ///< window, behind each pane of which something else shines (evening_light of shading_interior.h)
-  float beam = 0;         ///< emission is thrown along the front (-Y) of the mesh, for negative values its back: 1 / (1 + |beam| (1 - cos))^2
-                          ///< of it at an angle from there; beyond kLowBeam little above the horizon. 0 = the same in all directions
-  float macro_variation =
-      0;  ///< amplitude of brightness variation over 2..40 m of world, hides tiling of grounds
+  float beam = 0;  ///< emission is thrown along the front (-Y) of the mesh, for negative values its back: 1 / (1 + |beam| (1 - cos))^2
+                   ///< of it at an angle from there; beyond kLowBeam little above the horizon. 0 = the same in all directions
+  float macro_variation = 0;                          ///< amplitude of brightness variation over 2..40 m of world, hides tiling of grounds
   TextureId base_color_texture = kNoTexture;          ///< sRGB, alpha = opacity
   TextureId metallic_roughness_texture = kNoTexture;  ///< G roughness, B metallic (glTF)
   TextureId normal_texture = kNoTexture;              ///< tangent space, +Y up in texture space (glTF)
@@ -88,16 +87,13 @@ struct Material {
   Vec2f uv_scale{1, 1}, uv_offset{};  ///< KHR_texture_transform of mesh uv: scale, then rotate, then offset
   float uv_rotation = 0;              ///< radians, counter-clockwise seen with v downwards; see UvTransform
   GroundWear ground = GroundWear::kNone;
-  bool blend_tiles =
-      false;      ///< mixes hashed patches of the textures so that no tile repeats (three look-ups)
-  Vec2f units{};  ///< bricks or slabs per texture tile in u and v, every second row shifted by half a unit:
-                  ///< each gets its own brightness in the world; 0 = none
+  bool blend_tiles = false;  ///< mixes hashed patches of the textures so that no tile repeats (three look-ups)
+  Vec2f units{};             ///< bricks or slabs per texture tile in u and v, every second row shifted by half a unit:
+                             ///< each gets its own brightness in the world; 0 = none
 };
 
 /// A thin clear pane: light passes through it, tinted by base_color and weakened by `transmission`.
-inline bool IsClearPane(const Material& material) {
-  return material.kind == SurfaceKind::kGlass && material.transmission > 0;
-}
+inline bool IsClearPane(const Material& material) { return material.kind == SurfaceKind::kGlass && material.transmission > 0; }
 
 /// From mesh uv to texture uv: u' = m00 u + m01 v + t.x, v' = m10 u + m11 v + t.y (KHR_texture_transform).
 struct UvTransform {

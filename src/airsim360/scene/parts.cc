@@ -15,13 +15,16 @@ struct Word {
 };
 // The first row counts that has the category's root and a word of the material's name.
 constexpr Word kWords[] = {
-    {"construction", "door", Part::kDoor},     {"construction", "shutter", Part::kShutter}, {"construction", "glass", Part::kWindow},
-    {"construction", "window", Part::kWindow}, {"construction", "pane", Part::kWindow},     {"construction", "frame", Part::kWindow},
-    {"vehicle", "glass", Part::kWindow},       {"vehicle", "window", Part::kWindow},        {"vehicle", "windshield", Part::kWindow},
-    {"vehicle", "rubber", Part::kWheel},       {"vehicle", "tyre", Part::kWheel},           {"vehicle", "tire", Part::kWheel},
-    {"vehicle", "wheel", Part::kWheel},        {"vehicle", "door", Part::kDoor},            {"vegetation", "leaf", Part::kFoliage},
-    {"vegetation", "leaves", Part::kFoliage},  {"vegetation", "needle", Part::kFoliage},    {"vegetation", "foliage", Part::kFoliage},
-    {"vegetation", "bark", Part::kTrunk},      {"vegetation", "trunk", Part::kTrunk},
+    {"construction", "door", Part::kDoor},    {"construction", "shutter", Part::kShutter},
+    {"construction", "glass", Part::kWindow}, {"construction", "window", Part::kWindow},
+    {"construction", "pane", Part::kWindow},  {"construction", "frame", Part::kWindow},
+    {"vehicle", "glass", Part::kWindow},      {"vehicle", "window", Part::kWindow},
+    {"vehicle", "windshield", Part::kWindow}, {"vehicle", "rubber", Part::kWheel},
+    {"vehicle", "tyre", Part::kWheel},        {"vehicle", "tire", Part::kWheel},
+    {"vehicle", "wheel", Part::kWheel},       {"vehicle", "door", Part::kDoor},
+    {"vegetation", "leaf", Part::kFoliage},   {"vegetation", "leaves", Part::kFoliage},
+    {"vegetation", "needle", Part::kFoliage}, {"vegetation", "foliage", Part::kFoliage},
+    {"vegetation", "bark", Part::kTrunk},     {"vegetation", "trunk", Part::kTrunk},
 };
 
 // Whether `word` (or its plural) stands in `name`, not inside a longer word.

@@ -9,8 +9,8 @@
 namespace airsim360 {
 namespace {
 
-constexpr float kMaxGap = 0.5f;     // metres between the end of a lane and the beginning of the next
-constexpr float kMinLength = 1;     // metres
+constexpr float kMaxGap = 0.5f;      // metres between the end of a lane and the beginning of the next
+constexpr float kMinLength = 1;      // metres
 constexpr int32_t kMaxSignals = 32;  // bits of SignalPhase::green
 
 [[noreturn]] void Refuse(const char* kind, size_t index, const std::string& what) {
@@ -59,8 +59,7 @@ void CheckJunction(const Junction& junction, size_t i) {
   if (!Finite(junction.center) || !std::isfinite(junction.radius) || !std::isfinite(junction.offset))
     Refuse("junction", i, "has a number that is not finite");
   for (const SignalPhase& phase : junction.phases)
-    if (!(phase.seconds >= 1 && phase.seconds <= 600 && phase.amber >= 0 && phase.amber <= 60 && phase.all_red >= 0 &&
-          phase.all_red <= 60))
+    if (!(phase.seconds >= 1 && phase.seconds <= 600 && phase.amber >= 0 && phase.amber <= 60 && phase.all_red >= 0 && phase.all_red <= 60))
       Refuse("junction", i, "has a phase outside of 1 ... 600 s of green, 0 ... 60 s of amber and red");
 }
 

@@ -28,10 +28,10 @@ struct Lane {
 
 /// Green of some heads of a junction, then amber of the same, then red of all.
 struct SignalPhase {
-  uint32_t green = 0;   ///< bit i: head i
-  float seconds = 20;   ///< of green
-  float amber = 3;      ///< seconds
-  float all_red = 2;    ///< seconds
+  uint32_t green = 0;  ///< bit i: head i
+  float seconds = 20;  ///< of green
+  float amber = 3;     ///< seconds
+  float all_red = 2;   ///< seconds
 };
 
 struct Junction {

@@ -12,7 +12,8 @@ namespace {
 // Two lanes in a circle.
 RoadNetwork Loop() {
   RoadNetwork roads;
-  roads.lanes = {{.points = {{0, 0, 0}, {9, 0, 0}}, .next = {1}}, {.points = {{9, 0, 0}, {9, 9, 0}, {0, 0, 0}}, .next = {0}, .junction = 0, .signal = 0}};
+  roads.lanes = {{.points = {{0, 0, 0}, {9, 0, 0}}, .next = {1}},
+                 {.points = {{9, 0, 0}, {9, 9, 0}, {0, 0, 0}}, .next = {0}, .junction = 0, .signal = 0}};
   roads.junctions = {{.phases = {{1}}}};
   return roads;
 }
@@ -32,8 +33,14 @@ TEST(RoadNetwork, EveryBrokenRuleIsNamedWithItsLane) {
   const std::pair<std::function<void(RoadNetwork&)>, const char*> cases[] = {
       {[](RoadNetwork& r) { r.lanes[1].points.resize(1); }, "lane 1 has fewer than 2 points"},
       {[](RoadNetwork& r) { r.lanes[0].points[1].x = NAN; }, "lane 0 has a point that is not finite"},
-      {[](RoadNetwork& r) { r.lanes[0].points.push_back({9, 0, 0}); }, "lane 0 has the same point twice"},
-      {[](RoadNetwork& r) { r.lanes[0].points = {{0, 0, 0}, {0.5f, 0, 0}}; }, "lane 0 is shorter than a metre"},
+      {[](RoadNetwork& r) {
+         r.lanes[0].points.push_back({9, 0, 0});
+       },
+       "lane 0 has the same point twice"},
+      {[](RoadNetwork& r) {
+         r.lanes[0].points = {{0, 0, 0}, {0.5f, 0, 0}};
+       },
+       "lane 0 is shorter than a metre"},
       {[](RoadNetwork& r) { r.lanes[1].speed = 0; }, "lane 1 has a speed"},
       {[](RoadNetwork& r) { r.lanes[1].width = INFINITY; }, "lane 1 has a width"},
       {[](RoadNetwork& r) { r.lanes[1].next.clear(); }, "lane 1 leads nowhere"},

@@ -13,9 +13,7 @@ namespace {
 
 bool IsFinite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-[[noreturn]] void Fail(const std::string& where, const std::string& what) {
-  throw InputError("scene " + where + ": " + what);
-}
+[[noreturn]] void Fail(const std::string& where, const std::string& what) { throw InputError("scene " + where + ": " + what); }
 
 void CheckTexture(const std::string& where, TextureId id, size_t count) {
   if (id != kNoTexture && (id < 0 || static_cast<size_t>(id) >= count)) {
@@ -25,20 +23,16 @@ void CheckTexture(const std::string& where, TextureId id, size_t count) {
 
 void CheckMesh(const Mesh& mesh, size_t materials) {
   const std::string where = "mesh '" + mesh.name + "'";
-  if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
-    Fail(where, "normals do not match positions");
-  if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
-    Fail(where, "uvs do not match positions");
-  if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())
-    Fail(where, "colours do not match positions");
+  if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) Fail(where, "normals do not match positions");
+  if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size()) Fail(where, "uvs do not match positions");
+  if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size()) Fail(where, "colours do not match positions");
   for (Vec3f p : mesh.positions) {
     if (!IsFinite(p)) Fail(where, "a vertex is not finite");
   }
   const auto count = static_cast<uint32_t>(mesh.positions.size());
   for (Vec3u t : mesh.triangles) {
     if (std::max({t.x, t.y, t.z}) >= count) {
-      Fail(where,
-           "vertex index " + std::to_string(std::max({t.x, t.y, t.z})) + " of " + std::to_string(count));
+      Fail(where, "vertex index " + std::to_string(std::max({t.x, t.y, t.z})) + " of " + std::to_string(count));
     }
   }
   uint64_t next = 0;
@@ -63,9 +57,7 @@ std::vector<Vec3f> OuterVertices(const Mesh& mesh) {
     const float sum = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
     if (sum <= 0) continue;
     // Octahedral cells of direction; the halves of z are told apart by mirroring x.
-    const auto cell = [&](float x) {
-      return std::min(kSide - 1, static_cast<int>((0.5f + 0.5f * x / sum) * kSide));
-    };
+    const auto cell = [&](float x) { return std::min(kSide - 1, static_cast<int>((0.5f + 0.5f * x / sum) * kSide)); };
     const float x = d.z < 0 ? (d.x < 0 ? -1.0f : 1.0f) * (sum - std::abs(d.y)) : d.x;
     const float y = d.z < 0 ? (d.y < 0 ? -1.0f : 1.0f) * (sum - std::abs(d.x)) : d.y;
     auto& best = farthest[static_cast<size_t>(cell(y) * kSide + cell(x))];
@@ -91,7 +83,8 @@ std::vector<Vec2f> HullFromAbove(const Mesh& mesh) {
   for (Vec3f p : mesh.positions) points.push_back({p.x, p.y});
   std::sort(points.begin(), points.end(), [](Vec2f a, Vec2f b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   const auto left = [](Vec2f a, Vec2f b, Vec2f p) {
-    return (static_cast<double>(b.x) - a.x) * (static_cast<double>(p.y) - a.y) - (static_cast<double>(b.y) - a.y) * (static_cast<double>(p.x) - a.x);
+    return (static_cast<double>(b.x) - a.x) * (static_cast<double>(p.y) - a.y) -
+           (static_cast<double>(b.y) - a.y) * (static_cast<double>(p.x) - a.x);
   };
   std::vector<Vec2f> hull;
   const auto chain = [&](auto first, auto last) {
@@ -114,8 +107,7 @@ std::vector<Outline> OutlinesOf(const Scene& scene) {
   std::vector<Outline> outlines(scene.meshes.size());
   for (size_t i = 0; i < outlines.size(); ++i) {
     const Mesh& mesh = scene.meshes[i];
-    const bool plain = std::all_of(mesh.parts.begin(), mesh.parts.end(),
-                                   [](const MeshPart& part) { return part.entity == kNoEntity; });
+    const bool plain = std::all_of(mesh.parts.begin(), mesh.parts.end(), [](const MeshPart& part) { return part.entity == kNoEntity; });
     if (plain && uses[i] >= 16 && mesh.positions.size() > 1500) {
       const Box3f box = mesh.Bounds();
       outlines[i] = {HullFromAbove(mesh), box.min.z, box.max.z, OuterVertices(mesh)};
@@ -147,15 +139,13 @@ Box3f GrowEntityBounds(const Instance& instance, const Mesh& mesh, std::vector<E
     const MeshPart& part = mesh.parts[i];
     const EntityId id = part.entity != kNoEntity ? part.entity : instance.entity;
     if (part.triangle_count > 0 && (id == kNoEntity || id > entities.size())) {
-      Fail("instance of mesh '" + mesh.name + "'",
-           "entity " + std::to_string(id) + " of " + std::to_string(entities.size()));
+      Fail("instance of mesh '" + mesh.name + "'", "entity " + std::to_string(id) + " of " + std::to_string(entities.size()));
     }
     Box3f box;
     for (uint32_t k = 0; k < part.triangle_count; ++k) {
       const Vec3u triangle = mesh.triangles[part.first_triangle + k];
       for (uint32_t vertex : {triangle.x, triangle.y, triangle.z}) {
-        if (std::exchange(last_part[vertex], static_cast<uint32_t>(i)) != i)
-          box.Add(instance.X_WM * mesh.positions[vertex]);
+        if (std::exchange(last_part[vertex], static_cast<uint32_t>(i)) != i) box.Add(instance.X_WM * mesh.positions[vertex]);
       }
     }
     if (part.triangle_count > 0) entities[id - 1].bounds.Add(box);
@@ -169,8 +159,7 @@ Box3f GrowEntityBounds(const Instance& instance, const Mesh& mesh, std::vector<E
 SceneCounts Scene::Count() const {
   SceneCounts counts;
   for (const Mesh& mesh : meshes) counts.unique_triangles += mesh.triangles.size();
-  for (const Instance& instance : instances)
-    counts.instanced_triangles += meshes[instance.mesh].triangles.size();
+  for (const Instance& instance : instances) counts.instanced_triangles += meshes[instance.mesh].triangles.size();
   counts.instances = instances.size();
   counts.entities = entities.size();
   return counts;
@@ -201,8 +190,7 @@ MaterialId SceneBuilder::AddMaterial(Material material) {
 }
 
 MeshId SceneBuilder::AddMesh(Mesh mesh) {
-  if (mesh.parts.empty())
-    mesh.parts.push_back({0, static_cast<uint32_t>(mesh.triangles.size()), 0, kNoEntity});
+  if (mesh.parts.empty()) mesh.parts.push_back({0, static_cast<uint32_t>(mesh.triangles.size()), 0, kNoEntity});
   scene_.meshes.push_back(std::move(mesh));
   return static_cast<MeshId>(scene_.meshes.size() - 1);
 }
@@ -242,8 +230,8 @@ std::shared_ptr<const Scene> SceneBuilder::Build() {
   // Materials and meshes refer only to what exists.
   for (const Material& material : scene_.materials) {
     const std::string where = "material '" + material.name + "'";
-    for (TextureId id : {material.base_color_texture, material.metallic_roughness_texture,
-                         material.normal_texture, material.emission_texture}) {
+    for (TextureId id :
+         {material.base_color_texture, material.metallic_roughness_texture, material.normal_texture, material.emission_texture}) {
       CheckTexture(where, id, scene_.textures.size());
     }
   }
@@ -255,10 +243,9 @@ std::shared_ptr<const Scene> SceneBuilder::Build() {
   // Instances: indices, entities of every part, bounds.
   const std::vector<Outline> outlines = OutlinesOf(scene_);
   for (const Instance& instance : scene_.instances) {
-    if (instance.mesh >= scene_.meshes.size())
-      Fail("instance", "mesh index " + std::to_string(instance.mesh));
-    if (!IsFinite(instance.X_WM.p) || !IsFinite(instance.X_WM.A.row(0)) ||
-        !IsFinite(instance.X_WM.A.row(1)) || !IsFinite(instance.X_WM.A.row(2))) {
+    if (instance.mesh >= scene_.meshes.size()) Fail("instance", "mesh index " + std::to_string(instance.mesh));
+    if (!IsFinite(instance.X_WM.p) || !IsFinite(instance.X_WM.A.row(0)) || !IsFinite(instance.X_WM.A.row(1)) ||
+        !IsFinite(instance.X_WM.A.row(2))) {
       Fail("instance of mesh '" + scene_.meshes[instance.mesh].name + "'", "transform is not finite");
     }
     const Outline& outline = outlines[instance.mesh];

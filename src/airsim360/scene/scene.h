@@ -53,16 +53,16 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
-  std::vector<Entity> entities;           ///< entities[i].id == i + 1
-  EntityId sky_entity = kNoEntity;        ///< what rays that hit nothing see; kNoEntity only in closed rooms
-  Environment environment;                ///< the world's own; renderers may be given another
-  Vec3f interior_light{};                 ///< uniform ambient radiance of scenes without a sky (closed rooms)
-  Box3f bounds;                           ///< of all instances, in W
-  std::optional<Vec3f> spawn;             ///< a good first viewpoint
-  std::vector<std::string> attributions;  ///< one line per third-party model used: title, author, licence
-  float spawn_yaw_deg = 0;                ///< where to look from `spawn`: 0 = +X, counter-clockwise
-  std::string cache_key = {};  ///< stands for all of the above but `environment` in keys of the disk cache;
-                               ///< empty = what is computed of the scene is not kept
+  std::vector<Entity> entities;                   ///< entities[i].id == i + 1
+  EntityId sky_entity = kNoEntity;                ///< what rays that hit nothing see; kNoEntity only in closed rooms
+  Environment environment;                        ///< the world's own; renderers may be given another
+  Vec3f interior_light{};                         ///< uniform ambient radiance of scenes without a sky (closed rooms)
+  Box3f bounds;                                   ///< of all instances, in W
+  std::optional<Vec3f> spawn;                     ///< a good first viewpoint
+  std::vector<std::string> attributions;          ///< one line per third-party model used: title, author, licence
+  float spawn_yaw_deg = 0;                        ///< where to look from `spawn`: 0 = +X, counter-clockwise
+  std::string cache_key = {};                     ///< stands for all of the above but `environment` in keys of the disk cache;
+                                                  ///< empty = what is computed of the scene is not kept
   std::shared_ptr<const RoadNetwork> roads = {};  ///< lanes that vehicles can drive on; null: none are known
 
   const Entity& entity(EntityId id) const { return entities[id - 1]; }

@@ -43,10 +43,10 @@ void VisitTexture(Archive& archive, T& t) {
 
 template <class Archive, class T>
 void VisitMaterial(Archive& archive, T& m) {
-  archive(m.name, m.kind, m.alpha_mode, m.alpha_cutoff, m.base_color, m.base_alpha, m.metallic, m.roughness,
-          m.emission, m.normal_scale, m.transmission, m.clear_coat, m.clear_coat_roughness, m.interior,
-          m.lamp, m.beam, m.macro_variation, m.base_color_texture, m.metallic_roughness_texture, m.normal_texture,
-          m.emission_texture, m.uv_scale, m.uv_offset, m.uv_rotation, m.ground, m.blend_tiles, m.units);
+  archive(m.name, m.kind, m.alpha_mode, m.alpha_cutoff, m.base_color, m.base_alpha, m.metallic, m.roughness, m.emission, m.normal_scale,
+          m.transmission, m.clear_coat, m.clear_coat_roughness, m.interior, m.lamp, m.beam, m.macro_variation, m.base_color_texture,
+          m.metallic_roughness_texture, m.normal_texture, m.emission_texture, m.uv_scale, m.uv_offset, m.uv_rotation, m.ground,
+          m.blend_tiles, m.units);
 }
 
 template <class Archive, class T>
@@ -100,8 +100,7 @@ std::vector<const Category*> CustomCategories(const SemanticTree& tree) {
 
 // The built-in categories are in the program; custom ones come back by being added again.
 void VisitTree(ArchiveWriter& archive, const SemanticTree& tree) {
-  archive.Each(CustomCategories(tree),
-               [&](const Category* category) { archive(category->path, category->thing); });
+  archive.Each(CustomCategories(tree), [&](const Category* category) { archive(category->path, category->thing); });
 }
 
 void VisitTree(ArchiveReader& archive, SemanticTree& tree) {
@@ -110,9 +109,7 @@ void VisitTree(ArchiveReader& archive, SemanticTree& tree) {
   for (const auto& [path, thing] : custom) tree.Add(path, thing);
 }
 
-void VisitSpawn(ArchiveWriter& archive, const std::optional<Vec3f>& spawn) {
-  archive(spawn.has_value(), spawn.value_or(Vec3f{}));
-}
+void VisitSpawn(ArchiveWriter& archive, const std::optional<Vec3f>& spawn) { archive(spawn.has_value(), spawn.value_or(Vec3f{})); }
 
 void VisitSpawn(ArchiveReader& archive, std::optional<Vec3f>& spawn) {
   bool present = false;
@@ -124,11 +121,9 @@ void VisitSpawn(ArchiveReader& archive, std::optional<Vec3f>& spawn) {
 template <class Archive, class T>
 void VisitRoadNetwork(Archive& archive, T& roads) {
   archive.Each(roads.lanes, [&](auto& lane) {
-    archive(lane.points, lane.width, lane.speed, lane.next, lane.left, lane.right, lane.junction, lane.signal, lane.priority,
-            lane.bus);
+    archive(lane.points, lane.width, lane.speed, lane.next, lane.left, lane.right, lane.junction, lane.signal, lane.priority, lane.bus);
   });
-  archive.Each(roads.junctions,
-               [&](auto& junction) { archive(junction.center, junction.radius, junction.phases, junction.offset); });
+  archive.Each(roads.junctions, [&](auto& junction) { archive(junction.center, junction.radius, junction.phases, junction.offset); });
 }
 
 void VisitRoads(ArchiveWriter& archive, const std::shared_ptr<const RoadNetwork>& roads) {

@@ -153,8 +153,7 @@ TEST(SceneArchive, CategoriesThatWantOneIdKeepTheirs) {
 
 TEST(SceneArchive, CutOffAndLongerBytesAreRejected) {
   Bytes bytes = ArchiveScene(*OddScene());
-  for (size_t size = 0; size < bytes.size(); ++size)
-    ASSERT_FALSE(SceneFromArchive(std::span(bytes).first(size))) << size;
+  for (size_t size = 0; size < bytes.size(); ++size) ASSERT_FALSE(SceneFromArchive(std::span(bytes).first(size))) << size;
   bytes.push_back(std::byte{0});
   EXPECT_FALSE(SceneFromArchive(bytes));
 }

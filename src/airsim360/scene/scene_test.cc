@@ -64,8 +64,7 @@ TEST(Semantics, IdsOfABuiltSceneFollowFromItsSetOfPathsAlone) {
   const auto scene = build();
   std::reverse(paths.begin(), paths.end());
   const auto reversed = build();
-  for (size_t i = paths.size(); i > 1; --i)
-    std::swap(paths[i - 1], paths[random.Index(static_cast<uint32_t>(i))]);
+  for (size_t i = paths.size(); i > 1; --i) std::swap(paths[i - 1], paths[random.Index(static_cast<uint32_t>(i))]);
   const auto shuffled = build();
 
   ASSERT_GT(scene->tree.categories().size(), 9000u);  // with their ancestors
@@ -92,8 +91,7 @@ TEST(Semantics, IdsOfABuiltSceneFollowFromItsSetOfPathsAlone) {
   EXPECT_GT(static_cast<double>(own), 0.85 * static_cast<double>(custom));
   // Entities went along. Repeated names got a number behind.
   for (const auto& built : {scene, reversed, shuffled})
-    for (const Entity& entity : built->entities)
-      EXPECT_TRUE(entity.name.starts_with(built->tree[entity.category].path));
+    for (const Entity& entity : built->entities) EXPECT_TRUE(entity.name.starts_with(built->tree[entity.category].path));
 }
 
 TEST(Semantics, WhenIdsRunOutItIsSaid) {

@@ -279,11 +279,9 @@ static_assert(std::size(kRows) < kFirstCustomId);
 
 bool IsValidPath(std::string_view path) {
   if (path.empty() || path.size() > 200 || path.front() == '/' || path.back() == '/') return false;
-  if (path.find("//") != std::string_view::npos || std::count(path.begin(), path.end(), '/') > 7)
-    return false;
-  return std::all_of(path.begin(), path.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '/';
-  });
+  if (path.find("//") != std::string_view::npos || std::count(path.begin(), path.end(), '/') > 7) return false;
+  return std::all_of(path.begin(), path.end(),
+                     [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '/'; });
 }
 
 }  // namespace
@@ -328,8 +326,7 @@ CategoryId SemanticTree::FreeId(std::string_view path) const {
     const auto id = static_cast<CategoryId>(kFirstCustomId + (place + k) % kIds);
     if (!categories_.contains(id)) return id;
   }
-  throw InputError("category path '" + std::string(path) + "': all " + std::to_string(kIds) +
-                   " ids of custom categories are taken");
+  throw InputError("category path '" + std::string(path) + "': all " + std::to_string(kIds) + " ids of custom categories are taken");
 }
 
 std::map<CategoryId, CategoryId> SemanticTree::SettleIds() {

@@ -19,16 +19,12 @@ double Turn(double degrees) { return degrees - 360 * std::floor(degrees / 360); 
 class TimeReader {
  public:
   explicit TimeReader(std::string_view text) : all_(text), rest_(text) {}
-  [[noreturn]] void Fail() const {
-    throw InputError("time '" + std::string(all_) + "' is not like 2026-06-21T14:30+02:00");
-  }
+  [[noreturn]] void Fail() const { throw InputError("time '" + std::string(all_) + "' is not like 2026-06-21T14:30+02:00"); }
   int Digits(size_t count, int low, int high) {
     int value = 0;
     const char* end = rest_.data() + std::min(count, rest_.size());
     const auto [at, error] = std::from_chars(rest_.data(), end, value);
-    if (rest_.size() < count || error != std::errc() || at != end || rest_[0] == '-' || value < low ||
-        value > high)
-      Fail();
+    if (rest_.size() < count || error != std::errc() || at != end || rest_[0] == '-' || value < low || value > high) Fail();
     rest_.remove_prefix(count);
     return value;
   }
@@ -57,14 +53,12 @@ double JulianDay(const UtcTime& time) {
   int year = time.year, month = time.month;
   if (month <= 2) --year, month += 12;
   const int century = year / 100;
-  return std::floor(365.25 * (year + 4716)) + std::floor(30.6001 * (month + 1)) + time.day + 2 - century +
-         century / 4 - 1524.5 + time.hours / 24;
+  return std::floor(365.25 * (year + 4716)) + std::floor(30.6001 * (month + 1)) + time.day + 2 - century + century / 4 - 1524.5 +
+         time.hours / 24;
 }
 
 // Seconds that Earth's turning has lost (Espenak & Meeus 2006, piecewise; a minute matters 0.0007 degrees).
-double DeltaT(double year) {
-  return year < 1900 ? 10 : year < 1990 ? 0.6 * (year - 1900) : 60 + 0.4 * (year - 1995);
-}
+double DeltaT(double year) { return year < 1900 ? 10 : year < 1990 ? 0.6 * (year - 1900) : 60 + 0.4 * (year - 1995); }
 
 // Degrees by which the air lifts what stands at this true elevation: Saemundsson (Meeus 16.4); below the
 // horizon the curve of NOAA's solar calculator, which meets it.
@@ -123,12 +117,10 @@ SunAngles SunPosition(const UtcTime& time, const GeoPlace& place) {
 
   // Apparent longitude of the sun, its declination and right ascension.
   const double anomaly = (357.52911 + t * (35999.05029 - 0.0001537 * t)) * kDegrees;
-  const double center = (1.914602 - t * (0.004817 + 0.000014 * t)) * std::sin(anomaly) +
-                        (0.019993 - 0.000101 * t) * std::sin(2 * anomaly) + 0.000289 * std::sin(3 * anomaly);
+  const double center = (1.914602 - t * (0.004817 + 0.000014 * t)) * std::sin(anomaly) + (0.019993 - 0.000101 * t) * std::sin(2 * anomaly) +
+                        0.000289 * std::sin(3 * anomaly);
   const double node = (125.04 - 1934.136 * t) * kDegrees;
-  const double longitude =
-      (280.46646 + t * (36000.76983 + 0.0003032 * t) + center - 0.00569 - 0.00478 * std::sin(node)) *
-      kDegrees;
+  const double longitude = (280.46646 + t * (36000.76983 + 0.0003032 * t) + center - 0.00569 - 0.00478 * std::sin(node)) * kDegrees;
   const double tilt = (23.4392911 - 0.0130042 * t + 0.00256 * std::cos(node)) * kDegrees;
   const double ascension = std::atan2(std::cos(tilt) * std::sin(longitude), std::cos(longitude));
   const double declination = std::asin(std::sin(tilt) * std::sin(longitude));
@@ -140,11 +132,9 @@ SunAngles SunPosition(const UtcTime& time, const GeoPlace& place) {
   const double latitude = place.latitude_deg * kDegrees;
 
   // Horizontal coordinates, parallax, refraction.
-  const double azimuth = std::atan2(
-      std::sin(hour), std::cos(hour) * std::sin(latitude) - std::tan(declination) * std::cos(latitude));
-  double elevation = std::asin(std::sin(latitude) * std::sin(declination) +
-                               std::cos(latitude) * std::cos(declination) * std::cos(hour)) /
-                     kDegrees;
+  const double azimuth = std::atan2(std::sin(hour), std::cos(hour) * std::sin(latitude) - std::tan(declination) * std::cos(latitude));
+  double elevation =
+      std::asin(std::sin(latitude) * std::sin(declination) + std::cos(latitude) * std::cos(declination) * std::cos(hour)) / kDegrees;
   elevation -= 8.794 / 3600 * std::cos(elevation * kDegrees);
   return {Turn(azimuth / kDegrees + 180), elevation + Refraction(elevation)};
 }

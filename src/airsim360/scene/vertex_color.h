@@ -17,9 +17,7 @@ struct VertexColor {
 
 /// The nearest colour; channels beyond [0, 1] are clamped, those that are no numbers are 0.
 inline VertexColor MakeVertexColor(Vec3f linear, float alpha = 1) {
-  const auto channel = [](float x) {
-    return static_cast<uint16_t>(x > 0 ? std::lround((x < 1 ? x : 1.0f) * 65535.0f) : 0);
-  };
+  const auto channel = [](float x) { return static_cast<uint16_t>(x > 0 ? std::lround((x < 1 ? x : 1.0f) * 65535.0f) : 0); };
   return {channel(linear.x), channel(linear.y), channel(linear.z), channel(alpha)};
 }
 

@@ -10,8 +10,8 @@ namespace airsim360 {
 
 double AllanDeviation(std::span<const double> samples, size_t m) {
   if (m == 0 || samples.size() <= 2 * m) {
-    throw InputError("Allan deviation of averages over " + std::to_string(m) + " samples needs more than " +
-                     std::to_string(2 * m) + ", found " + std::to_string(samples.size()));
+    throw InputError("Allan deviation of averages over " + std::to_string(m) + " samples needs more than " + std::to_string(2 * m) +
+                     ", found " + std::to_string(samples.size()));
   }
   std::vector<double> sums(samples.size() + 1);
   for (size_t i = 0; i < samples.size(); ++i) sums[i + 1] = sums[i] + samples[i];

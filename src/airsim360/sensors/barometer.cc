@@ -16,8 +16,8 @@ BarometerState StartBarometer(const BarometerSpec& spec, const SensorKey& key) {
   return {StartNoise(spec.pressure, SampleStream(key, "barometer start", 0)), {}};
 }
 
-void SampleBarometer(const BarometerSpec& spec, const SensorKey& key, const BodyMotion& motion, double height,
-                     double sea_level_pressure, int64_t t_ns, BarometerState& state) {
+void SampleBarometer(const BarometerSpec& spec, const SensorKey& key, const BodyMotion& motion, double height, double sea_level_pressure,
+                     int64_t t_ns, BarometerState& state) {
   const double dt = SampleLength(spec.rate_hz, t_ns, state.last.t_ns);
   const double lever = (motion.body.X_WB.R * spec.mount.p_BS).z;
   const Air air = StandardAir(height + lever, sea_level_pressure);

@@ -30,7 +30,7 @@ struct BarometerState {
 
 BarometerState StartBarometer(const BarometerSpec& spec, const SensorKey& key);
 /// `height` of B over sea level at t; `sea_level_pressure` of the weather, Pa.
-void SampleBarometer(const BarometerSpec& spec, const SensorKey& key, const BodyMotion& motion, double height,
-                     double sea_level_pressure, int64_t t_ns, BarometerState& state);
+void SampleBarometer(const BarometerSpec& spec, const SensorKey& key, const BodyMotion& motion, double height, double sea_level_pressure,
+                     int64_t t_ns, BarometerState& state);
 
 }  // namespace airsim360

@@ -11,8 +11,7 @@ constexpr double kRadians = std::numbers::pi / 180;
 
 GimbalAngles Limited(const GimbalSpec& spec, const GimbalAngles& a) {
   const double yaw = spec.yaw_limit_deg * kRadians, roll = spec.roll_limit_deg * kRadians;
-  return {std::clamp(a.yaw, -yaw, yaw),
-          std::clamp(a.pitch, spec.pitch_low_deg * kRadians, spec.pitch_high_deg * kRadians),
+  return {std::clamp(a.yaw, -yaw, yaw), std::clamp(a.pitch, spec.pitch_low_deg * kRadians, spec.pitch_high_deg * kRadians),
           std::clamp(a.roll, -roll, roll)};
 }
 
@@ -57,15 +56,12 @@ void StepGimbal(const GimbalSpec& spec, const Mat3d& R_WB, double dt, GimbalStat
   const auto turn = [&](double from, double to) { return from + std::clamp(to - from, -reach, reach); };
   // A yaw joint that goes all the way round takes the shorter way.
   double yaw = wanted.yaw;
-  if (spec.yaw_limit_deg >= 180)
-    yaw = state.joints.yaw + std::remainder(yaw - state.joints.yaw, 2 * std::numbers::pi);
-  state.joints = {std::remainder(turn(state.joints.yaw, yaw), 2 * std::numbers::pi),
-                  turn(state.joints.pitch, wanted.pitch), turn(state.joints.roll, wanted.roll)};
+  if (spec.yaw_limit_deg >= 180) yaw = state.joints.yaw + std::remainder(yaw - state.joints.yaw, 2 * std::numbers::pi);
+  state.joints = {std::remainder(turn(state.joints.yaw, yaw), 2 * std::numbers::pi), turn(state.joints.pitch, wanted.pitch),
+                  turn(state.joints.roll, wanted.roll)};
 }
 
-RigidTransform GimbalMount::AtRest(const Mat3d& R_WB) const {
-  return GimbalPose(spec, StartGimbal(spec, command, R_WB));
-}
+RigidTransform GimbalMount::AtRest(const Mat3d& R_WB) const { return GimbalPose(spec, StartGimbal(spec, command, R_WB)); }
 
 RigidTransform GimbalPose(const GimbalSpec& spec, const GimbalState& state) {
   return BodyPose(spec.p_BG, state.joints.yaw, state.joints.pitch, state.joints.roll);

@@ -26,9 +26,7 @@ void GnssSpec::Visit(ConfigVisitor& v) {
   v.Field("start_up", "seconds without a fix after the start", start_up, 0, 1e4);
 }
 
-Vec3d PointVelocity(const Kinematics& body, Vec3d r_B) {
-  return body.v_WB + body.X_WB.R * Cross(body.w_WB_B, r_B);
-}
+Vec3d PointVelocity(const Kinematics& body, Vec3d r_B) { return body.v_WB + body.X_WB.R * Cross(body.w_WB_B, r_B); }
 
 GnssState StartGnss(const GnssSpec& spec, const SensorKey& key) {
   GnssState state;
@@ -37,8 +35,8 @@ GnssState StartGnss(const GnssSpec& spec, const SensorKey& key) {
   return state;
 }
 
-void SampleGnss(const GnssSpec& spec, const SensorKey& key, const GeoFrame& frame, const BodyMotion& motion,
-                int64_t t_ns, GnssState& state) {
+void SampleGnss(const GnssSpec& spec, const SensorKey& key, const GeoFrame& frame, const BodyMotion& motion, int64_t t_ns,
+                GnssState& state) {
   // The error of the position drifts as a Gauss-Markov process, whatever the rate.
   const double dt = SampleLength(spec.rate_hz, t_ns, state.measured_ns);
   const double keep = spec.correlation_time > 0 ? std::exp(-dt / spec.correlation_time) : 0;

@@ -42,8 +42,8 @@ struct GnssState {
 
 GnssState StartGnss(const GnssSpec& spec, const SensorKey& key);
 /// Measures at t and delivers what is due; call at every sample of the rate.
-void SampleGnss(const GnssSpec& spec, const SensorKey& key, const GeoFrame& frame, const BodyMotion& motion,
-                int64_t t_ns, GnssState& state);
+void SampleGnss(const GnssSpec& spec, const SensorKey& key, const GeoFrame& frame, const BodyMotion& motion, int64_t t_ns,
+                GnssState& state);
 
 /// Velocity in W of a point fixed to the body at r in B.
 Vec3d PointVelocity(const Kinematics& body, Vec3d r_B);

@@ -38,17 +38,14 @@ ImuState StartImu(const ImuSpec& spec, const SensorKey& key) {
   return state;
 }
 
-void SampleImu(const ImuSpec& spec, const SensorKey& key, const BodyMotion& motion, int64_t t_ns,
-               ImuState& state) {
+void SampleImu(const ImuSpec& spec, const SensorKey& key, const BodyMotion& motion, int64_t t_ns, ImuState& state) {
   const double dt = SampleLength(spec.rate_hz, t_ns, state.last.t_ns);
   const auto index = static_cast<uint64_t>(t_ns);
   state.last = IdealImu(spec.mount.pose(), motion, t_ns);
-  state.last.angular_velocity = Clamp(
-      state.last.angular_velocity + NextNoise(spec.gyro, dt, SampleStream(key, "gyro", index), state.gyro),
-      spec.gyro_range);
-  state.last.specific_force = Clamp(
-      state.last.specific_force + NextNoise(spec.accel, dt, SampleStream(key, "accel", index), state.accel),
-      spec.accel_range);
+  state.last.angular_velocity =
+      Clamp(state.last.angular_velocity + NextNoise(spec.gyro, dt, SampleStream(key, "gyro", index), state.gyro), spec.gyro_range);
+  state.last.specific_force =
+      Clamp(state.last.specific_force + NextNoise(spec.accel, dt, SampleStream(key, "accel", index), state.accel), spec.accel_range);
 }
 
 }  // namespace airsim360

@@ -35,7 +35,6 @@ ImuReading IdealImu(const RigidTransform& X_BS, const BodyMotion& motion, int64_
 
 ImuState StartImu(const ImuSpec& spec, const SensorKey& key);
 /// The sample at t; `state.last` is it.
-void SampleImu(const ImuSpec& spec, const SensorKey& key, const BodyMotion& motion, int64_t t_ns,
-               ImuState& state);
+void SampleImu(const ImuSpec& spec, const SensorKey& key, const BodyMotion& motion, int64_t t_ns, ImuState& state);
 
 }  // namespace airsim360

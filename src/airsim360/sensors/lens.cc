@@ -36,13 +36,10 @@ Image<Rgb32f> Reduce(const Image<Rgb32f>& image, int n) {
 int Oversampling(Tier tier) { return tier == Tier::kFast ? 2 : 1; }
 
 /// The exposed light of one sensor, row by row at its own time.
-Image<Rgb32f> RenderSensor(const Real360& lens, const RenderRequest& settings, const PoseAt& X_WC,
-                           bool moving, float exposure, bool rear, const Fisheye& camera, Renderer& renderer,
-                           RenderStats& stats) {
+Image<Rgb32f> RenderSensor(const Real360& lens, const RenderRequest& settings, const PoseAt& X_WC, bool moving, float exposure, bool rear,
+                           const Fisheye& camera, Renderer& renderer, RenderStats& stats) {
   const int n = Oversampling(settings.tier);
-  const Fisheye fine{
-      camera.width * n, camera.height * n, camera.fx * n, camera.fy * n, camera.cx * n, camera.cy * n, {},
-      camera.max_theta};
+  const Fisheye fine{camera.width * n, camera.height * n, camera.fx * n, camera.fy * n, camera.cx * n, camera.cy * n, {}, camera.max_theta};
   RenderRequest request = settings;
   request.products = {.rgb = false, .range = false, .semantic = false, .entity = false, .radiance = true};
   request.auto_exposure = false;
@@ -62,10 +59,9 @@ Image<Rgb32f> RenderSensor(const Real360& lens, const RenderRequest& settings, c
     stats.render_ms += part.render_ms;
     if (frame.radiance.empty()) throw InputError("lens real360: this tier or renderer gives no radiance");
     const float scale = exposure > 0 ? exposure : frame.exposure;
-    std::transform(frame.radiance.pixels().begin(), frame.radiance.pixels().end(), &light(0, first),
-                   [scale](Rgb32f c) {
-                     return Rgb32f{c.r * scale, c.g * scale, c.b * scale};
-                   });
+    std::transform(frame.radiance.pixels().begin(), frame.radiance.pixels().end(), &light(0, first), [scale](Rgb32f c) {
+      return Rgb32f{c.r * scale, c.g * scale, c.b * scale};
+    });
   }
   return Reduce(light, n);
 }
@@ -106,9 +102,9 @@ double NoiseVariance(const Real360& lens, double signal) {
   return std::max(signal, 0.0) / lens.full_well + read * read;
 }
 
-RenderStats RenderReal360(const Real360& lens, const RenderRequest& request, const PoseAt& X_WC, bool moving,
-                          float exposure, uint64_t frame, const Equirectangular& target, Renderer& renderer,
-                          const DevelopLight& develop, Image<Rgb8>& rgb) {
+RenderStats RenderReal360(const Real360& lens, const RenderRequest& request, const PoseAt& X_WC, bool moving, float exposure,
+                          uint64_t frame, const Equirectangular& target, Renderer& renderer, const DevelopLight& develop,
+                          Image<Rgb8>& rgb) {
   CheckReal360(lens);
   const Fisheye camera = internal::SensorCamera(lens, target);
   RenderStats stats;
@@ -121,11 +117,8 @@ RenderStats RenderReal360(const Real360& lens, const RenderRequest& request, con
   Image<Rgb32f> light = internal::StitchSensors(lens, camera, sensors[0], sensors[1], target);
   develop(light, rgb);
   if (lens.jpeg_quality < 1) return stats;
-  const Image<Rgba8> coded =
-      DecodeRgba8(EncodeJpeg(rgb, static_cast<int>(lens.jpeg_quality)), "picture of real360");
-  std::transform(coded.pixels().begin(), coded.pixels().end(), rgb.pixels().begin(), [](Rgba8 c) {
-    return Rgb8{c.r, c.g, c.b};
-  });
+  const Image<Rgba8> coded = DecodeRgba8(EncodeJpeg(rgb, static_cast<int>(lens.jpeg_quality)), "picture of real360");
+  std::transform(coded.pixels().begin(), coded.pixels().end(), rgb.pixels().begin(), [](Rgba8 c) { return Rgb8{c.r, c.g, c.b}; });
   return stats;
 }
 

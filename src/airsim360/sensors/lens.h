@@ -15,11 +15,10 @@ inline constexpr const char* kLensModelNames[] = {"ideal", "real360"};
 
 /// A consumer 360 camera. Light is in units of the display's white, after exposure, before the tone curve.
 struct Real360 {
-  double fov_deg = 195;     ///< of each equidistant fisheye; 180 + blend_deg … 220
-  double baseline = 0.030;  ///< metres between the optical centres, along C's forward axis
-  double blend_deg = 4;     ///< width of the seam over which the two pictures are mixed
-  double vignetting =
-      0.12;  ///< share of light that is missing at the rim: 1 - vignetting (theta / theta_max)^2
+  double fov_deg = 195;       ///< of each equidistant fisheye; 180 + blend_deg … 220
+  double baseline = 0.030;    ///< metres between the optical centres, along C's forward axis
+  double blend_deg = 4;       ///< width of the seam over which the two pictures are mixed
+  double vignetting = 0.12;   ///< share of light that is missing at the rim: 1 - vignetting (theta / theta_max)^2
   double mismatch_ev = 0.08;  ///< the rear picture is brighter by so many stops
   double full_well = 6000;    ///< photo-electrons of a pixel at white: shot noise has variance 1 / full_well
   double read_noise = 4;      ///< electrons, standard deviation
@@ -50,9 +49,8 @@ using PoseAt = std::function<RigidTransform(double t)>;
 /// (in bands of 16 rows where `X_WC` moves). `request` gives tier, exposure, state and seed; its
 /// camera, pose and products are not used. `exposure` > 0 replaces the renderer's own. Noise is keyed by
 /// (seed, frame, sensor, pixel). Returns the counters of all rendering.
-RenderStats RenderReal360(const Real360& lens, const RenderRequest& request, const PoseAt& X_WC, bool moving,
-                          float exposure, uint64_t frame, const Equirectangular& target, Renderer& renderer,
-                          const DevelopLight& develop, Image<Rgb8>& rgb);
+RenderStats RenderReal360(const Real360& lens, const RenderRequest& request, const PoseAt& X_WC, bool moving, float exposure,
+                          uint64_t frame, const Equirectangular& target, Renderer& renderer, const DevelopLight& develop, Image<Rgb8>& rgb);
 
 namespace internal {
 
@@ -61,11 +59,10 @@ Fisheye SensorCamera(const Real360& lens, const Equirectangular& target);
 /// Pose of the front or rear sensor in C.
 RigidTransform SensorPose(const Real360& lens, bool rear);
 /// Fall-off, mismatch and noise of a sensor's exposed light.
-void ExposeSensor(const Real360& lens, const Fisheye& camera, bool rear, uint64_t seed, uint64_t frame,
-                  Image<Rgb32f>& light);
+void ExposeSensor(const Real360& lens, const Fisheye& camera, bool rear, uint64_t seed, uint64_t frame, Image<Rgb32f>& light);
 /// Both pictures on the sphere.
-Image<Rgb32f> StitchSensors(const Real360& lens, const Fisheye& camera, const Image<Rgb32f>& front,
-                            const Image<Rgb32f>& rear, const Equirectangular& target);
+Image<Rgb32f> StitchSensors(const Real360& lens, const Fisheye& camera, const Image<Rgb32f>& front, const Image<Rgb32f>& rear,
+                            const Equirectangular& target);
 
 }  // namespace internal
 }  // namespace airsim360

@@ -22,13 +22,10 @@ Rgb32f Bilinear(const Image<Rgb32f>& image, Vec2d at) {
   const double fx = std::floor(at.x - 0.5), fy = std::floor(at.y - 0.5);
   const auto u = static_cast<float>(at.x - 0.5 - fx), v = static_cast<float>(at.y - 0.5 - fy);
   const auto read = [&](int dx, int dy) {
-    return image(std::clamp(static_cast<int>(fx) + dx, 0, image.width() - 1),
-                 std::clamp(static_cast<int>(fy) + dy, 0, image.height() - 1));
+    return image(std::clamp(static_cast<int>(fx) + dx, 0, image.width() - 1), std::clamp(static_cast<int>(fy) + dy, 0, image.height() - 1));
   };
   const Rgb32f a = read(0, 0), b = read(1, 0), c = read(0, 1), d = read(1, 1);
-  const auto mix = [&](float p, float q, float r, float s) {
-    return (p * (1 - u) + q * u) * (1 - v) + (r * (1 - u) + s * u) * v;
-  };
+  const auto mix = [&](float p, float q, float r, float s) { return (p * (1 - u) + q * u) * (1 - v) + (r * (1 - u) + s * u) * v; };
   return {mix(a.r, b.r, c.r, d.r), mix(a.g, b.g, c.g, d.g), mix(a.b, b.b, c.b, d.b)};
 }
 
@@ -44,8 +41,7 @@ RigidTransform SensorPose(const Real360& lens, bool rear) {
   return rear ? RigidTransform{RotationY(std::numbers::pi), {0, 0, -half}} : RigidTransform{{}, {0, 0, half}};
 }
 
-void ExposeSensor(const Real360& lens, const Fisheye& camera, bool rear, uint64_t seed, uint64_t frame,
-                  Image<Rgb32f>& light) {
+void ExposeSensor(const Real360& lens, const Fisheye& camera, bool rear, uint64_t seed, uint64_t frame, Image<Rgb32f>& light) {
   const double gain = rear ? std::exp2(lens.mismatch_ev) : 1;
   const uint64_t key = RngStream(seed, "real360", 2 * frame + (rear ? 1 : 0)).Bits();
   ParallelFor(light.height(), [&](int64_t row) {
@@ -54,8 +50,7 @@ void ExposeSensor(const Real360& lens, const Fisheye& camera, bool rear, uint64_
       const double theta = std::hypot(x + 0.5 - camera.cx, y + 0.5 - camera.cy) / camera.fx;
       const double rim = theta / camera.max_theta;
       const double scale = rim < 1 ? gain * (1 - lens.vignetting * rim * rim) : 0;
-      const uint64_t pixel =
-          3 * (static_cast<uint64_t>(y) * static_cast<uint64_t>(light.width()) + static_cast<uint64_t>(x));
+      const uint64_t pixel = 3 * (static_cast<uint64_t>(y) * static_cast<uint64_t>(light.width()) + static_cast<uint64_t>(x));
       const auto expose = [&](float value, uint64_t channel) {
         const double signal = value * scale;
         const auto sigma = static_cast<float>(std::sqrt(NoiseVariance(lens, signal)));
@@ -67,8 +62,8 @@ void ExposeSensor(const Real360& lens, const Fisheye& camera, bool rear, uint64_
   });
 }
 
-Image<Rgb32f> StitchSensors(const Real360& lens, const Fisheye& camera, const Image<Rgb32f>& front,
-                            const Image<Rgb32f>& rear, const Equirectangular& target) {
+Image<Rgb32f> StitchSensors(const Real360& lens, const Fisheye& camera, const Image<Rgb32f>& front, const Image<Rgb32f>& rear,
+                            const Equirectangular& target) {
   const Camera sensor = camera;
   // Where a sensor sees a direction of its own frame, each colour magnified a little differently.
   const auto look = [&](const Image<Rgb32f>& image, Vec3d d) -> Rgb32f {

@@ -20,9 +20,7 @@ constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
 /// Renders the test room.
 class LensTest : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    renderer_ = MakeCpuRenderer(std::make_shared<const RayTracer>(test::MakeRoom()), {.tier = Tier::kFast});
-  }
+  static void SetUpTestSuite() { renderer_ = MakeCpuRenderer(std::make_shared<const RayTracer>(test::MakeRoom()), {.tier = Tier::kFast}); }
   static void TearDownTestSuite() { renderer_.reset(); }
 
   static Image<Rgb8> Take(const Real360* lens, Kinematics body, int width, int64_t t_ns = 0) {
@@ -280,8 +278,7 @@ TEST(SensorSeam, MixesSmoothlyAndCoversTheSphere) {
   const Real360 lens = Real360::Perfect();
   const Equirectangular target{512, 256};
   const Fisheye camera = internal::SensorCamera(lens, target);
-  const Image<Rgb32f> one(camera.width, camera.height, {1, 1, 1}),
-      two(camera.width, camera.height, {2, 2, 2});
+  const Image<Rgb32f> one(camera.width, camera.height, {1, 1, 1}), two(camera.width, camera.height, {2, 2, 2});
   const Image<Rgb32f> both = internal::StitchSensors(lens, camera, one, two, target);
   for (int y = 0; y < 256; ++y) {
     for (int x = 0; x < 512; ++x) {

@@ -20,8 +20,7 @@ constexpr uint64_t kMostShots = uint64_t{1} << 26;
 // Channel by channel from the lowest, columns turning to the right.
 std::vector<Vec3f> SpinningDirections(const LidarSpec& spec) {
   std::vector<Vec2d> elevations;  // cosine, sine
-  const double rise =
-      spec.channels > 1 ? (spec.high_deg - spec.low_deg) / static_cast<double>(spec.channels - 1) : 0;
+  const double rise = spec.channels > 1 ? (spec.high_deg - spec.low_deg) / static_cast<double>(spec.channels - 1) : 0;
   for (uint64_t i = 0; i < spec.channels; ++i) {
     const double elevation = (spec.low_deg + rise * static_cast<double>(i)) * kRadians;
     elevations.push_back({std::cos(elevation), std::sin(elevation)});
@@ -79,9 +78,8 @@ void AddPoint(const ScanJob& job, size_t shot, const SensorHit& hit, std::vector
     if (job.spec.sigma > 0) range += static_cast<float>(random.Normal() * job.spec.sigma);
   }
   if (range < job.spec.min_range || range > job.spec.max_range) return;
-  points.push_back({job.directions[shot] * range, range, hit.label.reflectance * hit.cosine,
-                    static_cast<float>(ShotTime(job, shot)), hit.label.category, hit.label.entity,
-                    static_cast<uint32_t>(shot)});
+  points.push_back({job.directions[shot] * range, range, hit.label.reflectance * hit.cosine, static_cast<float>(ShotTime(job, shot)),
+                    hit.label.category, hit.label.entity, static_cast<uint32_t>(shot)});
 }
 
 void ScanTile(const ScanJob& job, size_t begin, size_t end, std::vector<LidarPoint>& points) {
@@ -138,18 +136,15 @@ std::vector<Vec3f> LidarDirections(const LidarSpec& spec, uint64_t scan) {
   if (spec.pattern == "spinning") return SpinningDirections(spec);
   std::vector<Vec3f> directions;
   directions.reserve(spec.shots());
-  for (uint64_t shot = 0; shot < spec.shots(); ++shot)
-    directions.push_back(RosetteDirection(spec, scan, shot));
+  for (uint64_t shot = 0; shot < spec.shots(); ++shot) directions.push_back(RosetteDirection(spec, scan, shot));
   return directions;
 }
 
-void ScanLidar(const LidarSpec& spec, const SensorKey& key, const RayTracer& tracer, const Kinematics& body,
-               const RigidTransform& X_BS, int64_t t_ns, LidarScan& scan) {
+void ScanLidar(const LidarSpec& spec, const SensorKey& key, const RayTracer& tracer, const Kinematics& body, const RigidTransform& X_BS,
+               int64_t t_ns, LidarScan& scan) {
   spec.Check();
-  const std::vector<Vec3f> directions =
-      LidarDirections(spec, static_cast<uint64_t>(SampleIndex(spec.rate_hz, t_ns)));
-  const ScanJob job{spec, key,        tracer, body,
-                    X_BS, directions, t_ns,   spec.pattern == "spinning" ? spec.channels : 1};
+  const std::vector<Vec3f> directions = LidarDirections(spec, static_cast<uint64_t>(SampleIndex(spec.rate_hz, t_ns)));
+  const ScanJob job{spec, key, tracer, body, X_BS, directions, t_ns, spec.pattern == "spinning" ? spec.channels : 1};
   std::vector<std::vector<LidarPoint>> tiles((directions.size() + kTile - 1) / kTile);
   ParallelFor(static_cast<int64_t>(tiles.size()), [&](int64_t i) {
     const auto tile = static_cast<size_t>(i);

@@ -29,8 +29,8 @@ MagnetometerState StartMagnetometer(const MagnetometerSpec& spec, const SensorKe
   return {StartNoise(spec.field, SampleStream(key, "magnetometer start", 0)), {}};
 }
 
-void SampleMagnetometer(const MagnetometerSpec& spec, const SensorKey& key, Vec3d field_W,
-                        const BodyMotion& motion, int64_t t_ns, MagnetometerState& state) {
+void SampleMagnetometer(const MagnetometerSpec& spec, const SensorKey& key, Vec3d field_W, const BodyMotion& motion, int64_t t_ns,
+                        MagnetometerState& state) {
   const double dt = SampleLength(spec.rate_hz, t_ns, state.last.t_ns);
   const Mat3d R_WS = motion.body.X_WB.R * spec.mount.pose().R;
   RngStream random = SampleStream(key, "magnetometer", static_cast<uint64_t>(t_ns));

@@ -37,7 +37,7 @@ struct MagnetometerState {
 };
 
 MagnetometerState StartMagnetometer(const MagnetometerSpec& spec, const SensorKey& key);
-void SampleMagnetometer(const MagnetometerSpec& spec, const SensorKey& key, Vec3d field_W,
-                        const BodyMotion& motion, int64_t t_ns, MagnetometerState& state);
+void SampleMagnetometer(const MagnetometerSpec& spec, const SensorKey& key, Vec3d field_W, const BodyMotion& motion, int64_t t_ns,
+                        MagnetometerState& state);
 
 }  // namespace airsim360

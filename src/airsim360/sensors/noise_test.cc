@@ -15,8 +15,7 @@ std::vector<double> Samples(const NoiseSpec& spec, double dt, size_t count, uint
   const SensorKey key{.seed = seed};
   NoiseState state = StartNoise(spec, SampleStream(key, "start", 0));
   std::vector<double> samples;
-  for (size_t i = 0; i < count; ++i)
-    samples.push_back(NextNoise(spec, dt, SampleStream(key, "noise", i), state).x);
+  for (size_t i = 0; i < count; ++i) samples.push_back(NextNoise(spec, dt, SampleStream(key, "noise", i), state).x);
   return samples;
 }
 

@@ -36,14 +36,13 @@ void RangeFinderSpec::Visit(ConfigVisitor& v) {
   v.Field("through_panes", "clear glass is not seen", through_panes);
 }
 
-RangeReading MeasureRange(const RangeFinderSpec& spec, const SensorKey& key, const RayTracer& tracer,
-                          const RigidTransform& X_WS, int64_t t_ns) {
+RangeReading MeasureRange(const RangeFinderSpec& spec, const SensorKey& key, const RayTracer& tracer, const RigidTransform& X_WS,
+                          int64_t t_ns) {
   const size_t count = spec.beam_deg > 0 ? kConeRays : 1;
   const auto directions = ConeDirections(spec.beam_deg / 2 * std::numbers::pi / 180);
   std::array<SensorRay, kConeRays> rays;
   std::array<SensorHit, kConeRays> hits;
-  for (size_t i = 0; i < count; ++i)
-    rays[i] = {VecCast<float>(X_WS.p), VecCast<float>(X_WS.R * directions[i])};
+  for (size_t i = 0; i < count; ++i) rays[i] = {VecCast<float>(X_WS.p), VecCast<float>(X_WS.R * directions[i])};
   // Noise may bring a hit beyond the reach back into it, so that rays go a little farther.
   const double reach = spec.max_range + 5 * (spec.sigma + spec.sigma_per_metre * spec.max_range);
   TraceRays(tracer, std::span(rays).first(count), 0, static_cast<float>(reach), spec.through_panes, hits);

@@ -30,7 +30,7 @@ struct RangeReading {
 
 /// The nearest hit of 16 rays spread over the cone (a Fermat spiral, the first on the axis); one ray if
 /// beam_deg is 0. A pure function of its arguments.
-RangeReading MeasureRange(const RangeFinderSpec& spec, const SensorKey& key, const RayTracer& tracer,
-                          const RigidTransform& X_WS, int64_t t_ns);
+RangeReading MeasureRange(const RangeFinderSpec& spec, const SensorKey& key, const RayTracer& tracer, const RigidTransform& X_WS,
+                          int64_t t_ns);
 
 }  // namespace airsim360

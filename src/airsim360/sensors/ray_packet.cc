@@ -20,17 +20,15 @@ SensorHit Resolve(const RayTracer& tracer, const RayHit16& packet, int i) {
   const auto first = tracer.first_slots();
   const HitSlot& slot = tracer.slots()[instance == kMiss ? first[geometry] : first[instance] + geometry];
   const Vec3f direction{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]};
-  const Vec3f normal =
-      WorldNormal(tracer, slot, {packet.normal_x[i], packet.normal_y[i], packet.normal_z[i]});
+  const Vec3f normal = WorldNormal(tracer, slot, {packet.normal_x[i], packet.normal_y[i], packet.normal_z[i]});
   const float cosine = std::abs(Dot(Normalized(normal), direction));
-  return {packet.t_far[i], std::min(cosine, 1.0f),
-          LabelOf(tracer, tracer.Resolve(geometry, instance, packet.primitive[i]))};
+  return {packet.t_far[i], std::min(cosine, 1.0f), LabelOf(tracer, tracer.Resolve(geometry, instance, packet.primitive[i]))};
 }
 
 }  // namespace
 
-void TraceRays(const RayTracer& tracer, std::span<const SensorRay> rays, float near, float far,
-               bool through_panes, std::span<SensorHit> hits) {
+void TraceRays(const RayTracer& tracer, std::span<const SensorRay> rays, float near, float far, bool through_panes,
+               std::span<SensorHit> hits) {
   RayHit16 packet{};
   alignas(64) int valid[16];
   const int count = static_cast<int>(std::min<size_t>(rays.size(), 16));

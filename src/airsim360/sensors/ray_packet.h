@@ -22,7 +22,7 @@ struct SensorHit {
 
 /// Traces up to 16 rays as one packet, from `near` to `far` metres. `through_panes`: clear glass is not seen.
 /// Every lane gives what the same ray gives in any other packet.
-void TraceRays(const RayTracer& tracer, std::span<const SensorRay> rays, float near, float far,
-               bool through_panes, std::span<SensorHit> hits);
+void TraceRays(const RayTracer& tracer, std::span<const SensorRay> rays, float near, float far, bool through_panes,
+               std::span<SensorHit> hits);
 
 }  // namespace airsim360

@@ -20,15 +20,12 @@ double Heading(const Mat3d& R_WB) {
 
 void PictureSettings::Visit(ConfigVisitor& v) {
   RenderSettings::Visit(v);
-  v.Field("pano_frame", "body or level: the picture turns with the body or only with its heading", pano_frame,
-          kPanoFrameNames);
-  v.Field(
-      "lens",
-      "ideal, or real360: colour as of two stitched fisheyes with parallax, noise, rolling shutter and JPEG; "
-      "labels stay ideal",
-      lens, kLensModelNames);
-  v.Field("look", "clean, or photo: colour as a consumer camera takes it, with metering, glare, noise and white balance",
-          look, kLookNames);
+  v.Field("pano_frame", "body or level: the picture turns with the body or only with its heading", pano_frame, kPanoFrameNames);
+  v.Field("lens",
+          "ideal, or real360: colour as of two stitched fisheyes with parallax, noise, rolling shutter and JPEG; "
+          "labels stay ideal",
+          lens, kLensModelNames);
+  v.Field("look", "clean, or photo: colour as a consumer camera takes it, with metering, glare, noise and white balance", look, kLookNames);
   v.Group("camera_look", "what look photo does", [this](ConfigVisitor& group) { camera_look.Visit(group); });
 }
 
@@ -36,15 +33,15 @@ void CheckPictureSettings(const PictureSettings& settings, const Camera& camera,
   CheckRenderSettings(settings, prefix);
   const std::string before(prefix);
   if (settings.lens == LensModel::kReal360 && !std::holds_alternative<Equirectangular>(camera))
-    throw InputError(before + "lens: 'real360' makes equirectangular pictures; use " + before +
-                     "projection erp");
+    throw InputError(before + "lens: 'real360' makes equirectangular pictures; use " + before + "projection erp");
   CheckCameraLook(settings.camera_look, before);
   if (settings.look == Look::kPhoto && std::holds_alternative<CubeFace>(camera))
-    throw InputError(before + "look: 'photo' meters and scatters every picture by itself, so that the faces of a cube would "
-                     "not fit; use " + before + "projection erp");
+    throw InputError(before +
+                     "look: 'photo' meters and scatters every picture by itself, so that the faces of a cube would "
+                     "not fit; use " +
+                     before + "projection erp");
   if (settings.auto_exposure && std::holds_alternative<CubeFace>(camera))
-    throw InputError(before + "exposure: 'auto' would differ between the faces of a cube; use " + before +
-                     "projection erp");
+    throw InputError(before + "exposure: 'auto' would differ between the faces of a cube; use " + before + "projection erp");
 }
 
 RigidTransform CameraPose(const PanoramicRig& rig, const RigidTransform& X_WB) {
@@ -60,9 +57,7 @@ RigidTransform CameraPose(const PanoramicRig& rig, const RigidTransform& X_WB) {
 
 namespace {
 
-bool WantsPhoto(const PanoramicRig& rig) {
-  return rig.look == Look::kPhoto && rig.products.rgb && rig.tier != Tier::kLabels;
-}
+bool WantsPhoto(const PanoramicRig& rig) { return rig.look == Look::kPhoto && rig.products.rgb && rig.tier != Tier::kLabels; }
 
 PhotoRequest RequestPhoto(const PanoramicRig& rig, const Capture& capture) {
   return {.camera = rig.camera,
@@ -75,8 +70,7 @@ PhotoRequest RequestPhoto(const PanoramicRig& rig, const Capture& capture) {
 }
 
 // Replaces the colour picture by that of a real camera.
-void CaptureLens(const PanoramicRig& rig, const RenderRequest& request, Renderer& renderer,
-                 Capture& capture) {
+void CaptureLens(const PanoramicRig& rig, const RenderRequest& request, Renderer& renderer, Capture& capture) {
   const auto* target = std::get_if<Equirectangular>(&rig.camera);
   if (target == nullptr) throw InputError("lens real360 makes equirectangular pictures only");
   const Kinematics& body = capture.body;
@@ -92,9 +86,8 @@ void CaptureLens(const PanoramicRig& rig, const RenderRequest& request, Renderer
   };
   const bool known = rig.auto_exposure || photo;
   const RenderStats stats = RenderReal360(
-      rig.real360, request, [&](double t) { return CameraPose(rig, Extrapolate(body, t)); },
-      Norm(body.v_WB) > 0 || Norm(body.w_WB_B) > 0, known ? capture.frame.exposure : 0,
-      static_cast<uint64_t>(capture.t_ns), *target, renderer, develop, capture.frame.rgb);
+      rig.real360, request, [&](double t) { return CameraPose(rig, Extrapolate(body, t)); }, Norm(body.v_WB) > 0 || Norm(body.w_WB_B) > 0,
+      known ? capture.frame.exposure : 0, static_cast<uint64_t>(capture.t_ns), *target, renderer, develop, capture.frame.rgb);
   capture.stats.rays += stats.rays;
   capture.stats.render_ms += stats.render_ms;
 }
@@ -109,8 +102,8 @@ RigidTransform Extrapolate(const Kinematics& body, double dt) {
   return {body.X_WB.R * turn, body.X_WB.p + body.v_WB * dt};
 }
 
-void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, Renderer& renderer,
-                Capture& capture, const NextTrigger* next) {
+void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, Renderer& renderer, Capture& capture,
+                const NextTrigger* next) {
   capture.t_ns = t_ns;
   capture.X_WC = CameraPose(rig, body.X_WB);
   capture.body = body;
@@ -134,8 +127,7 @@ void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, R
   capture.stats = renderer.Render(request, capture.frame);
   request.light = false;
   if (lens) CaptureLens(rig, request, renderer, capture);
-  if (photo && !lens)
-    capture.photo = TakePhoto(rig.camera_look, RequestPhoto(rig, capture), capture.frame.light, capture.frame.rgb);
+  if (photo && !lens) capture.photo = TakePhoto(rig.camera_look, RequestPhoto(rig, capture), capture.frame.light, capture.frame.rgb);
 }
 
 }  // namespace airsim360

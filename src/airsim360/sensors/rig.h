@@ -47,7 +47,7 @@ struct PanoramicRig : PictureSettings {
   Products products = {};
   Real360 real360 = {};
   std::shared_ptr<const SceneState> state = nullptr;  ///< what has moved; nullptr = nothing
-  std::optional<GimbalMount> gimbal = {};  ///< what the camera hangs on, X_BC being its pose there; not with kLevel
+  std::optional<GimbalMount> gimbal = {};             ///< what the camera hangs on, X_BC being its pose there; not with kLevel
 };
 
 /// The next trigger of a rig, which optical flow leads to.
@@ -75,7 +75,7 @@ RigidTransform CameraPose(const PanoramicRig& rig, const RigidTransform& X_WB);
 RigidTransform Extrapolate(const Kinematics& body, double dt);
 
 /// Takes one capture into `capture`, reusing its images. `next` is needed for the product flow alone.
-void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, Renderer& renderer,
-                Capture& capture, const NextTrigger* next = nullptr);
+void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, Renderer& renderer, Capture& capture,
+                const NextTrigger* next = nullptr);
 
 }  // namespace airsim360

@@ -8,9 +8,7 @@
 namespace airsim360 {
 
 /// Number of the last sample at or before t: sample 0 is at t = 0.
-inline int64_t SampleIndex(double rate_hz, int64_t t_ns) {
-  return t_ns / std::max<int64_t>(1, std::llround(1e9 / rate_hz));
-}
+inline int64_t SampleIndex(double rate_hz, int64_t t_ns) { return t_ns / std::max<int64_t>(1, std::llround(1e9 / rate_hz)); }
 
 /// Whether a step of dt that ends at t brings a new sample. Rates above 1 / dt give one a step.
 inline bool SampleDue(double rate_hz, int64_t t_ns, int64_t dt_ns) {

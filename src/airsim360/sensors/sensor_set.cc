@@ -12,8 +12,7 @@ namespace airsim360 {
 namespace {
 
 template <class Spec>
-void VisitList(ConfigVisitor& v, std::string_view name, std::string_view help,
-               std::vector<Named<Spec>>& list) {
+void VisitList(ConfigVisitor& v, std::string_view name, std::string_view help, std::vector<Named<Spec>>& list) {
   v.List(name, help, list, [](ConfigVisitor& e, Named<Spec>& sensor) {
     e.Field("name", "unique among its kind", sensor.name);
     sensor.spec.Visit(e);
@@ -35,8 +34,8 @@ template <class Spec>
 void CheckGimbals(std::string_view where, size_t gimbals, const std::vector<Named<Spec>>& list) {
   for (const auto& sensor : list) {
     if (sensor.spec.gimbal > gimbals) {
-      throw InputError(std::string(where) + ": '" + sensor.name + "' is on gimbal " +
-                       std::to_string(sensor.spec.gimbal) + " of " + std::to_string(gimbals));
+      throw InputError(std::string(where) + ": '" + sensor.name + "' is on gimbal " + std::to_string(sensor.spec.gimbal) + " of " +
+                       std::to_string(gimbals));
     }
   }
 }
@@ -49,8 +48,8 @@ std::string ParseWord(std::string_view what, const std::string& word, std::vecto
 Camera MakeCamera(const CameraSpec& spec) {
   constexpr uint64_t kLargest = 16384;
   if (spec.width < 1 || spec.height < 1 || spec.width > kLargest || spec.height > kLargest) {
-    throw InputError("camera of " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
-                     " pixels: sides must be in 1 … " + std::to_string(kLargest));
+    throw InputError("camera of " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + " pixels: sides must be in 1 … " +
+                     std::to_string(kLargest));
   }
   const int width = static_cast<int>(spec.width), height = static_cast<int>(spec.height);
   const double fov = spec.fov_deg * std::numbers::pi / 180;
@@ -128,8 +127,7 @@ SensorSet ReadSensorSet(const std::filesystem::path& file, SensorSet set) {
   return set;
 }
 
-RigidTransform MountPose(const SensorSet& set, const SensorStates& states, const RigidTransform& X_BS,
-                         uint64_t gimbal) {
+RigidTransform MountPose(const SensorSet& set, const SensorStates& states, const RigidTransform& X_BS, uint64_t gimbal) {
   if (gimbal == 0) return X_BS;
   return GimbalPose(set.gimbals.at(gimbal - 1).spec, states.gimbals.at(gimbal - 1)) * X_BS;
 }

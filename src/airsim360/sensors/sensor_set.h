@@ -80,13 +80,12 @@ struct SensorWorld {
 };
 
 /// At the start of a run: gimbals in place, biases drawn, no readings yet.
-SensorStates StartSensors(const SensorSet& set, const SensorWorld& world, uint32_t vehicle,
-                          const BodyMotion& motion);
+SensorStates StartSensors(const SensorSet& set, const SensorWorld& world, uint32_t vehicle, const BodyMotion& motion);
 
 /// Moves gimbals and samples every sensor that is due in the step of dt that ends at t, from the exact motion
 /// at its end. Random numbers depend on (seed, vehicle, sensor, t) alone.
-void StepSensors(const SensorSet& set, const SensorWorld& world, uint32_t vehicle, const BodyMotion& motion,
-                 int64_t t_ns, int64_t dt_ns, SensorStates& states);
+void StepSensors(const SensorSet& set, const SensorWorld& world, uint32_t vehicle, const BodyMotion& motion, int64_t t_ns, int64_t dt_ns,
+                 SensorStates& states);
 
 /// Adds every number of the states.
 void HashSensors(const SensorStates& states, StateHasher& hasher);
@@ -96,7 +95,6 @@ void HashSensors(const SensorStates& states, StateHasher& hasher);
 SensorKey KeyOf(const SensorWorld& world, uint32_t vehicle, std::string_view kind, size_t i);
 
 /// X_BS of a sensor on gimbal `gimbal` (0 = none) now.
-RigidTransform MountPose(const SensorSet& set, const SensorStates& states, const RigidTransform& X_BS,
-                         uint64_t gimbal);
+RigidTransform MountPose(const SensorSet& set, const SensorStates& states, const RigidTransform& X_BS, uint64_t gimbal);
 
 }  // namespace airsim360

@@ -25,52 +25,44 @@ SensorKey KeyOf(const SensorWorld& world, uint32_t vehicle, std::string_view kin
   return {world.seed ^ HashName(kind), vehicle, static_cast<uint32_t>(i)};
 }
 
-SensorStates StartSensors(const SensorSet& set, const SensorWorld& world, uint32_t vehicle,
-                          const BodyMotion& motion) {
+SensorStates StartSensors(const SensorSet& set, const SensorWorld& world, uint32_t vehicle, const BodyMotion& motion) {
   SensorStates states;
-  for (const auto& gimbal : set.gimbals)
-    states.gimbals.push_back(StartGimbal(gimbal.spec, {}, motion.body.X_WB.R));
-  for (size_t i = 0; i < set.imus.size(); ++i)
-    states.imus.push_back(StartImu(set.imus[i].spec, KeyOf(world, vehicle, "imu", i)));
-  for (size_t i = 0; i < set.gnss.size(); ++i)
-    states.gnss.push_back(StartGnss(set.gnss[i].spec, KeyOf(world, vehicle, "gnss", i)));
+  for (const auto& gimbal : set.gimbals) states.gimbals.push_back(StartGimbal(gimbal.spec, {}, motion.body.X_WB.R));
+  for (size_t i = 0; i < set.imus.size(); ++i) states.imus.push_back(StartImu(set.imus[i].spec, KeyOf(world, vehicle, "imu", i)));
+  for (size_t i = 0; i < set.gnss.size(); ++i) states.gnss.push_back(StartGnss(set.gnss[i].spec, KeyOf(world, vehicle, "gnss", i)));
   for (size_t i = 0; i < set.barometers.size(); ++i) {
-    states.barometers.push_back(
-        StartBarometer(set.barometers[i].spec, KeyOf(world, vehicle, "barometer", i)));
+    states.barometers.push_back(StartBarometer(set.barometers[i].spec, KeyOf(world, vehicle, "barometer", i)));
   }
   for (size_t i = 0; i < set.magnetometers.size(); ++i) {
-    states.magnetometers.push_back(
-        StartMagnetometer(set.magnetometers[i].spec, KeyOf(world, vehicle, "magnetometer", i)));
+    states.magnetometers.push_back(StartMagnetometer(set.magnetometers[i].spec, KeyOf(world, vehicle, "magnetometer", i)));
   }
   return states;
 }
 
-void StepSensors(const SensorSet& set, const SensorWorld& world, uint32_t vehicle, const BodyMotion& motion,
-                 int64_t t_ns, int64_t dt_ns, SensorStates& states) {
+void StepSensors(const SensorSet& set, const SensorWorld& world, uint32_t vehicle, const BodyMotion& motion, int64_t t_ns, int64_t dt_ns,
+                 SensorStates& states) {
   const auto due = [&](double rate_hz) { return SampleDue(rate_hz, t_ns, dt_ns); };
   for (size_t i = 0; i < states.gimbals.size(); ++i) {
     StepGimbal(set.gimbals[i].spec, motion.body.X_WB.R, static_cast<double>(dt_ns) * 1e-9, states.gimbals[i]);
   }
   for (size_t i = 0; i < states.imus.size(); ++i) {
-    if (due(set.imus[i].spec.rate_hz))
-      SampleImu(set.imus[i].spec, KeyOf(world, vehicle, "imu", i), motion, t_ns, states.imus[i]);
+    if (due(set.imus[i].spec.rate_hz)) SampleImu(set.imus[i].spec, KeyOf(world, vehicle, "imu", i), motion, t_ns, states.imus[i]);
   }
   for (size_t i = 0; i < states.gnss.size(); ++i) {
     if (due(set.gnss[i].spec.rate_hz)) {
-      SampleGnss(set.gnss[i].spec, KeyOf(world, vehicle, "gnss", i), world.frame, motion, t_ns,
-                 states.gnss[i]);
+      SampleGnss(set.gnss[i].spec, KeyOf(world, vehicle, "gnss", i), world.frame, motion, t_ns, states.gnss[i]);
     }
   }
   for (size_t i = 0; i < states.barometers.size(); ++i) {
     if (!due(set.barometers[i].spec.rate_hz)) continue;
     const double height = world.frame.origin().altitude + motion.body.X_WB.p.z;
-    SampleBarometer(set.barometers[i].spec, KeyOf(world, vehicle, "barometer", i), motion, height,
-                    world.sea_level_pressure, t_ns, states.barometers[i]);
+    SampleBarometer(set.barometers[i].spec, KeyOf(world, vehicle, "barometer", i), motion, height, world.sea_level_pressure, t_ns,
+                    states.barometers[i]);
   }
   for (size_t i = 0; i < states.magnetometers.size(); ++i) {
     if (due(set.magnetometers[i].spec.rate_hz)) {
-      SampleMagnetometer(set.magnetometers[i].spec, KeyOf(world, vehicle, "magnetometer", i),
-                         world.field.InWorld(), motion, t_ns, states.magnetometers[i]);
+      SampleMagnetometer(set.magnetometers[i].spec, KeyOf(world, vehicle, "magnetometer", i), world.field.InWorld(), motion, t_ns,
+                         states.magnetometers[i]);
     }
   }
 }

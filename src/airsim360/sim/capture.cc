@@ -4,8 +4,7 @@
 
 namespace airsim360 {
 
-void internal::ThrowNoSensor(std::string_view kind, std::string_view name,
-                             const std::vector<std::string>& names) {
+void internal::ThrowNoSensor(std::string_view kind, std::string_view name, const std::vector<std::string>& names) {
   if (names.empty()) throw InputError("the vehicle has no " + std::string(kind));
   throw InputError(UnknownChoiceMessage(kind, name, names));
 }
@@ -39,8 +38,8 @@ void SnapshotSensors::Lidar(const SimState& state, size_t vehicle, size_t i, Lid
   ScanLidar(spec, key, *TracerOf(state, vehicle), carrier.motion, X_BS, state.t_ns, scan);
 }
 
-void SnapshotSensors::Camera(const SimState& state, size_t vehicle, size_t i, const Products& products,
-                             Renderer& renderer, Capture& capture) {
+void SnapshotSensors::Camera(const SimState& state, size_t vehicle, size_t i, const Products& products, Renderer& renderer,
+                             Capture& capture) {
   const SensorSet& set = SensorsOf(vehicle);
   const CameraSpec& spec = set.cameras.at(i).spec;
   const Vehicle& carrier = state.vehicles.at(vehicle);

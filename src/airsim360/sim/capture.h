@@ -24,8 +24,7 @@ class SnapshotSensors {
   RangeReading Range(const SimState& state, size_t vehicle, size_t i);
   void Lidar(const SimState& state, size_t vehicle, size_t i, LidarScan& scan);
   /// One picture of camera `i`, with `products` and the vehicle's own body hidden.
-  void Camera(const SimState& state, size_t vehicle, size_t i, const Products& products, Renderer& renderer,
-              Capture& capture);
+  void Camera(const SimState& state, size_t vehicle, size_t i, const Products& products, Renderer& renderer, Capture& capture);
   /// Tracer of a snapshot as a vehicle sees it.
   std::shared_ptr<const RayTracer> TracerOf(const SimState& state, size_t vehicle);
 
@@ -37,8 +36,7 @@ class SnapshotSensors {
 };
 
 namespace internal {
-[[noreturn]] void ThrowNoSensor(std::string_view kind, std::string_view name,
-                                const std::vector<std::string>& names);
+[[noreturn]] void ThrowNoSensor(std::string_view kind, std::string_view name, const std::vector<std::string>& names);
 }
 
 template <class Spec>

@@ -20,8 +20,7 @@ using internal::Wait;
 // Many drones in the room, close enough to meet, in gusty commands.
 std::shared_ptr<SimModel> Crowd() {
   std::vector<DroneSetup> setups;
-  for (int i = 0; i < 20; ++i)
-    setups.push_back(HummingbirdAt({-3.2 + 1.6 * (i % 5), -3.0 + 1.6 * (i / 5), 2.0 + 0.1 * i}));
+  for (int i = 0; i < 20; ++i) setups.push_back(HummingbirdAt({-3.2 + 1.6 * (i % 5), -3.0 + 1.6 * (i / 5), 2.0 + 0.1 * i}));
   return RoomModel(setups);
 }
 
@@ -38,8 +37,7 @@ uint64_t RunCrowd(const SimModel& model, int steps) {
   SimState state = StartState(model);
   RngStream random(1, "commands");
   for (int i = 0; i < steps; ++i) {
-    Step(model, i % 250 == 0 ? RandomCommands(random, state.vehicles.size()) : std::vector<SimCommand>(),
-         state);
+    Step(model, i % 250 == 0 ? RandomCommands(random, state.vehicles.size()) : std::vector<SimCommand>(), state);
   }
   return HashState(state);
 }
@@ -91,22 +89,18 @@ TEST(Determinism, HashSeesEveryPartOfADrone) {
 // A run with a command of every kind.
 Recording RecordedRun(SimLoop& loop) {
   loop.StartRecording("box_room, two hummingbirds", 500);
-  const auto polynomial = std::make_shared<const PolynomialTrajectory>(
-      PolynomialOf(RouteThrough({{.p = {-1, 0, 2}}, {.p = {1, 1, 3}}, {.p = {-1, 0, 2}}}, 2)));
+  const auto polynomial =
+      std::make_shared<const PolynomialTrajectory>(PolynomialOf(RouteThrough({{.p = {-1, 0, 2}}, {.p = {1, 1, 3}}, {.p = {-1, 0, 2}}}, 2)));
   const auto path = std::make_shared<const std::vector<Vec3d>>(std::vector<Vec3d>{{1, 1, 2}, {2, -1, 2}});
   const std::vector<std::vector<SimCommand>> script = {
       {{1, FlightCommand{TakeoffCommand{}}}, {0, GimbalCommand{0, {0, -0.5, 0}}}},
-      {{0, FlightCommand{TrajectoryCommand{
-               std::make_shared<const PlannedReference>(polynomial, std::nullopt)}}}},
+      {{0, FlightCommand{TrajectoryCommand{std::make_shared<const PlannedReference>(polynomial, std::nullopt)}}}},
       {{1, FlightCommand{PathCommand{.waypoints = path, .speed = 1}}}},
-      {{0, FlightCommand{AttitudeCommand{.roll = 0.1, .vertical = {VerticalTarget::Mode::kAltitude, 2.5}},
-                         300'000'000}}},
-      {{0, WindCommand{{1, 2, 0}}},
-       {1, FlightCommand{RateCommand{.w_B = {0, 0, 1}, .vertical = {VerticalTarget::Mode::kThrottle, 0.3}}}}},
+      {{0, FlightCommand{AttitudeCommand{.roll = 0.1, .vertical = {VerticalTarget::Mode::kAltitude, 2.5}}, 300'000'000}}},
+      {{0, WindCommand{{1, 2, 0}}}, {1, FlightCommand{RateCommand{.w_B = {0, 0, 1}, .vertical = {VerticalTarget::Mode::kThrottle, 0.3}}}}},
       {{1, FlightCommand{ReturnCommand{}}}, {0, RotorHealthCommand{{1, 1, 0.9, 1, 1, 1, 1, 1}}}},
       {{0, std::make_shared<const Route>(RouteThrough({{.p = {0, 0, 2}}, {.p = {2, 0, 2}}}, 2))}},
-      {{0, FlightCommand{HoverCommand{}}},
-       {1, ResetCommand{.X_WB = BodyPose({1, 1, 3}, 0, 0, 0), .airborne = true}}},
+      {{0, FlightCommand{HoverCommand{}}}, {1, ResetCommand{.X_WB = BodyPose({1, 1, 3}, 0, 0, 0), .airborne = true}}},
   };
   for (const auto& commands : script) {
     for (const SimCommand& command : commands) loop.Post(command);
@@ -163,9 +157,7 @@ TEST(Recording, DamagedCutOrForeignFilesAreRefused) {
     EXPECT_THROW(DecodeRecording(damaged, "run"), InputError) << place;
   }
   try {
-    DecodeRecording(
-        AsBytes("not a recording at all, but long enough to look at: 0123456789 0123456789 0123456789"),
-        "some.file");
+    DecodeRecording(AsBytes("not a recording at all, but long enough to look at: 0123456789 0123456789 0123456789"), "some.file");
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()), "some.file: not a recording");
@@ -260,8 +252,8 @@ TEST(PolynomialOf, IsTheRouteAtEveryTime) {
 }
 
 TEST(PlannedReference, LooksAlongTheWayAndItsRateIsTheDerivativeOfItsHeading) {
-  const auto polynomial = std::make_shared<const PolynomialTrajectory>(
-      PolynomialOf(RouteThrough({{.p = {-4, 0, 2}}, {.p = {0, 3, 3}}, {.p = {4, 0, 2}}}, 2)));
+  const auto polynomial =
+      std::make_shared<const PolynomialTrajectory>(PolynomialOf(RouteThrough({{.p = {-4, 0, 2}}, {.p = {0, 3, 3}}, {.p = {4, 0, 2}}}, 2)));
   const PlannedReference reference(polynomial, std::nullopt);
   const double middle = polynomial->duration() / 2, h = 1e-5;
   EXPECT_NEAR(reference.At(middle).yaw, 0, 1e-9);  // at the top it flies east

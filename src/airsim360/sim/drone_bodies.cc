@@ -14,8 +14,7 @@ namespace {
 
 AffineTransform PlaceOf(const RigidTransform& X_WB) {
   const Mat3d& R = X_WB.R;
-  return {Mat3f::FromColumns(VecCast<float>(R.column(0)), VecCast<float>(R.column(1)),
-                             VecCast<float>(R.column(2))),
+  return {Mat3f::FromColumns(VecCast<float>(R.column(0)), VecCast<float>(R.column(1)), VecCast<float>(R.column(2))),
           VecCast<float>(X_WB.p)};
 }
 
@@ -46,8 +45,7 @@ DroneBodyRef AddBody(const DroneBodySpec& body, MeshId mesh, Scene& scene) {
 }
 
 // What has moved at `state`; people have the meshes for how far they were from vehicle `self` at `seen`.
-std::shared_ptr<const SceneState> SceneStateAt(const SimModel& model, const SimState& state, size_t self,
-                                               const SimState& seen) {
+std::shared_ptr<const SceneState> SceneStateAt(const SimModel& model, const SimState& state, size_t self, const SimState& seen) {
   auto scene_state = std::make_shared<SceneState>();
   scene_state->t_ns = state.t_ns;
   const size_t count = std::min(model.drones.size(), state.vehicles.size());
@@ -61,8 +59,7 @@ std::shared_ptr<const SceneState> SceneStateAt(const SimModel& model, const SimS
       poses.levels = LevelsFor(*model.people, seen.people->crowd.people, seen.vehicles[self].motion.X_WB.p);
     ShowPeople(*model.people, poses, *scene_state);
   }
-  if (model.traffic && state.traffic)
-    ShowTraffic(*model.traffic, *state.traffic, state.t_ns + model.traffic->epoch_ns, *scene_state);
+  if (model.traffic && state.traffic) ShowTraffic(*model.traffic, *state.traffic, state.t_ns + model.traffic->epoch_ns, *scene_state);
   std::ranges::sort(scene_state->moved, {}, &MovedInstance::instance);
   return scene_state;
 }
@@ -89,8 +86,7 @@ Model DroneBodyModel(const DroneModel& drone) {
   return model;
 }
 
-std::shared_ptr<const Scene> AddDroneBodies(std::shared_ptr<const Scene> scene,
-                                            std::span<const DroneBodySpec> bodies,
+std::shared_ptr<const Scene> AddDroneBodies(std::shared_ptr<const Scene> scene, std::span<const DroneBodySpec> bodies,
                                             std::vector<DroneBodyRef>& refs) {
   refs.clear();
   if (bodies.empty()) return scene;
@@ -117,8 +113,7 @@ NextTrigger InstantAfter(const SimModel& model, const SimState& now, size_t self
   return {X_WB, SceneStateAt(model, then, self, now)};
 }
 
-std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base,
-                                               std::span<const DroneBodyRef> bodies,
+std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base, std::span<const DroneBodyRef> bodies,
                                                const SimPeople* people, const SimTraffic* traffic) {
   const bool anybody = people != nullptr && !people->refs.empty();
   if (bodies.empty() && !anybody && traffic == nullptr) return base;

@@ -34,8 +34,7 @@ struct DroneBodyRef {
 /// The scene with bodies added, each an instance and an entity of its own, after those that it has: ids of
 /// everything else stay. In place where `scene` is the only reference, else a copy. `refs`: one for each
 /// body.
-std::shared_ptr<const Scene> AddDroneBodies(std::shared_ptr<const Scene> scene,
-                                            std::span<const DroneBodySpec> bodies,
+std::shared_ptr<const Scene> AddDroneBodies(std::shared_ptr<const Scene> scene, std::span<const DroneBodySpec> bodies,
                                             std::vector<DroneBodyRef>& refs);
 
 inline constexpr size_t kNobody = SIZE_MAX;
@@ -50,8 +49,7 @@ NextTrigger InstantAfter(const SimModel& model, const SimState& now, size_t self
 
 /// The scene of `base` without any of the bodies, people and vehicles, for SimModel::tracer; `base` itself if there are
 /// none.
-std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base,
-                                               std::span<const DroneBodyRef> bodies,
+std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base, std::span<const DroneBodyRef> bodies,
                                                const SimPeople* people = nullptr, const SimTraffic* traffic = nullptr);
 
 }  // namespace airsim360

@@ -23,10 +23,8 @@ struct TwoInTheRoom {
     setups[1].X_WB = BodyPose({1, 0, 3}, 3.14159265358979, 0, 0);
     std::vector<DroneBodySpec> bodies;
     for (DroneSetup& setup : setups) {
-      setup.sensors.lidars = {
-          {"lidar", {.channels = 32, .columns = 720, .low_deg = -20, .high_deg = 20, .sigma = 0}}};
-      setup.sensors.range_finders = {
-          {"ahead", {.mount = {}, .beam_deg = 6, .sigma = 0, .sigma_per_metre = 0}}};
+      setup.sensors.lidars = {{"lidar", {.channels = 32, .columns = 720, .low_deg = -20, .high_deg = 20, .sigma = 0}}};
+      setup.sensors.range_finders = {{"ahead", {.mount = {}, .beam_deg = 6, .sigma = 0, .sigma_per_metre = 0}}};
       CameraSpec panorama;
       panorama.width = 512, panorama.height = 256;
       panorama.tier = Tier::kLabels;

@@ -29,8 +29,7 @@ std::vector<int64_t> EvenTimes(const Route& route, int64_t n) {
   return times;
 }
 
-Flight FlyRoute(const SimModel& model, std::shared_ptr<const Route> route,
-                std::span<const int64_t> shot_times_ns) {
+Flight FlyRoute(const SimModel& model, std::shared_ptr<const Route> route, std::span<const int64_t> shot_times_ns) {
   const double duration = route->duration();
   const RoutePoint start = route->At(0);
   SimState state;
@@ -47,13 +46,11 @@ Flight FlyRoute(const SimModel& model, std::shared_ptr<const Route> route,
       flight.shots.push_back({.t_ns = state.t_ns, .body = vehicle.motion, .people = state.people, .traffic = state.traffic});
     }
     const bool landed = static_cast<double>(state.t_ns) * 1e-9 >= duration && next == shot_times_ns.size();
-    if (state.t_ns % kRecordPeriodNs == 0 || landed)
-      flight.trajectory.push_back({state.t_ns, vehicle.motion, vehicle.a_WB});
+    if (state.t_ns % kRecordPeriodNs == 0 || landed) flight.trajectory.push_back({state.t_ns, vehicle.motion, vehicle.a_WB});
     if (landed) return flight;
 
     Step(model, state.step == 0 ? std::span(commands) : std::span<const SimCommand>(), state);
-    flight.least_clearance =
-        std::min(flight.least_clearance, static_cast<double>(state.vehicles[0].clearance));
+    flight.least_clearance = std::min(flight.least_clearance, static_cast<double>(state.vehicles[0].clearance));
   }
 }
 

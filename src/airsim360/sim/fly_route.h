@@ -15,7 +15,7 @@ struct Shot {
   int64_t t_ns = 0;
   Kinematics body;
   std::shared_ptr<const PeopleState> people = nullptr;  ///< SimState::people then
-  bool last = false;  ///< of a take: the next shot does not follow in time, the body goes on as it moves
+  bool last = false;                                    ///< of a take: the next shot does not follow in time, the body goes on as it moves
   std::shared_ptr<const TrafficState> traffic = nullptr;  ///< SimState::traffic then
 };
 
@@ -37,8 +37,7 @@ std::vector<int64_t> EvenTimes(const Route& route, int64_t n);
 
 /// Simulates the whole route and takes a shot at the step nearest to each of `shot_times_ns` (ascending).
 /// Records the trajectory ten times a second and at its end.
-Flight FlyRoute(const SimModel& model, std::shared_ptr<const Route> route,
-                std::span<const int64_t> shot_times_ns);
+Flight FlyRoute(const SimModel& model, std::shared_ptr<const Route> route, std::span<const int64_t> shot_times_ns);
 
 /// A flight that stays in one place: one shot at time 0.
 Flight Hover(const RigidTransform& X_WB);

@@ -20,13 +20,9 @@ using internal::RoomModel;
 using internal::Wait;
 using Kind = SimEvent::Kind;
 
-const std::string& EntityName(const SimModel& model, EntityId id) {
-  return model.tracer->scene().entity(id).name;
-}
+const std::string& EntityName(const SimModel& model, EntityId id) { return model.tracer->scene().entity(id).name; }
 
-double BottomOf(const SimModel& model, const Vehicle& vehicle) {
-  return vehicle.drone.p_WB.z - model.drones[0]->model().half_size_B.z;
-}
+double BottomOf(const SimModel& model, const Vehicle& vehicle) { return vehicle.drone.p_WB.z - model.drones[0]->model().half_size_B.z; }
 
 TEST(Flying, TakesOffHoversAndLandsOnTheFloor) {
   const auto model = RoomModel({HummingbirdAt({0, 0, 2}, false)});

@@ -59,8 +59,7 @@ TEST_P(HostileState, EndsWithTheNextStep) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Decades, HostileState,
-                         testing::Values(1e3, -1e5, 1e7, 1e12, 1e17, 2e18, -1e20, 1e30, 1e38, 1e100, -1e308,
-                                         kInfinity, std::nan("")));
+                         testing::Values(1e3, -1e5, 1e7, 1e12, 1e17, 2e18, -1e20, 1e30, 1e38, 1e100, -1e308, kInfinity, std::nan("")));
 
 }  // namespace
 }  // namespace airsim360

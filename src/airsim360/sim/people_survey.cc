@@ -16,15 +16,15 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kEyes = 1.5;         // metres of a person's face above the ground
-constexpr double kNearest = 2;        // metres to a face: nearer is not safe
-constexpr double kFarthest = 15;      // metres at which people no longer count
-constexpr double kGood = 4.5;         // metres up to which nearer is no better
-constexpr double kTurnSeconds = 1;    // before and after looking
-constexpr double kNearSeconds = 40;   // stops farther away are looked for only where nearer ones show nobody
+constexpr double kEyes = 1.5;        // metres of a person's face above the ground
+constexpr double kNearest = 2;       // metres to a face: nearer is not safe
+constexpr double kFarthest = 15;     // metres at which people no longer count
+constexpr double kGood = 4.5;        // metres up to which nearer is no better
+constexpr double kTurnSeconds = 1;   // before and after looking
+constexpr double kNearSeconds = 40;  // stops farther away are looked for only where nearer ones show nobody
 constexpr FlightLimits kCalm = {.speed = 3, .acceleration = 2, .corner = 1};
 constexpr size_t kMostCandidates = 1200;
-constexpr double kSpacing = 2.5;      // metres between candidates
+constexpr double kSpacing = 2.5;  // metres between candidates
 
 // Where the people are second by second, as they live without the body.
 class Tracks {
@@ -180,7 +180,10 @@ std::optional<size_t> FirstPlace(const Roadmap& map, const std::vector<double>& 
 class TourPlanner {
  public:
   TourPlanner(const SimModel& model, const PeopleSurveyOptions& options, double clearance)
-      : tracer_(*model.tracer), options_(options), radius_(clearance + 0.2 * std::min(1.0, clearance)), tracks_(*model.people),
+      : tracer_(*model.tracer),
+        options_(options),
+        radius_(clearance + 0.2 * std::min(1.0, clearance)),
+        tracks_(*model.people),
         seen_before_(model.people->cast.size()) {}
 
   std::optional<PeopleSurvey> Plan() {
@@ -269,8 +272,7 @@ std::optional<PeopleSurvey> PlanPeopleSurvey(const SimModel& model, const People
 
 std::optional<double> RatePeopleView(const RayTracer& world, Vec3d p_W, std::span<const std::optional<Vec3d>> people) {
   const auto is_near = [&](const auto& place) { return place && Norm(*place + Vec3d{0, 0, kEyes} - p_W) < kNearest; };
-  if (std::ranges::any_of(people, is_near) || FindWhereabouts(world, p_W).kind != Whereabouts::Kind::kOpen)
-    return std::nullopt;
+  if (std::ranges::any_of(people, is_near) || FindWhereabouts(world, p_W).kind != Whereabouts::Kind::kOpen) return std::nullopt;
   double sum = 0;
   for (const Seen& seen : SeenFrom(world, p_W, people)) sum += seen.weight;
   return sum;

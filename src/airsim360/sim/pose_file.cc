@@ -24,8 +24,7 @@ constexpr size_t kMaxPoses = 1'000'000;
 constexpr double kMostSeconds = 1e9, kMostMetres = 1e7;
 
 enum Column { kX, kY, kZ, kYaw, kPitch, kRoll, kQw, kQx, kQy, kQz, kT, kColumnCount };
-const std::vector<std::string> kNames = {"x",  "y",  "z",  "yaw_deg", "pitch_deg", "roll_deg",
-                                         "qw", "qx", "qy", "qz",      "t"};
+const std::vector<std::string> kNames = {"x", "y", "z", "yaw_deg", "pitch_deg", "roll_deg", "qw", "qx", "qy", "qz", "t"};
 
 // One line of a file: what it holds of each column.
 using Row = std::array<std::optional<double>, kColumnCount>;
@@ -79,8 +78,7 @@ std::vector<Column> ParseHeader(const std::vector<std::string_view>& fields) {
 std::vector<Column> ColumnsOf(std::string_view line, size_t count) {
   if (line.find(',') == std::string_view::npos && count == 8) return {kT, kX, kY, kZ, kQx, kQy, kQz, kQw};
   if (line.find(',') == std::string_view::npos || count < 3 || count > 6) {
-    throw InputError(std::to_string(count) +
-                     " values are neither x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] nor TUM's t x y z qx qy qz qw");
+    throw InputError(std::to_string(count) + " values are neither x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] nor TUM's t x y z qx qy qz qw");
   }
   const std::vector<Column> all = {kX, kY, kZ, kYaw, kPitch, kRoll};
   return {all.begin(), all.begin() + static_cast<ptrdiff_t>(count)};
@@ -157,8 +155,7 @@ ParsedPose PoseOfJson(std::string_view line) {
     return PoseOf(row);
   }
   ParsedPose pose;
-  pose.body.X_WB =
-      json.contains("X_WB") ? JsonTransform(json, "X_WB") : JsonTransform(json, "X_WC") * CameraInBody().inverse();
+  pose.body.X_WB = json.contains("X_WB") ? JsonTransform(json, "X_WB") : JsonTransform(json, "X_WC") * CameraInBody().inverse();
   if (json.contains("t_ns")) pose.t = JsonNumber(json["t_ns"], "t_ns") * 1e-9;
   const auto vector = [&](const char* key) {
     if (!json.contains(key)) return Vec3d{};

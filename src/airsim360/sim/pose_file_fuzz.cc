@@ -12,8 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {
     int64_t last = -1;
     for (const TimedPose& pose : ParsePoses({reinterpret_cast<const char*>(data), size}, "fuzz")) {
-      if (pose.t_ns <= last || !std::isfinite(Norm(pose.body.X_WB.p)) ||
-          !(std::abs(pose.body.X_WB.R.determinant() - 1) < 0.01))
+      if (pose.t_ns <= last || !std::isfinite(Norm(pose.body.X_WB.p)) || !(std::abs(pose.body.X_WB.R.determinant() - 1) < 0.01))
         std::abort();
       last = pose.t_ns;
     }

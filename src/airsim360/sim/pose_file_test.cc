@@ -27,9 +27,12 @@ TEST(PoseFile, AnglesQuaternionsAndTumOfRandomPosesAreTheSame) {
     const RigidTransform X_WB = BodyPose(p, yaw * k, pitch * k, roll * k);
     const Quaternion q = ToQuaternion((X_WB * CameraInBody()).R);
     char angles[400], quaternion[400], tum[400];
-    std::snprintf(angles, sizeof angles, "x,y,z,yaw_deg,pitch_deg,roll_deg\n%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", p.x, p.y, p.z, yaw, pitch, roll);
-    std::snprintf(quaternion, sizeof quaternion, "qx,qy,qz,qw,x,y,z\n%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", q.x, q.y, q.z, q.w, p.x, p.y, p.z);
-    std::snprintf(tum, sizeof tum, "# a comment\n\n12.5\t%.17g %.17g %.17g  %.17g %.17g %.17g %.17g\r\n", p.x, p.y, p.z, q.x, q.y, q.z, q.w);
+    std::snprintf(angles, sizeof angles, "x,y,z,yaw_deg,pitch_deg,roll_deg\n%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", p.x, p.y, p.z, yaw,
+                  pitch, roll);
+    std::snprintf(quaternion, sizeof quaternion, "qx,qy,qz,qw,x,y,z\n%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", q.x, q.y, q.z, q.w, p.x,
+                  p.y, p.z);
+    std::snprintf(tum, sizeof tum, "# a comment\n\n12.5\t%.17g %.17g %.17g  %.17g %.17g %.17g %.17g\r\n", p.x, p.y, p.z, q.x, q.y, q.z,
+                  q.w);
     for (const char* text : {angles, quaternion, tum}) {
       const auto poses = ParsePoses(text, "x");
       ASSERT_EQ(poses.size(), 1u);
@@ -41,7 +44,8 @@ TEST(PoseFile, AnglesQuaternionsAndTumOfRandomPosesAreTheSame) {
 
 TEST(PoseFile, FramesOfADatasetKeepTheirTimesVelocitiesAndBody) {
   const char text[] =
-      R"({"t_ns": 40, "X_WC": {"p": [1, 2, 3], "q_wxyz": [0.5, -0.5, 0.5, -0.5]}, "v_WB": [1, 0, 2], "w_WB_B": [0, 0, 0.5]})" "\n"
+      R"({"t_ns": 40, "X_WC": {"p": [1, 2, 3], "q_wxyz": [0.5, -0.5, 0.5, -0.5]}, "v_WB": [1, 0, 2], "w_WB_B": [0, 0, 0.5]})"
+      "\n"
       R"({"t_ns": 1000000040, "X_WC": {"p": [9, 9, 9], "q_wxyz": [1, 0, 0, 0]}, "X_WB": {"p": [4, 5, 6], "q_wxyz": [1, 0, 0, 0]}})";
   const auto poses = ParsePoses(text, "x");
   ASSERT_EQ(poses.size(), 2u);

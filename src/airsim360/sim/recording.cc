@@ -5,8 +5,7 @@
 
 namespace airsim360 {
 
-Recorder::Recorder(const SimModel& model, const SimState& start, std::string note, int64_t hash_every)
-    : hash_every_(hash_every) {
+Recorder::Recorder(const SimModel& model, const SimState& start, std::string note, int64_t hash_every) : hash_every_(hash_every) {
   recording_.note = std::move(note);
   recording_.dt_ns = model.dt_ns;
   recording_.first_step = start.step;
@@ -31,15 +30,14 @@ void Recorder::After(const SimState& state) {
 Recording Recorder::Finish(const SimState& state) const {
   Recording recording = recording_;
   recording.steps = state.step - recording.first_step;
-  if (recording.hashes.empty() || recording.hashes.back().first != state.step)
-    recording.hashes.emplace_back(state.step, HashState(state));
+  if (recording.hashes.empty() || recording.hashes.back().first != state.step) recording.hashes.emplace_back(state.step, HashState(state));
   return recording;
 }
 
 ReplayResult Replay(const SimModel& model, const Recording& recording, SimState& state) {
   if (model.dt_ns != recording.dt_ns) {
-    throw InputError("replay: the recording has steps of " + std::to_string(recording.dt_ns) +
-                     " ns, the model of " + std::to_string(model.dt_ns));
+    throw InputError("replay: the recording has steps of " + std::to_string(recording.dt_ns) + " ns, the model of " +
+                     std::to_string(model.dt_ns));
   }
   if (state.step != recording.first_step || HashState(state) != recording.start_hash) {
     throw InputError("replay: the run began with another state (" + recording.note + ")");

@@ -43,9 +43,7 @@ class Reader {
  public:
   static constexpr bool kReads = true;
   Reader(std::span<const std::byte> rest, std::string_view name) : rest_(rest), name_(name) {}
-  [[noreturn]] void Fail(const std::string& what) const {
-    throw InputError(std::string(name_) + ": " + what);
-  }
+  [[noreturn]] void Fail(const std::string& what) const { throw InputError(std::string(name_) + ": " + what); }
   template <Number T>
   void Field(T& value) {
     if (rest_.size() < sizeof(T)) Fail("the recording is cut off");
@@ -234,8 +232,7 @@ template <class A>
 void Walk(A& a, std::shared_ptr<const Route>& route) {
   std::vector<RouteNode> nodes;
   if (route) nodes = route->nodes();
-  WalkList(a, nodes, 64,
-           [&](RouteNode& node) { Walk(a, node.t), Walk(a, node.p), Walk(a, node.v), Walk(a, node.yaw); });
+  WalkList(a, nodes, 64, [&](RouteNode& node) { Walk(a, node.t), Walk(a, node.p), Walk(a, node.v), Walk(a, node.yaw); });
   if constexpr (A::kReads) {
     route = Made(a, [&] { return std::make_shared<const Route>(std::move(nodes)); });
   }
@@ -338,8 +335,7 @@ void Walk(A& a, Recording& r) {
 
 void CheckOrder(const Recording& r, const Reader& reader) {
   const auto outside = [](int64_t steps) { return steps < 0 || steps > kMostSteps; };
-  if (r.dt_ns <= 0 || outside(r.first_step) || outside(r.steps))
-    reader.Fail("the number or length of its steps makes no sense");
+  if (r.dt_ns <= 0 || outside(r.first_step) || outside(r.steps)) reader.Fail("the number or length of its steps makes no sense");
   int64_t last = r.first_step - 1;
   for (const RecordedStep& step : r.commands) {
     if (step.step <= last) reader.Fail("its commands are out of order");
@@ -369,16 +365,14 @@ Bytes EncodeRecording(const Recording& recording) {
 
 Recording DecodeRecording(std::span<const std::byte> bytes, std::string_view name) {
   Reader outer(bytes, name);
-  if (bytes.size() < kMagic.size() + sizeof(uint32_t) + kDigest ||
-      AsText(bytes.first(kMagic.size())) != kMagic)
+  if (bytes.size() < kMagic.size() + sizeof(uint32_t) + kDigest || AsText(bytes.first(kMagic.size())) != kMagic)
     outer.Fail("not a recording");
   const auto content = bytes.subspan(kMagic.size(), bytes.size() - kMagic.size() - kDigest);
   Reader reader(content, name);
   uint32_t version = 0;
   reader.Field(version);
   if (version != kRecordingVersion) {
-    reader.Fail("version " + std::to_string(version) + " of a recording; this program reads version " +
-                std::to_string(kRecordingVersion));
+    reader.Fail("version " + std::to_string(version) + " of a recording; this program reads version " + std::to_string(kRecordingVersion));
   }
   if (Sha256Hex(content) != AsText(bytes.last(kDigest))) reader.Fail("the recording is damaged");
   Recording recording;
@@ -392,8 +386,6 @@ void WriteRecording(const std::filesystem::path& path, const Recording& recordin
   WriteFileAtomically(path, EncodeRecording(recording));
 }
 
-Recording ReadRecording(const std::filesystem::path& path) {
-  return DecodeRecording(ReadFile(path), path.string());
-}
+Recording ReadRecording(const std::filesystem::path& path) { return DecodeRecording(ReadFile(path), path.string()); }
 
 }  // namespace airsim360

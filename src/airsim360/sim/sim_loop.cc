@@ -4,10 +4,8 @@
 
 namespace airsim360 {
 
-SimLoop::SimLoop(std::shared_ptr<const SimModel> model)
-    : model_(std::move(model)), state_(StartState(*model_)) {}
-SimLoop::SimLoop(std::shared_ptr<const SimModel> model, SimState start)
-    : model_(std::move(model)), state_(std::move(start)) {}
+SimLoop::SimLoop(std::shared_ptr<const SimModel> model) : model_(std::move(model)), state_(StartState(*model_)) {}
+SimLoop::SimLoop(std::shared_ptr<const SimModel> model, SimState start) : model_(std::move(model)), state_(std::move(start)) {}
 
 void SimLoop::Post(SimCommand command) {
   const std::lock_guard lock(mutex_);

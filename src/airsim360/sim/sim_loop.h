@@ -20,7 +20,8 @@ class SimPilot {
   virtual ~SimPilot() = default;
   /// Before every step, in the thread that steps; `happened`: in the step before. What is added to `commands` is applied in
   /// this step, after what was posted. Calls nothing of the loop.
-  virtual void BeforeStep(const SimModel& model, const SimState& state, std::span<const SimEvent> happened, std::vector<SimCommand>& commands) = 0;
+  virtual void BeforeStep(const SimModel& model, const SimState& state, std::span<const SimEvent> happened,
+                          std::vector<SimCommand>& commands) = 0;
 };
 
 /// All functions may be called from any thread; only those that step and Restore change the
@@ -92,7 +93,7 @@ class SimLoop {
   std::vector<SimEvent> events_;
   std::vector<std::shared_ptr<SimPilot>> pilots_;
   std::vector<SimEvent> happened_;  // in the last step, for pilots
-  int64_t allowed_ = -1;  // steps until the next pause; -1 = never
+  int64_t allowed_ = -1;            // steps until the next pause; -1 = never
   std::optional<Recorder> recorder_;
 };
 

@@ -17,8 +17,7 @@ constexpr auto kAlways = [](const SimState&, std::span<const SimEvent>) { return
 
 TEST(SimLoop, AdvanceWhileStopsAfterTheStepThatSaysSo) {
   SimLoop loop(OneDrone()), plain(OneDrone());
-  const int64_t taken =
-      loop.AdvanceWhile(100, [](const SimState& state, std::span<const SimEvent>) { return state.step < 7; });
+  const int64_t taken = loop.AdvanceWhile(100, [](const SimState& state, std::span<const SimEvent>) { return state.step < 7; });
   EXPECT_EQ(taken, 7);
   EXPECT_EQ(loop.state().step, 7);
   EXPECT_EQ(loop.AdvanceWhile(5, kAlways), 5);

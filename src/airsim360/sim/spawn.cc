@@ -25,8 +25,7 @@ Vehicle VehicleAt(const SimModel& model, const RigidTransform& X_WB) {
   return vehicle;
 }
 
-Vehicle DroneAt(const SimModel& model, const SimState& state, size_t i, const RigidTransform& X_WB,
-                bool airborne) {
+Vehicle DroneAt(const SimModel& model, const SimState& state, size_t i, const RigidTransform& X_WB, bool airborne) {
   if (i >= model.drones.size()) {
     throw InputError("drone " + std::to_string(i) + " of " + std::to_string(model.drones.size()));
   }
@@ -41,11 +40,9 @@ Vehicle DroneAt(const SimModel& model, const SimState& state, size_t i, const Ri
   if (!airborne) vehicle.drone.rotor_speeds.fill(0);
   vehicle.rotor_commands = vehicle.drone.rotor_speeds;
   const StateEstimate estimate = EstimateOf(vehicle.drone, state.t_ns);
-  vehicle.autopilot =
-      airborne ? drone.autopilot().HoverState(estimate) : drone.autopilot().GroundState(estimate);
+  vehicle.autopilot = airborne ? drone.autopilot().HoverState(estimate) : drone.autopilot().GroundState(estimate);
   vehicle.gusts = StartWind(model.world.seed, i);
-  vehicle.sensors =
-      StartSensors(drone.setup().sensors, model.world, static_cast<uint32_t>(i), MotionOf(vehicle));
+  vehicle.sensors = StartSensors(drone.setup().sensors, model.world, static_cast<uint32_t>(i), MotionOf(vehicle));
   return vehicle;
 }
 

@@ -49,8 +49,7 @@ void Add(const WindState& wind, StateHasher& hasher) {
   hasher.Add(std::bit_cast<uint64_t>(wind.random));
   const DrydenState& air = wind.turbulence;
   hasher.Add(air.started);
-  for (const double x : {air.u, air.roll, air.v[0], air.v[1], air.w[0], air.w[1], air.v_slow, air.w_slow})
-    hasher.Add(x);
+  for (const double x : {air.u, air.roll, air.v[0], air.v[1], air.w[0], air.w[1], air.v_slow, air.w_slow}) hasher.Add(x);
 }
 
 void Add(const Vehicle& vehicle, StateHasher& hasher) {

@@ -17,9 +17,7 @@ namespace {
 // Vehicles of one task: fewer are not worth the hand-over to another thread.
 constexpr size_t kVehiclesPerTask = 8;
 
-bool Flies(const SimModel& model, size_t i, const Vehicle& vehicle) {
-  return i < model.drones.size() && !vehicle.following;
-}
+bool Flies(const SimModel& model, size_t i, const Vehicle& vehicle) { return i < model.drones.size() && !vehicle.following; }
 
 /// Applies one command; visits its kind.
 struct CommandVisitor {
@@ -28,9 +26,7 @@ struct CommandVisitor {
   SimState& state;
 
   Vehicle& vehicle() const { return state.vehicles[i]; }
-  void operator()(const std::shared_ptr<const Route>& route) const {
-    vehicle().following = FollowRoute{route, state.t_ns};
-  }
+  void operator()(const std::shared_ptr<const Route>& route) const { vehicle().following = FollowRoute{route, state.t_ns}; }
   void operator()(const FlightCommand& flight) const {
     if (vehicle().following) {
       // From here on it flies: it takes over in mid-air.
@@ -40,15 +36,12 @@ struct CommandVisitor {
     }
     vehicle().command = {flight.command, vehicle().command.id + 1, flight.timeout_ns};
   }
-  void operator()(const GimbalCommand& gimbal) const {
-    vehicle().sensors.gimbals[gimbal.gimbal].command = gimbal.angles;
-  }
+  void operator()(const GimbalCommand& gimbal) const { vehicle().sensors.gimbals[gimbal.gimbal].command = gimbal.angles; }
   void operator()(const RotorHealthCommand& rotors) const { vehicle().health = rotors.health; }
   void operator()(const ResetCommand& reset) const {
     const DroneSetup& setup = model.drones[i]->setup();
     const uint64_t id = vehicle().command.id;
-    vehicle() =
-        DroneAt(model, state, i, reset.X_WB.value_or(setup.X_WB), reset.airborne.value_or(setup.airborne));
+    vehicle() = DroneAt(model, state, i, reset.X_WB.value_or(setup.X_WB), reset.airborne.value_or(setup.airborne));
     vehicle().command.id += id;
   }
   void operator()(const WindCommand& wind) const { state.wind_W = wind.wind_W; }
@@ -92,9 +85,12 @@ void AddBoxesOfLife(const SimModel& model, const SimState& state, std::vector<Dr
   constexpr double kPeopleReach = 4, kVehicleReach = 6;  // metres: far more than both come nearer in a step
   const size_t count = std::min(model.drones.size(), state.vehicles.size());
   for (size_t i = 0; state.people && model.people && i < count; ++i)
-    AddBoxes(PeopleNear(*model.people, *state.people, state.t_ns + model.people->epoch_ns, state.vehicles[i].motion.X_WB.p, kPeopleReach), boxes);
+    AddBoxes(PeopleNear(*model.people, *state.people, state.t_ns + model.people->epoch_ns, state.vehicles[i].motion.X_WB.p, kPeopleReach),
+             boxes);
   for (size_t i = 0; state.traffic && model.traffic && i < count; ++i)
-    AddBoxes(VehiclesNear(*model.traffic, *state.traffic, state.t_ns + model.traffic->epoch_ns, state.vehicles[i].motion.X_WB.p, kVehicleReach), boxes);
+    AddBoxes(
+        VehiclesNear(*model.traffic, *state.traffic, state.t_ns + model.traffic->epoch_ns, state.vehicles[i].motion.X_WB.p, kVehicleReach),
+        boxes);
 }
 
 // What others meet of the drones: where they are now.
@@ -104,10 +100,8 @@ DroneBoxes BoxesOf(const SimModel& model, const SimState& state) {
   for (size_t i = 0; i < count && (count > 1 || model.people || model.traffic); ++i) {
     const SimDrone& drone = *model.drones[i];
     const Kinematics& motion = state.vehicles[i].motion;
-    const RotorWake wake =
-        Flies(model, i, state.vehicles[i]) ? WakeOf(drone.model(), state.vehicles[i].drone) : RotorWake{};
-    boxes.push_back(
-        {motion.X_WB, drone.model().half_size_B, motion.v_WB, drone.radius(), i, drone.setup().entity, wake});
+    const RotorWake wake = Flies(model, i, state.vehicles[i]) ? WakeOf(drone.model(), state.vehicles[i].drone) : RotorWake{};
+    boxes.push_back({motion.X_WB, drone.model().half_size_B, motion.v_WB, drone.radius(), i, drone.setup().entity, wake});
   }
   AddBoxesOfLife(model, state, boxes);
   return DroneBoxes(std::move(boxes));
@@ -119,8 +113,7 @@ void RecordTrace(const SimModel& model, int64_t t_ns, Vehicle& vehicle) {
   vehicle.trace.push_back({t_ns, vehicle.motion.X_WB.p, ToQuaternion(vehicle.motion.X_WB.R)});
 }
 
-void StepVehicle(const internal::StepContext& context, size_t i, Vehicle& vehicle,
-                 std::vector<SimEvent>& events) {
+void StepVehicle(const internal::StepContext& context, size_t i, Vehicle& vehicle, std::vector<SimEvent>& events) {
   const SimModel& model = context.model;
   const int64_t t_ns = context.t_ns + model.dt_ns;
   if (Flies(model, i, vehicle)) {
@@ -131,8 +124,8 @@ void StepVehicle(const internal::StepContext& context, size_t i, Vehicle& vehicl
     MoveAlong(model, t_ns, vehicle);
   }
   if (i < model.drones.size()) {
-    StepSensors(model.drones[i]->setup().sensors, model.world, static_cast<uint32_t>(i), MotionOf(vehicle),
-                t_ns, model.dt_ns, vehicle.sensors);
+    StepSensors(model.drones[i]->setup().sensors, model.world, static_cast<uint32_t>(i), MotionOf(vehicle), t_ns, model.dt_ns,
+                vehicle.sensors);
   }
   RecordTrace(model, t_ns, vehicle);
 }
@@ -151,8 +144,7 @@ void CheckCommand(const SimModel& model, const SimState& state, const SimCommand
   if (i >= state.vehicles.size()) throw InputError(where + " of " + std::to_string(state.vehicles.size()));
   const auto* route = std::get_if<std::shared_ptr<const Route>>(&command.action);
   if (route != nullptr && *route == nullptr) throw InputError(where + ": there is no route");
-  if (route == nullptr && i >= model.drones.size())
-    throw InputError(where + ": it is no drone, it can only follow a route");
+  if (route == nullptr && i >= model.drones.size()) throw InputError(where + ": it is no drone, it can only follow a route");
   const auto* gimbal = std::get_if<GimbalCommand>(&command.action);
   if (gimbal != nullptr && gimbal->gimbal >= state.vehicles[i].sensors.gimbals.size()) {
     throw InputError(where + ": gimbal " + std::to_string(gimbal->gimbal) + " of " +
@@ -162,8 +154,7 @@ void CheckCommand(const SimModel& model, const SimState& state, const SimCommand
 
 BodyMotion MotionOf(const Vehicle& vehicle) { return {vehicle.motion, vehicle.a_WB, vehicle.alpha_WB_B}; }
 
-void Step(const SimModel& model, std::span<const SimCommand> commands, SimState& state,
-          std::vector<SimEvent>* events) {
+void Step(const SimModel& model, std::span<const SimCommand> commands, SimState& state, std::vector<SimEvent>* events) {
   ApplyCommands(model, commands, state);
   StepLife(model, state, events);
   const DroneBoxes boxes = BoxesOf(model, state);

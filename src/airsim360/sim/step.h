@@ -29,15 +29,15 @@ inline constexpr int64_t kRouteStepNs = 20'000'000;
 
 /// What never changes during a run. Shared, read-only.
 struct SimModel {
-  std::shared_ptr<const RayTracer> tracer;  ///< what vehicles touch: the scene without drones' bodies and people
-  int64_t dt_ns = 1'000'000;                ///< length of a step, > 0
-  float contact_range = 2;                  ///< metres up to which clearance is measured
+  std::shared_ptr<const RayTracer> tracer;                   ///< what vehicles touch: the scene without drones' bodies and people
+  int64_t dt_ns = 1'000'000;                                 ///< length of a step, > 0
+  float contact_range = 2;                                   ///< metres up to which clearance is measured
   std::vector<std::shared_ptr<const SimDrone>> drones = {};  ///< by vehicle; further ones only follow routes
   SensorWorld world = {};                                    ///< place on the Earth, weather, seed
   WorldWind wind = {};
-  int64_t trace_period_ns = 100'000'000;  ///< between samples of a vehicle's trace
-  size_t trace_samples = 0;               ///< newest samples that a vehicle keeps; 0 = no trace
-  std::shared_ptr<const SimPeople> people = nullptr;  ///< null = nobody
+  int64_t trace_period_ns = 100'000'000;                ///< between samples of a vehicle's trace
+  size_t trace_samples = 0;                             ///< newest samples that a vehicle keeps; 0 = no trace
+  std::shared_ptr<const SimPeople> people = nullptr;    ///< null = nobody
   std::shared_ptr<const SimTraffic> traffic = nullptr;  ///< null = no vehicles drive
 };
 
@@ -67,9 +67,9 @@ struct TraceSample {
 
 struct Vehicle {
   Kinematics motion;
-  Vec3d a_WB;           ///< acceleration of B in W, m/s^2: mean over the last step
-  float clearance = 0;  ///< metres to the nearest surface, at most SimModel::contact_range; of flying drones
-                        ///< as it was at the last multiple of kClearancePeriodNs
+  Vec3d a_WB;                            ///< acceleration of B in W, m/s^2: mean over the last step
+  float clearance = 0;                   ///< metres to the nearest surface, at most SimModel::contact_range; of flying drones
+                                         ///< as it was at the last multiple of kClearancePeriodNs
   std::optional<FollowRoute> following;  ///< set: moved along a route, whatever the dynamics say
 
   // Of drones. `motion` is the same as `drone`, as sensors want it.
@@ -136,8 +136,7 @@ struct FlightCommand {
 
 struct SimCommand {
   size_t vehicle = 0;
-  std::variant<std::shared_ptr<const Route>, FlightCommand, GimbalCommand, RotorHealthCommand, ResetCommand,
-               WindCommand, PersonCommand>
+  std::variant<std::shared_ptr<const Route>, FlightCommand, GimbalCommand, RotorHealthCommand, ResetCommand, WindCommand, PersonCommand>
       action;
 };
 
@@ -159,20 +158,17 @@ struct SimEvent {
   Kind kind;
   size_t vehicle = 0;
   int64_t t_ns = 0;
-  CollisionInfo collision = {};  ///< of kCollision and kCrash
-  std::string text = {};         ///< of kCommandRefused: why; of kNearPerson: who, and how near
+  CollisionInfo collision = {};    ///< of kCollision and kCrash
+  std::string text = {};           ///< of kCommandRefused: why; of kNearPerson: who, and how near
   PersonIndex person = kNoPerson;  ///< of kNearPerson
 };
-inline constexpr const char* kSimEventNames[] = {
-    "collision", "crash",        "command refused", "command lost",  "command done",
-    "fence",     "rotor failed", "battery low",     "battery empty", "world edge",
-    "near person"};
+inline constexpr const char* kSimEventNames[] = {"collision",    "crash",       "command refused", "command lost", "command done", "fence",
+                                                 "rotor failed", "battery low", "battery empty",   "world edge",   "near person"};
 
 /// A vehicle at rest that only follows routes.
 Vehicle VehicleAt(const SimModel& model, const RigidTransform& X_WB);
 /// Drone `i` of the model at a pose: hovering, or standing disarmed on what is below.
-Vehicle DroneAt(const SimModel& model, const SimState& state, size_t i, const RigidTransform& X_WB,
-                bool airborne);
+Vehicle DroneAt(const SimModel& model, const SimState& state, size_t i, const RigidTransform& X_WB, bool airborne);
 /// All drones of the model at their starts, at time 0.
 SimState StartState(const SimModel& model);
 
@@ -182,8 +178,7 @@ void CheckCommand(const SimModel& model, const SimState& state, const SimCommand
 /// Applies `commands` at the state's time, then advances it by one dt. Adds what happened to `events` in the
 /// order of the vehicles, if given. InputError for a vehicle, gimbal or person that does not exist, or for a flight
 /// command to a vehicle that is no drone; a command that a drone cannot fly is refused with an event.
-void Step(const SimModel& model, std::span<const SimCommand> commands, SimState& state,
-          std::vector<SimEvent>* events = nullptr);
+void Step(const SimModel& model, std::span<const SimCommand> commands, SimState& state, std::vector<SimEvent>* events = nullptr);
 
 /// 64-bit hash of every number of the state: equal states have equal hashes on every machine with the same
 /// arithmetic. Routes, paths and trajectories count by their start alone.

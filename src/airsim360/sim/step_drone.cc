@@ -29,11 +29,10 @@ constexpr double kWakeReach = 20;
 constexpr double kWorldMargin = 1000;
 
 // Flags of the autopilot that are told once, when they rise.
-constexpr std::pair<uint64_t, Kind> kToldFlags[] = {
-    {kCommandRefused, Kind::kCommandRefused}, {kCommandLost, Kind::kCommandLost},
-    {kCommandDone, Kind::kCommandDone},       {kFenceHeld, Kind::kFence},
-    {kRotorFailed, Kind::kRotorFailed},       {kBatteryLow, Kind::kBatteryLow},
-    {kBatteryEmpty, Kind::kBatteryEmpty}};
+constexpr std::pair<uint64_t, Kind> kToldFlags[] = {{kCommandRefused, Kind::kCommandRefused}, {kCommandLost, Kind::kCommandLost},
+                                                    {kCommandDone, Kind::kCommandDone},       {kFenceHeld, Kind::kFence},
+                                                    {kRotorFailed, Kind::kRotorFailed},       {kBatteryLow, Kind::kBatteryLow},
+                                                    {kBatteryEmpty, Kind::kBatteryEmpty}};
 
 void TellFlags(uint64_t before, uint64_t after, size_t i, int64_t t_ns, std::vector<SimEvent>& events) {
   for (const auto& [flag, kind] : kToldFlags) {
@@ -58,8 +57,8 @@ WindSample WindAt(const StepContext& context, const SimDrone& drone, Vehicle& ve
   const Vec3d mean = WindAtHeight(wind, context.wind_W, height);
   UpdateShelter(context, mean, vehicle);
   const WindSettings settings{mean * vehicle.shelter, wind.turbulence_6m, wind.gusts};
-  return StepWind(settings, static_cast<double>(context.t_ns) * 1e-9, drone.dynamics().dt(), height,
-                  vehicle.drone.v_WB, 2 * drone.model().half_size_B.y, vehicle.gusts);
+  return StepWind(settings, static_cast<double>(context.t_ns) * 1e-9, drone.dynamics().dt(), height, vehicle.drone.v_WB,
+                  2 * drone.model().half_size_B.y, vehicle.gusts);
 }
 
 // Largest speed of drones that may be met in this step.
@@ -75,11 +74,10 @@ bool Sleeps(const StepContext& context, size_t i, const SimDrone& drone, Vec3d w
   constexpr double kStillSpeed = 0.02, kStillTurn = 0.1, kStillRotor = 1;  // m/s, rad/s, rad/s
   DroneState& state = vehicle.drone;
   const bool lies = vehicle.touched_ns >= 0 && context.t_ns - vehicle.touched_ns <= kContactGapNs;
-  const bool still =
-      (lies || vehicle.still_ns >= kSleepNs) && vehicle.autopilot.mode == FlightMode::kDisarmed &&
-      std::ranges::max(vehicle.rotor_commands) == 0 && std::ranges::max(state.rotor_speeds) < kStillRotor &&
-      Norm(state.v_WB) < kStillSpeed && Norm(state.w_WB_B) < kStillTurn && wind == Vec3d{} &&
-      NeighbourSpeed(context, i, drone, vehicle) < kStillSpeed;
+  const bool still = (lies || vehicle.still_ns >= kSleepNs) && vehicle.autopilot.mode == FlightMode::kDisarmed &&
+                     std::ranges::max(vehicle.rotor_commands) == 0 && std::ranges::max(state.rotor_speeds) < kStillRotor &&
+                     Norm(state.v_WB) < kStillSpeed && Norm(state.w_WB_B) < kStillTurn && wind == Vec3d{} &&
+                     NeighbourSpeed(context, i, drone, vehicle) < kStillSpeed;
   vehicle.still_ns = still ? std::min(vehicle.still_ns + context.model.dt_ns, kSleepNs) : 0;
   if (vehicle.still_ns < kSleepNs) return false;
   state.v_WB = state.w_WB_B = vehicle.a_WB = vehicle.alpha_WB_B = {};
@@ -112,8 +110,7 @@ double GroundDistance(const StepContext& context, const SimDrone& drone, const V
   if (vehicle.contact.free_distance > drone.ground_range()) return kFar;
   const RotorModel& rotor = drone.model().rotors.front();
   const Vec3d hub = vehicle.drone.p_WB + ToMatrix(vehicle.drone.q_WB) * Vec3d{0, 0, rotor.p_B.z};
-  const auto hit = context.model.tracer->Intersect(VecCast<float>(hub), {0, 0, -1},
-                                                   static_cast<float>(drone.ground_range()));
+  const auto hit = context.model.tracer->Intersect(VecCast<float>(hub), {0, 0, -1}, static_cast<float>(drone.ground_range()));
   return hit ? static_cast<double>(hit->distance) : kFar;
 }
 
@@ -123,11 +120,10 @@ void LieBroken(const StepContext& context, size_t i, Vehicle& vehicle, std::vect
   vehicle.autopilot.mode = FlightMode::kDisarmed;
   if (vehicle.autopilot.command_id == vehicle.command.id) return;
   vehicle.autopilot.command_id = vehicle.command.id;
-  events.push_back(
-      {.kind = Kind::kCommandRefused,
-       .vehicle = i,
-       .t_ns = context.t_ns,
-       .text = CommandName(vehicle.command.command) + ": the drone has crashed; reset it first"});
+  events.push_back({.kind = Kind::kCommandRefused,
+                    .vehicle = i,
+                    .t_ns = context.t_ns,
+                    .text = CommandName(vehicle.command.command) + ": the drone has crashed; reset it first"});
 }
 
 // Whether a contact is more than standing, setting down and leaning. Nothing stands or leans on people.
@@ -136,8 +132,7 @@ bool Collides(const SimModel& model, const ContactReport& report, const Vehicle&
   if (report.crashed) return true;
   const bool lasts = vehicle.touched_ns >= 0 && t_ns - vehicle.touched_ns <= kContactGapNs;
   if (model.people && IsPerson(*model.people, report.point.entity)) return !lasts || report.impact_speed > kNewImpact;
-  if (report.point.normal_W.z > kSupportSlope)
-    return report.impact_speed > (IsEnRoute(vehicle) ? kNewImpact : kTouchdownSpeed);
+  if (report.point.normal_W.z > kSupportSlope) return report.impact_speed > (IsEnRoute(vehicle) ? kNewImpact : kTouchdownSpeed);
   if (!lasts && report.penetration > kPutInto) return true;
   return report.impact_speed > (lasts ? kNewImpact : kLeanSpeed);
 }
@@ -149,10 +144,9 @@ void NoteCollision(const SimModel& model, const ContactReport& report, int64_t t
   if (report.touching) vehicle.touched_ns = t_ns;
   if (!collides) return;
   CollisionInfo& collision = vehicle.collision;
-  collision = {collision.count + 1, t_ns,
-               report.point.p_W,    report.point.normal_W,
-               vehicle.drone.p_WB,  report.impact_speed,
-               report.penetration,  report.point.entity};
+  collision = {
+      collision.count + 1, t_ns, report.point.p_W, report.point.normal_W, vehicle.drone.p_WB, report.impact_speed, report.penetration,
+      report.point.entity};
   events.push_back({Kind::kCollision, i, t_ns, collision});
   if (report.crashed) events.push_back({Kind::kCrash, i, t_ns, collision});
 }
@@ -225,8 +219,7 @@ void PlanDrone(const StepContext& context, size_t i, Vehicle& vehicle, std::vect
   const size_t first = events.size();
   TellFlags(is_new ? before & ~kOfCommand : before, vehicle.autopilot.flags, i, context.t_ns, events);
   for (size_t k = first; k < events.size(); ++k) {
-    if (events[k].kind == Kind::kCommandRefused)
-      events[k].text = drone.autopilot().Problem(vehicle.command.command, vehicle.autopilot);
+    if (events[k].kind == Kind::kCommandRefused) events[k].text = drone.autopilot().Problem(vehicle.command.command, vehicle.autopilot);
   }
 }
 
@@ -259,9 +252,8 @@ void FlyDrone(const StepContext& context, size_t i, const DroneSurroundings& sur
   const DroneState before = vehicle.drone;
   drone.dynamics().Step(surroundings, vehicle.rotor_commands, vehicle.health, vehicle.drone);
   const WorldContacts contacts(*model.tracer, context.boxes, i);
-  const ContactReport report =
-      ResolveContacts(drone.model(), drone.setup().contact, contacts, before, dt,
-                      NeighbourSpeed(context, i, drone, vehicle), vehicle.drone, vehicle.contact);
+  const ContactReport report = ResolveContacts(drone.model(), drone.setup().contact, contacts, before, dt,
+                                               NeighbourSpeed(context, i, drone, vehicle), vehicle.drone, vehicle.contact);
   NoteCollision(model, report, context.t_ns + model.dt_ns, i, vehicle, events);
   const bool mended = KeepSane(before, vehicle.drone);
   KeepInWorld(context, i, vehicle, events);

@@ -19,8 +19,7 @@ void PlanDrone(const StepContext& context, size_t i, Vehicle& vehicle, std::vect
 /// QueryContacts: the air and the ground around the drone.
 DroneSurroundings Surround(const StepContext& context, size_t i, Vehicle& vehicle);
 /// StepFlight: dynamics, then contacts, then what follows from them.
-void FlyDrone(const StepContext& context, size_t i, const DroneSurroundings& surroundings, Vehicle& vehicle,
-              std::vector<SimEvent>& events);
+void FlyDrone(const StepContext& context, size_t i, const DroneSurroundings& surroundings, Vehicle& vehicle, std::vector<SimEvent>& events);
 
 /// Sets `motion` from `drone`.
 void CopyMotion(Vehicle& vehicle);

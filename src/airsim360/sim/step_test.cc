@@ -21,9 +21,7 @@ std::shared_ptr<const RayTracer> Room() {
   return tracer;
 }
 
-std::shared_ptr<const Route> RoomRoute(uint64_t seed = 0) {
-  return std::make_shared<const Route>(PlanSurvey(*Room(), {.seed = seed}));
-}
+std::shared_ptr<const Route> RoomRoute(uint64_t seed = 0) { return std::make_shared<const Route>(PlanSurvey(*Room(), {.seed = seed})); }
 
 SimState RoomState(const SimModel& model) {
   SimState state;
@@ -34,8 +32,7 @@ SimState RoomState(const SimModel& model) {
 // Steps `n` times, giving the route at the first step.
 void Advance(const SimModel& model, const std::shared_ptr<const Route>& route, int n, SimState& state) {
   const std::vector<SimCommand> commands = {{0, route}};
-  for (int i = 0; i < n; ++i)
-    Step(model, i == 0 && route ? std::span(commands) : std::span<const SimCommand>(), state);
+  for (int i = 0; i < n; ++i) Step(model, i == 0 && route ? std::span(commands) : std::span<const SimCommand>(), state);
 }
 
 TEST(Step, ThousandStepsGiveTheSameHashEveryTime) {
@@ -153,8 +150,7 @@ TEST(FlyRoute, TakesEveryShotAtItsTimeOnTheRoute) {
 }
 
 TEST(TrajectoryCsv, NumbersReadBackExactly) {
-  const Flight flight =
-      FlyRoute({.tracer = Room(), .dt_ns = kRouteStepNs}, RoomRoute(), std::vector<int64_t>{0});
+  const Flight flight = FlyRoute({.tracer = Room(), .dt_ns = kRouteStepNs}, RoomRoute(), std::vector<int64_t>{0});
   std::istringstream csv(TrajectoryCsv(flight));
   std::string line;
   std::getline(csv, line);

@@ -28,14 +28,12 @@ inline DroneSetup HummingbirdAt(Vec3d p, bool airborne = true) {
 inline std::shared_ptr<SimModel> RoomModel(const std::vector<DroneSetup>& setups) {
   auto model = std::make_shared<SimModel>();
   model->tracer = TestRoom();
-  for (const DroneSetup& setup : setups)
-    model->drones.push_back(std::make_shared<const SimDrone>(setup, model->dt_ns));
+  for (const DroneSetup& setup : setups) model->drones.push_back(std::make_shared<const SimDrone>(setup, model->dt_ns));
   return model;
 }
 
 /// Gives `command` to a drone and takes `seconds` of steps; all events.
-inline std::vector<SimEvent> Fly(const SimModel& model, SimState& state, size_t vehicle,
-                                 const Command& command, double seconds) {
+inline std::vector<SimEvent> Fly(const SimModel& model, SimState& state, size_t vehicle, const Command& command, double seconds) {
   std::vector<SimEvent> events;
   std::vector<SimCommand> commands = {{vehicle, FlightCommand{command}}};
   const auto steps = static_cast<int64_t>(seconds * 1e9 / static_cast<double>(model.dt_ns) + 0.5);

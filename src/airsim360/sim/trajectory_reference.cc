@@ -7,8 +7,7 @@
 
 namespace airsim360 {
 
-PlannedReference::PlannedReference(std::shared_ptr<const PolynomialTrajectory> trajectory,
-                                   std::optional<double> yaw, double yaw_at_rest)
+PlannedReference::PlannedReference(std::shared_ptr<const PolynomialTrajectory> trajectory, std::optional<double> yaw, double yaw_at_rest)
     : trajectory_(std::move(trajectory)), yaw_(yaw), yaw_at_rest_(yaw_at_rest) {}
 
 PlannedReference::PlannedReference(std::shared_ptr<const PolynomialTrajectory> trajectory, Vec3d look_at)
@@ -34,8 +33,7 @@ ReferencePoint PlannedReference::At(double t) const {
   const double length2 = way.x * way.x + way.y * way.y;
   if (length2 < kStill * kStill) return reference;
   reference.yaw = std::atan2(way.y, way.x);
-  reference.yaw_rate =
-      std::clamp((way.x * change.y - way.y * change.x) / length2, -kFastestTurn, kFastestTurn);
+  reference.yaw_rate = std::clamp((way.x * change.y - way.y * change.x) / length2, -kFastestTurn, kFastestTurn);
   return reference;
 }
 

@@ -19,8 +19,7 @@ class PlannedReference : public ReferenceTrajectory {
   static constexpr double kFastestTurn = 3;
 
   /// `yaw`: fixed heading, radians; none: along the way, and `yaw_at_rest` where the path stands still.
-  PlannedReference(std::shared_ptr<const PolynomialTrajectory> trajectory, std::optional<double> yaw,
-                   double yaw_at_rest = 0);
+  PlannedReference(std::shared_ptr<const PolynomialTrajectory> trajectory, std::optional<double> yaw, double yaw_at_rest = 0);
   /// Looks at `look_at`; along the way where it is right above or below.
   PlannedReference(std::shared_ptr<const PolynomialTrajectory> trajectory, Vec3d look_at);
   ReferencePoint At(double t) const override;

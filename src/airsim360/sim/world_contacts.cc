@@ -13,8 +13,7 @@ DroneBoxes::DroneBoxes(std::vector<DroneBox> boxes) : boxes_(std::move(boxes)) {
 }
 
 size_t DroneBoxes::FirstFrom(double x) const {
-  const auto first =
-      std::ranges::lower_bound(boxes_, x, {}, [](const DroneBox& box) { return box.X_WB.p.x; });
+  const auto first = std::ranges::lower_bound(boxes_, x, {}, [](const DroneBox& box) { return box.X_WB.p.x; });
   return static_cast<size_t>(first - boxes_.begin());
 }
 
@@ -64,11 +63,9 @@ std::optional<SurfacePoint> WorldContacts::FirstHit(Vec3d from_W, Vec3d to_W) co
   if (!(length > 0)) return std::nullopt;
   std::optional<SurfacePoint> first;
   double nearest = length;
-  if (const auto hit = tracer_.Intersect(VecCast<float>(from_W), VecCast<float>(way / length),
-                                         static_cast<float>(length))) {
+  if (const auto hit = tracer_.Intersect(VecCast<float>(from_W), VecCast<float>(way / length), static_cast<float>(length))) {
     nearest = hit->distance;
-    first = SurfacePoint{from_W + way * (nearest / length), VecCast<double>(hit->normal),
-                         LabelOf(tracer_, hit->surface).entity};
+    first = SurfacePoint{from_W + way * (nearest / length), VecCast<double>(hit->normal), LabelOf(tracer_, hit->surface).entity};
   }
   drones_.Near((from_W + to_W) * 0.5, length / 2, self_, [&](const DroneBox& box) {
     const auto hit = HitBox(box, from_W, to_W);

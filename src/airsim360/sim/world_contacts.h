@@ -50,8 +50,7 @@ SurfacePoint NearestOnBox(const DroneBox& box, Vec3d p_W);
 /// What one drone can touch during one step.
 class WorldContacts : public ContactQuery {
  public:
-  WorldContacts(const RayTracer& tracer, const DroneBoxes& drones, size_t self)
-      : tracer_(tracer), drones_(drones), self_(self) {}
+  WorldContacts(const RayTracer& tracer, const DroneBoxes& drones, size_t self) : tracer_(tracer), drones_(drones), self_(self) {}
   std::optional<SurfacePoint> FirstHit(Vec3d from_W, Vec3d to_W) const override;
   std::optional<SurfacePoint> Nearest(Vec3d p_W, double range) const override;
 

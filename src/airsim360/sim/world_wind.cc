@@ -18,8 +18,7 @@ void WorldWind::Visit(ConfigVisitor& v) {
   v.Field("east", "m/s, towards the east, 10 m above the ground", mean_W.x, -60, 60);
   v.Field("north", "m/s, towards the north", mean_W.y, -60, 60);
   v.Field("up", "m/s", mean_W.z, -60, 60);
-  v.Field("profile_exponent", "power law over height: 0 none, 0.14 open land, 0.3 town", profile_exponent, 0,
-          1);
+  v.Field("profile_exponent", "power law over height: 0 none, 0.14 open land, 0.3 town", profile_exponent, 0, 1);
   v.Field("shelter", "buildings upwind slow the air", shelter);
   v.Field("turbulence_6m", "m/s at 6 m: 7.7 light, 15 moderate, 23 severe turbulence", turbulence_6m, 0, 60);
   v.List("gusts", "gusts that swell and die away", gusts, [](ConfigVisitor& e, WindGust& gust) {
@@ -48,8 +47,7 @@ double ShelterFactor(const RayTracer& tracer, Vec3d p_W, Vec3d wind_W) {
     for (const double turn : kTurnsDeg) {
       const double e = elevation * kRadians, a = into + turn * kRadians;
       const Vec3d d{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
-      const auto hit =
-          tracer.Intersect(VecCast<float>(p_W), VecCast<float>(d), static_cast<float>(kFarthest));
+      const auto hit = tracer.Intersect(VecCast<float>(p_W), VecCast<float>(d), static_cast<float>(kFarthest));
       if (hit) deficit += std::exp(-static_cast<double>(hit->distance) / kRecovery);
     }
   }

@@ -11,10 +11,10 @@
 namespace airsim360 {
 
 struct WorldWind {
-  Vec3d mean_W;                 ///< m/s, 10 m above the ground
-  double profile_exponent = 0;  ///< power law over height: 0 = the same everywhere, 0.14 open land, 0.3 town
-  bool shelter = false;         ///< buildings upwind slow the air, see ShelterFactor
-  double turbulence_6m = 0;  ///< m/s at 6 m that the strength of turbulence follows (WindSettings); 0 = none
+  Vec3d mean_W;                      ///< m/s, 10 m above the ground
+  double profile_exponent = 0;       ///< power law over height: 0 = the same everywhere, 0.14 open land, 0.3 town
+  bool shelter = false;              ///< buildings upwind slow the air, see ShelterFactor
+  double turbulence_6m = 0;          ///< m/s at 6 m that the strength of turbulence follows (WindSettings); 0 = none
   std::vector<WindGust> gusts = {};  ///< of the whole world, by the time of the simulation
 
   void Visit(ConfigVisitor& v);

@@ -19,8 +19,7 @@ Environment EnvironmentOf(const Scene& scene, const StageOptions& options) {
 
 void CheckStageOptions(const StageOptions& options) {
   CheckDevice("--device", options.device.device);
-  if (options.device.gpu >= 0 && options.device.device == "cpu")
-    throw InputError("--gpu: --device cpu uses no GPU; leave one of them out");
+  if (options.device.gpu >= 0 && options.device.device == "cpu") throw InputError("--gpu: --device cpu uses no GPU; leave one of them out");
   ApplyFlags(options.environment, {});
 }
 

@@ -60,7 +60,7 @@ class Stage {
   const Scene& scene() const { return *scene_; }
   const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }
   const Environment& environment() const { return environment_; }
-  const std::shared_ptr<const SimPeople>& people() const { return people_; }  ///< null: nobody
+  const std::shared_ptr<const SimPeople>& people() const { return people_; }     ///< null: nobody
   const std::shared_ptr<const SimTraffic>& traffic() const { return traffic_; }  ///< null: no vehicles drive
   const std::vector<DroneBodyRef>& bodies() const { return bodies_; }
   const DeviceChoice& device() const { return options_.device; }

@@ -7,8 +7,8 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kSettle = 4;            // seconds beyond the way itself to come to rest
-constexpr double kTurnRate = 0.5;        // rad/s at least, for the longest time of a turn
+constexpr double kSettle = 4;                // seconds beyond the way itself to come to rest
+constexpr double kTurnRate = 0.5;            // rad/s at least, for the longest time of a turn
 constexpr int64_t kGraceNs = 1'000'000'000;  // after its end a velocity is flown so long without another
 
 double WrapAngle(double a) { return std::remainder(a, 2 * std::numbers::pi); }
@@ -68,8 +68,7 @@ struct Planner {
   ActionPlan operator()(const RelativeGoalAction& action) const {
     // Azimuth grows to the right, yaw to the left.
     const double yaw = from.yaw - action.azimuth;
-    const Vec3d way{std::cos(action.elevation) * std::cos(yaw), std::cos(action.elevation) * std::sin(yaw),
-                    std::sin(action.elevation)};
+    const Vec3d way{std::cos(action.elevation) * std::cos(yaw), std::cos(action.elevation) * std::sin(yaw), std::sin(action.elevation)};
     return GoTo(from, {from.p_W + action.distance * way, action.face ? yaw : from.yaw}, SpeedOf(action.speed));
   }
 
@@ -100,16 +99,14 @@ struct Planner {
   }
 
   ActionPlan operator()(const VelocityAction& action) const {
-    return {.command = VelocityCommand{.v = action.v,
-                                       .body_heading = !action.world_frame,
-                                       .yaw = {YawTarget::Mode::kRate, action.yaw_rate}},
-            .seconds = action.duration,
-            .timeout_ns = std::llround(1e9 * action.duration) + kGraceNs};
+    return {
+        .command = VelocityCommand{.v = action.v, .body_heading = !action.world_frame, .yaw = {YawTarget::Mode::kRate, action.yaw_rate}},
+        .seconds = action.duration,
+        .timeout_ns = std::llround(1e9 * action.duration) + kGraceNs};
   }
 
   ActionPlan operator()(const RatesAction& action) const {
-    return {.command = RateCommand{.w_B = action.w_B,
-                                   .vertical = {VerticalTarget::Mode::kThrottle, action.throttle}},
+    return {.command = RateCommand{.w_B = action.w_B, .vertical = {VerticalTarget::Mode::kThrottle, action.throttle}},
             .seconds = action.duration,
             .timeout_ns = std::llround(1e9 * action.duration) + kGraceNs};
   }
@@ -119,8 +116,7 @@ struct Planner {
 
 }  // namespace
 
-ActionPlan PlanAction(const AgentAction& action, const AgentPose& from, const PresetSizes& sizes,
-                      double speed) {
+ActionPlan PlanAction(const AgentAction& action, const AgentPose& from, const PresetSizes& sizes, double speed) {
   return std::visit(Planner{from, sizes, speed}, action);
 }
 

@@ -55,19 +55,18 @@ struct WaypointsAction {
 };
 /// A velocity for a while.
 struct VelocityAction {
-  Vec3d v;                   ///< m/s: forward, left, up of the level heading frame, or in W
+  Vec3d v;  ///< m/s: forward, left, up of the level heading frame, or in W
   bool world_frame = false;
-  double yaw_rate = 0;       ///< rad/s, counter-clockwise seen from above
-  double duration = 0.5;     ///< seconds
+  double yaw_rate = 0;    ///< rad/s, counter-clockwise seen from above
+  double duration = 0.5;  ///< seconds
 };
 /// Body rates and thrust for a while.
 struct RatesAction {
-  Vec3d w_B;               ///< rad/s about forward, left, up
-  double throttle = 0;     ///< share of the full static thrust, 0 … 1
-  double duration = 0.1;   ///< seconds
+  Vec3d w_B;              ///< rad/s about forward, left, up
+  double throttle = 0;    ///< share of the full static thrust, 0 … 1
+  double duration = 0.1;  ///< seconds
 };
-using AgentAction =
-    std::variant<PresetAction, RelativeGoalAction, WaypointsAction, VelocityAction, RatesAction>;
+using AgentAction = std::variant<PresetAction, RelativeGoalAction, WaypointsAction, VelocityAction, RatesAction>;
 /// Names of the alternatives, in their order.
 inline constexpr const char* kActionNames[] = {"preset", "relative_goal", "waypoints", "velocity", "rates"};
 
@@ -79,7 +78,7 @@ struct AgentPose {
 
 /// An action as the autopilot flies it.
 struct ActionPlan {
-  bool stops = false;                    ///< ends the episode
+  bool stops = false;  ///< ends the episode
   Command command = HoverCommand{};
   std::optional<AgentPose> target = {};  ///< over when it is reached; none: over after `seconds`
   double seconds = 0;                    ///< how long it takes; with a target: at the longest
@@ -90,8 +89,7 @@ struct ActionPlan {
 inline constexpr double kLongestAction = 60;
 
 /// Pure. `speed` m/s > 0 holds for actions that say none.
-ActionPlan PlanAction(const AgentAction& action, const AgentPose& from, const PresetSizes& sizes,
-                      double speed);
+ActionPlan PlanAction(const AgentAction& action, const AgentPose& from, const PresetSizes& sizes, double speed);
 
 /// Heading of a body, as BodyPose; of one that points straight up or down, 0.
 double HeadingOfBody(const RigidTransform& X_WB);

@@ -16,8 +16,7 @@ Answer DirectionTo(Vec3d p_W, const RigidTransform& X_WB) {
   const Vec3d way = p_W - X_WB.p;
   const double level = std::hypot(way.x, way.y);
   const double azimuth = std::remainder(HeadingOfBody(X_WB) - std::atan2(way.y, way.x), 2 * std::numbers::pi);
-  return {{"azimuth_deg", level > 0 ? azimuth * kDegrees : 0},
-          {"elevation_deg", std::atan2(way.z, level) * kDegrees}};
+  return {{"azimuth_deg", level > 0 ? azimuth * kDegrees : 0}, {"elevation_deg", std::atan2(way.z, level) * kDegrees}};
 }
 
 Answer CollisionOf(Episode& episode) {
@@ -34,19 +33,14 @@ Answer CollisionOf(Episode& episode) {
 }
 
 Answer PictureOf(const Image<Rgb8>& image, int quality) {
-  return {{"width", image.width()},
-          {"height", image.height()},
-          {"format", "jpeg"},
-          {"data", Base64(JpegOf(image, quality))}};
+  return {{"width", image.width()}, {"height", image.height()}, {"format", "jpeg"}, {"data", Base64(JpegOf(image, quality))}};
 }
 
 }  // namespace
 
 Answer VectorOf(Vec3d v) { return {v.x, v.y, v.z}; }
 
-std::string JpegOf(const Image<Rgb8>& image, int quality) {
-  return std::string(AsText(EncodeJpeg(image, quality)));
-}
+std::string JpegOf(const Image<Rgb8>& image, int quality) { return std::string(AsText(EncodeJpeg(image, quality))); }
 
 Answer GridOf(const RangeGrid& grid) {
   Answer rows = Answer::array();
@@ -80,42 +74,33 @@ Answer SpecOf(const Episode& episode) {
           {"goal", VectorOf(episode.goal())},
           {"seed", spec.seed},
           {"drone", spec.drone},
-          {"success",
-           {{"rule", kSuccessRuleNames[static_cast<int>(spec.success)]}, {"radius", episode.success_radius()}}},
+          {"success", {{"rule", kSuccessRuleNames[static_cast<int>(spec.success)]}, {"radius", episode.success_radius()}}},
           {"speed", spec.speed},
-          {"limits",
-           {{"max_steps", spec.max_steps},
-            {"max_seconds", spec.max_seconds},
-            {"end_on_collision", spec.end_on_collision}}}};
+          {"limits", {{"max_steps", spec.max_steps}, {"max_seconds", spec.max_seconds}, {"end_on_collision", spec.end_on_collision}}}};
 }
 
 Answer ObservationOf(Episode& episode, const ObserveRequest& request) {
   const Kinematics& motion = episode.vehicle().motion;
   const RigidTransform& X_WB = motion.X_WB;
   const Quaternion q = ToQuaternion(X_WB.R);
-  Answer answer = {
-      {"step", episode.steps()},
-      {"t", episode.seconds()},
-      {"done", episode.end() != EpisodeEnd::kRunning},
-      {"end", kEpisodeEndNames[static_cast<int>(episode.end())]},
-      {"pose",
-       {{"p", VectorOf(X_WB.p)}, {"q_wxyz", {q.w, q.x, q.y, q.z}}, {"yaw_deg", HeadingOfBody(X_WB) * kDegrees}}},
-      {"velocity", {{"v", VectorOf(motion.v_WB)}, {"w", VectorOf(motion.w_WB_B)}}},
-      {"collision", CollisionOf(episode)},
-      {"clearance", episode.world().stage().solid()->Clearance(VecCast<float>(X_WB.p), kClearanceReach)},
-      {"distance_to_goal", episode.distance_to_goal()},
-      {"goal_direction", DirectionTo(episode.goal(), X_WB)}};
-  if (request.grid)
-    answer["range_grid"] = GridOf(episode.world().Grid(X_WB, request.grid->rows, request.grid->columns, episode.moved()));
+  Answer answer = {{"step", episode.steps()},
+                   {"t", episode.seconds()},
+                   {"done", episode.end() != EpisodeEnd::kRunning},
+                   {"end", kEpisodeEndNames[static_cast<int>(episode.end())]},
+                   {"pose", {{"p", VectorOf(X_WB.p)}, {"q_wxyz", {q.w, q.x, q.y, q.z}}, {"yaw_deg", HeadingOfBody(X_WB) * kDegrees}}},
+                   {"velocity", {{"v", VectorOf(motion.v_WB)}, {"w", VectorOf(motion.w_WB_B)}}},
+                   {"collision", CollisionOf(episode)},
+                   {"clearance", episode.world().stage().solid()->Clearance(VecCast<float>(X_WB.p), kClearanceReach)},
+                   {"distance_to_goal", episode.distance_to_goal()},
+                   {"goal_direction", DirectionTo(episode.goal(), X_WB)}};
+  if (request.grid) answer["range_grid"] = GridOf(episode.world().Grid(X_WB, request.grid->rows, request.grid->columns, episode.moved()));
   if (const auto& panorama = request.panorama) {
-    answer["panorama"] =
-        PictureOf(episode.world().Panorama(X_WB, panorama->width, panorama->frame, episode.moved()), panorama->quality);
+    answer["panorama"] = PictureOf(episode.world().Panorama(X_WB, panorama->width, panorama->frame, episode.moved()), panorama->quality);
   }
   if (!request.views.empty()) {
     Answer views = Answer::array();
     for (const ViewRequest& v : request.views) {
-      views.push_back(PictureOf(
-          episode.world().View(X_WB, v.azimuth, v.elevation, v.fov, v.width, v.height, episode.moved()), v.quality));
+      views.push_back(PictureOf(episode.world().View(X_WB, v.azimuth, v.elevation, v.fov, v.width, v.height, episode.moved()), v.quality));
       views.back()["azimuth_deg"] = v.azimuth * kDegrees;
       views.back()["elevation_deg"] = v.elevation * kDegrees;
       views.back()["fov_deg"] = v.fov * kDegrees;

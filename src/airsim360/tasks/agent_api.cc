@@ -25,8 +25,7 @@ AgentResponse Refusal(const std::string& what) {
 }  // namespace
 
 AgentApi::AgentApi(AgentApiOptions options) : options_(std::move(options)) {
-  if (std::ranges::find(options_.worlds, options_.world) == options_.worlds.end())
-    options_.worlds.push_back(options_.world);
+  if (std::ranges::find(options_.worlds, options_.world) == options_.worlds.end()) options_.worlds.push_back(options_.world);
   WorldOf(options_.world, options_.world_seed);
 }
 
@@ -35,8 +34,8 @@ AgentApi::~AgentApi() = default;
 std::shared_ptr<AgentWorld> AgentApi::WorldOf(const std::string& name, uint64_t seed) {
   const auto find = [&]() -> std::shared_ptr<AgentWorld> {
     const std::lock_guard lock(mutex_);
-    const auto found = std::ranges::find_if(
-        worlds_, [&](const auto& entry) { return entry.first.first == name && entry.first.second == seed; });
+    const auto found =
+        std::ranges::find_if(worlds_, [&](const auto& entry) { return entry.first.first == name && entry.first.second == seed; });
     return found == worlds_.end() ? nullptr : found->second;
   };
   if (auto world = find()) return world;
@@ -48,10 +47,8 @@ std::shared_ptr<AgentWorld> AgentApi::WorldOf(const std::string& name, uint64_t 
     // Room for it: the oldest that no episode uses, but the server's own.
     const std::lock_guard lock(mutex_);
     if (worlds_.size() >= options_.max_worlds) {
-      const auto unused = std::find_if(worlds_.begin() + 1, worlds_.end(),
-                                       [](const auto& entry) { return entry.second.use_count() == 1; });
-      if (unused == worlds_.end())
-        throw StatusError(503, std::to_string(worlds_.size()) + " worlds are in use; delete an episode first");
+      const auto unused = std::find_if(worlds_.begin() + 1, worlds_.end(), [](const auto& entry) { return entry.second.use_count() == 1; });
+      if (unused == worlds_.end()) throw StatusError(503, std::to_string(worlds_.size()) + " worlds are in use; delete an episode first");
       worlds_.erase(unused);
     }
   }
@@ -69,18 +66,15 @@ std::shared_ptr<AgentApi::Slot> AgentApi::Find(const std::string& id) {
   for (const auto& [other, slot] : episodes_) ids.push_back(other);
   const std::string nearest = NearestChoice(id.substr(0, 64), ids);
   throw StatusError(404, "there is no episode '" + id.substr(0, 64) + "'" +
-                             (nearest.empty() ? "; create one with POST /v1/episodes"
-                                              : "; did you mean '" + nearest + "'?"));
+                             (nearest.empty() ? "; create one with POST /v1/episodes" : "; did you mean '" + nearest + "'?"));
 }
 
 // Forgets the episode that has been idle longest, if it was for long enough.
 void AgentApi::MakeRoom() {
   if (episodes_.size() < options_.max_episodes) return;
-  const auto oldest = std::ranges::min_element(
-      episodes_, {}, [](const auto& entry) { return entry.second->touched.load(); });
+  const auto oldest = std::ranges::min_element(episodes_, {}, [](const auto& entry) { return entry.second->touched.load(); });
   if (Now() - oldest->second->touched < options_.idle_seconds) {
-    throw StatusError(503, std::to_string(episodes_.size()) +
-                               " episodes are open already; delete one with DELETE /v1/episodes/{id}");
+    throw StatusError(503, std::to_string(episodes_.size()) + " episodes are open already; delete one with DELETE /v1/episodes/{id}");
   }
   episodes_.erase(oldest);
 }
@@ -89,8 +83,7 @@ AgentResponse AgentApi::Create(const std::string& body) {
   const CreateRequest request = DecodeCreate(body);
   const std::string name = request.world.empty() ? options_.world : request.world;
   if (std::ranges::find(options_.worlds, name) == options_.worlds.end()) {
-    throw RequestError("world", UnknownChoiceMessage("world", name, options_.worlds),
-                       NearestChoice(name, options_.worlds));
+    throw RequestError("world", UnknownChoiceMessage("world", name, options_.worlds), NearestChoice(name, options_.worlds));
   }
   const auto slot = std::make_shared<Slot>();
   slot->world = name;
@@ -103,8 +96,7 @@ AgentResponse AgentApi::Create(const std::string& body) {
     episodes_[slot->id] = slot;
   }
   try {
-    slot->episode = std::make_unique<Episode>(
-        WorldOf(name, request.world_seed.value_or(options_.world_seed)), request.spec);
+    slot->episode = std::make_unique<Episode>(WorldOf(name, request.world_seed.value_or(options_.world_seed)), request.spec);
     return JsonResponse({{"episode", slot->id},
                          {"world", name},
                          {"task", internal::SpecOf(*slot->episode)},
@@ -152,10 +144,10 @@ AgentResponse AgentApi::Route(const AgentRequest& request) {
     const std::string_view rest = path.substr(kEpisodes.size() + 1);
     const size_t slash = rest.find('/');
     const bool has_action = slash != std::string_view::npos;
-    return OnEpisode(std::string(rest.substr(0, slash)), has_action ? std::string(rest.substr(slash + 1)) : "",
-                     query, request);
+    return OnEpisode(std::string(rest.substr(0, slash)), has_action ? std::string(rest.substr(slash + 1)) : "", query, request);
   }
-  if (path == "/v1/ws") throw StatusError(426, "/v1/ws is the WebSocket itself: connect to it with an upgrade, and send it requests for other paths");
+  if (path == "/v1/ws")
+    throw StatusError(426, "/v1/ws is the WebSocket itself: connect to it with an upgrade, and send it requests for other paths");
   const std::vector<std::string> paths = {"/", "/openapi.json", "/v1/episodes", "/v1/ws"};
   throw StatusError(404, UnknownChoiceMessage("path", path.substr(0, 128), paths));
 }
@@ -186,8 +178,7 @@ std::string AgentApi::HandleMessage(std::string_view text) {
   // The body is JSON already, or bytes.
   const std::string head = "{\"id\":" + request.id + ",\"status\":" + std::to_string(response.status);
   if (response.content_type == "application/json") return head + ",\"body\":" + response.body + "}";
-  return head + ",\"content_type\":\"" + response.content_type + "\",\"data\":\"" +
-         Base64(response.body) + "\"}";
+  return head + ",\"content_type\":\"" + response.content_type + "\",\"data\":\"" + Base64(response.body) + "\"}";
 }
 
 }  // namespace airsim360

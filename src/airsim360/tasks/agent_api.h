@@ -31,7 +31,7 @@ struct AgentApiOptions {
   std::vector<std::string> worlds = {};  ///< names that episodes may ask for
   /// Builds a world; slow.
   std::function<std::shared_ptr<AgentWorld>(const std::string& name, uint64_t seed)> open = {};
-  bool realtime = false;          ///< what an agent takes to think passes in its episode
+  bool realtime = false;               ///< what an agent takes to think passes in its episode
   std::function<double()> clock = {};  ///< seconds, for idle episodes and `realtime`; none: stands still
   size_t max_episodes = 64;
   size_t max_worlds = 4;       ///< kept in memory
@@ -58,8 +58,7 @@ class AgentApi {
   AgentResponse Create(const std::string& body);
   AgentResponse List();
   AgentResponse Delete(const std::string& id);
-  AgentResponse OnEpisode(const std::string& id, const std::string& call, std::string_view query,
-                          const AgentRequest& request);
+  AgentResponse OnEpisode(const std::string& id, const std::string& call, std::string_view query, const AgentRequest& request);
   AgentResponse Describe(Slot& slot);
   AgentResponse Reset(Slot& slot, const std::string& body);
   AgentResponse Step(Slot& slot, const std::string& body);

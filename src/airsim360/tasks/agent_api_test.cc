@@ -1,6 +1,6 @@
 // The agent interface without a socket: requests, answers, mistakes.
-#include "airsim360/base/base64.h"
 #include "airsim360/tasks/agent_api.h"
+#include "airsim360/base/base64.h"
 
 #include <gtest/gtest.h>
 
@@ -118,22 +118,18 @@ TEST_P(AgentMistakes, AreAnsweredWithTheFieldAndTheNearestChoice) {
 constexpr const char *kMake = "/v1/episodes", *kStep = "/v1/episodes/{id}/step", *kLook = "/v1/episodes/{id}/observe";
 INSTANTIATE_TEST_SUITE_P(
     All, AgentMistakes,
-    testing::Values(Mistake{kMake, R"({"word": "plaza"})", "word", "world"},
-                    Mistake{kMake, R"({"world": "plasa"})", "world", "plaza"},
-                    Mistake{kMake, R"({"drone": "humingbird"})", "drone", "hummingbird"},
-                    Mistake{kMake, R"({"goal": [1, 2]})", "goal", ""},
+    testing::Values(Mistake{kMake, R"({"word": "plaza"})", "word", "world"}, Mistake{kMake, R"({"world": "plasa"})", "world", "plaza"},
+                    Mistake{kMake, R"({"drone": "humingbird"})", "drone", "hummingbird"}, Mistake{kMake, R"({"goal": [1, 2]})", "goal", ""},
                     Mistake{kMake, R"({"goal": [1, 2, "x"]})", "goal[2]", ""},
                     Mistake{kMake, R"({"start": {"p": [3, 0, 0.9]}})", "start.p", ""},
                     Mistake{kMake, R"({"limits": {"max_steps": 0}})", "limits.max_steps", "1"},
                     Mistake{kMake, R"({"success": {"rule": "stopp"}})", "success.rule", "stop"},
-                    Mistake{kMake, R"({"seed": -1})", "seed", ""}, Mistake{kMake, "[]", "", ""},
-                    Mistake{kMake, "{", "", ""}, Mistake{kStep, "{}", "action", "forward"},
-                    Mistake{kStep, R"({"action": "forwrad"})", "action", "forward"},
+                    Mistake{kMake, R"({"seed": -1})", "seed", ""}, Mistake{kMake, "[]", "", ""}, Mistake{kMake, "{", "", ""},
+                    Mistake{kStep, "{}", "action", "forward"}, Mistake{kStep, R"({"action": "forwrad"})", "action", "forward"},
                     Mistake{kStep, R"({"action": {"type": "velocty"}})", "action.type", "velocity"},
                     Mistake{kStep, R"({"action": {"type": "velocity"}})", "action.v", "[1, 0, 0]"},
                     Mistake{kStep, R"({"action": {"type": "velocity", "v": [1e9, 0, 0]}})", "action.v[0]", "100"},
-                    Mistake{kStep, R"({"action": {"type": "rates", "w": [0, 0, 0], "throttle": 2}})",
-                            "action.throttle", "1"},
+                    Mistake{kStep, R"({"action": {"type": "rates", "w": [0, 0, 0], "throttle": 2}})", "action.throttle", "1"},
                     Mistake{kStep, R"({"action": {"type": "waypoints", "points": []}})", "action.points", ""},
                     Mistake{kLook, R"({"panorama": {"width": 100000}})", "panorama.width", "4096"},
                     Mistake{kLook, R"({"panorama": {"width": 33}})", "panorama.width", "32"},
@@ -202,12 +198,11 @@ TEST(AgentApi, EpisodesAreBoundedAndIdleOnesMakeRoom) {
 
 TEST(AgentApi, AMessageOfAWebSocketIsARequestInJson) {
   Agent agent;
-  const Json made = Json::parse(agent.api.HandleMessage(
-      R"({"id": 7, "method": "POST", "path": "/v1/episodes", "body": {"start": {"p": [-3, 0, 2]}}})"));
+  const Json made =
+      Json::parse(agent.api.HandleMessage(R"({"id": 7, "method": "POST", "path": "/v1/episodes", "body": {"start": {"p": [-3, 0, 2]}}})"));
   EXPECT_EQ(made["id"], 7);
   EXPECT_EQ(made["status"], 201);
-  const Json jpeg = Json::parse(
-      agent.api.HandleMessage(R"({"id": "x", "path": "/v1/episodes/e1/panorama.jpg?width=64"})"));
+  const Json jpeg = Json::parse(agent.api.HandleMessage(R"({"id": "x", "path": "/v1/episodes/e1/panorama.jpg?width=64"})"));
   EXPECT_EQ(jpeg["id"], "x");
   EXPECT_EQ(jpeg["content_type"], "image/jpeg");
   EXPECT_EQ(jpeg["data"].get<std::string>().substr(0, 4), "/9j/");
@@ -235,8 +230,7 @@ TEST(AgentOpenApi, IsJsonAndEveryPathOfItIsAnswered) {
   // Names of presets and kinds of actions are those that the decoder knows.
   const Json& kinds = api["components"]["schemas"]["Action"]["oneOf"];
   EXPECT_EQ(kinds[0]["enum"].size(), std::size(kPresetNames));
-  for (size_t i = 0; i < std::size(kActionNames); ++i)
-    EXPECT_EQ(kinds[i + 1]["properties"]["type"]["enum"][0], kActionNames[i]);
+  for (size_t i = 0; i < std::size(kActionNames); ++i) EXPECT_EQ(kinds[i + 1]["properties"]["type"]["enum"][0], kActionNames[i]);
 }
 
 }  // namespace

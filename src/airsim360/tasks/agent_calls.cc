@@ -11,16 +11,13 @@ using internal::Answer;
 using internal::JsonResponse;
 using internal::StatusError;
 
-AgentResponse JpegResponse(const Image<Rgb8>& image, int quality) {
-  return {200, "image/jpeg", internal::JpegOf(image, quality)};
-}
+AgentResponse JpegResponse(const Image<Rgb8>& image, int quality) { return {200, "image/jpeg", internal::JpegOf(image, quality)}; }
 
 const RigidTransform& PoseOf(const Episode& episode) { return episode.vehicle().motion.X_WB; }
 
 }  // namespace
 
-AgentApi::Turn::Turn(AgentApi& api, Slot& slot, Creates creates)
-    : api_(api), slot_(slot), lock_(slot.mutex, std::try_to_lock) {
+AgentApi::Turn::Turn(AgentApi& api, Slot& slot, Creates creates) : api_(api), slot_(slot), lock_(slot.mutex, std::try_to_lock) {
   if (!lock_) throw StatusError(409, "episode '" + slot.id + "' is busy: one request at a time");
   slot_.touched = api_.Now();
   if (creates == Creates::kYes) return;
@@ -35,7 +32,8 @@ void AgentApi::Slot::Publish() noexcept {
   if (episode == nullptr) return;
   try {
     auto moment = std::make_shared<internal::WatchedMoment>();
-    moment->state = {{"episode", id}, {"world", world}, {"task", internal::SpecOf(*episode)}, {"observation", internal::ObservationOf(*episode, {})}};
+    moment->state = {
+        {"episode", id}, {"world", world}, {"task", internal::SpecOf(*episode)}, {"observation", internal::ObservationOf(*episode, {})}};
     if (episode->end() != EpisodeEnd::kRunning) moment->state["score"] = internal::ScoreOf(*episode);
     moment->X_WB = PoseOf(*episode);
     moment->moved = episode->moved();
@@ -60,7 +58,8 @@ AgentResponse AgentApi::Watch(Slot& slot, std::string_view query) {
   const Frame frame = moment->world->Watched(moment->X_WB, request.width, moment->moved);
   Answer answer = moment->state;
   answer["number"] = moment->number;
-  answer["panorama"] = {{"width", frame.rgb.width()}, {"height", frame.rgb.height()}, {"data", Base64(internal::JpegOf(frame.rgb, request.quality))}};
+  answer["panorama"] = {
+      {"width", frame.rgb.width()}, {"height", frame.rgb.height()}, {"data", Base64(internal::JpegOf(frame.rgb, request.quality))}};
   const auto bytes = [](const auto& image) {
     return Base64({reinterpret_cast<const char*>(image.pixels().data()), image.size() * sizeof(image.pixels()[0])});
   };
@@ -82,7 +81,8 @@ AgentResponse AgentApi::Entities(Slot& slot) {
   Answer entities = Answer::object();
   for (const Entity& entity : scene.entities) {
     const Category& category = scene.tree[entity.category];
-    entities[std::to_string(entity.id)] = {{"name", entity.name}, {"category_path", category.path}, {"kind", category.thing ? "thing" : "stuff"}};
+    entities[std::to_string(entity.id)] = {
+        {"name", entity.name}, {"category_path", category.path}, {"kind", category.thing ? "thing" : "stuff"}};
   }
   return JsonResponse(entities);
 }
@@ -132,15 +132,14 @@ AgentResponse AgentApi::Picture(Slot& slot, const std::string& name, std::string
     const PanoramaRequest panorama = DecodePanoramaQuery(query);
     const Turn turn(*this, slot);
     Episode& episode = *slot.episode;
-    return JpegResponse(episode.world().Panorama(PoseOf(episode), panorama.width, panorama.frame, episode.moved()),
-                        panorama.quality);
+    return JpegResponse(episode.world().Panorama(PoseOf(episode), panorama.width, panorama.frame, episode.moved()), panorama.quality);
   }
   if (name == "view.jpg") {
     const ViewRequest v = DecodeViewQuery(query);
     const Turn turn(*this, slot);
     Episode& episode = *slot.episode;
-    return JpegResponse(
-        episode.world().View(PoseOf(episode), v.azimuth, v.elevation, v.fov, v.width, v.height, episode.moved()), v.quality);
+    return JpegResponse(episode.world().View(PoseOf(episode), v.azimuth, v.elevation, v.fov, v.width, v.height, episode.moved()),
+                        v.quality);
   }
   const GridRequest grid = DecodeGridQuery(query);
   const Turn turn(*this, slot);
@@ -164,12 +163,10 @@ AgentResponse AgentApi::Path(Slot& slot) {
   return JsonResponse({{"period", 1e-9 * Episode::kPathPeriodNs}, {"p", std::move(points)}});
 }
 
-AgentResponse AgentApi::OnEpisode(const std::string& id, const std::string& call, std::string_view query,
-                                  const AgentRequest& request) {
+AgentResponse AgentApi::OnEpisode(const std::string& id, const std::string& call, std::string_view query, const AgentRequest& request) {
   if (call.empty() && request.method == "DELETE") return Delete(id);
-  static const std::vector<std::string> kCalls = {"reset",        "step",     "observe", "range_grid",
-                                                  "panorama.jpg", "view.jpg", "path",    "watch",
-                                                  "entities"};
+  static const std::vector<std::string> kCalls = {"reset",    "step", "observe", "range_grid", "panorama.jpg",
+                                                  "view.jpg", "path", "watch",   "entities"};
   if (!call.empty() && std::ranges::find(kCalls, call) == kCalls.end())
     throw StatusError(404, UnknownChoiceMessage("resource of an episode", call.substr(0, 64), kCalls));
   const bool changes = call == "reset" || call == "step" || call == "observe";

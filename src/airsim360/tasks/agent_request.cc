@@ -14,9 +14,9 @@ using internal::Json;
 using internal::JsonFields;
 
 constexpr double kRadians = std::numbers::pi / 180;
-constexpr double kFarthest = 1e5;        // metres
-constexpr double kFastest = 100;         // m/s
-constexpr size_t kLongestText = 4096;    // bytes of an instruction
+constexpr double kFarthest = 1e5;      // metres
+constexpr double kFastest = 100;       // m/s
+constexpr size_t kLongestText = 4096;  // bytes of an instruction
 constexpr size_t kMostWaypoints = 256, kMostReferencePoints = 4096, kMostViews = 8;
 constexpr int kWidestPanorama = 4096, kWidestView = 2048;
 
@@ -33,8 +33,11 @@ PanoramaRequest ReadPanorama(JsonFields fields) {
   fields.Choice("frame", frame, {"level", "body"});
   fields.Finish();
   if (request.width % 2 != 0)
-    throw RequestError(fields.PathOf("width"), std::to_string(request.width) + " is odd: a panorama is twice as "
-                                               "wide as high", std::to_string(request.width - 1));
+    throw RequestError(fields.PathOf("width"),
+                       std::to_string(request.width) +
+                           " is odd: a panorama is twice as "
+                           "wide as high",
+                       std::to_string(request.width - 1));
   request.frame = frame == 0 ? PanoFrame::kLevel : PanoFrame::kBody;
   return request;
 }
@@ -68,19 +71,15 @@ const Json* ObjectOrTrue(const Json* value) {
 
 ObserveRequest ReadObserve(JsonFields fields) {
   ObserveRequest request;
-  if (const Json* value = ObjectOrTrue(fields.Find("panorama")))
-    request.panorama = ReadPanorama({*value, fields.PathOf("panorama")});
-  if (const Json* value = ObjectOrTrue(fields.Find("range_grid")))
-    request.grid = ReadGrid({*value, fields.PathOf("range_grid")});
+  if (const Json* value = ObjectOrTrue(fields.Find("panorama"))) request.panorama = ReadPanorama({*value, fields.PathOf("panorama")});
+  if (const Json* value = ObjectOrTrue(fields.Find("range_grid"))) request.grid = ReadGrid({*value, fields.PathOf("range_grid")});
   if (const Json* views = fields.Find("views")) {
     const std::string path = fields.PathOf("views");
     if (!views->is_array()) throw RequestError(path, "not a list of views");
     if (views->size() > kMostViews) {
-      throw RequestError(path, std::to_string(views->size()) + " views are more than " +
-                                   std::to_string(kMostViews));
+      throw RequestError(path, std::to_string(views->size()) + " views are more than " + std::to_string(kMostViews));
     }
-    for (size_t i = 0; i < views->size(); ++i)
-      request.views.push_back(ReadView({(*views)[i], path + "[" + std::to_string(i) + "]"}));
+    for (size_t i = 0; i < views->size(); ++i) request.views.push_back(ReadView({(*views)[i], path + "[" + std::to_string(i) + "]"}));
   }
   fields.Finish();
   return request;
@@ -97,8 +96,7 @@ PresetAction ReadPreset(const std::string& field, const std::string& name) {
 
 // RequestError for a field that an action cannot do without.
 void Require(bool given, const JsonFields& fields, const char* name, const char* example) {
-  if (!given)
-    throw RequestError(fields.PathOf(name), std::string("is missing; for instance ") + example, example);
+  if (!given) throw RequestError(fields.PathOf(name), std::string("is missing; for instance ") + example, example);
 }
 
 AgentAction ReadRelativeGoal(JsonFields& fields) {
@@ -115,8 +113,7 @@ AgentAction ReadRelativeGoal(JsonFields& fields) {
 AgentAction ReadWaypoints(JsonFields& fields) {
   WaypointsAction action;
   size_t frame = 0;
-  Require(fields.Vectors("points", action.points, kMostWaypoints, kFarthest), fields, "points",
-          "[[1, 0, 2], [4, 2, 2]]");
+  Require(fields.Vectors("points", action.points, kMostWaypoints, kFarthest), fields, "points", "[[1, 0, 2], [4, 2, 2]]");
   fields.Choice("frame", frame, {"world", "body"});
   fields.Number("speed", action.speed, 0, kFastest);
   fields.Flag("face", action.face);
@@ -235,9 +232,7 @@ Json QueryObject(std::string_view query) {
 }  // namespace
 
 RequestError::RequestError(std::string field, const std::string& message, std::string nearest)
-    : InputError(field.empty() ? message : field + ": " + message),
-      field_(std::move(field)),
-      nearest_(std::move(nearest)) {}
+    : InputError(field.empty() ? message : field + ": " + message), field_(std::move(field)), nearest_(std::move(nearest)) {}
 
 CreateRequest DecodeCreate(std::string_view text) {
   const Json json = internal::ParseJson(text);
@@ -297,10 +292,8 @@ SocketRequest DecodeSocketRequest(std::string_view text) {
   JsonFields fields(json, "");
   SocketRequest request{.id = "null", .method = "GET", .path = {}, .body = {}};
   if (const Json* id = fields.Find("id")) {
-    if (!id->is_number_integer() && !id->is_string())
-      throw RequestError("id", "is neither a whole number nor a text");
-    if (id->is_string() && id->get_ref<const std::string&>().size() > 128)
-      throw RequestError("id", "is longer than 128 bytes");
+    if (!id->is_number_integer() && !id->is_string()) throw RequestError("id", "is neither a whole number nor a text");
+    if (id->is_string() && id->get_ref<const std::string&>().size() > 128) throw RequestError("id", "is longer than 128 bytes");
     request.id = id->dump(-1, ' ', true, Json::error_handler_t::replace);
   }
   size_t method = 0;
@@ -308,8 +301,7 @@ SocketRequest DecodeSocketRequest(std::string_view text) {
   fields.Choice("method", method, methods);
   request.method = methods[method];
   fields.Text("path", request.path, 1024);
-  if (const Json* body = fields.Find("body"))
-    request.body = body->dump(-1, ' ', true, Json::error_handler_t::replace);
+  if (const Json* body = fields.Find("body")) request.body = body->dump(-1, ' ', true, Json::error_handler_t::replace);
   fields.Finish();
   return request;
 }

@@ -16,8 +16,12 @@ AgentServer::AgentServer(AgentApi& api, const AgentServerOptions& options)
     : server_(std::make_unique<HttpServer>(
           HttpHandlers{.request = [&api](const HttpRequest& request) { return Answer(api, request); },
                        .message = [&api](const std::string& text) -> SocketMessage { return {api.HandleMessage(text)}; }},
-          HttpServerOptions{.address = options.address, .port = options.port, .connections = options.connections,
-                            .body_bytes = options.body_bytes, .seconds = options.seconds, .workers = options.workers,
+          HttpServerOptions{.address = options.address,
+                            .port = options.port,
+                            .connections = options.connections,
+                            .body_bytes = options.body_bytes,
+                            .seconds = options.seconds,
+                            .workers = options.workers,
                             .socket_target = "/v1/ws"})) {}
 
 AgentServer::~AgentServer() = default;

@@ -24,14 +24,11 @@ class StatusError : public std::runtime_error {
   int status_;
 };
 
-inline AgentResponse JsonResponse(const Answer& answer, int status = 200) {
-  return {status, "application/json", TextOf(answer)};
-}
+inline AgentResponse JsonResponse(const Answer& answer, int status = 200) { return {status, "application/json", TextOf(answer)}; }
 
 /// Status 405 for other methods.
 inline void RequireMethod(const AgentRequest& request, const char* method) {
-  if (request.method != method)
-    throw StatusError(405, request.method.substr(0, 16) + " is not answered here; use " + method);
+  if (request.method != method) throw StatusError(405, request.method.substr(0, 16) + " is not answered here; use " + method);
 }
 
 /// One instant of an episode for those who look on.
@@ -48,10 +45,10 @@ struct WatchedMoment {
 /// One episode and who may touch it.
 struct AgentApi::Slot {
   std::string id, world;
-  std::mutex mutex;                   // of the episode
-  std::unique_ptr<Episode> episode;   // none: it is being made, or could not be
-  double answered = 0;                // when its agent got the last answer
-  double latency = 0;                 // seconds of thinking charged so far
+  std::mutex mutex;                  // of the episode
+  std::unique_ptr<Episode> episode;  // none: it is being made, or could not be
+  double answered = 0;               // when its agent got the last answer
+  double latency = 0;                // seconds of thinking charged so far
   std::atomic<double> touched{0};
   std::mutex watched_mutex;  // of what follows
   std::shared_ptr<const internal::WatchedMoment> watched;

@@ -12,17 +12,14 @@
 namespace airsim360 {
 namespace {
 
-constexpr int kGridWidth = 256;      // columns of the panorama behind a range grid
-constexpr int kSamplesPerCell = 4;   // at least, along each side of a sector
+constexpr int kGridWidth = 256;     // columns of the panorama behind a range grid
+constexpr int kSamplesPerCell = 4;  // at least, along each side of a sector
 
-RigidTransform LevelCamera(const RigidTransform& X_WB) {
-  return BodyPose(X_WB.p, HeadingOfBody(X_WB), 0, 0) * CameraInBody();
-}
+RigidTransform LevelCamera(const RigidTransform& X_WB) { return BodyPose(X_WB.p, HeadingOfBody(X_WB), 0, 0) * CameraInBody(); }
 
 }  // namespace
 
-AgentWorld::AgentWorld(std::shared_ptr<Stage> stage, const RenderSettings& picture)
-    : stage_(std::move(stage)), picture_(picture) {}
+AgentWorld::AgentWorld(std::shared_ptr<Stage> stage, const RenderSettings& picture) : stage_(std::move(stage)), picture_(picture) {}
 
 const std::vector<Vec3d>& AgentWorld::places() {
   const std::lock_guard lock(places_mutex_);
@@ -40,8 +37,7 @@ void AgentWorld::Render(RenderRequest request, std::shared_ptr<const SceneState>
   stage_->renderer(request.tier).Render(request, frame_);
 }
 
-Image<Rgb8> AgentWorld::Panorama(const RigidTransform& X_WB, int width, PanoFrame frame,
-                                 std::shared_ptr<const SceneState> moved) {
+Image<Rgb8> AgentWorld::Panorama(const RigidTransform& X_WB, int width, PanoFrame frame, std::shared_ptr<const SceneState> moved) {
   RenderRequest request{picture_, Equirectangular{width, width / 2}};
   request.X_WC = frame == PanoFrame::kLevel ? LevelCamera(X_WB) : X_WB * CameraInBody();
   request.products = {.rgb = true, .range = false, .semantic = false, .entity = false};
@@ -58,8 +54,8 @@ Frame AgentWorld::Watched(const RigidTransform& X_WB, int width, std::shared_ptr
   return std::exchange(frame_, {});  // one that was moved from is of no use
 }
 
-Image<Rgb8> AgentWorld::View(const RigidTransform& X_WB, double azimuth, double elevation, double fov,
-                             int width, int height, std::shared_ptr<const SceneState> moved) {
+Image<Rgb8> AgentWorld::View(const RigidTransform& X_WB, double azimuth, double elevation, double fov, int width, int height,
+                             std::shared_ptr<const SceneState> moved) {
   const double focal = width / (2 * std::tan(fov / 2));
   RenderRequest request{picture_, Pinhole{width, height, focal, focal, width / 2.0, height / 2.0},
                         BodyPose(X_WB.p, HeadingOfBody(X_WB) - azimuth, elevation, 0) * CameraInBody()};
@@ -82,8 +78,7 @@ RangeGrid AgentWorld::Grid(const RigidTransform& X_WB, int rows, int columns, st
     const int row = y * rows / (width / 2);
     for (int x = 0; x < width; ++x) {
       const float range = frame_.range(x, y);
-      float& nearest = grid.range[static_cast<size_t>(row) * static_cast<size_t>(columns) +
-                                  static_cast<size_t>(x * columns / width)];
+      float& nearest = grid.range[static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(x * columns / width)];
       if (range > 0 && (nearest == 0 || range < nearest)) nearest = range;
     }
   }

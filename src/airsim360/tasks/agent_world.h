@@ -38,8 +38,8 @@ class AgentWorld {
                        std::shared_ptr<const SceneState> moved = nullptr);
   /// An ordinary picture to a direction of the level frame: azimuth to the right, elevation up, field of view
   /// across the width, all in radians; 0 < fov < pi.
-  Image<Rgb8> View(const RigidTransform& X_WB, double azimuth, double elevation, double fov, int width,
-                   int height, std::shared_ptr<const SceneState> moved = nullptr);
+  Image<Rgb8> View(const RigidTransform& X_WB, double azimuth, double elevation, double fov, int width, int height,
+                   std::shared_ptr<const SceneState> moved = nullptr);
   /// The level panorama with what a person who looks on may ask of it: colours, range and entities.
   Frame Watched(const RigidTransform& X_WB, int width, std::shared_ptr<const SceneState> moved = nullptr);
   /// Looked at in a panorama of 256 x 128 rays or more; every sector holds several.

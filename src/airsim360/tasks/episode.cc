@@ -14,7 +14,7 @@ namespace {
 constexpr double kOpenRadius = 20, kRoomRadius = 1;           // metres: default radius of success
 constexpr double kNear = 0.25, kSlow = 0.35, kTurned = 0.04;  // at a target: metres, m/s, rad
 constexpr size_t kMostReferencePoints = 4096;
-constexpr double kSpacing = 1;                                // metres between points compared
+constexpr double kSpacing = 1;                   // metres between points compared
 constexpr int64_t kLengthPeriodNs = 20'000'000;  // how often the way flown is measured
 
 // Points at even steps of about `spacing` metres along a polyline, its ends among them; at most about a thousand.
@@ -27,8 +27,7 @@ std::vector<Vec3d> Spaced(const std::vector<Vec3d>& points, double spacing) {
   for (size_t i = 1; i < points.size(); ++i) {
     const double step = Norm(points[i] - points[i - 1]);
     // Those that lie on this piece; the last point is added below.
-    for (double at = length * static_cast<double>(spaced.size()) / parts;
-         static_cast<int>(spaced.size()) < parts && at <= behind + step;
+    for (double at = length * static_cast<double>(spaced.size()) / parts; static_cast<int>(spaced.size()) < parts && at <= behind + step;
          at = length * static_cast<double>(spaced.size()) / parts)
       spaced.push_back(points[i - 1] + (points[i] - points[i - 1]) * ((at - behind) / std::max(step, 1e-12)));
     behind += step;
@@ -48,16 +47,15 @@ std::vector<Vec3d> Thinned(const std::vector<Vec3d>& path) {
 
 }  // namespace
 
-Episode::Episode(std::shared_ptr<AgentWorld> world, EpisodeSpec spec)
-    : world_(std::move(world)), spec_(std::move(spec)) {
+Episode::Episode(std::shared_ptr<AgentWorld> world, EpisodeSpec spec) : world_(std::move(world)), spec_(std::move(spec)) {
   Check();
   Reset();
 }
 
 void Episode::Check() const {
   if (spec_.reference_path.size() > kMostReferencePoints)
-    throw InputError("reference_path: " + std::to_string(spec_.reference_path.size()) +
-                     " points are more than " + std::to_string(kMostReferencePoints));
+    throw InputError("reference_path: " + std::to_string(spec_.reference_path.size()) + " points are more than " +
+                     std::to_string(kMostReferencePoints));
 }
 
 void Episode::ChoosePlaces() {
@@ -97,8 +95,7 @@ void Episode::BuildModel() {
     const auto& places = world_->places();
     const Vec3d free = *std::ranges::min_element(places, {}, [&](Vec3d p) { return Norm(p - start_W_); });
     char text[160];
-    std::snprintf(text, sizeof(text),
-                  "start.p: (%.2f, %.2f, %.2f) is not free; the nearest free place known is (%.2f, %.2f, %.2f)",
+    std::snprintf(text, sizeof(text), "start.p: (%.2f, %.2f, %.2f) is not free; the nearest free place known is (%.2f, %.2f, %.2f)",
                   start_W_.x, start_W_.y, start_W_.z, free.x, free.y, free.z);
     throw InputError(text);
   }
@@ -174,8 +171,7 @@ AgentPose Episode::Setpoint() const {
 
 void Episode::Act(const AgentAction& action) {
   if (end_ != EpisodeEnd::kRunning)
-    throw InputError("action: the episode is over (" + std::string(kEpisodeEndNames[static_cast<int>(end_)]) +
-                     "); reset it first");
+    throw InputError("action: the episode is over (" + std::string(kEpisodeEndNames[static_cast<int>(end_)]) + "); reset it first");
   const ActionPlan plan = PlanAction(action, Setpoint(), spec_.presets, spec_.speed);
   if (plan.stops) {
     ++steps_;

@@ -33,25 +33,24 @@ struct EpisodeSpec {
   double success_radius = 0;  ///< metres; 0 = 20 in the open (AerialVLN), 1 in rooms
   double speed = 3;           ///< m/s of actions that say none
   PresetSizes presets;
-  int64_t max_steps = 500;     ///< actions
-  double max_seconds = 600;    ///< simulated
+  int64_t max_steps = 500;   ///< actions
+  double max_seconds = 600;  ///< simulated
   bool end_on_collision = true;
 };
 
 enum class EpisodeEnd { kRunning, kStopped, kReached, kCollision, kMaxSteps, kMaxSeconds };
-inline constexpr const char* kEpisodeEndNames[] = {"running",   "stopped",   "reached",
-                                                   "collision", "max_steps", "max_seconds"};
+inline constexpr const char* kEpisodeEndNames[] = {"running", "stopped", "reached", "collision", "max_steps", "max_seconds"};
 
 /// Scores as in Anderson et al., "On Evaluation of Embodied Navigation Agents" (2018).
 struct EpisodeScore {
   bool success = false;
-  bool oracle_success = false;     ///< some place of the path was within the radius
-  double navigation_error = 0;     ///< metres from the last place to the goal
-  double path_length = 0;          ///< metres flown
-  double shortest_length = 0;      ///< of the reference path, or of the shortest free way
+  bool oracle_success = false;        ///< some place of the path was within the radius
+  double navigation_error = 0;        ///< metres from the last place to the goal
+  double path_length = 0;             ///< metres flown
+  double shortest_length = 0;         ///< of the reference path, or of the shortest free way
   bool shortest_is_straight = false;  ///< no free way was found: all goes by the straight line to the goal
-  double ndtw = 0;                 ///< NormalizedTimeWarping to the reference, by the radius of success
-  double spl = 0;                  ///< success * shortest / max(path, shortest)
+  double ndtw = 0;                    ///< NormalizedTimeWarping to the reference, by the radius of success
+  double spl = 0;                     ///< success * shortest / max(path, shortest)
 };
 
 /// One thread at a time. The same spec and the same actions give the same bytes.

@@ -13,8 +13,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 std::shared_ptr<AgentWorld> Room() {
-  static const auto room =
-      std::make_shared<AgentWorld>(std::make_shared<Stage>(StageOptions{.world = {.world = "box_room"}}));
+  static const auto room = std::make_shared<AgentWorld>(std::make_shared<Stage>(StageOptions{.world = {.world = "box_room"}}));
   return room;
 }
 
@@ -45,9 +44,8 @@ TEST(PlanAction, ARelativeGoalIsWhereTheLevelPanoramaShowsIt) {
 TEST(Episode, PresetsMoveByTheirSizesInTheHeadingFrame) {
   Episode episode(Room(), InTheRoom({-3, -2, 2}, kPi / 2));
   const Vec3d start = Place(episode);
-  const std::pair<Preset, Vec3d> moves[] = {
-      {Preset::kForward, {0, 1, 0}}, {Preset::kRight, {1, 1, 0}}, {Preset::kUp, {1, 1, 1}},
-      {Preset::kBackward, {1, 0, 1}}, {Preset::kLeft, {0, 0, 1}}, {Preset::kDown, {0, 0, 0}}};
+  const std::pair<Preset, Vec3d> moves[] = {{Preset::kForward, {0, 1, 0}},  {Preset::kRight, {1, 1, 0}}, {Preset::kUp, {1, 1, 1}},
+                                            {Preset::kBackward, {1, 0, 1}}, {Preset::kLeft, {0, 0, 1}},  {Preset::kDown, {0, 0, 0}}};
   for (const auto& [preset, expected] : moves) {
     episode.Act(PresetAction{preset});
     EXPECT_LT(Norm(Place(episode) - start - expected), 0.3) << kPresetNames[static_cast<int>(preset)];
@@ -126,8 +124,7 @@ TEST(Episode, FlyingIntoAWallEndsItUnlessToldOtherwise) {
   episode.Act(VelocityAction{.v = {2, 0, 0}, .duration = 3});
   EXPECT_EQ(episode.end(), EpisodeEnd::kCollision);
   EXPECT_LT(episode.seconds(), 3);
-  EXPECT_EQ(episode.world().scene().entity(episode.vehicle().collision.entity).category,
-            episode.world().scene().entity(3).category);
+  EXPECT_EQ(episode.world().scene().entity(episode.vehicle().collision.entity).category, episode.world().scene().entity(3).category);
   spec.end_on_collision = false;
   Episode tough(Room(), spec);
   tough.Act(VelocityAction{.v = {2, 0, 0}, .duration = 3});
@@ -206,8 +203,8 @@ TEST(AgentWorld, TheRangeGridHoldsTheNearestWallOfEachSector) {
   // Looks along +x from the middle of the room; the sector ahead sees the wall at x = 5.
   const RangeGrid grid = Room()->Grid(BodyPose({0, 0, 3}, 0, 0, 0), 8, 16);
   EXPECT_NEAR(grid.range[3 * 16 + 8], 5, 0.02);
-  EXPECT_NEAR(grid.range[0], 3, 0.02);        // ceiling
-  EXPECT_NEAR(grid.range[7 * 16], 3, 0.02);   // floor
+  EXPECT_NEAR(grid.range[0], 3, 0.02);       // ceiling
+  EXPECT_NEAR(grid.range[7 * 16], 3, 0.02);  // floor
   // Turned left and rolled: the grid is level, the room is square.
   const RangeGrid turned = Room()->Grid(BodyPose({0, 0, 3}, kPi / 2, 0.3, 0.2), 8, 16);
   for (size_t i = 0; i < 16; ++i) EXPECT_NEAR(turned.range[3 * 16 + i], grid.range[3 * 16 + i], 0.05);

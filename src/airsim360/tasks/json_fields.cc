@@ -57,9 +57,9 @@ Json ParseJson(std::string_view text) {
     const std::string what = error.what();
     const size_t at = what.find("line ");
     const size_t end = what.find(':', at == std::string::npos ? 0 : at);
-    throw RequestError("", "the body is not JSON" + (at == std::string::npos || end == std::string::npos
-                                                        ? std::string()
-                                                        : " (" + what.substr(at, end - at) + ")"));
+    throw RequestError("",
+                       "the body is not JSON" +
+                           (at == std::string::npos || end == std::string::npos ? std::string() : " (" + what.substr(at, end - at) + ")"));
   }
 }
 
@@ -67,9 +67,7 @@ JsonFields::JsonFields(const Json& value, std::string path) : value_(value), pat
   if (!value_.is_object()) WrongKind(path_, value_, "an object { … }");
 }
 
-std::string JsonFields::PathOf(std::string_view name) const {
-  return path_.empty() ? std::string(name) : path_ + "." + std::string(name);
-}
+std::string JsonFields::PathOf(std::string_view name) const { return path_.empty() ? std::string(name) : path_ + "." + std::string(name); }
 
 const Json* JsonFields::Find(const char* name) {
   known_.emplace_back(name);
@@ -97,8 +95,7 @@ void JsonFields::Integer(const char* name, int64_t& value, int64_t low, int64_t 
   const bool huge = field->is_number_unsigned() && field->get<uint64_t>() > uint64_t{INT64_MAX};
   const int64_t number = huge ? INT64_MAX : field->get<int64_t>();
   if (number < low || number > high) {
-    throw RequestError(PathOf(name),
-                       Shown(*field) + " is not in " + std::to_string(low) + " … " + std::to_string(high),
+    throw RequestError(PathOf(name), Shown(*field) + " is not in " + std::to_string(low) + " … " + std::to_string(high),
                        std::to_string(std::clamp(number, low, high)));
   }
   value = number;
@@ -131,14 +128,12 @@ void JsonFields::Text(const char* name, std::string& value, size_t longest) {
   if (!field->is_string()) WrongKind(PathOf(name), *field, "a text");
   const auto& text = field->get_ref<const std::string&>();
   if (text.size() > longest) {
-    throw RequestError(PathOf(name), std::to_string(text.size()) + " bytes are more than " +
-                                         std::to_string(longest));
+    throw RequestError(PathOf(name), std::to_string(text.size()) + " bytes are more than " + std::to_string(longest));
   }
   value = text;
 }
 
-size_t FindChoice(const std::string& field, std::string_view what, const std::string& text,
-                  const std::vector<std::string>& names) {
+size_t FindChoice(const std::string& field, std::string_view what, const std::string& text, const std::vector<std::string>& names) {
   const auto found = std::ranges::find(names, text);
   if (found != names.end()) return static_cast<size_t>(found - names.begin());
   const std::string shown = text.substr(0, kLongestShown);
@@ -164,19 +159,16 @@ bool JsonFields::Vectors(const char* name, std::vector<Vec3d>& values, size_t mo
   if (field == nullptr) return false;
   if (!field->is_array()) WrongKind(PathOf(name), *field, "a list of [x, y, z]");
   if (field->empty() || field->size() > most) {
-    throw RequestError(PathOf(name), std::to_string(field->size()) + " points are not 1 … " +
-                                         std::to_string(most));
+    throw RequestError(PathOf(name), std::to_string(field->size()) + " points are not 1 … " + std::to_string(most));
   }
   values.clear();
-  for (size_t i = 0; i < field->size(); ++i)
-    values.push_back(VectorOf(PathOf(name) + "[" + std::to_string(i) + "]", (*field)[i], limit));
+  for (size_t i = 0; i < field->size(); ++i) values.push_back(VectorOf(PathOf(name) + "[" + std::to_string(i) + "]", (*field)[i], limit));
   return true;
 }
 
 void JsonFields::Finish() const {
   for (const auto& [key, value] : value_.items()) {
-    if (std::ranges::find(known_, key) == known_.end())
-      FindChoice(PathOf(key.substr(0, kLongestShown)), "field", key, known_);
+    if (std::ranges::find(known_, key) == known_.end()) FindChoice(PathOf(key.substr(0, kLongestShown)), "field", key, known_);
   }
 }
 

@@ -47,7 +47,6 @@ class JsonFields {
 };
 
 /// RequestError unless `text` is one of `names`; its index.
-size_t FindChoice(const std::string& field, std::string_view what, const std::string& text,
-                  const std::vector<std::string>& names);
+size_t FindChoice(const std::string& field, std::string_view what, const std::string& text, const std::vector<std::string>& names);
 
 }  // namespace airsim360::internal

@@ -51,15 +51,12 @@ std::vector<EntityId> FindTargets(const Scene& scene, const NavigationTask& task
     if (entity.bounds.empty()) continue;
     const Category& category = scene.tree[entity.category];
     const Vec3f size = entity.bounds.size();
-    const bool wanted = task.target.empty()
-                            ? category.thing && std::max({size.x, size.y, size.z}) <= kEverydaySize
-                            : IsUnder(category.path, task.target);
-    if (wanted && LevelDistance(VecCast<double>(entity.bounds.center()), spawn) <= task.area)
-      targets.push_back(entity.id);
+    const bool wanted =
+        task.target.empty() ? category.thing && std::max({size.x, size.y, size.z}) <= kEverydaySize : IsUnder(category.path, task.target);
+    if (wanted && LevelDistance(VecCast<double>(entity.bounds.center()), spawn) <= task.area) targets.push_back(entity.id);
   }
   if (targets.empty()) {
-    throw InputError("task: there is no " +
-                     (task.target.empty() ? std::string("thing") : "'" + task.target + "'") +
+    throw InputError("task: there is no " + (task.target.empty() ? std::string("thing") : "'" + task.target + "'") +
                      " to be searched for within " + std::to_string(static_cast<int>(task.area)) + " m");
   }
   return targets;
@@ -67,15 +64,13 @@ std::vector<EntityId> FindTargets(const Scene& scene, const NavigationTask& task
 
 }  // namespace
 
-NavigationKind ParseNavigationKind(std::string_view name) {
-  return ParseChoice<NavigationKind>("task", name, kNavigationNames);
-}
+NavigationKind ParseNavigationKind(std::string_view name) { return ParseChoice<NavigationKind>("task", name, kNavigationNames); }
 
 void CheckTask(const NavigationTask& task) {
   const auto check = [](const char* field, double value, double low, double high) {
     if (value >= low && value <= high) return;
-    throw InputError("task." + std::string(field) + ": " + std::to_string(value) + " is not in " +
-                     std::to_string(low) + " ... " + std::to_string(high));
+    throw InputError("task." + std::string(field) + ": " + std::to_string(value) + " is not in " + std::to_string(low) + " ... " +
+                     std::to_string(high));
   };
   check("least_distance", task.least_distance, 0, 1e5);
   check("most_distance", task.most_distance, task.least_distance, 1e5);
@@ -86,8 +81,7 @@ void CheckTask(const NavigationTask& task) {
   check("max_height", task.max_height, task.min_height, 1e4);
   check("seconds", task.seconds, 0.01, 1e6);
   check("safe_distance", task.safe_distance, 0.01, 2);
-  for (const double value : {task.progress_reward, task.goal_reward, task.crash_cost, task.step_cost,
-                             task.near_cost, task.seen_reward})
+  for (const double value : {task.progress_reward, task.goal_reward, task.crash_cost, task.step_cost, task.near_cost, task.seen_reward})
     check("rewards and costs", value, -1e6, 1e6);
 }
 
@@ -96,11 +90,9 @@ NavigationWorld::NavigationWorld(std::shared_ptr<const RayTracer> tracer, const 
   CheckTask(task_);
   const Scene& scene = tracer_->scene();
   const Vec3d spawn = VecCast<double>(FirstViewpoint(scene));
-  std::vector<Vec3d> places = FindFreePlaces(*tracer_, {.seed = 0,
-                                                        .radius = task_.clearance,
-                                                        .min_height = task_.min_height,
-                                                        .max_height = task_.max_height,
-                                                        .candidates = kCandidates});
+  std::vector<Vec3d> places = FindFreePlaces(
+      *tracer_,
+      {.seed = 0, .radius = task_.clearance, .min_height = task_.min_height, .max_height = task_.max_height, .candidates = kCandidates});
   std::erase_if(places, [&](Vec3d p) { return LevelDistance(p, spawn) > task_.area; });
   places_ = Connected(*tracer_, std::move(places), task_.clearance);
   if (places_.size() < 2) throw InputError("task: the world has no free places for it; try less clearance");
@@ -141,9 +133,7 @@ NavigationEpisode NavigationWorld::Sample(uint64_t seed, uint64_t environment, u
     double miss = std::max({task_.least_distance - distance, distance - task_.most_distance, 0.0});
     if (distance == 0) continue;
     // What is to be avoided must be there.
-    if (task_.kind == NavigationKind::kAvoid &&
-        !tracer_->Occluded(VecCast<float>(start), VecCast<float>(goal)))
-      miss += 1e-3;
+    if (task_.kind == NavigationKind::kAvoid && !tracer_->Occluded(VecCast<float>(start), VecCast<float>(goal))) miss += 1e-3;
     if (miss >= least_miss) continue;
     least_miss = miss;
     episode.X_WB.p = start;
@@ -155,8 +145,8 @@ NavigationEpisode NavigationWorld::Sample(uint64_t seed, uint64_t environment, u
 
 void NavigationWorld::CheckPlace(const char* what, Vec3d p) const {
   const auto refuse = [&](const std::string& why) {
-    throw InputError(std::string(what) + ": (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " +
-                     std::to_string(p.z) + ") " + why);
+    throw InputError(std::string(what) + ": (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ") " +
+                     why);
   };
   const Box3f& bounds = tracer_->scene().bounds;
   for (int i = 0; i < 3; ++i) {
@@ -180,8 +170,8 @@ NavigationEpisode NavigationWorld::Wished(NavigationEpisode episode, const Episo
   return episode;
 }
 
-NavigationScore NavigationWorld::Score(const NavigationEpisode& episode, Vec3d before, Vec3d now,
-                                       double clearance, bool crashed, const TargetSight& sight) const {
+NavigationScore NavigationWorld::Score(const NavigationEpisode& episode, Vec3d before, Vec3d now, double clearance, bool crashed,
+                                       const TargetSight& sight) const {
   NavigationScore score;
   score.crashed = crashed;
   score.reward = -task_.step_cost;
@@ -194,8 +184,7 @@ NavigationScore NavigationWorld::Score(const NavigationEpisode& episode, Vec3d b
     score.reached = !crashed && distance <= task_.goal_radius;
     score.reward += task_.progress_reward * (Norm(episode.goal_W - before) - distance);
   }
-  if (task_.kind == NavigationKind::kAvoid)
-    score.reward -= task_.near_cost * std::max(0.0, 1 - clearance / task_.safe_distance);
+  if (task_.kind == NavigationKind::kAvoid) score.reward -= task_.near_cost * std::max(0.0, 1 - clearance / task_.safe_distance);
   if (score.reached) score.reward += task_.goal_reward;
   if (crashed) score.reward -= task_.crash_cost;
   return score;

@@ -26,14 +26,14 @@ NavigationKind ParseNavigationKind(std::string_view name);
 struct NavigationTask {
   NavigationKind kind = NavigationKind::kReach;
   double least_distance = 3, most_distance = 30;  ///< between start and goal, where the world has such pairs
-  double goal_radius = 1;  ///< reached within it; search: found at this range (3 is a good value)
-  double clearance = 0.7;  ///< free around starts and goals
-  double area = 100;       ///< starts and goals lie at most so far from the world's spawn, seen from above
-  double min_height = 0.8, max_height = 15;  ///< of starts and goals above the ground
-  double seconds = 60;                       ///< an episode is cut off after it
-  std::string target = {};                   ///< search: category path, "" = any thing of everyday size
-  double safe_distance = 1.5;                ///< avoid: nearer to a surface costs, see near_cost
-  double progress_reward = 1;                ///< per metre that the goal came nearer (reach, avoid)
+  double goal_radius = 1;                         ///< reached within it; search: found at this range (3 is a good value)
+  double clearance = 0.7;                         ///< free around starts and goals
+  double area = 100;                              ///< starts and goals lie at most so far from the world's spawn, seen from above
+  double min_height = 0.8, max_height = 15;       ///< of starts and goals above the ground
+  double seconds = 60;                            ///< an episode is cut off after it
+  std::string target = {};                        ///< search: category path, "" = any thing of everyday size
+  double safe_distance = 1.5;                     ///< avoid: nearer to a surface costs, see near_cost
+  double progress_reward = 1;                     ///< per metre that the goal came nearer (reach, avoid)
   double goal_reward = 10, crash_cost = 10;
   double step_cost = 0.01;   ///< of every step
   double near_cost = 0.5;    ///< avoid: times (1 - clearance / safe_distance) where that is positive
@@ -88,8 +88,8 @@ class NavigationWorld {
   NavigationEpisode Wished(NavigationEpisode episode, const EpisodeWish& wish) const;
 
   /// What a step from `before` to `now` is worth; `clearance` in metres, `sight` counts for searches alone.
-  NavigationScore Score(const NavigationEpisode& episode, Vec3d before, Vec3d now, double clearance,
-                        bool crashed, const TargetSight& sight) const;
+  NavigationScore Score(const NavigationEpisode& episode, Vec3d before, Vec3d now, double clearance, bool crashed,
+                        const TargetSight& sight) const;
 
  private:
   void CheckPlace(const char* what, Vec3d place) const;

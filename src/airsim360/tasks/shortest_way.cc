@@ -9,13 +9,13 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kFinest = 0.25;         // metres between lattice nodes
-constexpr double kMaxNodes = 2e6;        // of the lattice: 16 bytes each
+constexpr double kFinest = 0.25;          // metres between lattice nodes
+constexpr double kMaxNodes = 2e6;         // of the lattice: 16 bytes each
 constexpr size_t kMaxExpanded = 100'000;  // nodes looked at from either side
 // Looks at ten times fewer nodes than 1 does in towns; pulled tight, the ways are as short.
 constexpr double kHeuristic = 1.1;
 constexpr double kMinRadius = 0.05;  // metres: what has less room counts as inside a thing
-constexpr double kFit = 0.95;  // of the room at start and goal, so that rounding does not block them
+constexpr double kFit = 0.95;        // of the room at start and goal, so that rounding does not block them
 
 // Where the way may lead: all of a closed room; in the open, where flights are, and around both ends.
 Box3d SpaceOf(const RayTracer& tracer, Vec3d start, Vec3d goal) {
@@ -33,8 +33,7 @@ double SpacingFor(const Box3d& box) {
 
 }  // namespace
 
-ShortestWay FindShortestWay(const std::shared_ptr<const RayTracer>& tracer, Vec3d start, Vec3d goal,
-                            double radius) {
+ShortestWay FindShortestWay(const std::shared_ptr<const RayTracer>& tracer, Vec3d start, Vec3d goal, double radius) {
   const ShortestWay straight{{start, goal}, false};
   const WorldClearance surfaces(tracer, nullptr);
   for (const Vec3d end : {start, goal}) radius = std::min(radius, kFit * surfaces.Clearance(end, 2 * radius));
@@ -45,10 +44,7 @@ ShortestWay FindShortestWay(const std::shared_ptr<const RayTracer>& tracer, Vec3
   const Box3d near = BoxAround(start, goal, 5 + Norm(goal - start) / 2, space);
   for (const Box3d& box : {near, space}) {
     const BoundedClearance world(surfaces, box);
-    const SearchOptions options{.radius = radius,
-                                .spacing = SpacingFor(box),
-                                .heuristic = kHeuristic,
-                                .max_expanded = kMaxExpanded};
+    const SearchOptions options{.radius = radius, .spacing = SpacingFor(box), .heuristic = kHeuristic, .max_expanded = kMaxExpanded};
     const SearchResult found = FindPath(start, goal, world, options);
     if (found.outcome == SearchOutcome::kFound) return {Shortcut(found.path, world, radius), true};
     if (near.min == space.min && near.max == space.max) break;
@@ -56,8 +52,7 @@ ShortestWay FindShortestWay(const std::shared_ptr<const RayTracer>& tracer, Vec3
   return straight;
 }
 
-const ShortestWay& ShortestWayCache::Find(const std::shared_ptr<const RayTracer>& tracer, Vec3d start,
-                                          Vec3d goal, double radius) {
+const ShortestWay& ShortestWayCache::Find(const std::shared_ptr<const RayTracer>& tracer, Vec3d start, Vec3d goal, double radius) {
   if (!way_ || start_ != start || goal_ != goal) {
     way_ = FindShortestWay(tracer, start, goal, radius);
     start_ = start;

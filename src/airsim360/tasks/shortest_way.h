@@ -18,15 +18,13 @@ struct ShortestWay {
 /// the true one where the passages are a lattice cell wider than the ball (at least 0.25 m; the larger the
 /// world, the coarser). Where start or goal has less room, the ball is as large as fits there. A pure
 /// function of its arguments; where the straight way is free it costs nothing.
-ShortestWay FindShortestWay(const std::shared_ptr<const RayTracer>& tracer, Vec3d start, Vec3d goal,
-                            double radius);
+ShortestWay FindShortestWay(const std::shared_ptr<const RayTracer>& tracer, Vec3d start, Vec3d goal, double radius);
 
 /// The last answer of FindShortestWay, for as long as start and goal stay. Of one world and radius; one
 /// thread at a time.
 class ShortestWayCache {
  public:
-  const ShortestWay& Find(const std::shared_ptr<const RayTracer>& tracer, Vec3d start, Vec3d goal,
-                          double radius);
+  const ShortestWay& Find(const std::shared_ptr<const RayTracer>& tracer, Vec3d start, Vec3d goal, double radius);
 
  private:
   Vec3d start_, goal_;

@@ -16,8 +16,7 @@ namespace {
 void AddBox(SceneBuilder& builder, const char* name, Vec3f low, Vec3f high) {
   Mesh mesh;
   mesh.name = name;
-  for (int i = 0; i < 8; ++i)
-    mesh.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+  for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
   mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
   mesh.parts = {{0, 12, 0, kNoEntity}};

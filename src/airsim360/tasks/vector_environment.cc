@@ -27,8 +27,7 @@ void CheckOptions(const VectorEnvironmentOptions& o) {
   if (!(o.period > 0 && o.period <= 10) || std::fabs(steps - std::round(steps)) > 1e-6)
     refuse("period: " + std::to_string(o.period) + " s is not a multiple of 0.002 s up to 10 s");
   const auto positive = [&](const char* name, double value) {
-    if (!(value > 0 && value <= 1000))
-      refuse(std::string(name) + ": " + std::to_string(value) + " is not in 0 ... 1000");
+    if (!(value > 0 && value <= 1000)) refuse(std::string(name) + ": " + std::to_string(value) + " is not in 0 ... 1000");
   };
   CheckPictureSettings(o.picture, Equirectangular{o.width, o.height});
   positive("max_speed", o.max_speed);
@@ -47,12 +46,9 @@ std::shared_ptr<const SimModel> MakeModel(Stage& stage, const DroneModel& drone)
 
 }  // namespace
 
-ActionLevel ParseActionLevel(std::string_view name) {
-  return ParseChoice<ActionLevel>("action", name, kActionLevelNames);
-}
+ActionLevel ParseActionLevel(std::string_view name) { return ParseChoice<ActionLevel>("action", name, kActionLevelNames); }
 
-VectorEnvironment::VectorEnvironment(std::shared_ptr<Stage> stage, const NavigationTask& task,
-                                     const VectorEnvironmentOptions& options)
+VectorEnvironment::VectorEnvironment(std::shared_ptr<Stage> stage, const NavigationTask& task, const VectorEnvironmentOptions& options)
     : options_((CheckOptions(options), options)),
       stage_(std::move(stage)),
       world_(stage_->solid(), task),
@@ -98,8 +94,7 @@ void VectorEnvironment::ForAll(const Body& body) {
 
 void VectorEnvironment::Reset(std::optional<uint64_t> seed, std::span<const EpisodeWish> wishes) {
   if (wishes.size() > 1 && wishes.size() != lanes_.size()) {
-    throw InputError("reset: " + std::to_string(wishes.size()) + " wishes for " + std::to_string(lanes_.size()) +
-                     " environments");
+    throw InputError("reset: " + std::to_string(wishes.size()) + " wishes for " + std::to_string(lanes_.size()) + " environments");
   }
   const uint64_t from = seed.value_or(seed_);
   std::vector<NavigationEpisode> episodes(lanes_.size());
@@ -119,13 +114,12 @@ void VectorEnvironment::Reset(std::optional<uint64_t> seed, std::span<const Epis
 void VectorEnvironment::Step(std::span<const float> actions) {
   const auto size = static_cast<size_t>(action_size());
   if (actions.size() != lanes_.size() * size) {
-    throw InputError("actions: " + std::to_string(actions.size()) + " numbers instead of " +
-                     std::to_string(lanes_.size()) + " x " + std::to_string(size));
+    throw InputError("actions: " + std::to_string(actions.size()) + " numbers instead of " + std::to_string(lanes_.size()) + " x " +
+                     std::to_string(size));
   }
   for (size_t k = 0; k < actions.size(); ++k) {
     if (!std::isfinite(actions[k])) {
-      throw InputError("actions[" + std::to_string(k / size) + "][" + std::to_string(k % size) +
-                       "] is not a finite number");
+      throw InputError("actions[" + std::to_string(k / size) + "][" + std::to_string(k % size) + "] is not a finite number");
     }
   }
   for (size_t i = 0; i < lanes_.size() && !options_.auto_reset; ++i) {

@@ -31,11 +31,11 @@ struct VectorEnvironmentOptions {
   int count = 1;
   DroneModel drone;
   ActionLevel action = ActionLevel::kVelocity;
-  double max_speed = 3, max_turn = 1.5;  ///< m/s, rad/s of action 1 at level velocity
-  double max_rate = 6;                   ///< rad/s of action 1 at level rates
-  double period = 0.1;                   ///< seconds of a step, a whole number of milliseconds, even
-  int width = 128, height = 64;          ///< of the panoramas; width = 2 height
-  PictureSettings picture = {};  ///< how they are made
+  double max_speed = 3, max_turn = 1.5;                             ///< m/s, rad/s of action 1 at level velocity
+  double max_rate = 6;                                              ///< rad/s of action 1 at level rates
+  double period = 0.1;                                              ///< seconds of a step, a whole number of milliseconds, even
+  int width = 128, height = 64;                                     ///< of the panoramas; width = 2 height
+  PictureSettings picture = {};                                     ///< how they are made
   bool rgb = true, range = true, semantic = false, entity = false;  ///< panoramas that are made
   bool auto_reset = true;  ///< an environment that has ended begins anew in the next step, which does nothing
                            ///< else there (reward 0); off: such a step is an InputError
@@ -60,8 +60,7 @@ struct StateColumns {
 class VectorEnvironment {
  public:
   /// InputError naming the option that makes no sense. Begins with Reset(options.seed).
-  VectorEnvironment(std::shared_ptr<Stage> stage, const NavigationTask& task,
-                    const VectorEnvironmentOptions& options);
+  VectorEnvironment(std::shared_ptr<Stage> stage, const NavigationTask& task, const VectorEnvironmentOptions& options);
   ~VectorEnvironment();
 
   int count() const { return options_.count; }

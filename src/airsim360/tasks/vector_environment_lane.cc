@@ -16,8 +16,7 @@ void Put(Vec3d v, float* out) {
 
 template <class Pixel>
 void CopyRow(const Image<Pixel>& image, size_t i, std::vector<Pixel>& rows) {
-  if (!rows.empty())
-    std::ranges::copy(image.pixels(), rows.begin() + static_cast<ptrdiff_t>(i * image.size()));
+  if (!rows.empty()) std::ranges::copy(image.pixels(), rows.begin() + static_cast<ptrdiff_t>(i * image.size()));
 }
 
 }  // namespace
@@ -40,8 +39,7 @@ Command VectorEnvironment::CommandOf(std::span<const float> a) const {
   switch (options_.action) {
     case ActionLevel::kVelocity: {
       const Vec3d v = options_.max_speed * Vec3d{Clamped(a[0]), Clamped(a[1]), Clamped(a[2])};
-      return VelocityCommand{
-          .v = v, .body_heading = true, .yaw = {YawTarget::Mode::kRate, options_.max_turn * Clamped(a[3])}};
+      return VelocityCommand{.v = v, .body_heading = true, .yaw = {YawTarget::Mode::kRate, options_.max_turn * Clamped(a[3])}};
     }
     case ActionLevel::kRates:
       return RateCommand{options_.max_rate * Vec3d{Clamped(a[1]), Clamped(a[2]), Clamped(a[3])},
@@ -76,15 +74,13 @@ void VectorEnvironment::StepLane(size_t i, std::span<const float> action, Slot& 
 
   const Vehicle& drone = loop.state().vehicles[0];
   const TargetSight sight = Look(i, slot);
-  const NavigationScore score =
-      world_.Score(lane.episode, before, drone.motion.X_WB.p, drone.clearance, crashed, sight);
+  const NavigationScore score = world_.Score(lane.episode, before, drone.motion.X_WB.p, drone.clearance, crashed, sight);
   ++steps_[i];
   reward_[i] = static_cast<float>(score.reward);
   reached_[i] = score.reached;
   crashed_[i] = score.crashed;
   terminated_[i] = score.reached || score.crashed;
-  truncated_[i] =
-      !terminated_[i] && static_cast<double>(lane.loop->state().t_ns) * 1e-9 >= world_.task().seconds - 1e-9;
+  truncated_[i] = !terminated_[i] && static_cast<double>(lane.loop->state().t_ns) * 1e-9 >= world_.task().seconds - 1e-9;
   lane.ended = terminated_[i] || truncated_[i];
   FillState(i);
 }
@@ -94,10 +90,8 @@ TargetSight VectorEnvironment::Look(size_t i, Slot& slot) {
   const bool search = world_.task().kind == NavigationKind::kSearch;
   PanoramicRig rig{options_.picture, Equirectangular{options_.width, options_.height}};
   if (!options_.rgb) rig.tier = Tier::kLabels;
-  rig.products = {.rgb = options_.rgb,
-                  .range = options_.range || search,
-                  .semantic = options_.semantic,
-                  .entity = options_.entity || search};
+  rig.products = {
+      .rgb = options_.rgb, .range = options_.range || search, .semantic = options_.semantic, .entity = options_.entity || search};
   const bool anything = options_.rgb || rig.products.range || rig.products.semantic || rig.products.entity;
   if (!anything) return {};
   if (model_->people) rig.state = SceneStateOf(*model_, lane.loop->state(), 0);
@@ -141,8 +135,7 @@ void VectorEnvironment::FillState(size_t i) {
   out[StateColumns::kTimeLeft] = static_cast<float>(std::max(0.0, 1 - used));
   out[StateColumns::kHeading] = static_cast<float>(std::cos(heading));
   out[StateColumns::kHeading + 1] = static_cast<float>(std::sin(heading));
-  out[StateColumns::kTarget] =
-      search ? static_cast<float>(world_.tracer().scene().entity(lane.episode.target).category) : 0;
+  out[StateColumns::kTarget] = search ? static_cast<float>(world_.tracer().scene().entity(lane.episode.target).category) : 0;
   distance_[i] = static_cast<float>(Norm(way));
 }
 

@@ -14,8 +14,7 @@ namespace airsim360 {
 namespace {
 
 std::shared_ptr<Stage> Room() {
-  static const auto room =
-      std::make_shared<Stage>(StageOptions{.world = {.world = "box_room"}, .device = {.device = "cpu"}});
+  static const auto room = std::make_shared<Stage>(StageOptions{.world = {.world = "box_room"}, .device = {.device = "cpu"}});
   return room;
 }
 
@@ -54,9 +53,7 @@ template <class T>
 std::vector<T> Copy(std::span<const T> span) {
   return {span.begin(), span.end()};
 }
-Seen Look(const VectorEnvironment& e) {
-  return {Copy(e.rgb()), Copy(e.range()), Copy(e.state()), Copy(e.reward()), e.Hash()};
-}
+Seen Look(const VectorEnvironment& e) { return {Copy(e.rgb()), Copy(e.range()), Copy(e.state()), Copy(e.reward()), e.Hash()}; }
 
 TEST(VectorEnvironment, SameSeedAndActionsGiveTheSameBytesWithAnyNumberOfThreads) {
   const auto run = [](int threads) {
@@ -196,8 +193,7 @@ TEST(VectorEnvironment, ASearchIsOverWhenTheTargetIsSeenFromNear) {
   task.goal_radius = 20;  // of the room: as soon as the cube is in sight
   VectorEnvironment e(Room(), task, Options(4));
   const Scene& scene = Room()->scene();
-  for (const EntityId target : e.world().targets())
-    EXPECT_TRUE(scene.tree[scene.entity(target).category].thing);
+  for (const EntityId target : e.world().targets()) EXPECT_TRUE(scene.tree[scene.entity(target).category].thing);
   e.Step(Repeat(e, {0, 0, 0, 0}));
   for (int i = 0; i < 4; ++i) EXPECT_TRUE(e.reached()[i]) << "there is nothing in the room to hide behind";
   task.goal_radius = 0.06;  // nearer than a drone can be
@@ -214,9 +210,8 @@ TEST(VectorEnvironment, RotorSignalsAndRatesFly) {
     VectorEnvironmentOptions options = Options(1);
     options.action = level;
     VectorEnvironment e(Room(), Task(NavigationKind::kReach), options);
-    e.Step(Repeat(
-        e, {-1, level == ActionLevel::kRates ? 0.0f : -1.0f, level == ActionLevel::kRates ? 0.0f : -1.0f,
-            level == ActionLevel::kRates ? 0.0f : -1.0f}));
+    e.Step(Repeat(e, {-1, level == ActionLevel::kRates ? 0.0f : -1.0f, level == ActionLevel::kRates ? 0.0f : -1.0f,
+                      level == ActionLevel::kRates ? 0.0f : -1.0f}));
     // Without thrust for 0.1 s it falls at nearly g t; the rotors take their time to stop.
     const double v = e.sim_state(0).vehicles[0].motion.v_WB.z;
     EXPECT_LT(v, -0.3);

@@ -67,8 +67,7 @@ struct AlphaRange {
 // `reach`: the largest number, in texels, that takes part in computing them.
 bool AlphaUnder(const Texture& texture, const Vec2d (&corners)[3], double reach, AlphaRange& out) {
   const Image<Rgba8>& image = texture.levels[0];
-  const double low_y = std::min({corners[0].y, corners[1].y, corners[2].y}),
-               high_y = std::max({corners[0].y, corners[1].y, corners[2].y});
+  const double low_y = std::min({corners[0].y, corners[1].y, corners[2].y}), high_y = std::max({corners[0].y, corners[1].y, corners[2].y});
   // Interpolated coordinates are off by some units in the last place.
   const double margin = 1e-3 + 2e-6 * reach;
   int64_t cells = 0;
@@ -86,8 +85,7 @@ bool AlphaUnder(const Texture& texture, const Vec2d (&corners)[3], double reach,
       }
     }
     if (left > right) continue;
-    const auto first = static_cast<int>(std::floor(left - margin)),
-               last = static_cast<int>(std::floor(right + margin));
+    const auto first = static_cast<int>(std::floor(left - margin)), last = static_cast<int>(std::floor(right + margin));
     cells += last - first + 1;
     if (cells > kMaxCells) return false;
     for (const int row : {y, y + 1}) {
@@ -126,8 +124,7 @@ Opacity AlphaTest::Classify(const Mesh& mesh, uint32_t triangle) const {
   } else {
     const Vec3u t = mesh.triangles[triangle];
     const bool plain = mesh.uvs.empty();
-    const Vec2f uv[3] = {plain ? Vec2f{} : mesh.uvs[t.x], plain ? Vec2f{} : mesh.uvs[t.y],
-                         plain ? Vec2f{} : mesh.uvs[t.z]};
+    const Vec2f uv[3] = {plain ? Vec2f{} : mesh.uvs[t.x], plain ? Vec2f{} : mesh.uvs[t.y], plain ? Vec2f{} : mesh.uvs[t.z]};
     Vec2d corners[3];
     float reach = 0;
     const Image<Rgba8>& image = texture_->levels[0];
@@ -135,12 +132,11 @@ Opacity AlphaTest::Classify(const Mesh& mesh, uint32_t triangle) const {
       const Vec2f p = transform_ * uv[i];
       // Beyond this, coordinates are cut off, or have too few bits to know the texel.
       const UvTransform& m = transform_;
-      const float sum = std::fabs(m.m00 * uv[i].x) + std::fabs(m.m01 * uv[i].y) + std::fabs(m.t.x) +
-                        std::fabs(m.m10 * uv[i].x) + std::fabs(m.m11 * uv[i].y) + std::fabs(m.t.y);
+      const float sum = std::fabs(m.m00 * uv[i].x) + std::fabs(m.m01 * uv[i].y) + std::fabs(m.t.x) + std::fabs(m.m10 * uv[i].x) +
+                        std::fabs(m.m11 * uv[i].y) + std::fabs(m.t.y);
       if (!(sum < kMaxRepeats)) return Opacity::kMixed;
       reach = std::max(reach, sum);
-      corners[i] = {static_cast<double>(p.x) * image.width() - 0.5,
-                    static_cast<double>(p.y) * image.height() - 0.5};
+      corners[i] = {static_cast<double>(p.x) * image.width() - 0.5, static_cast<double>(p.y) * image.height() - 0.5};
     }
     const double texels = std::max(image.width(), image.height());
     if (!AlphaUnder(*texture_, corners, static_cast<double>(reach) * texels, range)) return Opacity::kMixed;
@@ -148,8 +144,7 @@ Opacity AlphaTest::Classify(const Mesh& mesh, uint32_t triangle) const {
   float lowest = 1, highest = 1;
   if (!mesh.colors.empty()) {
     const Vec3u t = mesh.triangles[triangle];
-    std::tie(lowest, highest) =
-        std::minmax({Coverage(mesh.colors[t.x]), Coverage(mesh.colors[t.y]), Coverage(mesh.colors[t.z])});
+    std::tie(lowest, highest) = std::minmax({Coverage(mesh.colors[t.x]), Coverage(mesh.colors[t.y]), Coverage(mesh.colors[t.z])});
   }
   const auto solid = [&](float alpha) { return scale_ * (alpha * (1.0f / 255.0f)) >= cutoff_; };
   if (solid(static_cast<float>(range.lowest) * lowest - kAlphaMargin)) return Opacity::kOpaque;
@@ -159,8 +154,7 @@ Opacity AlphaTest::Classify(const Mesh& mesh, uint32_t triangle) const {
 
 bool NeedsAlphaTest(const Material& material, const Mesh& mesh) {
   return material.alpha_mode == AlphaMode::kMask &&
-         (material.base_color_texture != kNoTexture || material.base_alpha < material.alpha_cutoff ||
-          !mesh.colors.empty());
+         (material.base_color_texture != kNoTexture || material.base_alpha < material.alpha_cutoff || !mesh.colors.empty());
 }
 
 void FilterAlpha(const RTCFilterFunctionNArguments* args) {
@@ -169,12 +163,10 @@ void FilterAlpha(const RTCFilterFunctionNArguments* args) {
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] != -1) continue;
     const unsigned primitive = RTCHitN_primID(args->hit, args->N, i);
-    const Vec3u triangle =
-        mesh.triangles[geometry.triangles.empty() ? primitive : geometry.triangles[primitive]];
+    const Vec3u triangle = mesh.triangles[geometry.triangles.empty() ? primitive : geometry.triangles[primitive]];
     const float u = RTCHitN_u(args->hit, args->N, i), v = RTCHitN_v(args->hit, args->N, i);
     Vec2f uv;
-    if (!mesh.uvs.empty())
-      uv = (1 - u - v) * mesh.uvs[triangle.x] + u * mesh.uvs[triangle.y] + v * mesh.uvs[triangle.z];
+    if (!mesh.uvs.empty()) uv = (1 - u - v) * mesh.uvs[triangle.x] + u * mesh.uvs[triangle.y] + v * mesh.uvs[triangle.z];
     const float coverage = mesh.colors.empty() ? 1.0f : CoverageAt(mesh, triangle, u, v);
     if (!geometry.tests[geometry.primitive_test[primitive]].Solid(uv, coverage)) args->valid[i] = 0;
   }

@@ -12,8 +12,7 @@ namespace {
 
 // Blobs of opacity with soft edges.
 Texture RandomTexture(RngStream& rng) {
-  const int width = 3 + static_cast<int>(rng.Uniform(0, 40)),
-            height = 2 + static_cast<int>(rng.Uniform(0, 40));
+  const int width = 3 + static_cast<int>(rng.Uniform(0, 40)), height = 2 + static_cast<int>(rng.Uniform(0, 40));
   const double fx = rng.Uniform(0.5, 3), fy = rng.Uniform(0.5, 3), shift = rng.Uniform(0, 6);
   Image<Rgba8> image(width, height);
   for (int y = 0; y < height; ++y) {
@@ -53,8 +52,7 @@ std::shared_ptr<const Scene> LeafScene(RngStream& rng, bool colors = false) {
         Vec3f p = center;
         for (int a = 0; a < 3; ++a) p[a] += static_cast<float>(rng.Uniform(-0.6, 0.6));
         mesh.positions.push_back(p);
-        mesh.uvs.push_back(
-            {static_cast<float>(u0 + rng.Uniform(0, size)), static_cast<float>(v0 + rng.Uniform(0, size))});
+        mesh.uvs.push_back({static_cast<float>(u0 + rng.Uniform(0, size)), static_cast<float>(v0 + rng.Uniform(0, size))});
       }
       mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
@@ -132,13 +130,11 @@ TEST(AlphaTest, CoverageOfVerticesCutsAlongStraightLines) {
         material.alpha_mode = AlphaMode::kMask;
         material.alpha_cutoff = cutoff;
         if (picture)
-          material.base_color_texture =
-              builder.AddTexture(Texture::FromImage("half", Image<Rgba8>(2, 2, {255, 255, 255, 128}), true));
+          material.base_color_texture = builder.AddTexture(Texture::FromImage("half", Image<Rgba8>(2, 2, {255, 255, 255, 128}), true));
         Mesh mesh{"cut", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {{0, 1, 2}}, {}};
         mesh.parts = {{0, 1, builder.AddMaterial(material), kNoEntity}};
         mesh.colors = {MakeVertexColor({1, 1, 1}, 0), MakeVertexColor({1, 1, 1}, 0.5f), MakeVertexColor({1, 1, 1}, 1)};
-        builder.AddInstance(
-            {builder.AddMesh(mesh), {}, builder.AddEntity("leaf", builder.tree().At("vegetation"))});
+        builder.AddInstance({builder.AddMesh(mesh), {}, builder.AddEntity("leaf", builder.tree().At("vegetation"))});
         const RayTracer tracer(builder.Build(), {.isa = {}, .sort_alpha = sort});
         RngStream rng(5, "cut");
         int seen = 0;

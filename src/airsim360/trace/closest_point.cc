@@ -22,14 +22,11 @@ Vec3f ClosestPointOnTriangle(Vec3f p, Vec3f a, Vec3f b, Vec3f c) {
   const Vec3f n = Cross(b - a, c - a);
   const float n2 = Dot(n, n);
   if (n2 > 0) {
-    const float wa = Dot(Cross(b - p, c - p), n), wb = Dot(Cross(c - p, a - p), n),
-                wc = Dot(Cross(a - p, b - p), n);
+    const float wa = Dot(Cross(b - p, c - p), n), wb = Dot(Cross(c - p, a - p), n), wc = Dot(Cross(a - p, b - p), n);
     if (wa >= 0 && wb >= 0 && wc >= 0) return p - n * (Dot(p - a, n) / n2);
   }
-  const Vec3f candidates[3] = {ClosestPointOnSegment(p, a, b), ClosestPointOnSegment(p, b, c),
-                               ClosestPointOnSegment(p, c, a)};
-  return *std::min_element(candidates, candidates + 3,
-                           [&](Vec3f x, Vec3f y) { return Distance2(p, x) < Distance2(p, y); });
+  const Vec3f candidates[3] = {ClosestPointOnSegment(p, a, b), ClosestPointOnSegment(p, b, c), ClosestPointOnSegment(p, c, a)};
+  return *std::min_element(candidates, candidates + 3, [&](Vec3f x, Vec3f y) { return Distance2(p, x) < Distance2(p, y); });
 }
 
 }  // namespace airsim360::internal

@@ -12,15 +12,13 @@ namespace {
 constexpr int kRefitsOfABuild = 30;
 
 const DeformedMesh* FindDeformed(const std::vector<DeformedMesh>& list, MeshId mesh) {
-  const auto found =
-      std::lower_bound(list.begin(), list.end(), mesh, [](const auto& d, MeshId m) { return d.mesh < m; });
+  const auto found = std::lower_bound(list.begin(), list.end(), mesh, [](const auto& d, MeshId m) { return d.mesh < m; });
   return found != list.end() && found->mesh == mesh ? &*found : nullptr;
 }
 
 }  // namespace
 
-void DynamicScene::Update(EmbreeScene& statics, const Scene& scene, const SceneState& state,
-                          const Movers& movers) {
+void DynamicScene::Update(EmbreeScene& statics, const Scene& scene, const SceneState& state, const Movers& movers) {
   if (top_ == nullptr || moved_.size() != movers.instances.size()) SetMovers(statics, movers);
   Deform(statics, state);
   Place(statics, scene, state);
@@ -45,8 +43,7 @@ void DynamicScene::SetMovers(EmbreeScene& statics, const Movers& movers) {
     instances_.emplace_back(rtcNewGeometry(statics.device(), RTC_GEOMETRY_TYPE_INSTANCE));
     rtcSetGeometryMask(instances_.back().get(), kMaskAll);
     rtcAttachGeometryByID(top_.get(), instances_.back().get(), statics.TopId(i));
-    for (uint32_t s = statics.first_slots()[statics.TopId(i)]; s < slots_.size() && slots_[s].instance == i;
-         ++s) {
+    for (uint32_t s = statics.first_slots()[statics.TopId(i)]; s < slots_.size() && slots_[s].instance == i; ++s) {
       slots_[s].normal_in_world = false;
     }
   }
@@ -85,8 +82,7 @@ void DynamicScene::Place(EmbreeScene& statics, const Scene& scene, const SceneSt
     const uint32_t i = moved_[k].instance;
     const Instance& instance = scene.instances[i];
     while (next != state.moved.end() && next->instance < i) ++next;
-    const MovedInstance place =
-        next != state.moved.end() && next->instance == i ? *next : MovedInstance{i, instance.X_WM, false};
+    const MovedInstance place = next != state.moved.end() && next->instance == i ? *next : MovedInstance{i, instance.X_WM, false};
     const bool deformed = FindDeformed(deformed_, instance.mesh) != nullptr;
     // What is hidden needs no structure of its own.
     RTCScene shown = deformed       ? bodies_.at(instance.mesh).scene.get()
@@ -114,8 +110,7 @@ void DynamicScene::Place(EmbreeScene& statics, const Scene& scene, const SceneSt
   for (size_t k = 0; k < moved_.size(); ++k) {
     if (moved_[k].hidden) continue;
     auto& groups = groups_[shown_[k]];
-    if (groups.empty())
-      groups = BuffersOf(shown_[k], statics.GroupCount(scene.instances[moved_[k].instance].mesh));
+    if (groups.empty()) groups = BuffersOf(shown_[k], statics.GroupCount(scene.instances[moved_[k].instance].mesh));
     placed_.emplace_back(moved_[k].instance, shown_[k], groups, moved_[k].X_WM);
   }
 }

@@ -22,8 +22,7 @@ Mesh Ball(RngStream& rng) {
       const double a = std::numbers::pi * r / kRings, b = 2 * std::numbers::pi * s / kSides;
       const double radius = rng.Uniform(0.8, 1.2);
       mesh.positions.push_back({static_cast<float>(radius * std::sin(a) * std::cos(b)),
-                                static_cast<float>(radius * std::sin(a) * std::sin(b)),
-                                static_cast<float>(radius * std::cos(a))});
+                                static_cast<float>(radius * std::sin(a) * std::sin(b)), static_cast<float>(radius * std::cos(a))});
     }
   }
   for (uint32_t r = 0; r < kRings; ++r) {
@@ -37,8 +36,7 @@ Mesh Ball(RngStream& rng) {
 }
 
 AffineTransform RandomPlace(RngStream& rng) {
-  AffineTransform X =
-      PlaceUpright({}, static_cast<float>(rng.Uniform(0, 6)), static_cast<float>(rng.Uniform(0.5, 1.5)));
+  AffineTransform X = PlaceUpright({}, static_cast<float>(rng.Uniform(0, 6)), static_cast<float>(rng.Uniform(0.5, 1.5)));
   for (int i = 0; i < 3; ++i) X.p[i] = static_cast<float>(rng.Uniform(-12, 12));
   return X;
 }
@@ -152,8 +150,7 @@ TEST(DynamicTracer, DeformedMeshesAreBuiltWithTheirVerticesAlsoAfterManyRefits) 
     SceneState state;
     World bent = world;
     for (MeshId mesh : {0u, 4u}) {
-      auto positions = std::make_shared<const std::vector<Vec3f>>(
-          Bent(world.meshes[mesh], 0.1f * static_cast<float>(tick)));
+      auto positions = std::make_shared<const std::vector<Vec3f>>(Bent(world.meshes[mesh], 0.1f * static_cast<float>(tick)));
       bent.meshes[mesh].positions = *positions;
       state.deformed.push_back({mesh, std::move(positions)});
     }
@@ -224,8 +221,7 @@ TEST(DynamicTracer, SixteenRaysAgreeWithSingleOnes) {
     bool occluded[16] = {};
     tracer->Occluded16(valid, shadow, occluded, true);
     for (int i = 0; i < 16; ++i) {
-      const auto single =
-          tracer->Intersect({13, 0, 0}, {rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]});
+      const auto single = tracer->Intersect({13, 0, 0}, {rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]});
       ASSERT_EQ(single.has_value(), rays.geometry[i] != kMiss);
       EXPECT_EQ(single.has_value(), occluded[i]);
       if (!single) continue;
@@ -240,12 +236,8 @@ TEST(DynamicTracer, SixteenRaysAgreeWithSingleOnes) {
 TEST(DynamicTracer, StatesThatDoNotFitTheSceneAreInputErrors) {
   const World world = RandomWorld(7);
   DynamicTracer dynamic(std::make_shared<const RayTracer>(BuildScene(world)));
-  const auto refuse = [&](SceneState state) {
-    EXPECT_THROW(dynamic.At(std::make_shared<const SceneState>(std::move(state))), InputError);
-  };
-  const auto positions = [](size_t n, float x) {
-    return std::make_shared<const std::vector<Vec3f>>(n, Vec3f{x, 0, 0});
-  };
+  const auto refuse = [&](SceneState state) { EXPECT_THROW(dynamic.At(std::make_shared<const SceneState>(std::move(state))), InputError); };
+  const auto positions = [](size_t n, float x) { return std::make_shared<const std::vector<Vec3f>>(n, Vec3f{x, 0, 0}); };
   refuse({0, {{kInstances, {}, false}}, {}});
   refuse({0, {{5, {}, false}, {4, {}, false}}, {}});
   refuse({0, {{5, {}, false}, {5, {}, false}}, {}});

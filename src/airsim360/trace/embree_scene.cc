@@ -28,9 +28,7 @@ SceneHandle NewScene(RTCDevice device, RTCBuildQuality quality, bool robust = tr
 enum class Group : uint8_t { kOpaque, kTested, kPane, kLeftOut };
 
 Group GroupOf(Opacity opacity) {
-  return opacity == Opacity::kOpaque  ? Group::kOpaque
-         : opacity == Opacity::kClear ? Group::kLeftOut
-                                      : Group::kTested;
+  return opacity == Opacity::kOpaque ? Group::kOpaque : opacity == Opacity::kClear ? Group::kLeftOut : Group::kTested;
 }
 
 // Group of every triangle of a mesh.
@@ -51,8 +49,7 @@ std::vector<Group> Classify(const Mesh& mesh, const Scene& scene, bool sort_alph
 }
 
 // The triangles of one group; null if there are none.
-std::unique_ptr<MeshGeometry> SelectTriangles(const Mesh& mesh, const std::vector<Group>& groups,
-                                              Group wanted) {
+std::unique_ptr<MeshGeometry> SelectTriangles(const Mesh& mesh, const std::vector<Group>& groups, Group wanted) {
   auto out = std::make_unique<MeshGeometry>();
   out->mesh = &mesh;
   for (uint32_t t = 0; t < groups.size(); ++t) {
@@ -76,16 +73,13 @@ std::unique_ptr<AlphaGeometry> MakeAlpha(const MeshGeometry& geometry, const Sce
   alpha->mesh = geometry.mesh;
   alpha->triangles = geometry.triangles;
   // The primitives are in the order of the triangles, and so of the parts.
-  const auto triangle = [&](uint32_t primitive) {
-    return geometry.triangles.empty() ? primitive : geometry.triangles[primitive];
-  };
+  const auto triangle = [&](uint32_t primitive) { return geometry.triangles.empty() ? primitive : geometry.triangles[primitive]; };
   uint32_t primitive = 0;
   for (const MeshPart& part : geometry.mesh->parts) {
     const uint32_t first = primitive, end = part.first_triangle + part.triangle_count;
     while (primitive < geometry.primitive_count && triangle(primitive) < end) ++primitive;
     if (primitive == first) continue;
-    alpha->primitive_test.insert(alpha->primitive_test.end(), primitive - first,
-                                 static_cast<uint32_t>(alpha->tests.size()));
+    alpha->primitive_test.insert(alpha->primitive_test.end(), primitive - first, static_cast<uint32_t>(alpha->tests.size()));
     alpha->tests.emplace_back(scene.materials[part.material], scene.textures);
   }
   return alpha;
@@ -94,8 +88,7 @@ std::unique_ptr<AlphaGeometry> MakeAlpha(const MeshGeometry& geometry, const Sce
 // Mostly leaves: they have gaps anyway, and a tenth of the time of a picture full of trees is what robustness costs there.
 bool IsFoliage(const Mesh& mesh, const std::vector<Material>& materials) {
   uint64_t leaves = 0;
-  for (const MeshPart& part : mesh.parts)
-    leaves += materials[part.material].kind == SurfaceKind::kFoliage ? part.triangle_count : 0;
+  for (const MeshPart& part : mesh.parts) leaves += materials[part.material].kind == SurfaceKind::kFoliage ? part.triangle_count : 0;
   return 2 * leaves > mesh.triangles.size();
 }
 
@@ -140,8 +133,7 @@ void EmbreeScene::SplitMeshes(const Scene& scene, const std::vector<uint32_t>& u
 }
 
 // Embree reads 16 bytes at every vertex, so the buffer must go on for 4 bytes after the last one.
-const Vec3f* EmbreeScene::PaddedVertices(const Mesh& mesh, const AffineTransform* X_WM,
-                                         std::vector<Vec3f>& own) const {
+const Vec3f* EmbreeScene::PaddedVertices(const Mesh& mesh, const AffineTransform* X_WM, std::vector<Vec3f>& own) const {
   if (X_WM == nullptr && mesh.positions.capacity() > mesh.positions.size()) return mesh.positions.data();
   own.reserve(mesh.positions.size() + 1);
   own = mesh.positions;
@@ -152,14 +144,12 @@ const Vec3f* EmbreeScene::PaddedVertices(const Mesh& mesh, const AffineTransform
   return own.data();
 }
 
-void EmbreeScene::AttachGeometry(RTCScene target, unsigned id, const MeshGeometry& geometry,
-                                 const Vec3f* vertices, size_t count, RTCBuildQuality quality) {
+void EmbreeScene::AttachGeometry(RTCScene target, unsigned id, const MeshGeometry& geometry, const Vec3f* vertices, size_t count,
+                                 RTCBuildQuality quality) {
   RTCGeometry g = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   const std::vector<Vec3u>& indices = geometry.indices.empty() ? geometry.mesh->triangles : geometry.indices;
-  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, sizeof(Vec3f),
-                             count);
-  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0, sizeof(Vec3u),
-                             indices.size());
+  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, sizeof(Vec3f), count);
+  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0, sizeof(Vec3u), indices.size());
   rtcSetGeometryBuildQuality(g, quality);
   rtcSetGeometryMask(g, geometry.mask * kAllGenerations);
   if (geometry.alpha) {
@@ -213,19 +203,15 @@ const PointQueryScene& EmbreeScene::PointQueries(const Scene& scene) {
       const HitSlot& slot = slots_[first_slots_[id]];
       const Instance& instance = scene.instances[slot.instance];
       if (slot.normal_in_world) {
-        baked.push_back({id, slot.instance,
-                         static_cast<uint32_t>(scene.meshes[instance.mesh].positions.size()),
-                         slot.primitive_count});
+        baked.push_back({id, slot.instance, static_cast<uint32_t>(scene.meshes[instance.mesh].positions.size()), slot.primitive_count});
       } else {
-        instanced.push_back({slot.instance, sub_scenes_[instance.mesh].get(), instance.mesh,
-                             GroupCount(instance.mesh), instance.X_WM});
+        instanced.push_back({slot.instance, sub_scenes_[instance.mesh].get(), instance.mesh, GroupCount(instance.mesh), instance.X_WM});
       }
     }
     // On a thread of its own: one that waits for the build may not begin another task of a parallel loop,
     // which would wait for this very build.
     std::thread([&] {
-      point_queries_ =
-          std::make_unique<PointQueryScene>(device_.get(), top_.get(), baked, instanced, groups_.size());
+      point_queries_ = std::make_unique<PointQueryScene>(device_.get(), top_.get(), baked, instanced, groups_.size());
     }).join();
     ThrowOnError();
   });
@@ -245,8 +231,7 @@ Movers EmbreeScene::Move(std::span<const uint32_t> instances) {
   const std::lock_guard lock(mutex_);
   std::vector<uint32_t> added;
   for (uint32_t i : instances) {
-    if (top_ids_[i] != kMiss && !std::binary_search(movers_.instances.begin(), movers_.instances.end(), i))
-      added.push_back(i);
+    if (top_ids_[i] != kMiss && !std::binary_search(movers_.instances.begin(), movers_.instances.end(), i)) added.push_back(i);
   }
   if (added.empty()) return movers_;
   std::sort(added.begin(), added.end());
@@ -264,8 +249,7 @@ Movers EmbreeScene::Move(std::span<const uint32_t> instances) {
     const uint32_t first = top_ids_[i];
     const HitSlot& slot = slots_[first_slots_[first]];
     // A baked instance has an id for each of its geometries.
-    for (uint32_t id = first; id < first_slots_.size() && slots_[first_slots_[id]].instance == slot.instance;
-         ++id) {
+    for (uint32_t id = first; id < first_slots_.size() && slots_[first_slots_[id]].instance == slot.instance; ++id) {
       rtcSetGeometryMask(rtcGetGeometry(top_.get(), id), top_masks_[id] & earlier);
     }
   }
@@ -274,8 +258,7 @@ Movers EmbreeScene::Move(std::span<const uint32_t> instances) {
   return movers_;
 }
 
-void EmbreeScene::AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM,
-                                 unsigned mask) {
+void EmbreeScene::AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM, unsigned mask) {
   RTCGeometry g = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
   const Vec3f columns[4] = {X_WM.A.column(0), X_WM.A.column(1), X_WM.A.column(2), X_WM.p};
   rtcSetGeometryInstancedScene(g, sub_scene);
@@ -301,10 +284,8 @@ void EmbreeScene::AttachInstances(const Scene& scene, const std::vector<uint32_t
   });
 
   uint64_t direct_triangles = 0;
-  for (size_t m = 0; m < uses.size(); ++m)
-    direct_triangles += uses[m] == 1 ? scene.meshes[m].triangles.size() : 0;
-  const auto quality =
-      direct_triangles <= kMaxHighQualityTriangles ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
+  for (size_t m = 0; m < uses.size(); ++m) direct_triangles += uses[m] == 1 ? scene.meshes[m].triangles.size() : 0;
+  const auto quality = direct_triangles <= kMaxHighQualityTriangles ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
   top_ = NewScene(device_.get(), quality);
   top_ids_.assign(scene.instances.size(), kMiss);
 
@@ -319,8 +300,7 @@ void EmbreeScene::AttachInstances(const Scene& scene, const std::vector<uint32_t
       // Rays that look for clear panes alone pass by all that has none.
       unsigned mask = 0;
       for (const auto& group : groups) mask |= group->mask * kAllGenerations;
-      AttachInstance(static_cast<unsigned>(first_slots_.size()), sub_scenes_[instance.mesh].get(),
-                     instance.X_WM, mask);
+      AttachInstance(static_cast<unsigned>(first_slots_.size()), sub_scenes_[instance.mesh].get(), instance.X_WM, mask);
       first_slots_.push_back(static_cast<uint32_t>(slots_.size()));
       top_masks_.push_back(mask);
     }
@@ -331,8 +311,7 @@ void EmbreeScene::AttachInstances(const Scene& scene, const std::vector<uint32_t
         first_slots_.push_back(static_cast<uint32_t>(slots_.size()));
         top_masks_.push_back(group->mask * kAllGenerations);
       }
-      slots_.push_back(
-          {i, group->primitive_count, group->triangles.empty() ? nullptr : group->triangles.data(), direct});
+      slots_.push_back({i, group->primitive_count, group->triangles.empty() ? nullptr : group->triangles.data(), direct});
     }
   }
 }

@@ -92,8 +92,8 @@ class EmbreeScene {
   void BuildSubScenes(const Scene& scene, const std::vector<uint32_t>& uses);
   void AttachInstances(const Scene& scene, const std::vector<uint32_t>& uses);
   void AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM, unsigned mask);
-  void AttachGeometry(RTCScene target, unsigned id, const MeshGeometry& geometry, const Vec3f* vertices,
-                      size_t count, RTCBuildQuality quality);
+  void AttachGeometry(RTCScene target, unsigned id, const MeshGeometry& geometry, const Vec3f* vertices, size_t count,
+                      RTCBuildQuality quality);
   void AttachPanes(RTCGeometry geometry, unsigned id);
   void BuildSubScene(const Mesh& mesh, MeshId id);
   const Vec3f* PaddedVertices(const Mesh& mesh, const AffineTransform* X_WM, std::vector<Vec3f>& own) const;

@@ -119,8 +119,7 @@ TEST(HostileRays, MissWhatHasMoved) {
 
 TEST(HostileRays, InstancesWithoutExtentAreNotMetAndEndNothing) {
   for (const float factor : {0.0f, 1e-38f, 1e-30f, 1e-15f}) {
-    const RayTracer tracer(
-        Pyramids({AffineTransform(), Scaled(factor, {3, 0, 0}), Scaled(factor, {0, 0, 3})}));
+    const RayTracer tracer(Pyramids({AffineTransform(), Scaled(factor, {3, 0, 0}), Scaled(factor, {0, 0, 3})}));
     CheckAll(tracer);
     for (int i = 0; i < 100; ++i) {
       const float x = 0.05f * static_cast<float>(i);

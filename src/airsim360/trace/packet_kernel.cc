@@ -8,8 +8,7 @@ bool KeepTraceable(const int* valid, const RayHit16& rays, int* traceable) {
   int bad = 0;
   for (int i = 0; i < 16; ++i) {
     const float sum = std::fabs(rays.origin_x[i]) + std::fabs(rays.origin_y[i]) + std::fabs(rays.origin_z[i]) +
-                      std::fabs(rays.direction_x[i]) + std::fabs(rays.direction_y[i]) +
-                      std::fabs(rays.direction_z[i]);
+                      std::fabs(rays.direction_x[i]) + std::fabs(rays.direction_y[i]) + std::fabs(rays.direction_z[i]);
     // False too where a number is none.
     const bool good = (sum <= kTraceLimit) & (rays.t_near[i] >= 0) & (rays.t_far[i] == rays.t_far[i]);
     traceable[i] = good ? valid[i] : 0;

@@ -30,8 +30,7 @@ Box3f BoundsInWorld(RTCScene scene, const AffineTransform& X) {
   rtcGetSceneBounds(scene, &b);
   Box3f box;
   for (int i = 0; i < 8; ++i) {
-    box.Add(X * Vec3f{i & 1 ? b.upper_x : b.lower_x, i & 2 ? b.upper_y : b.lower_y,
-                      i & 4 ? b.upper_z : b.lower_z});
+    box.Add(X * Vec3f{i & 1 ? b.upper_x : b.lower_x, i & 2 ? b.upper_y : b.lower_y, i & 4 ? b.upper_z : b.lower_z});
   }
   for (int i = 0; i < 3; ++i) {
     const float slack = kRounding * (std::fabs(box.min[i]) + std::fabs(box.max[i]));
@@ -75,14 +74,8 @@ float DistanceToBox(Vec3f p, const Box3f& box) {
   return Norm(out);
 }
 
-PlacedMesh::PlacedMesh(uint32_t instance, RTCScene scene, const std::vector<TriangleBuffers>& groups,
-                       const AffineTransform& X_WM)
-    : instance_(instance),
-      scene_(scene),
-      groups_(&groups),
-      X_WM_(X_WM),
-      stretch_(kInfinity),
-      bounds_(BoundsInWorld(scene, X_WM)) {
+PlacedMesh::PlacedMesh(uint32_t instance, RTCScene scene, const std::vector<TriangleBuffers>& groups, const AffineTransform& X_WM)
+    : instance_(instance), scene_(scene), groups_(&groups), X_WM_(X_WM), stretch_(kInfinity), bounds_(BoundsInWorld(scene, X_WM)) {
   if (Invert(X_WM.A, to_mesh_)) {
     stretch_ = LargestStretch(to_mesh_);
   } else {
@@ -98,9 +91,8 @@ bool PlacedMesh::VisitTriangle(RTCPointQueryFunctionArguments* args) {
   // In W, with the point as origin: fewest digits are lost.
   const Vec3f offset = mesh.X_WM_.p - query.p_W;
   const Mat3f& A = mesh.X_WM_.A;
-  if (!Improve(A * group.vertices[t.x] + offset, A * group.vertices[t.y] + offset,
-               A * group.vertices[t.z] + offset, {0, {}, mesh.instance_, args->geomID, args->primID, true},
-               *query.best)) {
+  if (!Improve(A * group.vertices[t.x] + offset, A * group.vertices[t.y] + offset, A * group.vertices[t.z] + offset,
+               {0, {}, mesh.instance_, args->geomID, args->primID, true}, *query.best)) {
     return false;
   }
   args->query->radius = std::min(args->query->radius, query.best->distance * mesh.stretch_ * (1 + kRounding));
@@ -117,8 +109,8 @@ void PlacedMesh::Find(Vec3f p_W, NearestTriangle& best) const {
   rtcPointQuery(scene_, &query, &context, VisitTriangle, &visit);
 }
 
-PointQueryScene::PointQueryScene(RTCDevice device, RTCScene top, const std::vector<Baked>& baked,
-                                 const std::vector<Instanced>& instanced, size_t meshes)
+PointQueryScene::PointQueryScene(RTCDevice device, RTCScene top, const std::vector<Baked>& baked, const std::vector<Instanced>& instanced,
+                                 size_t meshes)
     : mesh_groups_(meshes), scene_(rtcNewScene(device)) {
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT);
   rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
@@ -126,10 +118,8 @@ PointQueryScene::PointQueryScene(RTCDevice device, RTCScene top, const std::vect
     // A geometry of its own: that of `top` may be marked as changed, for its ray mask.
     const TriangleBuffers buffers = BuffersOf(rtcGetGeometry(top, part.id));
     RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, buffers.vertices, 0,
-                               sizeof(Vec3f), part.vertices);
-    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, buffers.triangles, 0,
-                               sizeof(Vec3u), part.triangles);
+    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, buffers.vertices, 0, sizeof(Vec3f), part.vertices);
+    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, buffers.triangles, 0, sizeof(Vec3u), part.triangles);
     rtcCommitGeometry(g);
     rtcAttachGeometryByID(scene_, g, part.id);
     rtcReleaseGeometry(g);
@@ -173,8 +163,7 @@ struct PointQueryScene::Query {
 bool PointQueryScene::Visit(RTCPointQueryFunctionArguments* args) {
   const auto& [scene, left_out, best] = *static_cast<const Query*>(args->userPtr);
   const bool placed = args->geomID == scene->placed_id_;
-  const uint32_t instance =
-      placed ? scene->placed_[args->primID].instance() : scene->instances_[args->geomID];
+  const uint32_t instance = placed ? scene->placed_[args->primID].instance() : scene->instances_[args->geomID];
   if (std::ranges::binary_search(left_out, instance, {}, &MovedInstance::instance)) return false;
   const Vec3f p{args->query->x, args->query->y, args->query->z};
   const float before = best->distance;
@@ -183,8 +172,7 @@ bool PointQueryScene::Visit(RTCPointQueryFunctionArguments* args) {
   } else {
     const TriangleBuffers& part = scene->baked_[args->geomID];
     const Vec3u t = part.triangles[args->primID];
-    Improve(part.vertices[t.x] - p, part.vertices[t.y] - p, part.vertices[t.z] - p,
-            {0, {}, instance, args->geomID, args->primID}, *best);
+    Improve(part.vertices[t.x] - p, part.vertices[t.y] - p, part.vertices[t.z] - p, {0, {}, instance, args->geomID, args->primID}, *best);
   }
   if (!(best->distance < before)) return false;
   args->query->radius = best->distance;

@@ -18,9 +18,9 @@ namespace airsim360::internal {
 
 /// The best triangle of a point query so far.
 struct NearestTriangle {
-  float distance;             // metres in W; before the first find: how far to look
-  Vec3f offset = {};          // from the point asked for to the nearest point of the triangle, in W
-  uint32_t instance = kMiss;  // index into Scene::instances; kMiss = none found
+  float distance;                        // metres in W; before the first find: how far to look
+  Vec3f offset = {};                     // from the point asked for to the nearest point of the triangle, in W
+  uint32_t instance = kMiss;             // index into Scene::instances; kMiss = none found
   uint32_t geometry = 0, primitive = 0;  // ids of Embree
   bool placed = false;                   // the geometry counts within the mesh, not within the top scene
 };
@@ -38,8 +38,7 @@ std::vector<TriangleBuffers> BuffersOf(RTCScene scene, unsigned count);
 class PlacedMesh {
  public:
   /// `groups` by geometry id; both must outlive this.
-  PlacedMesh(uint32_t instance, RTCScene scene, const std::vector<TriangleBuffers>& groups,
-             const AffineTransform& X_WM);
+  PlacedMesh(uint32_t instance, RTCScene scene, const std::vector<TriangleBuffers>& groups, const AffineTransform& X_WM);
 
   uint32_t instance() const { return instance_; }
   const Box3f& bounds() const { return bounds_; }
@@ -76,8 +75,7 @@ class PointQueryScene {
     AffineTransform X_WM;
   };
   /// Shares the buffers of the geometries of `top`. RuntimeError if Embree refuses.
-  PointQueryScene(RTCDevice device, RTCScene top, const std::vector<Baked>& baked,
-                  const std::vector<Instanced>& instanced, size_t meshes);
+  PointQueryScene(RTCDevice device, RTCScene top, const std::vector<Baked>& baked, const std::vector<Instanced>& instanced, size_t meshes);
   ~PointQueryScene();
   PointQueryScene(const PointQueryScene&) = delete;
   PointQueryScene& operator=(const PointQueryScene&) = delete;

@@ -27,8 +27,7 @@ Mesh Strip(RngStream& rng, int triangles) {
 
 Mat3f Turn(RngStream& rng) {
   const Mat3d R = RotationZ(rng.Uniform(0, 6)) * RotationX(rng.Uniform(0, 6)) * RotationZ(rng.Uniform(0, 6));
-  return Mat3f::FromColumns(VecCast<float>(R.column(0)), VecCast<float>(R.column(1)),
-                            VecCast<float>(R.column(2)));
+  return Mat3f::FromColumns(VecCast<float>(R.column(0)), VecCast<float>(R.column(1)), VecCast<float>(R.column(2)));
 }
 
 // Turned, then scaled along the axes by `scale`, sign included.
@@ -52,8 +51,7 @@ float BruteForce(const Scene& scene, Vec3f p, float farthest) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     for (const Vec3u t : mesh.triangles) {
       const AffineTransform& X = instance.X_WM;
-      farthest = std::min(farthest, Norm(p - internal::ClosestPointOnTriangle(p, X * mesh.positions[t.x],
-                                                                              X * mesh.positions[t.y],
+      farthest = std::min(farthest, Norm(p - internal::ClosestPointOnTriangle(p, X * mesh.positions[t.x], X * mesh.positions[t.y],
                                                                               X * mesh.positions[t.z])));
     }
   }
@@ -67,8 +65,7 @@ TEST_P(PointQuery, IsTheLeastDistanceOverAllTrianglesWhateverTheInstancesAreScal
   SceneBuilder builder("test");
   const EntityId entity = builder.AddEntity("thing", builder.tree().At("construction/building"));
   const MeshId shared = builder.AddMesh(Strip(rng, 60));
-  for (int i = 0; i < 30; ++i)
-    builder.AddInstance({shared, Placed(rng, ScaleOfKind(rng, GetParam())), entity});
+  for (int i = 0; i < 30; ++i) builder.AddInstance({shared, Placed(rng, ScaleOfKind(rng, GetParam())), entity});
   for (int i = 0; i < 5; ++i)  // used once each: baked
     builder.AddInstance({builder.AddMesh(Strip(rng, 20)), Placed(rng, ScaleOfKind(rng, GetParam())), entity});
   const auto scene = builder.Build();
@@ -88,8 +85,7 @@ TEST_P(PointQuery, IsTheLeastDistanceOverAllTrianglesWhateverTheInstancesAreScal
     const Instance& instance = scene->instances[nearest->surface.instance];
     const Mesh& mesh = scene->meshes[instance.mesh];
     const Vec3u t = mesh.triangles[nearest->surface.triangle];
-    const Vec3f a = instance.X_WM * mesh.positions[t.x], b = instance.X_WM * mesh.positions[t.y],
-                c = instance.X_WM * mesh.positions[t.z];
+    const Vec3f a = instance.X_WM * mesh.positions[t.x], b = instance.X_WM * mesh.positions[t.y], c = instance.X_WM * mesh.positions[t.z];
     EXPECT_LT(Norm(internal::ClosestPointOnTriangle(p, a, b, c) - (p + nearest->offset)), 2e-3f) << i;
   }
 }

@@ -62,8 +62,8 @@ const int* TraceableLanes(const int* valid, const RayHit16& rays, int* fixed) {
 
 // Whether a ray with these can be traced; false too where a number is none.
 bool IsTraceable(Vec3f origin, Vec3f direction) {
-  return std::fabs(origin.x) + std::fabs(origin.y) + std::fabs(origin.z) + std::fabs(direction.x) +
-             std::fabs(direction.y) + std::fabs(direction.z) <=
+  return std::fabs(origin.x) + std::fabs(origin.y) + std::fabs(origin.z) + std::fabs(direction.x) + std::fabs(direction.y) +
+             std::fabs(direction.z) <=
          kTraceLimit;
 }
 
@@ -97,9 +97,7 @@ class EmptyInactiveLanes {
 
 }  // namespace
 
-FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
-  _mm_setcsr(saved_ | kFlushToZero | kDenormalsAreZero);
-}
+FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | kFlushToZero | kDenormalsAreZero); }
 FlushDenormals::~FlushDenormals() { _mm_setcsr(saved_); }
 
 struct RayTracer::Impl {
@@ -117,9 +115,7 @@ struct RayTracer::Impl {
     return Slots()[instance == kMiss ? first[geometry] : first[instance] + geometry];
   }
   // Mask for the static scene of a ray that asks for kMaskSolid, kMaskClearPanes or both.
-  uint32_t StaticMask(uint32_t kinds) const {
-    return (kinds & (kMaskSolid | kMaskClearPanes)) << (2 * generation);
-  }
+  uint32_t StaticMask(uint32_t kinds) const { return (kinds & (kMaskSolid | kMaskClearPanes)) << (2 * generation); }
 };
 
 RayTracer::RayTracer(std::shared_ptr<const Scene> scene, const RayTracerOptions& options)
@@ -133,34 +129,26 @@ std::span<const HitSlot> RayTracer::slots() const { return impl_->Slots(); }
 std::span<const uint32_t> RayTracer::first_slots() const { return impl_->embree->first_slots(); }
 
 std::span<const MovedInstance> RayTracer::moved() const {
-  return impl_->dynamic ? std::span<const MovedInstance>(impl_->dynamic->moved())
-                        : std::span<const MovedInstance>();
+  return impl_->dynamic ? std::span<const MovedInstance>(impl_->dynamic->moved()) : std::span<const MovedInstance>();
 }
 
 std::span<const DeformedMesh> RayTracer::deformed() const {
-  return impl_->dynamic ? std::span<const DeformedMesh>(impl_->dynamic->deformed())
-                        : std::span<const DeformedMesh>();
+  return impl_->dynamic ? std::span<const DeformedMesh>(impl_->dynamic->deformed()) : std::span<const DeformedMesh>();
 }
 
 const AffineTransform& RayTracer::Place(uint32_t instance) const {
   const auto found = std::ranges::lower_bound(moved(), instance, {}, &MovedInstance::instance);
-  return found != moved().end() && found->instance == instance ? found->X_WM
-                                                               : scene().instances[instance].X_WM;
+  return found != moved().end() && found->instance == instance ? found->X_WM : scene().instances[instance].X_WM;
 }
 
 std::span<const Vec3f> RayTracer::Positions(MeshId mesh) const {
   const auto found = std::ranges::lower_bound(deformed(), mesh, {}, &DeformedMesh::mesh);
-  return found != deformed().end() && found->mesh == mesh ? *found->positions
-                                                          : scene().meshes[mesh].positions;
+  return found != deformed().end() && found->mesh == mesh ? *found->positions : scene().meshes[mesh].positions;
 }
 
-void RayTracer::Intersect16(const int* valid, RayHit16& rays, bool coherent) const {
-  IntersectIn(false, valid, rays, coherent);
-}
+void RayTracer::Intersect16(const int* valid, RayHit16& rays, bool coherent) const { IntersectIn(false, valid, rays, coherent); }
 
-void RayTracer::IntersectClearPanes16(const int* valid, RayHit16& rays) const {
-  IntersectIn(true, valid, rays, false);
-}
+void RayTracer::IntersectClearPanes16(const int* valid, RayHit16& rays) const { IntersectIn(true, valid, rays, false); }
 
 void RayTracer::IntersectIn(bool panes, const int* valid, RayHit16& rays, bool coherent) const {
   static const auto mark_missed = AIRSIM360_SELECT_KERNEL(MarkMissed);
@@ -253,8 +241,7 @@ namespace {
 
 // The point query over both scenes, starting from `max_distance`.
 template <class Impl>
-internal::NearestTriangle FindNearest(const Impl& impl, std::span<const MovedInstance> moved, Vec3f p_W,
-                                      float max_distance) {
+internal::NearestTriangle FindNearest(const Impl& impl, std::span<const MovedInstance> moved, Vec3f p_W, float max_distance) {
   internal::NearestTriangle best{std::max(max_distance, 0.0f)};
   if (!IsTraceable(p_W, {}) || !(max_distance > 0)) return best;
   if (impl.traces_static) impl.embree->PointQueries(*impl.scene).Find(p_W, moved, best);
@@ -264,9 +251,7 @@ internal::NearestTriangle FindNearest(const Impl& impl, std::span<const MovedIns
 
 }  // namespace
 
-float RayTracer::Clearance(Vec3f p_W, float max_distance) const {
-  return FindNearest(*impl_, moved(), p_W, max_distance).distance;
-}
+float RayTracer::Clearance(Vec3f p_W, float max_distance) const { return FindNearest(*impl_, moved(), p_W, max_distance).distance; }
 
 std::optional<NearestSurface> RayTracer::Nearest(Vec3f p_W, float max_distance) const {
   const internal::NearestTriangle best = FindNearest(*impl_, moved(), p_W, max_distance);
@@ -289,8 +274,7 @@ std::vector<uint32_t> CheckedMovers(const Scene& scene, const SceneState& state)
       ThrowBadState(name + " is not in the scene, which has " + std::to_string(scene.instances.size()));
     }
     if (k > 0 && m.instance <= state.moved[k - 1].instance) ThrowBadState(name + " is out of order");
-    if (!IsFinite(m.X_WM.p) || !IsFinite(m.X_WM.A.row(0)) || !IsFinite(m.X_WM.A.row(1)) ||
-        !IsFinite(m.X_WM.A.row(2))) {
+    if (!IsFinite(m.X_WM.p) || !IsFinite(m.X_WM.A.row(0)) || !IsFinite(m.X_WM.A.row(1)) || !IsFinite(m.X_WM.A.row(2))) {
       ThrowBadState("the place of " + name + " is not finite");
     }
     movers.push_back(m.instance);
@@ -306,8 +290,7 @@ std::vector<uint32_t> CheckedMovers(const Scene& scene, const SceneState& state)
     const size_t vertices = scene.meshes[d.mesh].positions.size();
     if (d.positions == nullptr || d.positions->size() != vertices)
       ThrowBadState(name + " needs " + std::to_string(vertices) + " positions");
-    if (!std::all_of(d.positions->begin(), d.positions->end(), IsFinite))
-      ThrowBadState("a position of " + name + " is not finite");
+    if (!std::all_of(d.positions->begin(), d.positions->end(), IsFinite)) ThrowBadState("a position of " + name + " is not finite");
     deformed[d.mesh] = true;
   }
   for (uint32_t i = 0; !deformed.empty() && i < scene.instances.size(); ++i) {
@@ -330,8 +313,7 @@ std::shared_ptr<const RayTracer> DynamicTracer::At(const std::shared_ptr<const S
   size_t place = pool_.size();
   for (size_t k = 0; k < pool_.size(); ++k) {
     const RayTracer::Impl& impl = *pool_[k]->impl_;
-    if (impl.state == state && impl.generation == movers.generation && impl.traces_static == !movers.all)
-      return pool_[k];
+    if (impl.state == state && impl.generation == movers.generation && impl.traces_static == !movers.all) return pool_[k];
     if (pool_[k].use_count() == 1) place = k;
   }
   if (place == pool_.size()) {

@@ -45,9 +45,8 @@ struct SurfaceRef {
 struct HitSlot {
   uint32_t instance = 0;  ///< index into Scene::instances
   uint32_t primitive_count = 0;
-  const uint32_t* triangles =
-      nullptr;                   ///< primitive -> index into Mesh::triangles; nullptr = the same number
-  bool normal_in_world = false;  ///< RayHit16 normals are in W already, else in the mesh frame
+  const uint32_t* triangles = nullptr;  ///< primitive -> index into Mesh::triangles; nullptr = the same number
+  bool normal_in_world = false;         ///< RayHit16 normals are in W already, else in the mesh frame
 };
 
 /// Nearest hit of one ray.
@@ -66,7 +65,7 @@ struct NearestSurface {
 };
 
 struct RayTracerOptions {
-  std::string isa;  ///< Embree instruction set, e.g. "avx2" to pin goldens; empty = best of this machine
+  std::string isa;         ///< Embree instruction set, e.g. "avx2" to pin goldens; empty = best of this machine
   bool sort_alpha = true;  ///< false: every alpha-tested triangle pays for the test, for measuring
 };
 
@@ -111,8 +110,7 @@ class RayTracer {
   std::span<const HitSlot> slots() const;
   std::span<const uint32_t> first_slots() const;
 
-  std::optional<SurfaceHit> Intersect(Vec3f origin, Vec3f direction,
-                                      float t_far = std::numeric_limits<float>::infinity()) const;
+  std::optional<SurfaceHit> Intersect(Vec3f origin, Vec3f direction, float t_far = std::numeric_limits<float>::infinity()) const;
   /// True if the open segment between two points of W meets a surface.
   bool Occluded(Vec3f from, Vec3f to) const;
   /// Distance from a point of W to the nearest triangle (holes of alpha-tested ones count as solid), at most

@@ -20,10 +20,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Box with eight shared vertices, faces outwards.
 Mesh BoxMesh(Vec3f min, Vec3f max) {
   Mesh mesh{"box", {}, {}, {}, {}, {}};
-  for (int i = 0; i < 8; ++i)
-    mesh.positions.push_back({i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z});
-  const uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z});
+  const uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   for (const auto& q : quads) {
     mesh.triangles.push_back({q[0], q[1], q[2]});
     mesh.triangles.push_back({q[0], q[2], q[3]});
@@ -56,8 +54,7 @@ Vec3f RandomDirection(RngStream& rng) {
 }
 
 AffineTransform RandomAffine(RngStream& rng, float spread) {
-  AffineTransform X =
-      PlaceUpright({}, static_cast<float>(rng.Uniform(0, 6)), static_cast<float>(rng.Uniform(0.5, 2)));
+  AffineTransform X = PlaceUpright({}, static_cast<float>(rng.Uniform(0, 6)), static_cast<float>(rng.Uniform(0.5, 2)));
   X.A = X.A * Mat3f{{{{1, 0.2f, 0}, {0, 1.5f, 0.1f}, {0.3f, 0, 0.8f}}}};
   for (int i = 0; i < 3; ++i) X.p[i] = static_cast<float>(rng.Uniform(-spread, spread));
   return X;
@@ -286,8 +283,7 @@ std::shared_ptr<const Scene> HalfClearSquare(Wrap wrap, float uv_scale, bool wit
   cut.base_color_texture = builder.AddTexture(std::move(texture));
   cut.uv_scale = {uv_scale, 1};
   const MaterialId cut_id = builder.AddMaterial(cut), solid_id = builder.AddMaterial({});
-  Mesh mesh{"square", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {},
-            {}};
+  Mesh mesh{"square", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}, {}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   mesh.parts = {{0, 2, cut_id, kNoEntity}};
   if (with_opaque_half) mesh.parts = {{0, 1, solid_id, kNoEntity}, {1, 1, cut_id, kNoEntity}};
@@ -311,11 +307,9 @@ TEST(AlphaTest, RaysPassWhereTheTextureIsClearAndHitWhereItIsSolid) {
 }
 
 TEST(AlphaTest, WrapModesContinueTheTexture) {
-  const RayTracer repeat(HalfClearSquare(Wrap::kRepeat, 2, false)),
-      mirror(HalfClearSquare(Wrap::kMirror, 2, false)), clamp(HalfClearSquare(Wrap::kClamp, 2, false));
-  const auto solid = [](const RayTracer& tracer, float x) {
-    return tracer.Intersect({x, 0.3f, 1}, {0, 0, -1}).has_value();
-  };
+  const RayTracer repeat(HalfClearSquare(Wrap::kRepeat, 2, false)), mirror(HalfClearSquare(Wrap::kMirror, 2, false)),
+      clamp(HalfClearSquare(Wrap::kClamp, 2, false));
+  const auto solid = [](const RayTracer& tracer, float x) { return tracer.Intersect({x, 0.3f, 1}, {0, 0, -1}).has_value(); };
   for (float u : {0.3f, 0.7f, 1.3f, 1.7f}) {
     EXPECT_EQ(solid(repeat, u / 2), u - std::floor(u) > 0.5f) << u;
     EXPECT_EQ(solid(mirror, u / 2), (u < 1 ? u : 2 - u) > 0.5f) << u;
@@ -345,16 +339,14 @@ TEST(Clearance, EqualsTheSmallestDistanceOverAllTriangles) {
     SceneBuilder builder("test");
     const EntityId entity = builder.AddEntity("thing", builder.tree().At("construction/building"));
     MeshId id = builder.AddMesh(box);
-    for (const AffineTransform& X : places)
-      builder.AddInstance({instanced ? id : builder.AddMesh(box), X, entity});
+    for (const AffineTransform& X : places) builder.AddInstance({instanced ? id : builder.AddMesh(box), X, entity});
     const RayTracer tracer(builder.Build());
     for (int i = 0; i < 200; ++i) {
       const Vec3f p = RandomDirection(rng) * static_cast<float>(rng.Uniform(0, 9));
       float expected = 3;
       for (const AffineTransform& X : places) {
         for (Vec3u t : box.triangles) {
-          const Vec3f q = internal::ClosestPointOnTriangle(p, X * box.positions[t.x], X * box.positions[t.y],
-                                                           X * box.positions[t.z]);
+          const Vec3f q = internal::ClosestPointOnTriangle(p, X * box.positions[t.x], X * box.positions[t.y], X * box.positions[t.z]);
           expected = std::min(expected, Norm(p - q));
         }
       }
@@ -366,8 +358,7 @@ TEST(Clearance, EqualsTheSmallestDistanceOverAllTriangles) {
 TEST(Clearance, ClosestPointIsNoFartherThanAnyPointOfTheTriangle) {
   RngStream rng(7, "test");
   for (int i = 0; i < 200; ++i) {
-    const Vec3f a = RandomDirection(rng), b = RandomDirection(rng), c = RandomDirection(rng),
-                p = RandomDirection(rng) * 2.0f;
+    const Vec3f a = RandomDirection(rng), b = RandomDirection(rng), c = RandomDirection(rng), p = RandomDirection(rng) * 2.0f;
     const float distance = Norm(p - internal::ClosestPointOnTriangle(p, a, b, c));
     for (int k = 0; k < 50; ++k) {
       float u = static_cast<float>(rng.Uniform()), v = static_cast<float>(rng.Uniform());

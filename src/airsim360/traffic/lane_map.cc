@@ -7,7 +7,7 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kSideways = 2;       // m/s^2 in bends: comfortable
+constexpr double kSideways = 2;        // m/s^2 in bends: comfortable
 constexpr double kVehicleWidth = 2.3;  // metres between the middles of two that just pass each other, 0.3 m apart
 
 Vec3d PointOf(const Lane& lane, size_t i) { return VecCast<double>(lane.points[i]); }
@@ -81,7 +81,8 @@ void LaneMap::FindConflicts() {
       for (size_t b = 0; b < junction.size(); ++b) {
         // Those who come from the same lane follow each other.
         if (a == b || SameOrigin(*this, junction[a], junction[b])) continue;
-        if (const double last = LastOverlap(samples[a], samples[b]); last >= 0) tables_[junction[a]].conflicts.push_back({junction[b], last});
+        if (const double last = LastOverlap(samples[a], samples[b]); last >= 0)
+          tables_[junction[a]].conflicts.push_back({junction[b], last});
       }
     }
   }

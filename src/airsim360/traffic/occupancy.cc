@@ -28,8 +28,7 @@ void VisitLanesOf(const TrafficModel& model, const DrivingVehicle& vehicle, uint
 
 Occupancy::Occupancy(const TrafficModel& model, const TrafficState& state) : first_(model.lanes.size() + 1) {
   const auto count = static_cast<uint32_t>(state.vehicles.size());
-  for (uint32_t i = 0; i < count; ++i)
-    VisitLanesOf(model, state.vehicles[i], i, [&](LaneId lane, const Occupant&) { ++first_[lane + 1]; });
+  for (uint32_t i = 0; i < count; ++i) VisitLanesOf(model, state.vehicles[i], i, [&](LaneId lane, const Occupant&) { ++first_[lane + 1]; });
   for (size_t lane = 0; lane + 1 < first_.size(); ++lane) first_[lane + 1] += first_[lane];
   list_.resize(first_.back());
   std::vector<size_t> next = first_;
@@ -37,7 +36,8 @@ Occupancy::Occupancy(const TrafficModel& model, const TrafficState& state) : fir
     VisitLanesOf(model, state.vehicles[i], i, [&](LaneId lane, const Occupant& o) { list_[next[lane]++] = o; });
   for (size_t lane = 0; lane + 1 < first_.size(); ++lane) {
     const auto begin = list_.begin() + static_cast<ptrdiff_t>(first_[lane]), end = list_.begin() + static_cast<ptrdiff_t>(first_[lane + 1]);
-    std::sort(begin, end, [](const Occupant& a, const Occupant& b) { return a.front != b.front ? a.front < b.front : a.vehicle < b.vehicle; });
+    std::sort(begin, end,
+              [](const Occupant& a, const Occupant& b) { return a.front != b.front ? a.front < b.front : a.vehicle < b.vehicle; });
   }
 }
 

@@ -20,9 +20,7 @@ class Occupancy {
   Occupancy(const TrafficModel& model, const TrafficState& state);
 
   /// By growing front.
-  std::span<const Occupant> On(LaneId lane) const {
-    return {list_.data() + first_[lane], first_[lane + 1] - first_[lane]};
-  }
+  std::span<const Occupant> On(LaneId lane) const { return {list_.data() + first_[lane], first_[lane + 1] - first_[lane]}; }
   /// The nearest on the lane whose front is farther than `s`, or not, but for `self`; null: nobody.
   const Occupant* Ahead(LaneId lane, double s, uint32_t self) const;
   const Occupant* Behind(LaneId lane, double s, uint32_t self) const;

@@ -40,7 +40,8 @@ void CheckFree(const TrafficModel& model, const TrafficState& state, uint32_t ve
   for (size_t i = 0; i < state.vehicles.size(); ++i) {
     const VehicleShape& other = model.vehicles[i].shape;
     const Vec3d away = PoseOf(model, state, i, state.t_ns).p - X_WB.p;
-    if (i != vehicle && std::abs(Dot(away, X_WB.R.column(0))) < (own.length + other.length) / 2 + kRoom && std::abs(Dot(away, X_WB.R.column(1))) < (own.width + other.width) / 2)
+    if (i != vehicle && std::abs(Dot(away, X_WB.R.column(0))) < (own.length + other.length) / 2 + kRoom &&
+        std::abs(Dot(away, X_WB.R.column(1))) < (own.width + other.width) / 2)
       throw InputError("point: another vehicle is in the way");
   }
 }

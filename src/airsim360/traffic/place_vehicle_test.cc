@@ -51,7 +51,8 @@ TEST(WithVehicleAt, RefusesPlacesWithoutALaneAndWithSomebodyOnIt) {
 TEST(WithVehicleAt, IsTheSameEveryTime) {
   const TrafficModel model = ModelOf(RingRoad(400, 13.9f), 5);
   const TrafficState state = StartTraffic(model);
-  TrafficState a = WithVehicleAt(model, state, 0, PoseOf(model, state, 0, state.t_ns).p), b = WithVehicleAt(model, state, 0, PoseOf(model, state, 0, state.t_ns).p);
+  TrafficState a = WithVehicleAt(model, state, 0, PoseOf(model, state, 0, state.t_ns).p),
+               b = WithVehicleAt(model, state, 0, PoseOf(model, state, 0, state.t_ns).p);
   EXPECT_EQ(HashTraffic(a), HashTraffic(b));
 }
 

@@ -9,9 +9,9 @@ namespace {
 constexpr double kAsk = 3.5;          // seconds before the line at which a way is asked for
 constexpr double kCriticalGap = 4.5;  // seconds: Highway Capacity Manual 2010, exhibit 19-10, left turns from a two-lane street 4.1
 constexpr int64_t kPatienceNs = 25'000'000'000;  // after so long at the line others let one go
-constexpr double kAtLine = 6;         // metres
-constexpr double kLeftTurn = 0.6;     // radians
-constexpr double kFirmBraking = 3;    // m/s^2
+constexpr double kAtLine = 6;                    // metres
+constexpr double kLeftTurn = 0.6;                // radians
+constexpr double kFirmBraking = 3;               // m/s^2
 
 bool Stops(const DrivingVehicle& own, double distance, double braking) { return own.v * own.v / (2 * braking) < distance; }
 
@@ -42,7 +42,8 @@ RightOfWay::Coming RightOfWay::ComingTo(LaneId way) const {
   for (const LaneId from : model_.lanes.previous(way)) {
     const std::span<const Occupant> there = occupancy_.On(from);
     // The first whose front is still on the lane.
-    const auto first = std::find_if(there.rbegin(), there.rend(), [&](const Occupant& o) { return state_.vehicles[o.vehicle].lane == from; });
+    const auto first =
+        std::find_if(there.rbegin(), there.rend(), [&](const Occupant& o) { return state_.vehicles[o.vehicle].lane == from; });
     if (first == there.rend()) continue;
     const DrivingVehicle& other = state_.vehicles[first->vehicle];
     if (other.ahead[0] != way) continue;
@@ -102,7 +103,7 @@ bool RightOfWay::MayEnter(uint32_t vehicle, double distance, bool first, Driving
   // Who waits to turn left goes when the others have stopped, at the end of green.
   const bool last_chance = model_.lanes.turn(way) > kLeftTurn && own.stopped_ns >= 0 && distance < kAtLine && first;
   if (light == SignalLight::kRed || (light != SignalLight::kGreen && stops && !last_chance)) return false;
-  if (!first) return true;  // held by the one in front
+  if (!first) return true;                                               // held by the one in front
   if (stops && distance > kAsk * std::max(own.v, 3.0) + 2) return true;  // too early to ask
   if (IsBusy(way) || MustYield(vehicle, way) || !HasRoomBehind(vehicle)) return false;
   own.granted = true;

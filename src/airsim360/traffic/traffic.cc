@@ -18,15 +18,15 @@ namespace {
 using internal::AlongWay;
 using internal::InFront;
 using internal::LaneChanges;
-using internal::Occupancy;
 using internal::ObstacleGrid;
+using internal::Occupancy;
 using internal::RightOfWay;
 
 constexpr double kStopBefore = 0.8;  // metres before a stop line
 constexpr double kStopGap = 1.5;     // metres before somebody in the way
 constexpr double kStands = 0.1;      // m/s
 constexpr double kTick = static_cast<double>(kTrafficTickNs) * 1e-9;
-constexpr double kSlot = 14;         // metres of lane for each vehicle at the start: a bus of 12
+constexpr double kSlot = 14;  // metres of lane for each vehicle at the start: a bus of 12
 
 // The speed that a driver wants here: slower before bends that come.
 double WantedSpeed(const TrafficModel& model, uint32_t vehicle, const DrivingVehicle& own) {

@@ -43,17 +43,17 @@ inline constexpr int64_t kLaneChangeNs = 3'500'000'000;
 /// One vehicle. Its front is `s` metres from the beginning of its lane.
 struct DrivingVehicle {
   LaneId lane = 0;
-  std::array<LaneId, 2> ahead{kNoLane, kNoLane};   ///< lanes that it has chosen to take next
+  std::array<LaneId, 2> ahead{kNoLane, kNoLane};            ///< lanes that it has chosen to take next
   std::array<LaneId, 3> behind{kNoLane, kNoLane, kNoLane};  ///< lanes that it came from, the latest first
-  double s = 0, v = 0, a = 0;       ///< m, m/s, m/s^2
-  double shift = 0;                 ///< metres to the left at the beginning of its last lane change
-  LaneId left_lane = kNoLane;       ///< the lane that it is still moving away from
-  int64_t changed_ns = INT64_MIN / 2;  ///< beginning of its last lane change
-  int64_t stopped_ns = -1;          ///< since when it has stood; -1: it moves
-  uint32_t choices = 0;             ///< turns chosen so far: key of the next random number
-  bool granted = false;             ///< the junction ahead, or around it, is held free for it
-  bool braking = false;             ///< brake lamps
-  int8_t indicator = 0;             ///< +1 left, -1 right
+  double s = 0, v = 0, a = 0;                               ///< m, m/s, m/s^2
+  double shift = 0;                                         ///< metres to the left at the beginning of its last lane change
+  LaneId left_lane = kNoLane;                               ///< the lane that it is still moving away from
+  int64_t changed_ns = INT64_MIN / 2;                       ///< beginning of its last lane change
+  int64_t stopped_ns = -1;                                  ///< since when it has stood; -1: it moves
+  uint32_t choices = 0;                                     ///< turns chosen so far: key of the next random number
+  bool granted = false;                                     ///< the junction ahead, or around it, is held free for it
+  bool braking = false;                                     ///< brake lamps
+  int8_t indicator = 0;                                     ///< +1 left, -1 right
 };
 
 struct TrafficState {

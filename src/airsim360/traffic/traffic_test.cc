@@ -45,7 +45,8 @@ TEST(Traffic, FlowOverDensityOnARingIsTheModelsFundamentalDiagram) {
     for (size_t i = 0; i < count; ++i) {
       const double s = room * static_cast<double>(i);
       const bool second = s >= model.lanes.length(0);
-      state.vehicles[i] = {.lane = second, .ahead = {!second, second}, .behind = {!second, second, !second}, .s = second ? s - model.lanes.length(0) : s};
+      state.vehicles[i] = {
+          .lane = second, .ahead = {!second, second}, .behind = {!second, second, !second}, .s = second ? s - model.lanes.length(0) : s};
     }
     Drive(model, 300, state);
     // Bisection of the equilibrium speed.

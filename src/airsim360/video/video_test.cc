@@ -202,9 +202,10 @@ TEST_F(Video, FfprobeSeesASphereItsColoursAndItsTimes) {
   if (!Has("ffprobe")) GTEST_SKIP() << "ffprobe is not installed (apt-get install ffmpeg)";
   const fs::path file = Write("a.mp4", 128, 64, {0, 33'000'000, 67'000'000, 100'000'000, 200'000'000});
   const std::string seen = Run("ffprobe -v error -show_streams -show_frames -show_entries frame=pts_time " + file.string());
-  for (const char* what : {"codec_name=h264", "pix_fmt=yuv420p", "color_range=tv", "color_space=bt709", "color_primaries=bt709", "has_b_frames=0",
-                           "side_data_type=Spherical Mapping", "projection=equirectangular", "nb_frames=5", "side_data_type=Stereo 3D", "type=2D",
-                           "pts_time=0.033000", "pts_time=0.067000", "pts_time=0.200000", "duration=0.300000"})
+  for (const char* what :
+       {"codec_name=h264", "pix_fmt=yuv420p", "color_range=tv", "color_space=bt709", "color_primaries=bt709", "has_b_frames=0",
+        "side_data_type=Spherical Mapping", "projection=equirectangular", "nb_frames=5", "side_data_type=Stereo 3D", "type=2D",
+        "pts_time=0.033000", "pts_time=0.067000", "pts_time=0.200000", "duration=0.300000"})
     EXPECT_NE(seen.find(what), std::string::npos) << what << "\n" << seen;
   // Without the side data of a sphere where it is none.
   const std::string plain = Run("ffprobe -v error -show_streams " + Write("b.mp4", 128, 64, {0}, {.spherical = false}).string());

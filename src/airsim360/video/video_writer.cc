@@ -50,7 +50,8 @@ Words EncodeWords(const std::string& encoder, int width, int height, const Video
                             ":in_range=full:out_range=limited:out_color_matrix=bt709:flags=bicubic+accurate_rnd+full_chroma_int";
   const std::string quality = std::to_string(options.quality);
   const int group = std::clamp(static_cast<int>(std::lround(2 * options.frame_rate)), 1, 250);
-  Words words = {"-vf", scale + (vaapi ? ",format=nv12,hwupload" : ",format=yuv420p"), "-c:v", encoder, "-bf", "0", "-g", std::to_string(group)};
+  Words words = {
+      "-vf", scale + (vaapi ? ",format=nv12,hwupload" : ",format=yuv420p"), "-c:v", encoder, "-bf", "0", "-g", std::to_string(group)};
   const auto add = [&](const Words& more) { words.insert(words.end(), more.begin(), more.end()); };
   if (nvenc) add({"-preset", "p5", "-rc", "vbr", "-cq", quality, "-b:v", "0"});
   if (vaapi) add({"-rc_mode", "CQP", "-qp", quality});

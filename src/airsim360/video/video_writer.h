@@ -15,10 +15,10 @@ namespace airsim360 {
 inline constexpr const char* kVideoEncoders[] = {"auto", "libx264", "libx265", "h264_nvenc", "hevc_nvenc", "h264_vaapi", "hevc_vaapi"};
 
 struct VideoOptions {
-  double frame_rate = 30;          ///< pictures a second: how long a single picture lasts, and how often one is a key frame
-  std::string encoder = "libx264"; ///< of kVideoEncoders
-  int quality = 18;                ///< 0 (best) … 51: CRF, CQ or QP of the encoder
-  bool spherical = true;           ///< the picture is a whole equirectangular panorama
+  double frame_rate = 30;           ///< pictures a second: how long a single picture lasts, and how often one is a key frame
+  std::string encoder = "libx264";  ///< of kVideoEncoders
+  int quality = 18;                 ///< 0 (best) … 51: CRF, CQ or QP of the encoder
+  bool spherical = true;            ///< the picture is a whole equirectangular panorama
 };
 
 /// Width and height of a video, pixels.

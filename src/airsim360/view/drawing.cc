@@ -86,10 +86,14 @@ std::string CheckWorld(const Scene& scene, const fs::path& file) {
 
 std::string CheckDrawing(const SimModel& model, const std::string& kind, const std::string& text) {
   if (kind == "people") return CheckPeople(model, text);
-  if (kind == "cameras") return CheckFile("rig.yaml", text, [](const fs::path& file) { return Count(ReadRigFile(file).size(), "camera", "cameras"); });
-  if (kind == "labels") return CheckFile("labels.yaml", text, [&](const fs::path& file) { return CheckLabels(model.tracer->scene(), file); });
+  if (kind == "cameras")
+    return CheckFile("rig.yaml", text, [](const fs::path& file) { return Count(ReadRigFile(file).size(), "camera", "cameras"); });
+  if (kind == "labels")
+    return CheckFile("labels.yaml", text, [&](const fs::path& file) { return CheckLabels(model.tracer->scene(), file); });
   if (kind == "world") return CheckFile("world.yaml", text, [&](const fs::path& file) { return CheckWorld(model.tracer->scene(), file); });
-  if (kind != "route") throw InputError("kind: " + UnknownChoiceMessage("drawing", kind, std::vector<std::string>{"people", "route", "cameras", "labels", "world"}));
+  if (kind != "route")
+    throw InputError("kind: " +
+                     UnknownChoiceMessage("drawing", kind, std::vector<std::string>{"people", "route", "cameras", "labels", "world"}));
   const std::vector<Waypoint> waypoints = ParseRouteYaml(text, "route.yaml");
   if (waypoints.size() > 1) RouteThrough(waypoints, 1);
   return Count(waypoints.size(), "waypoint", "waypoints");

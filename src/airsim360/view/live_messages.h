@@ -23,7 +23,9 @@ struct MessageLimits {
 /// wrong is answered with {"error": …}.
 template <class Json, class Act>
 SocketMessage AnswerMessage(std::string_view text, const MessageLimits& limits, const std::string& token, const Act& act) {
-  const auto problem = [](const std::string& what) { return SocketMessage{Json{{"error", what}}.dump(-1, ' ', false, Json::error_handler_t::replace)}; };
+  const auto problem = [](const std::string& what) {
+    return SocketMessage{Json{{"error", what}}.dump(-1, ' ', false, Json::error_handler_t::replace)};
+  };
   if (text.size() > limits.bytes) return problem("a message has at most " + std::to_string(limits.bytes) + " bytes");
   const Json message = JsonDepth(text) > limits.depth ? Json() : Json::parse(text, nullptr, false);
   if (!message.is_object()) return problem("a message is a JSON object");

@@ -67,7 +67,8 @@ Products ProductsOf(const Json& message, std::vector<std::string>& names) {
   if (!wanted.is_array()) throw InputError("products: a list of names");
   for (const Json& name : wanted) {
     const auto found = std::ranges::find_if(kProducts, [&](const ProductInfo& p) { return name == p.name; });
-    if (found == std::end(kProducts) || std::ranges::find(kShown, name) == std::end(kShown)) throw InputError("products: " + name.dump() + " is none of them");
+    if (found == std::end(kProducts) || std::ranges::find(kShown, name) == std::end(kShown))
+      throw InputError("products: " + name.dump() + " is none of them");
     products.*found->wanted = true;
     names.push_back(found->name);
   }
@@ -138,7 +139,7 @@ struct LiveWorld::Impl {
   LiveOptions options;
   SimLoop loop;
   TreeDesk trees{loop};  // as `mutex` says
-  std::mutex changes;  // of what follows; taken before the others
+  std::mutex changes;    // of what follows; taken before the others
   std::string weather;
   double hour = -1;
   FairMutex rendering;  // of what follows; taken before `mutex`. Pictures follow each other without a pause, and another light wants a turn
@@ -153,7 +154,7 @@ struct LiveWorld::Impl {
   int64_t steered = 0;    // number of the hands that steer
   std::mutex seeing;      // of what follows; who asks about a picture does not wait for the next one
   std::deque<Seen> seen;  // newest last
-  std::mutex feeling;   // of what follows; hands do not wait for pictures
+  std::mutex feeling;     // of what follows; hands do not wait for pictures
   Hands hands;
 };
 
@@ -180,10 +181,18 @@ std::string LiveWorld::Impl::StateFields(const Capture& capture, const Vehicle& 
   const std::lock_guard lock(mutex);
   const Quaternion q = ToQuaternion(capture.X_WC.R);
   const Vec3d p = capture.X_WC.p, v = vehicle.motion.v_WB;
-  Json fields{{"number", next_number}, {"t", 1e-9 * static_cast<double>(capture.t_ns)}, {"p", {p.x, p.y, p.z}}, {"q", {q.w, q.x, q.y, q.z}},
-              {"v", {v.x, v.y, v.z}}, {"render_ms", capture.stats.render_ms}, {"collisions", vehicle.collision.count},
-              {"charge", vehicle.drone.charge}, {"kept", kept.shots.size()}, {"hands", steered}};
-  if (vehicle.collision.count > 0 && vehicle.collision.entity != kNoEntity) fields["touched"] = stage->scene().entity(vehicle.collision.entity).name;
+  Json fields{{"number", next_number},
+              {"t", 1e-9 * static_cast<double>(capture.t_ns)},
+              {"p", {p.x, p.y, p.z}},
+              {"q", {q.w, q.x, q.y, q.z}},
+              {"v", {v.x, v.y, v.z}},
+              {"render_ms", capture.stats.render_ms},
+              {"collisions", vehicle.collision.count},
+              {"charge", vehicle.drone.charge},
+              {"kept", kept.shots.size()},
+              {"hands", steered}};
+  if (vehicle.collision.count > 0 && vehicle.collision.entity != kNoEntity)
+    fields["touched"] = stage->scene().entity(vehicle.collision.entity).name;
   const std::string text = fields.dump(-1, ' ', false, Json::error_handler_t::replace);
   return text.substr(1, text.size() - 2);
 }
@@ -259,7 +268,8 @@ TakenPicture LiveWorld::Impl::Take(const Json& message, int width, const Product
 std::shared_ptr<const Frame> LiveWorld::Impl::SeenFrame(int64_t number) {
   const std::lock_guard lock(seeing);
   const auto found = std::ranges::find(seen, number, &Seen::number);
-  if (found == seen.end()) throw InputError("number: picture " + std::to_string(number) + " is gone; ask about one of the newest " + std::to_string(kKeptFrames));
+  if (found == seen.end())
+    throw InputError("number: picture " + std::to_string(number) + " is gone; ask about one of the newest " + std::to_string(kKeptFrames));
   return found->frame;
 }
 
@@ -352,20 +362,32 @@ SocketMessage LiveWorld::Impl::Do(const Json& message, bool may_fly) {
     BringCar(loop, message.value("car", ""), PointOf(message));
     return Said({{"done", "car"}});
   }
-  throw InputError("do: '" + what + "' is none of picture, planes, hands, set, keep, save, reset, cars, car, palette, trees, source, mind, check, apply, fly, mission, stop, person, draw");
+  throw InputError(
+      "do: '" + what +
+      "' is none of picture, planes, hands, set, keep, save, reset, cars, car, palette, trees, source, mind, check, apply, fly, mission, stop, person, draw");
 }
 
-LiveWorld::LiveWorld(std::shared_ptr<Stage> stage, LiveOptions options) : impl_(std::make_unique<Impl>(std::move(stage), std::move(options))) {}
+LiveWorld::LiveWorld(std::shared_ptr<Stage> stage, LiveOptions options)
+    : impl_(std::make_unique<Impl>(std::move(stage), std::move(options))) {}
 LiveWorld::~LiveWorld() = default;
 
 SocketMessage LiveWorld::Answer(std::string_view text, const std::string& token) {
-  return AnswerMessage<Json>(text, {.bytes = kMostMessage}, token, [&](const Json& message, bool may_fly) { return impl_->Do(message, may_fly); });
+  return AnswerMessage<Json>(text, {.bytes = kMostMessage}, token,
+                             [&](const Json& message, bool may_fly) { return impl_->Do(message, may_fly); });
 }
 
 std::string LiveWorld::DescriptionJson() const {
   const Scene& scene = impl_->stage->scene();
-  const Json about{{"world", impl_->stage->name()}, {"seed", impl_->stage->seed()}, {"products", kShown}, {"scale", {kNear, kFar}}, {"weathers", EnvironmentPresetNames()},
-             {"keeps", static_cast<bool>(impl_->options.save)}, {"flies", true}, {"follows", false}, {"resets", true}, {"categories", Json::parse(CategoriesJson(scene.tree))}};
+  const Json about{{"world", impl_->stage->name()},
+                   {"seed", impl_->stage->seed()},
+                   {"products", kShown},
+                   {"scale", {kNear, kFar}},
+                   {"weathers", EnvironmentPresetNames()},
+                   {"keeps", static_cast<bool>(impl_->options.save)},
+                   {"flies", true},
+                   {"follows", false},
+                   {"resets", true},
+                   {"categories", Json::parse(CategoriesJson(scene.tree))}};
   return about.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -33,7 +33,8 @@ void BringCar(SimLoop& loop, const std::string& name, Vec3d p) {
     for (const TrafficBody& body : traffic->bodies) names.push_back(body.name);
     throw InputError("car: nothing is called '" + name.substr(0, 100) + "'" + DidYouMean(name, names));
   }
-  auto changed = std::make_shared<TrafficState>(WithVehicleAt(traffic->model, *loop.state().traffic, static_cast<uint32_t>(found - traffic->bodies.begin()), p));
+  auto changed = std::make_shared<TrafficState>(
+      WithVehicleAt(traffic->model, *loop.state().traffic, static_cast<uint32_t>(found - traffic->bodies.begin()), p));
   loop.Edit().traffic = std::move(changed);
 }
 

@@ -27,7 +27,8 @@ uint8_t NormalByte(float n) { return static_cast<uint8_t>(std::lround(127.5f * (
 
 }  // namespace
 
-void PlaneMessage::Add(const std::string& product, const char* plane, const char* type, int width, int height, const void* data, size_t bytes) {
+void PlaneMessage::Add(const std::string& product, const char* plane, const char* type, int width, int height, const void* data,
+                       size_t bytes) {
   list_ += (list_.empty() ? "" : ",") + ("{\"product\":\"" + product + "\",\"plane\":\"" + plane + "\",\"type\":\"" + type + "\"") +
            ",\"width\":" + std::to_string(width) + ",\"height\":" + std::to_string(height) + ",\"at\":" + std::to_string(data_.size()) +
            ",\"bytes\":" + std::to_string(bytes) + "}";
@@ -40,20 +41,31 @@ void PlaneMessage::AddPicture(const Image<Rgb8>& rgb) {
   Add("rgb", "file", "jpeg", rgb.width(), rgb.height(), file.data(), file.size());
 }
 
-void PlaneMessage::AddJpeg(std::string_view file, int width, int height) { Add("rgb", "file", "jpeg", width, height, file.data(), file.size()); }
+void PlaneMessage::AddJpeg(std::string_view file, int width, int height) {
+  Add("rgb", "file", "jpeg", width, height, file.data(), file.size());
+}
 
 bool PlaneMessage::AddProduct(const Frame& frame, const std::string& name) {
   const auto add = [&](const auto& image, const char* plane, const char* type, const auto& values) {
     Add(name, plane, type, image.width(), image.height(), values.data(), values.size() * sizeof(values[0]));
   };
   static const SrgbEncoder encode;
-  if (name == "range") add(frame.range, "Y", "f32", frame.range.pixels());
-  else if (name == "semantic") add(frame.semantic, "value", "u16", frame.semantic.pixels());
-  else if (name == "entity") add(frame.entity, "id", "u32", frame.entity.pixels());
-  else if (name == "material") add(frame.material, "value", "u16", frame.material.pixels());
-  else if (name == "normal") add(frame.normal, "value", "u8", Mapped(frame.normal, [](const Vec3f& n) { return Rgb8{NormalByte(n.x), NormalByte(n.y), NormalByte(n.z)}; }));
-  else if (name == "albedo") add(frame.albedo, "value", "u8", Mapped(frame.albedo, [&](const Rgb32f& c) { return Rgb8{encode(c.r), encode(c.g), encode(c.b)}; }));
-  else if (name == "coverage") add(frame.coverage, "share.0", "f32", Mapped(frame.coverage, [](const CoveragePixel& c) { return c.share[0]; }));
+  if (name == "range")
+    add(frame.range, "Y", "f32", frame.range.pixels());
+  else if (name == "semantic")
+    add(frame.semantic, "value", "u16", frame.semantic.pixels());
+  else if (name == "entity")
+    add(frame.entity, "id", "u32", frame.entity.pixels());
+  else if (name == "material")
+    add(frame.material, "value", "u16", frame.material.pixels());
+  else if (name == "normal")
+    add(frame.normal, "value", "u8", Mapped(frame.normal, [](const Vec3f& n) {
+          return Rgb8{NormalByte(n.x), NormalByte(n.y), NormalByte(n.z)};
+        }));
+  else if (name == "albedo")
+    add(frame.albedo, "value", "u8", Mapped(frame.albedo, [&](const Rgb32f& c) { return Rgb8{encode(c.r), encode(c.g), encode(c.b)}; }));
+  else if (name == "coverage")
+    add(frame.coverage, "share.0", "f32", Mapped(frame.coverage, [](const CoveragePixel& c) { return c.share[0]; }));
   else if (name == "position") {
     add(frame.position, "X", "f32", Mapped(frame.position, [](const Vec3f& p) { return p.x; }));
     add(frame.position, "Y", "f32", Mapped(frame.position, [](const Vec3f& p) { return p.y; }));
@@ -69,7 +81,8 @@ bool PlaneMessage::AddProduct(const Frame& frame, const std::string& name) {
 
 void PlaneMessage::AddStored(const StoredPicture& picture) {
   using Type = StoredPicture::Type;
-  const size_t pixels = static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height), depth = static_cast<size_t>(picture.depth);
+  const size_t pixels = static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height),
+               depth = static_cast<size_t>(picture.depth);
   if (picture.product == "rgb") {
     Image<Rgb8> rgb(picture.width, picture.height);
     std::memcpy(rgb.pixels().data(), picture.values.data(), picture.values.size());
@@ -92,7 +105,8 @@ void PlaneMessage::AddStored(const StoredPicture& picture) {
   }
   constexpr const char* kTypes[] = {"u8", "u16", "u32", "f32"};
   const char* plane = picture.product == "range" ? "Y" : picture.product == "entity" ? "id" : "value";
-  Add(picture.product, plane, kTypes[static_cast<size_t>(picture.type)], picture.width, picture.height, picture.values.data(), picture.values.size());
+  Add(picture.product, plane, kTypes[static_cast<size_t>(picture.type)], picture.width, picture.height, picture.values.data(),
+      picture.values.size());
   static_assert(static_cast<int>(Type::kFloat32) == 3);
 }
 

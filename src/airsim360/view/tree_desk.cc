@@ -61,7 +61,8 @@ std::string PaletteJson(const behaviour::Palette& palette) {
       Json& said = ports.emplace_back(Json{{"name", port.name}, {"output", port.output}, {"default", nullptr}, {"help", port.help}});
       if (port.fallback) said["default"] = port.fallback;
     }
-    nodes.push_back({{"name", info.name}, {"class", behaviour::kNodeClassNames[static_cast<size_t>(info.of)]}, {"ports", ports}, {"help", info.help}});
+    nodes.push_back(
+        {{"name", info.name}, {"class", behaviour::kNodeClassNames[static_cast<size_t>(info.of)]}, {"ports", ports}, {"help", info.help}});
   }
   return nodes.dump();
 }
@@ -88,7 +89,8 @@ struct TreeDesk::Impl {
 };
 
 Json TreeDesk::Impl::Do(const std::string& what, const Json& message) {
-  if (what == "palette") return {{"people", Json::parse(PaletteJson(internal::PersonPalette()))}, {"mission", Json::parse(PaletteJson(MissionPalette()))}};
+  if (what == "palette")
+    return {{"people", Json::parse(PaletteJson(internal::PersonPalette()))}, {"mission", Json::parse(PaletteJson(MissionPalette()))}};
   if (what == "trees") return Trees();
   if (what == "source") return {{"xml", Written(TreeSource(*PeopleOf(loop.model()).crowd, TextOf(message, "tree")))}};
   if (what == "mind") return Mind(message);
@@ -105,9 +107,12 @@ Json TreeDesk::Impl::Do(const std::string& what, const Json& message) {
 
 Json TreeDesk::Impl::Check(const Json& message) const {
   const std::string xml = TextOf(message, "xml");
-  if (TextOf(message, "kind") == "mission") ReadMission(xml, kPage, {loop.shared_model(), {}});
-  else if (loop.model().people) WithTrees(*PeopleOf(loop.model()).crowd, xml, kPage);
-  else CheckPeopleTrees(xml, kPage);
+  if (TextOf(message, "kind") == "mission")
+    ReadMission(xml, kPage, {loop.shared_model(), {}});
+  else if (loop.model().people)
+    WithTrees(*PeopleOf(loop.model()).crowd, xml, kPage);
+  else
+    CheckPeopleTrees(xml, kPage);
   return {{"xml", Written(xml)}};
 }
 
@@ -116,7 +121,8 @@ Json TreeDesk::Impl::Trees() const {
   const SimPeople& people = *loop.model().people;
   Json said{{"trees", TreeNames(*people.crowd)}, {"people", Json::array()}};
   for (size_t i = 0; i < people.cast.size(); ++i)
-    said["people"].push_back({{"name", people.cast[i].name}, {"tree", MindOf(*people.crowd, loop.state().people->crowd, static_cast<PersonIndex>(i)).tree}});
+    said["people"].push_back(
+        {{"name", people.cast[i].name}, {"tree", MindOf(*people.crowd, loop.state().people->crowd, static_cast<PersonIndex>(i)).tree}});
   return said;
 }
 
@@ -128,8 +134,16 @@ Json TreeDesk::Impl::Mind(const Json& message) const {
   const PersonMind mind = MindOf(*people.crowd, crowd, i);
   const PersonTransition last = LastTransition(*people.crowd, crowd, i);
   const Vec3d p = crowd.people[i].p_WP;
-  return {{"person", name}, {"p", {p.x, p.y, p.z}}, {"visible", crowd.people[i].visible}, {"tree", mind.tree}, {"active", mind.active}, {"labels", mind.labels}, {"state", last.to}, {"cause", last.cause},
-          {"inbox", InboxJson(mind)}, {"board", BoardJson(mind.board)}};
+  return {{"person", name},
+          {"p", {p.x, p.y, p.z}},
+          {"visible", crowd.people[i].visible},
+          {"tree", mind.tree},
+          {"active", mind.active},
+          {"labels", mind.labels},
+          {"state", last.to},
+          {"cause", last.cause},
+          {"inbox", InboxJson(mind)},
+          {"board", BoardJson(mind.board)}};
 }
 
 // When each was sent, and by whom, unless it was a command.
@@ -137,7 +151,9 @@ Json TreeDesk::Impl::InboxJson(const PersonMind& mind) const {
   const SimPeople& people = PeopleOf(loop.model());
   Json said = Json::array();
   for (const PersonMind::Letter& letter : mind.inbox)
-    said.push_back({{"type", letter.type}, {"from", letter.from < people.cast.size() ? Json(people.cast[letter.from].name) : Json()}, {"sent", 1e-9 * static_cast<double>(letter.t_ns)}});
+    said.push_back({{"type", letter.type},
+                    {"from", letter.from < people.cast.size() ? Json(people.cast[letter.from].name) : Json()},
+                    {"sent", 1e-9 * static_cast<double>(letter.t_ns)}});
   return said;
 }
 
@@ -197,7 +213,11 @@ Json TreeDesk::Impl::Progress() const {
   const MissionProgress progress = pilot->progress();
   Json active = Json::array();
   for (const auto& node : progress.active) active.push_back(node.order);
-  return {{"result", kMissionResultNames[static_cast<size_t>(progress.result)]}, {"seconds", progress.seconds}, {"active", active}, {"log", progress.log}, {"board", BoardJson(progress.board)}};
+  return {{"result", kMissionResultNames[static_cast<size_t>(progress.result)]},
+          {"seconds", progress.seconds},
+          {"active", active},
+          {"log", progress.log},
+          {"board", BoardJson(progress.board)}};
 }
 
 void TreeDesk::Impl::Stop() {

@@ -60,10 +60,11 @@ TEST_F(FolderFile, FilesBelowTheFolderAreRead) {
 
 TEST_F(FolderFile, NothingElseIs) {
   const std::string absolute = (room_ / "secret").string();
-  for (const std::string_view path : {std::string_view("../secret"), std::string_view("sub/../../secret"), std::string_view("sub/../a.txt"), std::string_view("./a.txt"),
-                                      std::string_view("link"), std::string_view("up/secret"), std::string_view("inside"), std::string_view("fifo"), std::string_view("sub"),
-                                      std::string_view("sub/"), std::string_view(""), std::string_view("/"), std::string_view("//a.txt"), std::string_view("a.txt/"),
-                                      std::string_view("a.txt\0b", 7), std::string_view("missing"), std::string_view(absolute)}) {
+  for (const std::string_view path :
+       {std::string_view("../secret"), std::string_view("sub/../../secret"), std::string_view("sub/../a.txt"), std::string_view("./a.txt"),
+        std::string_view("link"), std::string_view("up/secret"), std::string_view("inside"), std::string_view("fifo"),
+        std::string_view("sub"), std::string_view("sub/"), std::string_view(""), std::string_view("/"), std::string_view("//a.txt"),
+        std::string_view("a.txt/"), std::string_view("a.txt\0b", 7), std::string_view("missing"), std::string_view(absolute)}) {
     EXPECT_EQ(Read(path), "-") << path;
   }
   EXPECT_EQ(Read(std::string(1 << 20, 'a')), "-");
@@ -138,7 +139,9 @@ TEST(PlaneMessage, HoldsEveryPlaneAtAMultipleOfFourBytes) {
 
 class Live : public testing::Test {
  protected:
-  static void SetUpTestSuite() { stage_ = std::make_shared<Stage>(StageOptions{.world = {.world = "box_room"}, .device = {.device = "cpu"}}); }
+  static void SetUpTestSuite() {
+    stage_ = std::make_shared<Stage>(StageOptions{.world = {.world = "box_room"}, .device = {.device = "cpu"}});
+  }
   static void TearDownTestSuite() { stage_.reset(); }
 
   // Flies half a second forward and up, told ten times; all pictures one after the other.
@@ -194,8 +197,11 @@ TEST_F(Live, HandsThatAreToldOnALineOfTheirOwnFlyLikeThoseOfAPicture) {
       now += 0.05;
       Json picture{{"do", "picture"}, {"width", 128}, {"token", "t"}};
       const Json input{0.2, 0, 0.1, 0.3};
-      if (apart) EXPECT_EQ(world.Answer(Json{{"do", "hands"}, {"input", input}, {"number", 10 * i}, {"token", "t"}}.dump(), "t").bytes, R"({"done":"hands"})");
-      else picture["input"] = input;
+      if (apart)
+        EXPECT_EQ(world.Answer(Json{{"do", "hands"}, {"input", input}, {"number", 10 * i}, {"token", "t"}}.dump(), "t").bytes,
+                  R"({"done":"hands"})");
+      else
+        picture["input"] = input;
       header = airsim360::Read(world.Answer(picture.dump(), "t").bytes).header;
       EXPECT_EQ(header["hands"], apart ? 10 * i : 0);
     }
@@ -211,7 +217,9 @@ TEST_F(Live, HandsThatAreToldOnALineOfTheirOwnFlyLikeThoseOfAPicture) {
 TEST_F(Live, HandsAreToldOnceAndNotWithoutTheToken) {
   double now = 0;
   LiveWorld world(stage_, {.clock = [&] { return now; }});
-  const auto refused = [&](const char* message, const char* why) { EXPECT_NE(world.Answer(message, "t").bytes.find(why), std::string::npos) << message; };
+  const auto refused = [&](const char* message, const char* why) {
+    EXPECT_NE(world.Answer(message, "t").bytes.find(why), std::string::npos) << message;
+  };
   refused(R"({"do":"hands","input":[0,0,1,0],"number":1})", "token");
   refused(R"({"do":"hands","input":[0,0,2,0],"number":1,"token":"t"})", "-1 ... 1");
   refused(R"({"do":"hands","number":1,"token":"t"})", "four numbers");
@@ -239,8 +247,10 @@ TEST_F(Live, PicturesThatAreAskedForAtOnceFollowEachOtherAndAreWhole) {
       EXPECT_EQ(parts.header["planes"].size(), who == 0 ? 2u : 1u);
       // Who asks about it gets the planes of that very picture, whatever has been looked at since.
       const std::string planes = world.Answer(Json{{"do", "planes"}, {"number", numbers[who].back()}}.dump(), "t").bytes;
-      if (planes.starts_with("A360")) EXPECT_EQ(airsim360::Read(planes).header["planes"].size(), 3u);
-      else EXPECT_NE(planes.find("is gone"), std::string::npos) << planes;
+      if (planes.starts_with("A360"))
+        EXPECT_EQ(airsim360::Read(planes).header["planes"].size(), 3u);
+      else
+        EXPECT_NE(planes.find("is gone"), std::string::npos) << planes;
     }
   };
   std::thread other([&] { look(1, R"({"do":"picture","width":256})"); });

@@ -49,8 +49,14 @@ std::string ViewedPlan::Index() const {
   }
   for (int64_t i = 0; i < plan.frames(); ++i) stems.push_back(FrameStem(i));
   const std::string world = names.size() == 1 ? names[0].get<std::string>() : std::to_string(names.size()) + " worlds";
-  return Json{{"name", name_}, {"planned", true}, {"world", world}, {"seed", plan.seed}, {"people", std::ranges::any_of(plan.recipe.rows, [](const RecipeRow& row) { return row.people > 0; })},
-              {"products", products}, {"categories", Json::parse(CategoriesJson(frames_.Categories()))}, {"frames", {{"stem", stems}, {"t", Json::array()}, {"range", Json::array()}, {"world", worlds}}},
+  return Json{{"name", name_},
+              {"planned", true},
+              {"world", world},
+              {"seed", plan.seed},
+              {"people", std::ranges::any_of(plan.recipe.rows, [](const RecipeRow& row) { return row.people > 0; })},
+              {"products", products},
+              {"categories", Json::parse(CategoriesJson(frames_.Categories()))},
+              {"frames", {{"stem", stems}, {"t", Json::array()}, {"range", Json::array()}, {"world", worlds}}},
               {"views", {{{"suffix", ""}, {"projection", "erp"}}}}}
       .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -58,7 +64,8 @@ std::string ViewedPlan::Index() const {
 std::string ViewedPlan::Entities() {
   Json entities = Json::object();
   for (const PlanFrames::Thing& thing : frames_.Things())
-    entities[std::to_string(thing.id)] = {{"name", thing.name}, {"category_path", thing.category}, {"kind", thing.countable ? "thing" : "stuff"}};
+    entities[std::to_string(thing.id)] = {
+        {"name", thing.name}, {"category_path", thing.category}, {"kind", thing.countable ? "thing" : "stuff"}};
   return entities.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -15,12 +15,12 @@ struct BuildingSpec {
   static constexpr uint64_t kMostStoreys = 6;
 
   BuildingUse use = BuildingUse::kApartment;
-  double width = 0, depth = 0;   ///< metres east and north, between the faces of the outer walls; 0 = as usual for the use
-  uint64_t storeys = 0;          ///< 0 = as usual for the use
-  double storey_height = 0;      ///< metres from floor to floor; 0 = as usual for the use
-  double open_doors = 0.6;       ///< share of the doors that stand open
-  double clutter = 1;            ///< how much stands about, 1 = as in use
-  bool atrium = false;           ///< a hall through all storeys (offices; malls and libraries of several storeys have one anyway)
+  double width = 0, depth = 0;  ///< metres east and north, between the faces of the outer walls; 0 = as usual for the use
+  uint64_t storeys = 0;         ///< 0 = as usual for the use
+  double storey_height = 0;     ///< metres from floor to floor; 0 = as usual for the use
+  double open_doors = 0.6;      ///< share of the doors that stand open
+  double clutter = 1;           ///< how much stands about, 1 = as in use
+  bool atrium = false;          ///< a hall through all storeys (offices; malls and libraries of several storeys have one anyway)
 
   /// Names the fields.
   void Visit(ConfigVisitor& v);

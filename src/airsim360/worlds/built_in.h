@@ -26,15 +26,13 @@ WorldInfo SunlitRoomInfo();
 /// A downtown of nine blocks around a plaza and a park, with backdrop to the horizon.
 std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options);
 /// The same; `placements` receives every prop that was placed by the rule of free footprints.
-std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
-                                               std::vector<Placement>* placements);
+std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options, std::vector<Placement>* placements);
 WorldInfo DowntownWestInfo();
 
 /// Nine blocks of Midtown Manhattan around a crossing, with a lake park and a skyline.
 std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options);
 /// The same; `placements` as above.
-std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options,
-                                              std::vector<Placement>* placements);
+std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options, std::vector<Placement>* placements);
 WorldInfo NewYorkCityInfo();
 
 /// A park around the bend of a road, with a lake, groves and lawns, woods to the horizon.

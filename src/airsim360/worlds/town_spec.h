@@ -22,7 +22,8 @@ enum class TownRoofs { kStyle, kTiled, kSlate, kFlat };
 inline constexpr const char* kTownColours[] = {"style", "white", "ochre", "bright", "red", "grey"};
 inline constexpr const char* kTownRoofs[] = {"style", "tiled", "slate", "flat"};
 inline constexpr const char* kTownPlans[] = {"grid", "organic", "radial", "linear", "scattered"};
-inline constexpr const char* kTownStyles[] = {"modern", "brick", "azulejo", "ochre", "timber", "whitewashed", "stone", "suburban", "industrial", "mixed"};
+inline constexpr const char* kTownStyles[] = {"modern",      "brick", "azulejo",  "ochre",      "timber",
+                                              "whitewashed", "stone", "suburban", "industrial", "mixed"};
 inline constexpr const char* kTownReliefs[] = {"flat", "rolling", "slope", "hill", "valley"};
 inline constexpr const char* kTownWaters[] = {"none", "sea", "river", "lake", "canal"};
 inline constexpr const char* kTownPavings[] = {"asphalt", "cobbles", "calcada", "dirt"};
@@ -39,18 +40,18 @@ struct TownSpec {
   TownCountry country = TownCountry::kCity;
   TownColours colours = TownColours::kStyle;
   TownRoofs roofs = TownRoofs::kStyle;
-  double width = 360, depth = 320;            ///< metres east and north
-  double climb = 20;                          ///< metres between the lowest and the highest ground; flat towns have none
+  double width = 360, depth = 320;  ///< metres east and north
+  double climb = 20;                ///< metres between the lowest and the highest ground; flat towns have none
   double least_floors = 2, most_floors = 5;
-  double street = 10, block = 70;             ///< metres: between walls of a street, its pavements included; of a block
-  double built = 0.9;                         ///< share of the street fronts that have a house
-  double setback = 0;                         ///< metres of front gardens; > 0: houses stand apart
-  double trees = 1, traffic = 1;              ///< of streets; cars at the kerb and in the lanes
+  double street = 10, block = 70;  ///< metres: between walls of a street, its pavements included; of a block
+  double built = 0.9;              ///< share of the street fronts that have a house
+  double setback = 0;              ///< metres of front gardens; > 0: houses stand apart
+  double trees = 1, traffic = 1;   ///< of streets; cars at the kerb and in the lanes
   uint64_t squares = 1, parks = 1;
-  uint64_t houses = 0;                        ///< at most so many; 0 = as many as fit
-  bool church = false, castle = false, clock_tower = false, windmill = false, market = false, cafes = false, ruins = false,
-       arches = false, wires = false, harbour = false, playground = false, fountain = false, towers = false, palms = false,
-       terrace = false, cycle_lanes = false;
+  uint64_t houses = 0;  ///< at most so many; 0 = as many as fit
+  bool church = false, castle = false, clock_tower = false, windmill = false, market = false, cafes = false, ruins = false, arches = false,
+       wires = false, harbour = false, playground = false, fountain = false, towers = false, palms = false, terrace = false,
+       cycle_lanes = false;
 
   /// Names the fields.
   void Visit(ConfigVisitor& v);

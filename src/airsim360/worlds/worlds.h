@@ -53,7 +53,7 @@ struct WorldOptions {
   const ModelSource* models = nullptr;  ///< used where it has a model; every prop has a procedural fallback
   CityOptions city = {};
   std::vector<PlacedModel> props = {};
-  TownSpec town = {};  ///< of the world "town" alone
+  TownSpec town = {};          ///< of the world "town" alone
   BuildingSpec building = {};  ///< of the world "building" alone
 };
 

@@ -9,8 +9,6 @@ int main() {
   using namespace airsim360;
   const auto renderer = MakeCpuRenderer(std::make_shared<RayTracer>(LoadWorld({.world = "box_room"})));
   Frame frame;
-  renderer->Render(
-      MakeRequest(Equirectangular{128, 64}, BodyPose({0, 0, 3}, 0, 0, 0) * CameraInBody(), Tier::kFast),
-      frame);
+  renderer->Render(MakeRequest(Equirectangular{128, 64}, BodyPose({0, 0, 3}, 0, 0, 0) * CameraInBody(), Tier::kFast), frame);
   std::printf("%.2f\n", static_cast<double>(frame.range(64, 32)));
 }

@@ -9,7 +9,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr size_t kAhead = 16;           // frames
+constexpr size_t kAhead = 16;  // frames
 constexpr size_t kRowsOfTask = 2048;
 
 // In lanes, so that the compiler may keep the order of the sums.

@@ -46,8 +46,8 @@ class AlikeSearch {
   const NativeDataset& data_;
   std::vector<AlikeFrame> frames_;
   CopyDetector detector_;
-  std::map<std::string, Kept> kept_;             // by place
-  std::map<size_t, Image<Rgb8>> ahead_;          // pictures read ahead, on all threads
+  std::map<std::string, Kept> kept_;     // by place
+  std::map<size_t, Image<Rgb8>> ahead_;  // pictures read ahead, on all threads
   size_t last_ = 0;
   std::vector<float> last_descriptor_;
   int64_t described_ = 0;

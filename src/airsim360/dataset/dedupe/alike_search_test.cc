@@ -35,7 +35,8 @@ TEST(AlikeSearch, TheLargestProductIsThatOfAllAndTheFirstOfEquals) {
       EXPECT_NEAR(found->second, largest, 1e-4);
       // The same row thrice, in tasks of different threads.
       std::vector<float> same = rows;
-      for (const size_t r : {1000, 2500, 4999}) std::ranges::transform(row, same.begin() + static_cast<ptrdiff_t>(r * length), [](float v) { return 100 * v; });
+      for (const size_t r : {1000, 2500, 4999})
+        std::ranges::transform(row, same.begin() + static_cast<ptrdiff_t>(r * length), [](float v) { return 100 * v; });
       EXPECT_EQ(LargestProduct(same, row)->first, 1000u);
     }
   }
@@ -45,10 +46,10 @@ TEST(AlikeSearch, TheLargestProductIsThatOfAllAndTheFirstOfEquals) {
 // AveragePool and Flatten over 1 x 3 x 32 x 64, opset 9: tests/formats/sscd_test.py writes it.
 std::vector<std::byte> SmallNetwork() {
   const std::string hex =
-    "08041204746573743ab9010a4d0a0770696374757265120563656c6c731a0563656c6c73220b41766572616765506f6f6c2a150a0c6b"
-    "65726e656c5f736861706540084008a001072a100a077374726964657340084008a001070a270a0563656c6c731203726f771a03726f"
-    "772207466c617474656e2a0b0a04617869731801a001021204706f6f6c5a210a077069637475726512160a14080112100a0208010a02"
-    "08030a0208200a02084062160a03726f77120f0a0d080112090a0208010a0312016e42040a001009";
+      "08041204746573743ab9010a4d0a0770696374757265120563656c6c731a0563656c6c73220b41766572616765506f6f6c2a150a0c6b"
+      "65726e656c5f736861706540084008a001072a100a077374726964657340084008a001070a270a0563656c6c731203726f771a03726f"
+      "772207466c617474656e2a0b0a04617869731801a001021204706f6f6c5a210a077069637475726512160a14080112100a0208010a02"
+      "08030a0208200a02084062160a03726f77120f0a0d080112090a0208010a0312016e42040a001009";
   std::vector<std::byte> bytes;
   for (size_t i = 0; i < hex.size(); i += 2) bytes.push_back(static_cast<std::byte>(std::stoi(hex.substr(i, 2), nullptr, 16)));
   return bytes;

@@ -7,7 +7,8 @@ namespace airsim360::internal {
 struct CopyDetector::Network {};
 
 CopyDetector::CopyDetector(const std::filesystem::path&) {
-  throw InputError("--method sscd: this program is built without OpenCV's DNN; install libopencv-dnn-dev and build again, or use parallax,hash");
+  throw InputError(
+      "--method sscd: this program is built without OpenCV's DNN; install libopencv-dnn-dev and build again, or use parallax,hash");
 }
 CopyDetector::~CopyDetector() = default;
 std::vector<float> CopyDetector::Describe(const Image<Rgb8>&) { return {}; }

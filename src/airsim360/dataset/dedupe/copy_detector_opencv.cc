@@ -22,8 +22,8 @@ struct CopyDetector::Network {
 
 namespace {
 
-constexpr uint64_t kMostModel = uint64_t{1} << 30;    // bytes
-constexpr size_t kMostMemory = size_t{4} << 30;       // bytes between the layers
+constexpr uint64_t kMostModel = uint64_t{1} << 30;  // bytes
+constexpr size_t kMostMemory = size_t{4} << 30;     // bytes between the layers
 constexpr int kMostNumbers = 16384;
 constexpr float kMean[3] = {0.485f, 0.456f, 0.406f}, kDeviation[3] = {0.229f, 0.224f, 0.225f};
 
@@ -52,7 +52,8 @@ std::vector<float> CopyDetector::Network::Run() {
     throw InputError(name + ": OpenCV cannot run this network: " + ReasonOf(error));
   }
   if (row.type() != CV_32F || row.dims != 2 || row.size[0] != 1 || row.size[1] < 2 || row.size[1] > kMostNumbers)
-    throw InputError(name + ": the network gives " + SizeText(row) + ", not one descriptor: 1 x 2 … " + std::to_string(kMostNumbers) + " numbers");
+    throw InputError(name + ": the network gives " + SizeText(row) + ", not one descriptor: 1 x 2 … " + std::to_string(kMostNumbers) +
+                     " numbers");
   std::vector<float> numbers(row.ptr<float>(), row.ptr<float>() + row.size[1]);
   for (const float v : numbers) {
     if (!std::isfinite(v)) throw InputError(name + ": the network gives numbers that are not finite");
@@ -76,12 +77,13 @@ CopyDetector::CopyDetector(const std::filesystem::path& model) : network_(std::m
     outputs = network_->net.getUnconnectedOutLayers().size();
     network_->net.getMemoryConsumption(shape, weights, between);
   } catch (const std::exception& error) {
-    throw InputError(name + ": OpenCV " CV_VERSION " cannot read this network of opset " + std::to_string(header.opset) + ": " + ReasonOf(error) +
-                     "; export it with opset 9 (torch.onnx.export(…, opset_version=9))");
+    throw InputError(name + ": OpenCV " CV_VERSION " cannot read this network of opset " + std::to_string(header.opset) + ": " +
+                     ReasonOf(error) + "; export it with opset 9 (torch.onnx.export(…, opset_version=9))");
   }
   if (outputs != 1) throw InputError(name + ": the network has " + std::to_string(outputs) + " outputs, not one descriptor");
   if (between > kMostMemory)
-    throw InputError(name + ": the network takes " + std::to_string(between >> 20) + " MiB of memory between its layers; at most " + std::to_string(kMostMemory >> 20));
+    throw InputError(name + ": the network takes " + std::to_string(between >> 20) + " MiB of memory between its layers; at most " +
+                     std::to_string(kMostMemory >> 20));
   network_->input.create(4, shape.data(), CV_32F);
   network_->input.setTo(0);
   network_->Run();

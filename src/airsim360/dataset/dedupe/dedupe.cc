@@ -23,10 +23,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kHashReach = 4;     // times the parallax: how far apart pictures are compared
-constexpr double kSkyRange = 50;     // metres: stands for the median range where a picture is all sky
-constexpr double kTurn = 0.02;       // radians: how little pictures that are no panoramas may be turned
-constexpr double kRounding = 1e-6;   // of the similarity of a picture with itself
+constexpr double kHashReach = 4;    // times the parallax: how far apart pictures are compared
+constexpr double kSkyRange = 50;    // metres: stands for the median range where a picture is all sky
+constexpr double kTurn = 0.02;      // radians: how little pictures that are no panoramas may be turned
+constexpr double kRounding = 1e-6;  // of the similarity of a picture with itself
 
 // What of a frame decides.
 struct Candidate {
@@ -120,7 +120,8 @@ class Hashes {
     for (size_t begin = 0; begin < frames.size(); begin += kBatch) {
       const size_t n = std::min(kBatch, frames.size() - begin);
       std::vector<internal::PanoramaHash> made(n);
-      ParallelFor(static_cast<int64_t>(n), [&](int64_t i) { made[static_cast<size_t>(i)] = Make(*frames[begin + static_cast<size_t>(i)]); });
+      ParallelFor(static_cast<int64_t>(n),
+                  [&](int64_t i) { made[static_cast<size_t>(i)] = Make(*frames[begin + static_cast<size_t>(i)]); });
       for (size_t i = 0; i < n; ++i) hashes_.emplace(frames[begin + i]->position, made[i]);
       progress.Update(static_cast<int64_t>(begin + n));
     }
@@ -148,11 +149,14 @@ Methods MethodsOf(const NativeDataset& data, const DedupeOptions& options) {
   if (!methods.parallax && !methods.hash && !methods.sscd) throw InputError("--method: name parallax, hash or sscd");
   if (methods.sscd && options.model.empty())
     throw InputError("--method sscd: name an ONNX file of the network with --model; there is none in the program");
-  if (data.views().size() != 1) throw InputError("dedupe: '" + data.folder().string() + "' has several pictures a frame; datasets of one camera are filtered");
+  if (data.views().size() != 1)
+    throw InputError("dedupe: '" + data.folder().string() + "' has several pictures a frame; datasets of one camera are filtered");
   const bool hashable = data.Has("rgb") && data.views().front().projection == Projection::kErp;
-  if (methods.hash && !hashable && !methods.parallax) throw InputError("--method hash: needs colour panoramas, which '" + data.folder().string() + "' lacks; use parallax");
+  if (methods.hash && !hashable && !methods.parallax)
+    throw InputError("--method hash: needs colour panoramas, which '" + data.folder().string() + "' lacks; use parallax");
   methods.hash = methods.hash && hashable;
-  if (methods.sscd && !hashable) throw InputError("--method sscd: needs colour panoramas, which '" + data.folder().string() + "' lacks; use parallax");
+  if (methods.sscd && !hashable)
+    throw InputError("--method sscd: needs colour panoramas, which '" + data.folder().string() + "' lacks; use parallax");
   return methods;
 }
 

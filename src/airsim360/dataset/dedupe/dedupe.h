@@ -10,11 +10,11 @@ namespace airsim360 {
 
 struct DedupeOptions {
   std::vector<std::string> methods = {"parallax", "hash"};  ///< of kDedupeMethods
-  double parallax = 0.02;  ///< radians: baseline / median range below which two frames of one state are twins
-  int bits = 31;           ///< of 256: hashes of twins differ in no more
-  double similarity = 0.75;  ///< cosine of the descriptors of twins by the network: at least; (0, 1]
+  double parallax = 0.02;            ///< radians: baseline / median range below which two frames of one state are twins
+  int bits = 31;                     ///< of 256: hashes of twins differ in no more
+  double similarity = 0.75;          ///< cosine of the descriptors of twins by the network: at least; (0, 1]
   std::filesystem::path model = {};  ///< of sscd: ONNX file of the network
-  bool apply = false;      ///< take the dropped frames out of the dataset
+  bool apply = false;                ///< take the dropped frames out of the dataset
 };
 inline constexpr const char* kDedupeMethods[] = {"parallax", "hash", "sscd"};
 
@@ -27,8 +27,8 @@ struct DroppedFrame {
 struct DedupeResult {
   std::vector<std::string> kept;  ///< stems, by index of the frames
   std::vector<DroppedFrame> dropped;
-  int64_t hashed = 0;             ///< pictures that were looked at, by hash or network
-  std::vector<int64_t> histogram; ///< of the parallax to the nearest kept frame, kParallaxBins
+  int64_t hashed = 0;              ///< pictures that were looked at, by hash or network
+  std::vector<int64_t> histogram;  ///< of the parallax to the nearest kept frame, kParallaxBins
 };
 /// Upper ends of the bins of the histogram, radians; a last bin holds the rest.
 inline constexpr double kParallaxBins[] = {0.005, 0.01, 0.02, 0.04, 0.08, 0.16, 0.32};

@@ -31,11 +31,20 @@ class WireReader {
     const uint64_t key = Varint();
     WireField field{.number = static_cast<uint32_t>(key >> 3), .value = 0, .bytes = {}};
     switch (key & 7) {
-      case 0: field.value = Varint(); break;
-      case 1: Take(8); break;
-      case 2: field.bytes = Take(Varint()); break;
-      case 5: Take(4); break;
-      default: whole_ = false;
+      case 0:
+        field.value = Varint();
+        break;
+      case 1:
+        Take(8);
+        break;
+      case 2:
+        field.bytes = Take(Varint());
+        break;
+      case 5:
+        Take(4);
+        break;
+      default:
+        whole_ = false;
     }
     if (field.number == 0) whole_ = false;
     return whole_ ? std::optional(field) : std::nullopt;
@@ -124,7 +133,8 @@ void CheckInput(const TensorInfo& input, const std::string& name) {
   if (n.size() != 4 || !fits(n[0], 1) || !fits(n[1], 3)) throw InputError(at + ShapeText(n) + ", not 1 x 3 x height x width");
   for (const uint64_t side : {n[2], n[3]}) {
     if (side != 0 && (side < kLeastSide || side > kMostSide))
-      throw InputError(at + ShapeText(n) + ": sides of pictures are " + std::to_string(kLeastSide) + " … " + std::to_string(kMostSide) + " pixels");
+      throw InputError(at + ShapeText(n) + ": sides of pictures are " + std::to_string(kLeastSide) + " … " + std::to_string(kMostSide) +
+                       " pixels");
   }
 }
 

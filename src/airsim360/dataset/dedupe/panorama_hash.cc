@@ -62,7 +62,8 @@ std::vector<float> Cells(const Image<float>& small, const Mat3d& R_WC) {
     for (int i = 0; i < kColumns * kInside; ++i) {
       const double azimuth = 2 * std::numbers::pi * (i + 0.5) / (kColumns * kInside);
       const Vec3d d_W{std::cos(latitude) * std::cos(azimuth), std::cos(latitude) * std::sin(azimuth), std::sin(latitude)};
-      cells[static_cast<size_t>(row) * kColumns + static_cast<size_t>(i / kInside)] += Sample(small, *RayToPixel(camera, R_CW * d_W)) / kInside;
+      cells[static_cast<size_t>(row) * kColumns + static_cast<size_t>(i / kInside)] +=
+          Sample(small, *RayToPixel(camera, R_CW * d_W)) / kInside;
     }
   }
   return cells;
@@ -83,10 +84,12 @@ uint64_t BandBits(const float* cells) {
   for (int k = 0; k < kAzimuths; ++k) {
     std::array<float, kRows> line{};
     for (int r = 0; r < kRows; ++r) {
-      for (int c = 0; c < kColumns; ++c) line[static_cast<size_t>(r)] += cells[r * kColumns + c] * kAlong[static_cast<size_t>(k * kColumns + c)];
+      for (int c = 0; c < kColumns; ++c)
+        line[static_cast<size_t>(r)] += cells[r * kColumns + c] * kAlong[static_cast<size_t>(k * kColumns + c)];
     }
     for (int e = 0; e < kElevations; ++e) {
-      for (int r = 0; r < kRows; ++r) values[static_cast<size_t>(k * kElevations + e)] += line[static_cast<size_t>(r)] * kUp[static_cast<size_t>(e * kRows + r)];
+      for (int r = 0; r < kRows; ++r)
+        values[static_cast<size_t>(k * kElevations + e)] += line[static_cast<size_t>(r)] * kUp[static_cast<size_t>(e * kRows + r)];
     }
   }
   auto sorted = values;

@@ -51,7 +51,8 @@ std::string KeptElements(const std::string& list, const std::string& key, const 
 std::string KeptPanoptic(const std::string& text, const std::string& path, const std::set<int64_t>& dropped) {
   const std::string images = "{\"images\":[", annotations = "],\n\"annotations\":[", categories = "],\n\"categories\":[";
   const size_t a = text.find(annotations), c = text.rfind(categories);
-  if (!text.starts_with(images) || a == std::string::npos || c == std::string::npos) throw InputError(path + ": not as this program writes it");
+  if (!text.starts_with(images) || a == std::string::npos || c == std::string::npos)
+    throw InputError(path + ": not as this program writes it");
   // One picture a frame: its id is the frame's index.
   const auto keep = [&](int64_t id) { return !dropped.contains(id); };
   return images + KeptElements(text.substr(images.size(), a - images.size()), "id", keep) + annotations +

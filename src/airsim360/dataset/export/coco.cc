@@ -45,7 +45,10 @@ Json Categories(const ExportJob& job, bool entities) {
   Json list = Json::array();
   for (const auto& [id, category] : job.data.categories()) {
     if (!category.thing) continue;
-    list.push_back({{"id", id}, {"name", category.path}, {"supercategory", category.path.substr(0, category.path.find('/'))}, {"coco_id", category.coco}});
+    list.push_back({{"id", id},
+                    {"name", category.path},
+                    {"supercategory", category.path.substr(0, category.path.find('/'))},
+                    {"coco_id", category.coco}});
   }
   return list;
 }

@@ -56,9 +56,9 @@ std::string ImageLines(int64_t image, size_t camera, const RigidTransform& X_WC,
 
 std::string PointLine(int64_t id, const RangePoint& point, int64_t image, size_t index) {
   const auto millimetre = [](double v) { return Number(std::round(v * 1e5) / 1e5); };
-  return std::to_string(id) + " " + millimetre(point.p_W.x) + " " + millimetre(point.p_W.y) + " " + millimetre(point.p_W.z) +
-         " " + std::to_string(point.color.r) + " " + std::to_string(point.color.g) + " " + std::to_string(point.color.b) +
-         " 0 " + std::to_string(image) + " " + std::to_string(index) + "\n";
+  return std::to_string(id) + " " + millimetre(point.p_W.x) + " " + millimetre(point.p_W.y) + " " + millimetre(point.p_W.z) + " " +
+         std::to_string(point.color.r) + " " + std::to_string(point.color.g) + " " + std::to_string(point.color.b) + " 0 " +
+         std::to_string(image) + " " + std::to_string(index) + "\n";
 }
 
 // Files of one model that grow.
@@ -94,7 +94,9 @@ struct FaceMaps {
 
 Image<Rgb8> Resampled(const Image<Rgb8>& picture, const FaceMaps& faces, size_t f) {
   Image<Rgb32f> floats(picture.width(), picture.height());
-  std::ranges::transform(picture.pixels(), floats.pixels().begin(), [](Rgb8 c) { return Rgb32f{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)}; });
+  std::ranges::transform(picture.pixels(), floats.pixels().begin(), [](Rgb8 c) {
+    return Rgb32f{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
+  });
   const Image<Rgb32f> face = ResampleBilinear(floats, faces.source, faces.maps[f]);
   Image<Rgb8> result(face.width(), face.height());
   const auto byte = [](float v) { return static_cast<uint8_t>(std::lround(std::clamp(v, 0.0f, 255.0f))); };

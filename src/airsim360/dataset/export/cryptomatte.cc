@@ -97,7 +97,10 @@ Bytes Encode(const ExportJob& job, const NativeFrame& frame, const View& view, c
                                        "CryptoObject01.R", "CryptoObject01.G", "CryptoObject01.B", "CryptoObject01.A"};
   const std::string key = std::string("cryptomatte/") + Hex(Murmur3(kLayer)).substr(0, 7) + "/";
   return EncodeExr(pixels, width, height, kChannels,
-                   {{key + "name", kLayer}, {key + "hash", "MurmurHash3_32"}, {key + "conversion", "uint32_to_float32"}, {key + "manifest", manifest.json}});
+                   {{key + "name", kLayer},
+                    {key + "hash", "MurmurHash3_32"},
+                    {key + "conversion", "uint32_to_float32"},
+                    {key + "manifest", manifest.json}});
 }
 
 }  // namespace

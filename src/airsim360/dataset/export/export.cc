@@ -35,7 +35,8 @@ constexpr Format kFormats[] = {
     {{"scannet", "ScanNet's label images: the 40 classes of NYU"}, internal::ExportScanNet},
     {{"matterport", "Matterport3D's 40 categories"}, internal::ExportMatterport},
     {{"stanford2d3d", "2D-3D-S, 13 classes"}, internal::ExportStanford2d3d},
-    {{"layout", "corners of the room around each camera, as HorizonNet reads them; rooms and doors of the building"}, internal::ExportLayout},
+    {{"layout", "corners of the room around each camera, as HorizonNet reads them; rooms and doors of the building"},
+     internal::ExportLayout},
     {{"mcap", "MCAP for ROS 2 and Foxglove: pictures, range, odometry, transforms, people"}, internal::ExportMcap},
     {{"cryptomatte", "Cryptomatte EXR of the coverage of entities"}, internal::ExportCryptomatte},
     {{"parquet", "a table of frames: counts, classes, poses"}, internal::ExportParquet},
@@ -74,20 +75,16 @@ constexpr const char* kReportName = "export.json";
 
 std::span<const ExportFormatInfo> ExportFormats() { return kInfos; }
 
-ExportResult ExportDataset(const fs::path& dataset, const std::string& format, const fs::path& out,
-                           const ExportOptions& options) {
+ExportResult ExportDataset(const fs::path& dataset, const std::string& format, const fs::path& out, const ExportOptions& options) {
   const Format& found = FindFormat(format);
   const NativeDataset data(dataset);
   CheckApart(dataset, out);
   ExportFolder folder(out);
   internal::ExportJob job{data, folder, options, format};
   found.write(job);
-  const internal::Json report = {{"format", format},
-                                 {"dataset_sha256sums", data.Hash()},
-                                 {"world", data.spec().world},
-                                 {"frames", data.size()},
-                                 {"notes", job.notes},
-                                 {"attributions", data.attributions()}};
+  const internal::Json report = {{"format", format},           {"dataset_sha256sums", data.Hash()},
+                                 {"world", data.spec().world}, {"frames", data.size()},
+                                 {"notes", job.notes},         {"attributions", data.attributions()}};
   folder.Write(kReportName, internal::Pretty(report));
   folder.Commit();
   ExportResult result{.frames = static_cast<int64_t>(data.size()), .notes = internal::Dump(job.notes)};
@@ -102,8 +99,7 @@ namespace internal {
 
 void ExportJob::Need(bool there, const std::string& what, const std::string& flag) const {
   if (there) return;
-  throw InputError("--format " + format + ": needs " + what + ", which '" + data.folder().string() +
-                   "' lacks: collect it with " + flag);
+  throw InputError("--format " + format + ": needs " + what + ", which '" + data.folder().string() + "' lacks: collect it with " + flag);
 }
 
 const View& ExportJob::OneView() const {

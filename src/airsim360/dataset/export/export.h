@@ -30,7 +30,7 @@ std::span<const ExportFormatInfo> ExportFormats();
 /// dataset and the options alone, not on threads. The dataset is read frame by frame and not changed. Nothing stands at
 /// `out` before all of it does. InputError for an unknown format (naming the nearest), a dataset that is not finished, has
 /// not what the format needs (naming the flag that collects it) or is damaged; RuntimeError if writing fails.
-ExportResult ExportDataset(const std::filesystem::path& dataset, const std::string& format,
-                           const std::filesystem::path& out, const ExportOptions& options = {});
+ExportResult ExportDataset(const std::filesystem::path& dataset, const std::string& format, const std::filesystem::path& out,
+                           const ExportOptions& options = {});
 
 }  // namespace airsim360

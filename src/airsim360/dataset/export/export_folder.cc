@@ -23,12 +23,10 @@ fs::path WithoutSlash(fs::path path) { return path.has_filename() ? path : path.
 }  // namespace
 
 ExportFolder::ExportFolder(fs::path target) : target_(WithoutSlash(std::move(target))) {
-  if (fs::exists(target_) && !fs::is_directory(target_))
-    throw InputError("--out: '" + target_.string() + "' is not a folder");
+  if (fs::exists(target_) && !fs::is_directory(target_)) throw InputError("--out: '" + target_.string() + "' is not a folder");
   if (fs::exists(target_) && !fs::is_empty(target_))
     throw InputError("--out: '" + target_.string() + "' holds something else (such as '" +
-                     fs::directory_iterator(target_)->path().filename().string() +
-                     "'); choose a new folder or remove it");
+                     fs::directory_iterator(target_)->path().filename().string() + "'); choose a new folder or remove it");
   if (target_.has_parent_path()) CreateWritableFolder(target_.parent_path());
   temporary_ = target_.string() + ".tmp";
   CreateWritableFolder(temporary_);
@@ -81,8 +79,7 @@ GrowingFile::GrowingFile(ExportFolder& folder, const std::string& path)
 }
 
 void GrowingFile::Append(std::span<const std::byte> bytes) {
-  if (!file_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
-    ThrowWriteError(path_, errno);
+  if (!file_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) ThrowWriteError(path_, errno);
   size_ += bytes.size();
 }
 
@@ -91,8 +88,7 @@ void GrowingFile::Close() {
   if (!file_) ThrowWriteError(path_, errno);
 }
 
-JsonLists::JsonLists(ExportFolder& folder, std::string path, std::vector<std::string> lists)
-    : folder_(folder), path_(std::move(path)) {
+JsonLists::JsonLists(ExportFolder& folder, std::string path, std::vector<std::string> lists) : folder_(folder), path_(std::move(path)) {
   for (std::string& name : lists) {
     const std::string scratch = path_ + "." + name + ".part";
     lists_.push_back({name, std::make_unique<GrowingFile>(folder, scratch), folder.Place(scratch)});

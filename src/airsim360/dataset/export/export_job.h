@@ -61,9 +61,7 @@ struct ExportJob {
 
 /// JSON in one line; text that is no UTF-8 is replaced.
 inline std::string Dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-inline std::string Pretty(const Json& json) {
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+inline std::string Pretty(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 /// The shortest text that reads back exactly.
 std::string Number(double value);
 /// COCO's compressed run lengths ("counts") of the pixels with mask[i] != 0 over a picture, columns first.

@@ -12,8 +12,8 @@ namespace airsim360::internal {
 namespace {
 
 constexpr uint64_t kUndefined = ~uint64_t{0};
-constexpr int kChunks = 16;       // at most; one node of the chunk tree holds 64
-constexpr int kTreeK = 32;        // library's default of "indexed storage internal node K" in superblock 0
+constexpr int kChunks = 16;  // at most; one node of the chunk tree holds 64
+constexpr int kTreeK = 32;   // library's default of "indexed storage internal node K" in superblock 0
 constexpr int kLeafK = 4, kGroupK = 16;
 
 class Writer {
@@ -179,11 +179,8 @@ Bytes EncodeHdf5(const Image<float>& picture, const std::string& name) {
   // Where everything lies; all parts are multiples of 8 bytes.
   const size_t names_size = 8 + (name.size() + 8) / 8 * 8 + 16;
   const auto dataset_header = [&](uint64_t tree) {
-    return ObjectHeader({{1, Dataspace(height, width)},
-                         {3, FloatType()},
-                         {5, FillValue()},
-                         {11, Filters()},
-                         {8, ChunkedLayout(tree, rows, width)}});
+    return ObjectHeader(
+        {{1, Dataspace(height, width)}, {3, FloatType()}, {5, FillValue()}, {11, Filters()}, {8, ChunkedLayout(tree, rows, width)}});
   };
   Layout at{};
   at.root = 96;

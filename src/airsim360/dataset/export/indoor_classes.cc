@@ -3,15 +3,58 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr const char* kNyu40[] = {"wall", "floor", "cabinet", "bed", "chair", "sofa", "table", "door", "window", "bookshelf", "picture", "counter", "blinds", "desk",
-                                  "shelves", "curtain", "dresser", "pillow", "mirror", "floor mat", "clothes", "ceiling", "books", "refridgerator", "television",
-                                  "paper", "towel", "shower curtain", "box", "whiteboard", "person", "night stand", "toilet", "sink", "lamp", "bathtub", "bag",
-                                  "otherstructure", "otherfurniture", "otherprop"};
-constexpr const char* kMpcat40[] = {"wall", "floor", "chair", "door", "table", "picture", "cabinet", "cushion", "window", "sofa", "bed", "curtain", "chest_of_drawers",
-                                    "plant", "sink", "stairs", "ceiling", "toilet", "stool", "towel", "mirror", "tv_monitor", "shower", "column", "bathtub", "counter",
-                                    "fireplace", "lighting", "beam", "railing", "shelving", "blinds", "gym_equipment", "seating", "board_panel", "furniture",
-                                    "appliances", "clothes", "objects", "misc"};
-constexpr const char* kStanford13[] = {"beam", "board", "bookcase", "ceiling", "chair", "clutter", "column", "door", "floor", "sofa", "table", "wall", "window"};
+constexpr const char* kNyu40[] = {"wall",       "floor",          "cabinet",        "bed",
+                                  "chair",      "sofa",           "table",          "door",
+                                  "window",     "bookshelf",      "picture",        "counter",
+                                  "blinds",     "desk",           "shelves",        "curtain",
+                                  "dresser",    "pillow",         "mirror",         "floor mat",
+                                  "clothes",    "ceiling",        "books",          "refridgerator",
+                                  "television", "paper",          "towel",          "shower curtain",
+                                  "box",        "whiteboard",     "person",         "night stand",
+                                  "toilet",     "sink",           "lamp",           "bathtub",
+                                  "bag",        "otherstructure", "otherfurniture", "otherprop"};
+constexpr const char* kMpcat40[] = {"wall",
+                                    "floor",
+                                    "chair",
+                                    "door",
+                                    "table",
+                                    "picture",
+                                    "cabinet",
+                                    "cushion",
+                                    "window",
+                                    "sofa",
+                                    "bed",
+                                    "curtain",
+                                    "chest_of_drawers",
+                                    "plant",
+                                    "sink",
+                                    "stairs",
+                                    "ceiling",
+                                    "toilet",
+                                    "stool",
+                                    "towel",
+                                    "mirror",
+                                    "tv_monitor",
+                                    "shower",
+                                    "column",
+                                    "bathtub",
+                                    "counter",
+                                    "fireplace",
+                                    "lighting",
+                                    "beam",
+                                    "railing",
+                                    "shelving",
+                                    "blinds",
+                                    "gym_equipment",
+                                    "seating",
+                                    "board_panel",
+                                    "furniture",
+                                    "appliances",
+                                    "clothes",
+                                    "objects",
+                                    "misc"};
+constexpr const char* kStanford13[] = {"beam", "board", "bookcase", "ceiling", "chair", "clutter", "column",
+                                       "door", "floor", "sofa",     "table",   "wall",  "window"};
 
 struct Row {
   std::string_view path;
@@ -92,9 +135,12 @@ const Row* RowOf(std::string_view path) {
 
 std::span<const char* const> IndoorNames(IndoorList list) {
   switch (list) {
-    case IndoorList::kNyu40: return kNyu40;
-    case IndoorList::kMpcat40: return kMpcat40;
-    case IndoorList::kStanford13: break;
+    case IndoorList::kNyu40:
+      return kNyu40;
+    case IndoorList::kMpcat40:
+      return kMpcat40;
+    case IndoorList::kStanford13:
+      break;
   }
   return kStanford13;
 }

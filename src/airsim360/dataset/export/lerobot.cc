@@ -33,7 +33,8 @@ std::vector<float> ActionOf(const NativeFrame& frame, const NativeFrame& next, c
   const Vec3d v = (b.p - a.p) / dt;
   const double yaw = YawOf(a), turn = std::remainder(YawOf(b) - yaw, 2 * std::numbers::pi);
   const double c = std::cos(yaw), s = std::sin(yaw);
-  return {static_cast<float>(c * v.x + s * v.y), static_cast<float>(-s * v.x + c * v.y), static_cast<float>(v.z), static_cast<float>(turn / dt)};
+  return {static_cast<float>(c * v.x + s * v.y), static_cast<float>(-s * v.x + c * v.y), static_cast<float>(v.z),
+          static_cast<float>(turn / dt)};
 }
 
 // Frames a second; InputError where a frame is more than a tenth of a step from its even time (flights are sampled at whole

@@ -48,14 +48,17 @@ Json PictureStats(const Stats& stats) {
   return json;
 }
 
-Json Feature(const char* type, const std::vector<std::string>& names) { return {{"dtype", type}, {"shape", {names.size()}}, {"names", names}}; }
+Json Feature(const char* type, const std::vector<std::string>& names) {
+  return {{"dtype", type}, {"shape", {names.size()}}, {"names", names}};
+}
 
 std::vector<ParquetFile::Value> Values(const std::vector<float>& floats) { return {floats.begin(), floats.end()}; }
 
 // "data/chunk-000/episode_000000.parquet".
 std::string Place(const std::string& room, int64_t episode, const std::string& below, const char* suffix) {
   char text[96];
-  std::snprintf(text, sizeof(text), "/chunk-%03lld/%sepisode_%06lld%s", static_cast<long long>(episode / kChunk), below.c_str(), static_cast<long long>(episode), suffix);
+  std::snprintf(text, sizeof(text), "/chunk-%03lld/%sepisode_%06lld%s", static_cast<long long>(episode / kChunk), below.c_str(),
+                static_cast<long long>(episode), suffix);
   return room + text;
 }
 
@@ -82,15 +85,35 @@ struct LeRobotWriter::Impl {
                        {"shape", {shape.height, shape.width, 3}},
                        {"names", {"height", "width", "channels"}},
                        {"info",
-                        {{"video.fps", shape.rate}, {"video.height", shape.height}, {"video.width", shape.width}, {"video.channels", 3}, {"video.codec", "h264"},
-                         {"video.pix_fmt", "yuv420p"}, {"video.is_depth_map", false}, {"has_audio", false}}}};
-    const Json features = {{"observation.state", Feature("float32", shape.state_names)}, {"action", Feature("float32", shape.action_names)}, {kVideoKey, seen},
-                           {"timestamp", scalar_float}, {"frame_index", scalar_int}, {"episode_index", scalar_int}, {"index", scalar_int}, {"task_index", scalar_int}};
-    return {{"codebase_version", "v2.1"}, {"robot_type", "drone"}, {"total_episodes", episodes}, {"total_frames", frames}, {"total_tasks", tasks.size()},
-            {"total_videos", episodes}, {"total_chunks", (episodes + kChunk - 1) / kChunk}, {"chunks_size", kChunk}, {"fps", shape.rate},
+                        {{"video.fps", shape.rate},
+                         {"video.height", shape.height},
+                         {"video.width", shape.width},
+                         {"video.channels", 3},
+                         {"video.codec", "h264"},
+                         {"video.pix_fmt", "yuv420p"},
+                         {"video.is_depth_map", false},
+                         {"has_audio", false}}}};
+    const Json features = {{"observation.state", Feature("float32", shape.state_names)},
+                           {"action", Feature("float32", shape.action_names)},
+                           {kVideoKey, seen},
+                           {"timestamp", scalar_float},
+                           {"frame_index", scalar_int},
+                           {"episode_index", scalar_int},
+                           {"index", scalar_int},
+                           {"task_index", scalar_int}};
+    return {{"codebase_version", "v2.1"},
+            {"robot_type", "drone"},
+            {"total_episodes", episodes},
+            {"total_frames", frames},
+            {"total_tasks", tasks.size()},
+            {"total_videos", episodes},
+            {"total_chunks", (episodes + kChunk - 1) / kChunk},
+            {"chunks_size", kChunk},
+            {"fps", shape.rate},
             {"splits", {{"train", "0:" + std::to_string(episodes)}}},
             {"data_path", "data/chunk-{episode_chunk:03d}/episode_{episode_index:06d}.parquet"},
-            {"video_path", "videos/chunk-{episode_chunk:03d}/{video_key}/episode_{episode_index:06d}.mp4"}, {"features", features}};
+            {"video_path", "videos/chunk-{episode_chunk:03d}/{video_key}/episode_{episode_index:06d}.mp4"},
+            {"features", features}};
   }
 
   int64_t TaskIndex() {
@@ -103,8 +126,13 @@ struct LeRobotWriter::Impl {
   void WriteRows(int64_t task_index, Stats& states, Stats& actions) {
     using Type = ParquetFile::Type;
     ParquetFile table(folder, prefix + Place("data", episodes, "", ".parquet"),
-                      {{"observation.state", Type::kFloat, true}, {"action", Type::kFloat, true}, {"timestamp", Type::kFloat},
-                       {"frame_index", Type::kInt64}, {"episode_index", Type::kInt64}, {"index", Type::kInt64}, {"task_index", Type::kInt64}});
+                      {{"observation.state", Type::kFloat, true},
+                       {"action", Type::kFloat, true},
+                       {"timestamp", Type::kFloat},
+                       {"frame_index", Type::kInt64},
+                       {"episode_index", Type::kInt64},
+                       {"index", Type::kInt64},
+                       {"task_index", Type::kInt64}});
     int64_t i = 0;
     for (const auto& [state, action] : rows) {
       const auto t = static_cast<float>(static_cast<double>(i) / shape.rate);
@@ -116,7 +144,8 @@ struct LeRobotWriter::Impl {
   }
 };
 
-LeRobotWriter::LeRobotWriter(ExportFolder& folder, std::string prefix, LeRobotShape shape) : impl_(new Impl{folder, std::move(prefix), std::move(shape)}) {}
+LeRobotWriter::LeRobotWriter(ExportFolder& folder, std::string prefix, LeRobotShape shape)
+    : impl_(new Impl{folder, std::move(prefix), std::move(shape)}) {}
 
 LeRobotWriter::~LeRobotWriter() = default;
 

@@ -7,9 +7,36 @@ namespace airsim360::internal {
 namespace {
 
 std::vector<std::string> Words(const std::filesystem::path& path, int width, int height, double frame_rate) {
-  return {"-f", "rawvideo", "-pix_fmt", "rgb24", "-s", std::to_string(width) + "x" + std::to_string(height), "-r", Number(frame_rate),
-          "-i", "pipe:0", "-c:v", "ffv1", "-level", "3", "-slices", "4", "-threads", "1", "-pix_fmt", "bgr0",
-          "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1", "-f", "matroska", "-y", path.string()};
+  return {"-f",
+          "rawvideo",
+          "-pix_fmt",
+          "rgb24",
+          "-s",
+          std::to_string(width) + "x" + std::to_string(height),
+          "-r",
+          Number(frame_rate),
+          "-i",
+          "pipe:0",
+          "-c:v",
+          "ffv1",
+          "-level",
+          "3",
+          "-slices",
+          "4",
+          "-threads",
+          "1",
+          "-pix_fmt",
+          "bgr0",
+          "-fflags",
+          "+bitexact",
+          "-flags:v",
+          "+bitexact",
+          "-map_metadata",
+          "-1",
+          "-f",
+          "matroska",
+          "-y",
+          path.string()};
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ std::string People(const ExportJob& job, const NativeFrame& frame, const View& v
     cdr.Header(frame.t_ns, "map").Text("people").N(person.at("track_id").get<int32_t>()).N(int32_t{1}).N(int32_t{0});  // cube, add
     cdr.Vector({c.at(0), c.at(1), c.at(2)}).Rotation(RotationZ(box.at("yaw").get<double>()));
     cdr.Vector({lwh.at(0), lwh.at(1), lwh.at(2)});
-    cdr.N(1.0f).N(0.5f).N(0.0f).N(0.5f);  // half-clear orange
+    cdr.N(1.0f).N(0.5f).N(0.0f).N(0.5f);             // half-clear orange
     cdr.N(int32_t{0}).N(uint32_t{0}).N(uint8_t{0});  // for ever, not locked
     cdr.N(uint32_t{0}).N(uint32_t{0}).Text("");      // no points, colours, texture
     cdr.Header(0, "").Text("").N(uint32_t{0}).N(uint32_t{0});

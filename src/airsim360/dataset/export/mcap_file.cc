@@ -15,7 +15,17 @@ constexpr int kZstdLevel = 1;  // pictures are compressed already
 constexpr char kMagic[] = "\x89MCAP0\r\n";
 
 enum Op : uint8_t {
-  kHeader = 1, kFooter, kSchema, kChannel, kMessage, kChunk, kMessageIndex, kChunkIndex, kStatistics = 0x0b, kSummaryOffset = 0x0e, kDataEnd
+  kHeader = 1,
+  kFooter,
+  kSchema,
+  kChannel,
+  kMessage,
+  kChunk,
+  kMessageIndex,
+  kChunkIndex,
+  kStatistics = 0x0b,
+  kSummaryOffset = 0x0e,
+  kDataEnd
 };
 
 // Little-endian numbers, texts with their length before.

@@ -29,7 +29,7 @@ class McapFile {
   std::string Statistics() const;
 
   GrowingFile file_;
-  uint32_t crc_ = 0;                    // of the file so far
+  uint32_t crc_ = 0;                             // of the file so far
   std::vector<std::string> schemas_, channels_;  // their records
   std::map<std::string, uint16_t> schema_ids_;
   std::string chunk_;

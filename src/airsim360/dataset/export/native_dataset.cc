@@ -50,8 +50,7 @@ GimbalMount GimbalOf(const Json& json) {
 
 RigCamera CameraOf(const Json& json) {
   RigCamera camera{.name = json.at("name"),
-                   .projection = ParseChoice<Projection>("projection", json.at("projection").get<std::string>(),
-                                                         kProjectionNames),
+                   .projection = ParseChoice<Projection>("projection", json.at("projection").get<std::string>(), kProjectionNames),
                    .width = json.at("width"),
                    .height = json.at("height"),
                    .fov_deg = json.value("fov_deg", 90.0),
@@ -72,17 +71,14 @@ DatasetSpec SpecOf(const Json& meta) {
   spec.command = p.value("command", "collect");
   spec.world = p.at("world");
   spec.seed = p.at("seed");
-  spec.projection =
-      ParseChoice<Projection>("projection", p.at("projection").get<std::string>(), kProjectionNames);
+  spec.projection = ParseChoice<Projection>("projection", p.at("projection").get<std::string>(), kProjectionNames);
   spec.width = p.at("width");
   spec.height = p.at("height");
   spec.fov_deg = p.value("fov_deg", 90.0);
   for (const Json& camera : p.value("cameras", Json::array())) spec.cameras.push_back(CameraOf(camera));
   spec.tier = ParseChoice<Tier>("tier", p.at("tier").get<std::string>(), kTierNames);
-  spec.rgb_format =
-      ParseChoice<RgbFormat>("rgb_format", p.at("rgb_format").get<std::string>(), kRgbFormatNames);
-  spec.pano_frame =
-      ParseChoice<PanoFrame>("pano_frame", p.at("pano_frame").get<std::string>(), kPanoFrameNames);
+  spec.rgb_format = ParseChoice<RgbFormat>("rgb_format", p.at("rgb_format").get<std::string>(), kRgbFormatNames);
+  spec.pano_frame = ParseChoice<PanoFrame>("pano_frame", p.at("pano_frame").get<std::string>(), kPanoFrameNames);
   spec.people = p.value("people", std::string());
   spec.traffic = p.value("traffic", std::string());
   spec.environment = p.value("environment", std::string());
@@ -104,8 +100,7 @@ Vec3d NativeFrame::w_WB_B() const { return Vector(json.at("w_WB_B")); }
 
 NativeDataset::NativeDataset(fs::path folder) : folder_(std::move(folder)) {
   if (!fs::is_directory(folder_)) throw InputError("'" + folder_.string() + "' is not a folder");
-  if (!fs::exists(folder_ / kMetaName))
-    throw InputError("'" + folder_.string() + "' is not a dataset: it has no " + kMetaName);
+  if (!fs::exists(folder_ / kMetaName)) throw InputError("'" + folder_.string() + "' is not a dataset: it has no " + kMetaName);
   if (!fs::exists(folder_ / kChecksumsName) || !fs::exists(folder_ / "frames.jsonl"))
     throw InputError("'" + folder_.string() + "' is not complete: run its collection again to finish it");
   ReadMeta();
@@ -187,8 +182,7 @@ std::string NativeDataset::Hash() const { return Sha256HexOfFile(folder_ / kChec
 
 const NativeCategory& NativeDataset::category(CategoryId id) const {
   const auto found = categories_.find(id);
-  if (found == categories_.end())
-    throw InputError((folder_ / kMetaName).string() + ": no category has the id " + std::to_string(id));
+  if (found == categories_.end()) throw InputError((folder_ / kMetaName).string() + ": no category has the id " + std::to_string(id));
   return found->second;
 }
 
@@ -220,19 +214,19 @@ Bytes NativeDataset::Read(const NativeFrame& frame, const View& view, const std:
   const Json& sums = frame.json.at("sha256");
   const auto sum = sums.find(product + view.suffix);
   if (sum == sums.end() || !sum->is_string())
-    throw InputError((folder_ / "frames.jsonl").string() + ":" + std::to_string(frame.position + 1) +
-                     ": no checksum of " + product + view.suffix);
+    throw InputError((folder_ / "frames.jsonl").string() + ":" + std::to_string(frame.position + 1) + ": no checksum of " + product +
+                     view.suffix);
   if (Sha256Hex(bytes) != sum->get<std::string>())
-    throw InputError(path.string() + ": damaged or cut off (its SHA-256 is not that of frames.jsonl); "
-                                     "'airsim360 verify' lists all such files");
+    throw InputError(path.string() +
+                     ": damaged or cut off (its SHA-256 is not that of frames.jsonl); "
+                     "'airsim360 verify' lists all such files");
   return bytes;
 }
 
 Image<Rgb8> NativeDataset::Rgb(const NativeFrame& frame, const View& view) const {
   const Image<Rgba8> full = DecodeRgba8(Read(frame, view, "rgb"), FileName(frame, view, "rgb"));
   Image<Rgb8> picture(full.width(), full.height());
-  for (size_t i = 0; i < full.size(); ++i)
-    picture.pixels()[i] = {full.pixels()[i].r, full.pixels()[i].g, full.pixels()[i].b};
+  for (size_t i = 0; i < full.size(); ++i) picture.pixels()[i] = {full.pixels()[i].r, full.pixels()[i].g, full.pixels()[i].b};
   return picture;
 }
 

@@ -18,7 +18,13 @@ Json OpenGlMatrix(const RigidTransform& X) {
 Json Intrinsics(const View& view) {
   const int width = Width(view.camera), height = Height(view.camera);
   if (view.projection == Projection::kErp) {
-    return {{"camera_model", "EQUIRECTANGULAR"}, {"w", width}, {"h", height}, {"fl_x", height}, {"fl_y", height}, {"cx", width / 2.0}, {"cy", height / 2.0}};
+    return {{"camera_model", "EQUIRECTANGULAR"},
+            {"w", width},
+            {"h", height},
+            {"fl_x", height},
+            {"fl_y", height},
+            {"cx", width / 2.0},
+            {"cy", height / 2.0}};
   }
   const Json K = IntrinsicsJson(view.camera);
   const bool fisheye = K["model"] == "OPENCV_FISHEYE";
@@ -70,7 +76,8 @@ void ExportNerfstudio(ExportJob& job) {
   if (points > 0) {
     job.out.Write("sparse_pc.ply", "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(points) +
                                        "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
-                                       "property uchar green\nproperty uchar blue\nend_header\n" + vertices);
+                                       "property uchar green\nproperty uchar blue\nend_header\n" +
+                                       vertices);
   }
   job.notes["points"] = points;
 }

@@ -21,8 +21,8 @@ std::string RecordLine(const RigidTransform& X_WC) {
                roll = std::atan2(R.m[2][1], R.m[2][2]);
   const auto angle = [&](double radians) { return Number(std::round(radians * kDegrees * 1e6) / 1e6); };
   const auto length = [](double metres) { return Number(std::round(metres * 1e6) / 1e4); };
-  return length(X_WC.p.x) + "," + length(-X_WC.p.y) + "," + length(X_WC.p.z) + "," + angle(roll) + "," + angle(pitch) +
-         "," + angle(-yaw) + "\n";
+  return length(X_WC.p.x) + "," + length(-X_WC.p.y) + "," + length(X_WC.p.z) + "," + angle(roll) + "," + angle(pitch) + "," + angle(-yaw) +
+         "\n";
 }
 
 Image<float> Depth(Image<float> range) {
@@ -57,9 +57,7 @@ Labels LabelsOf(const ExportJob& job, const NativeFrame& frame, const View& view
   return labels;
 }
 
-Bytes Colour(const ExportJob& job, const NativeFrame& frame, const View& view) {
-  return job.data.Read(frame, view, "rgb");
-}
+Bytes Colour(const ExportJob& job, const NativeFrame& frame, const View& view) { return job.data.Read(frame, view, "rgb"); }
 
 }  // namespace
 

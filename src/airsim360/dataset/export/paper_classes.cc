@@ -152,11 +152,13 @@ std::string ParentPath(const std::string& path) {
 SceneClasses OwnClasses(const std::string& world, const NativeDataset& data) {
   // A world may be a path.
   std::string name = std::filesystem::path(world).stem().string();
-  std::ranges::replace_if(name, [](char c) { return c == '/' || c == ' '; }, '_');
+  std::ranges::replace_if(
+      name, [](char c) { return c == '/' || c == ' '; }, '_');
   SceneClasses classes{.record = name, .list = name, .names = {}, .id_of = {}};
   for (const auto& [id, category] : data.categories()) {
-    if (id > 255) throw InputError("--format omni360: '" + category.path + "' has the id " + std::to_string(id) +
-                                   ", the format has one byte: worlds with custom labels do not fit");
+    if (id > 255)
+      throw InputError("--format omni360: '" + category.path + "' has the id " + std::to_string(id) +
+                       ", the format has one byte: worlds with custom labels do not fit");
     classes.names.resize(id);
     classes.names[id - 1] = category.path;
     classes.id_of[id] = static_cast<uint8_t>(id);

@@ -11,9 +11,9 @@ namespace airsim360::internal {
 
 /// A class list as the official release has it: names in the order of their ids, from 1.
 struct SceneClasses {
-  std::string record;              ///< X of X_record.csv: "CityPark"
-  std::string list;                ///< X of semantic_lists_X.txt: "citypark"
-  std::vector<std::string> names;  ///< 25, 29, 20 and 25 of the paper's scenes
+  std::string record;                   ///< X of X_record.csv: "CityPark"
+  std::string list;                     ///< X of semantic_lists_X.txt: "citypark"
+  std::vector<std::string> names;       ///< 25, 29, 20 and 25 of the paper's scenes
   std::map<CategoryId, uint8_t> id_of;  ///< categories of the dataset that are of a class; all others are 0
 
   uint8_t IdOf(CategoryId category) const;

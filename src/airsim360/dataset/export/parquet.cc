@@ -10,12 +10,23 @@ void ExportParquet(ExportJob& job) {
   using Type = ParquetFile::Type;
   using Values = std::vector<ParquetFile::Value>;
   ParquetFile file(job.out, "frames.parquet",
-                   {{"index", Type::kInt64},        {"stem", Type::kText},           {"t_ns", Type::kInt64},
-                    {"world", Type::kText},         {"x", Type::kDouble},            {"y", Type::kDouble},
-                    {"z", Type::kDouble},           {"qw", Type::kDouble},           {"qx", Type::kDouble},
-                    {"qy", Type::kDouble},          {"qz", Type::kDouble},           {"range_min", Type::kDouble},
-                    {"range_median", Type::kDouble}, {"entities", Type::kInt64},     {"people", Type::kInt64},
-                    {"categories", Type::kText, true}, {"category_pixels", Type::kInt64, true},
+                   {{"index", Type::kInt64},
+                    {"stem", Type::kText},
+                    {"t_ns", Type::kInt64},
+                    {"world", Type::kText},
+                    {"x", Type::kDouble},
+                    {"y", Type::kDouble},
+                    {"z", Type::kDouble},
+                    {"qw", Type::kDouble},
+                    {"qx", Type::kDouble},
+                    {"qy", Type::kDouble},
+                    {"qz", Type::kDouble},
+                    {"range_min", Type::kDouble},
+                    {"range_median", Type::kDouble},
+                    {"entities", Type::kInt64},
+                    {"people", Type::kInt64},
+                    {"categories", Type::kText, true},
+                    {"category_pixels", Type::kInt64, true},
                     {"files", Type::kText, true}});
   for (size_t i = 0; i < job.data.size(); ++i) {
     const NativeFrame frame = job.data.Frame(i);
@@ -39,8 +50,24 @@ void ExportParquet(ExportJob& job) {
       names.push_back(job.data.category(id).path);
       areas.push_back(area);
     }
-    file.AddRow({{frame.index}, {frame.stem}, {frame.t_ns}, {frame.world}, {X.p.x}, {X.p.y}, {X.p.z}, {q.w}, {q.x}, {q.y}, {q.z},
-                 {frame.json.value("range_min", 0.0)}, {frame.json.value("range_median", 0.0)}, {entities}, {people}, names, areas, files});
+    file.AddRow({{frame.index},
+                 {frame.stem},
+                 {frame.t_ns},
+                 {frame.world},
+                 {X.p.x},
+                 {X.p.y},
+                 {X.p.z},
+                 {q.w},
+                 {q.x},
+                 {q.y},
+                 {q.z},
+                 {frame.json.value("range_min", 0.0)},
+                 {frame.json.value("range_median", 0.0)},
+                 {entities},
+                 {people},
+                 names,
+                 areas,
+                 files});
   }
   file.Finish();
 }

@@ -92,9 +92,11 @@ void AppendValue(std::string& to, ParquetFile::Type type, const ParquetFile::Val
     AppendRaw(to, static_cast<uint32_t>(text->size()));
     to += *text;
   } else {
-    std::visit([&](const auto& number) {
-      if constexpr (!std::is_same_v<std::decay_t<decltype(number)>, std::string>) AppendRaw(to, number);
-    }, value);
+    std::visit(
+        [&](const auto& number) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(number)>, std::string>) AppendRaw(to, number);
+        },
+        value);
   }
 }
 

@@ -34,16 +34,15 @@ std::string EurocImu(const std::vector<ImuRow>& rows) {
 
 std::string MatrixText(const RigidTransform& X) {
   std::string text = "[";
-  for (int i = 0; i < 3; ++i)
-    text += Joined({X.R.m[i][0], X.R.m[i][1], X.R.m[i][2], X.p[i]}, ", ") + ",\n         ";
+  for (int i = 0; i < 3; ++i) text += Joined({X.R.m[i][0], X.R.m[i][1], X.R.m[i][2], X.p[i]}, ", ") + ",\n         ";
   return text + "0, 0, 0, 1]";
 }
 
 // sensor.yaml of the camera: T_BS takes the camera to the body.
 std::string EurocCamera(const ExportJob& job, const View& view) {
-  std::string text = "sensor_type: camera\ncomment: " + job.data.spec().world + "\nT_BS:\n  cols: 4\n  rows: 4\n  data: " +
-                     MatrixText(view.X_BC) + "\nresolution: [" + std::to_string(Width(view.camera)) + ", " +
-                     std::to_string(Height(view.camera)) + "]\ncamera_model: ";
+  std::string text = "sensor_type: camera\ncomment: " + job.data.spec().world +
+                     "\nT_BS:\n  cols: 4\n  rows: 4\n  data: " + MatrixText(view.X_BC) + "\nresolution: [" +
+                     std::to_string(Width(view.camera)) + ", " + std::to_string(Height(view.camera)) + "]\ncamera_model: ";
   if (const auto* pinhole = std::get_if<Pinhole>(&view.camera)) {
     return text + "pinhole\nintrinsics: [" + Joined({pinhole->fx, pinhole->fy, pinhole->cx - 0.5, pinhole->cy - 0.5}, ", ") +
            "]\ndistortion_model: radial-tangential\ndistortion_coefficients: [0, 0, 0, 0]\n";
@@ -52,8 +51,8 @@ std::string EurocCamera(const ExportJob& job, const View& view) {
   const CameraModel lens = *ModelOf(view.camera);
   std::vector<double> p = lens.parameters;
   p[2] -= 0.5, p[3] -= 0.5;  // pixel centres are whole numbers
-  return text + "pinhole\nintrinsics: [" + Joined({p[0], p[1], p[2], p[3]}, ", ") + "]\ndistortion_model: " +
-         (lens.name == "OPENCV" ? "radial-tangential" : "equidistant") + "\ndistortion_coefficients: [" +
+  return text + "pinhole\nintrinsics: [" + Joined({p[0], p[1], p[2], p[3]}, ", ") +
+         "]\ndistortion_model: " + (lens.name == "OPENCV" ? "radial-tangential" : "equidistant") + "\ndistortion_coefficients: [" +
          Joined({p[4], p[5], p[6], p[7]}, ", ") + "]\n";
 }
 
@@ -69,8 +68,9 @@ bool HasEurocModel(const View& view) {
 void ExportTum(ExportJob& job) {
   job.NeedColour();
   const View& view = job.OneView();
-  std::string poses = "# ground truth trajectory: camera (right, down, forward) in W (east, north, up)\n"
-                      "# timestamp tx ty tz qx qy qz qw\n",
+  std::string poses =
+                  "# ground truth trajectory: camera (right, down, forward) in W (east, north, up)\n"
+                  "# timestamp tx ty tz qx qy qz qw\n",
               pictures = "# color images\n# timestamp filename\n";
   job.EachFrame(
       [&](const NativeFrame& frame) {

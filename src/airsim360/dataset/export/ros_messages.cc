@@ -4,9 +4,7 @@ namespace airsim360::internal {
 namespace {
 
 // Field lists of ROS 2's common_interfaces, rcl_interfaces and geometry2.
-std::string Part(const std::string& name, const std::string& fields) {
-  return std::string(80, '=') + "\nMSG: " + name + "\n" + fields;
-}
+std::string Part(const std::string& name, const std::string& fields) { return std::string(80, '=') + "\nMSG: " + name + "\n" + fields; }
 std::string Header() {
   return Part("std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n") +
          Part("builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n");
@@ -28,18 +26,18 @@ const RosType& CompressedImageType() {
 const RosType& ImageType() {
   static const RosType type{"sensor_msgs/msg/Image",
                             "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\n"
-                            "uint32 step\nuint8[] data\n" + Header()};
+                            "uint32 step\nuint8[] data\n" +
+                                Header()};
   return type;
 }
 
 const RosType& OdometryType() {
-  static const RosType type{
-      "nav_msgs/msg/Odometry",
-      "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
-      "geometry_msgs/TwistWithCovariance twist\n" + Header() +
-          Part("geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose pose\nfloat64[36] covariance\n") + Pose() +
-          Part("geometry_msgs/TwistWithCovariance", "geometry_msgs/Twist twist\nfloat64[36] covariance\n") +
-          Part("geometry_msgs/Twist", "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n") + Vector3()};
+  static const RosType type{"nav_msgs/msg/Odometry",
+                            "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
+                            "geometry_msgs/TwistWithCovariance twist\n" +
+                                Header() + Part("geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose pose\nfloat64[36] covariance\n") +
+                                Pose() + Part("geometry_msgs/TwistWithCovariance", "geometry_msgs/Twist twist\nfloat64[36] covariance\n") +
+                                Part("geometry_msgs/Twist", "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n") + Vector3()};
   return type;
 }
 
@@ -48,17 +46,17 @@ const RosType& TfMessageType() {
       "tf2_msgs/msg/TFMessage",
       "geometry_msgs/TransformStamped[] transforms\n" +
           Part("geometry_msgs/TransformStamped", "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n") +
-          Header() + Part("geometry_msgs/Transform", "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n") +
-          Vector3() + Rotation()};
+          Header() + Part("geometry_msgs/Transform", "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n") + Vector3() +
+          Rotation()};
   return type;
 }
 
 const RosType& ImuType() {
-  static const RosType type{
-      "sensor_msgs/msg/Imu",
-      "std_msgs/Header header\ngeometry_msgs/Quaternion orientation\nfloat64[9] orientation_covariance\n"
-      "geometry_msgs/Vector3 angular_velocity\nfloat64[9] angular_velocity_covariance\n"
-      "geometry_msgs/Vector3 linear_acceleration\nfloat64[9] linear_acceleration_covariance\n" + Header() + Rotation() + Vector3()};
+  static const RosType type{"sensor_msgs/msg/Imu",
+                            "std_msgs/Header header\ngeometry_msgs/Quaternion orientation\nfloat64[9] orientation_covariance\n"
+                            "geometry_msgs/Vector3 angular_velocity\nfloat64[9] angular_velocity_covariance\n"
+                            "geometry_msgs/Vector3 linear_acceleration\nfloat64[9] linear_acceleration_covariance\n" +
+                                Header() + Rotation() + Vector3()};
   return type;
 }
 

@@ -35,9 +35,7 @@ class Cdr {
     const Quaternion q = ToQuaternion(R);
     return N(q.x).N(q.y).N(q.z).N(q.w);
   }
-  Cdr& Time(int64_t t_ns) {
-    return N(static_cast<int32_t>(t_ns / 1'000'000'000)).N(static_cast<uint32_t>(t_ns % 1'000'000'000));
-  }
+  Cdr& Time(int64_t t_ns) { return N(static_cast<int32_t>(t_ns / 1'000'000'000)).N(static_cast<uint32_t>(t_ns % 1'000'000'000)); }
   Cdr& Header(int64_t t_ns, const std::string& frame) { return Time(t_ns).Text(frame); }
   std::string Take() { return std::move(text_); }
 

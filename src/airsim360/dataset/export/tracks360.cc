@@ -22,9 +22,7 @@ bool IsTracked(const std::string& path) {
 
 struct Extent {
   double x0 = std::numeric_limits<double>::max(), x1 = -x0, y0 = x0, y1 = -x0;
-  void Add(double x, double y) {
-    x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
-  }
+  void Add(double x, double y) { x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y); }
   double area() const { return (x1 - x0) * (y1 - y0); }
 };
 
@@ -62,14 +60,15 @@ Bfov Centred(const std::vector<Vec3d>& rays, double lon, double lat, double rota
     const Axes axes = AxesAt(lon, lat, rotation);
     extent = ExtentIn(rays, axes);
     const double dx = 0.5 * (extent.x0 + extent.x1), dy = 0.5 * (extent.y0 + extent.y1);
-    const Vec3d centre = Normalized(axes.forward + axes.right * std::tan(std::clamp(dx, -1.0, 1.0)) + axes.up * std::tan(std::clamp(dy, -1.0, 1.0)));
+    const Vec3d centre =
+        Normalized(axes.forward + axes.right * std::tan(std::clamp(dx, -1.0, 1.0)) + axes.up * std::tan(std::clamp(dy, -1.0, 1.0)));
     lon = std::atan2(centre.x, centre.z);
     lat = std::asin(std::clamp(-centre.y, -1.0, 1.0));
   }
   // What is left of the difference is covered.
   extent = ExtentIn(rays, AxesAt(lon, lat, rotation));
-  return {lon * kDegrees, lat * kDegrees, 2 * std::max(-extent.x0, extent.x1) * kDegrees,
-          2 * std::max(-extent.y0, extent.y1) * kDegrees, rotation * kDegrees};
+  return {lon * kDegrees, lat * kDegrees, 2 * std::max(-extent.x0, extent.x1) * kDegrees, 2 * std::max(-extent.y0, extent.y1) * kDegrees,
+          rotation * kDegrees};
 }
 
 Bfov RotatedBfov(const std::vector<Vec3d>& rays, const Bfov& upright) {
@@ -99,7 +98,11 @@ Json RotatedBoxJson(const std::vector<Vec2d>& corners, int width) {
     if (extent.area() >= best) continue;
     best = extent.area();
     const double u = 0.5 * (extent.x0 + extent.x1), v = 0.5 * (extent.y0 + extent.y1);
-    json = {{"cx", std::fmod(c * u - s * v, width)}, {"cy", s * u + c * v}, {"w", extent.x1 - extent.x0}, {"h", extent.y1 - extent.y0}, {"rotation", degrees}};
+    json = {{"cx", std::fmod(c * u - s * v, width)},
+            {"cy", s * u + c * v},
+            {"w", extent.x1 - extent.x0},
+            {"h", extent.y1 - extent.y0},
+            {"rotation", degrees}};
   }
   return json;
 }

@@ -96,9 +96,9 @@ void ExportVps(ExportJob& job) {
                                      {"file_name", name + job.data.Extension("rgb")},
                                      {"width", Width(views[v].camera)},
                                      {"height", Height(views[v].camera)}});
-          annotations[v] += comma + Dump({{"image_id", name},
-                                          {"file_name", name + ".png"},
-                                          {"segments_info", SegmentsJson(job.data.Segments(frame, views[v]))}});
+          annotations[v] +=
+              comma +
+              Dump({{"image_id", name}, {"file_name", name + ".png"}, {"segments_info", SegmentsJson(job.data.Segments(frame, views[v]))}});
         }
       });
   JsonLists file(job.out, "panoptic_gt.json", {"videos", "annotations"});
@@ -121,7 +121,8 @@ void ExportStep(ExportJob& job) {
       for (size_t i = 0; i < semantic.size(); ++i) {
         const auto found = tracks.of.find(entity.pixels()[i]);
         const int number = found == tracks.of.end() ? 0 : found->second.second;
-        const uint8_t train = semantic.pixels()[i] == kVoid ? uint8_t{255} : CityscapesTrainId(job.data.category(semantic.pixels()[i]).cityscapes);
+        const uint8_t train =
+            semantic.pixels()[i] == kVoid ? uint8_t{255} : CityscapesTrainId(job.data.category(semantic.pixels()[i]).cityscapes);
         panoptic.pixels()[i] = {train, static_cast<uint8_t>(number / 256), static_cast<uint8_t>(number % 256)};
       }
       const std::string name = VideoName(view) + "/" + FrameName(frame);

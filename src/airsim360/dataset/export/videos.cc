@@ -94,9 +94,10 @@ void ExportVideo(ExportJob& job) {
   semantic.Finish();
   entity.Finish();
   job.out.Write("times.csv", times);
-  job.out.Write("depth.json", Pretty({{"gray", "0 = sky; 1 … 255: range = nearest * (farthest / nearest) ^ ((gray - 1) / 254), metres along the ray"},
-                                      {"nearest", scale.nearest},
-                                      {"farthest", scale.farthest}}));
+  job.out.Write("depth.json",
+                Pretty({{"gray", "0 = sky; 1 … 255: range = nearest * (farthest / nearest) ^ ((gray - 1) / 254), metres along the ray"},
+                        {"nearest", scale.nearest},
+                        {"farthest", scale.farthest}}));
   job.notes["frame_rate"] = rate;
 }
 

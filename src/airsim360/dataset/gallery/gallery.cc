@@ -79,7 +79,9 @@ Image<Rgb8> DrawProduct(const NativeDataset& data, const NativeFrame& frame, con
   if (product == "position") {
     const auto wave = [](float v) { return Byte(v - std::floor(v)); };
     const Image<float> py = DecodeExrChannel(stored, name, "Y"), pz = DecodeExrChannel(stored, name, "Z");
-    return Drawn(DecodeExrChannel(stored, name, "X"), [&](float px, int x, int y) { return Rgb8{wave(px / 10), wave(py(x, y) / 10), wave(pz(x, y) / 10)}; });
+    return Drawn(DecodeExrChannel(stored, name, "X"), [&](float px, int x, int y) {
+      return Rgb8{wave(px / 10), wave(py(x, y) / 10), wave(pz(x, y) / 10)};
+    });
   }
   return Drawn(DecodeExrRgb(stored, name), [](Rgb32f c, int, int) {
     const auto tone = [](float v) { return Byte(std::sqrt(v / (1 + v))); };
@@ -105,17 +107,25 @@ Json FrameEntry(const NativeDataset& data, size_t position, const fs::path& pict
     }
   }
   const Vec3d p = frame.X_WC(data.views().front()).p;
-  return {{"stem", frame.stem}, {"world", frame.world}, {"t", 1e-9 * static_cast<double>(frame.t_ns)}, {"p", {p.x, p.y, p.z}},
-          {"range", frame.json.value("range_median", 0.0)}, {"files", files}};
+  return {{"stem", frame.stem},
+          {"world", frame.world},
+          {"t", 1e-9 * static_cast<double>(frame.t_ns)},
+          {"p", {p.x, p.y, p.z}},
+          {"range", frame.json.value("range_median", 0.0)},
+          {"files", files}};
 }
 
 std::string Escaped(const std::string& text) {
   std::string safe;
   for (const char c : text) {
-    if (c == '&') safe += "&amp;";
-    else if (c == '<') safe += "&lt;";
-    else if (c == '>') safe += "&gt;";
-    else safe += c;
+    if (c == '&')
+      safe += "&amp;";
+    else if (c == '<')
+      safe += "&lt;";
+    else if (c == '>')
+      safe += "&gt;";
+    else
+      safe += c;
   }
   return safe;
 }
@@ -131,8 +141,8 @@ std::string Legend(const NativeDataset& data, const internal::DatasetStatistics&
   std::string text;
   for (const auto& [id, count] : statistics.categories) {
     const NativeCategory& c = data.category(id);
-    text += "<span><i style=\"background:rgb(" + std::to_string(c.color.r) + "," + std::to_string(c.color.g) + "," + std::to_string(c.color.b) +
-            ")\"></i>" + Escaped(c.path) + "</span>\n";
+    text += "<span><i style=\"background:rgb(" + std::to_string(c.color.r) + "," + std::to_string(c.color.g) + "," +
+            std::to_string(c.color.b) + ")\"></i>" + Escaped(c.path) + "</span>\n";
   }
   return text;
 }
@@ -176,11 +186,13 @@ show(0);
 
 std::string Page(const NativeDataset& data, const internal::DatasetStatistics& statistics, const Json& frames) {
   const std::string title = Escaped(data.spec().world) + ": " + std::to_string(data.size()) + " frames";
-  return kHead + title + "</title><h1>" + title + "</h1>\n<p><button id=back aria-label=\"previous frame\">&larr;</button> "
+  return kHead + title + "</title><h1>" + title +
+         "</h1>\n<p><button id=back aria-label=\"previous frame\">&larr;</button> "
          "<input type=range id=frame min=0 value=0 aria-label=\"frame\"> <button id=on aria-label=\"next frame\">&rarr;</button></p>\n"
-         "<p id=about></p><div id=pictures></div>\n<h2>Scenes</h2>" + Scenes(statistics) + "<h2>Categories</h2><p id=legend>" + Legend(data, statistics) +
-         "</p>\n<h2>Card</h2><pre>" + Escaped(internal::StatisticsMarkdown(data, statistics)) + "</pre>\n<script>const frames = " +
-         ScriptJson(frames) + ";" + kScript + "</script></html>\n";
+         "<p id=about></p><div id=pictures></div>\n<h2>Scenes</h2>" +
+         Scenes(statistics) + "<h2>Categories</h2><p id=legend>" + Legend(data, statistics) + "</p>\n<h2>Card</h2><pre>" +
+         Escaped(internal::StatisticsMarkdown(data, statistics)) + "</pre>\n<script>const frames = " + ScriptJson(frames) + ";" + kScript +
+         "</script></html>\n";
 }
 
 }  // namespace

@@ -145,12 +145,9 @@ Json StatisticsJson(const NativeDataset& data, const DatasetStatistics& s) {
   Json categories = Json::object();
   for (const auto& [id, c] : LargestFirst(s))
     categories[data.category(id).path] = {{"frames", c.frames}, {"pixels", c.pixels}, {"solid_angle", c.solid_angle}};
-  return {{"frames", s.frames},         {"bytes", s.bytes},
-          {"worlds", FramesOfWorlds(s)}, {"environments", s.environments},
-          {"height_bins", kHeightBins}, {"heights", s.heights},
-          {"range_bins", kRangeBins},   {"ranges", s.ranges},
-          {"persons", s.persons},       {"dropped", s.dropped},
-          {"categories", categories}};
+  return {{"frames", s.frames},         {"bytes", s.bytes},     {"worlds", FramesOfWorlds(s)}, {"environments", s.environments},
+          {"height_bins", kHeightBins}, {"heights", s.heights}, {"range_bins", kRangeBins},    {"ranges", s.ranges},
+          {"persons", s.persons},       {"dropped", s.dropped}, {"categories", categories}};
 }
 
 }  // namespace airsim360::internal

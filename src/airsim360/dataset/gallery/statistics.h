@@ -16,17 +16,17 @@ inline constexpr double kHeightBins[] = {2, 5, 10, 20, 40, 80, 120};
 inline constexpr double kRangeBins[] = {2, 5, 10, 20, 50, 100, 200};
 
 struct CategoryCount {
-  int64_t frames = 0;       ///< that show it
+  int64_t frames = 0;  ///< that show it
   int64_t pixels = 0;
-  double solid_angle = 0;   ///< steradians, over all pictures
+  double solid_angle = 0;  ///< steradians, over all pictures
 };
 
 /// What the frames of one world show.
 struct WorldCount {
   int64_t frames = 0;
   std::map<CategoryId, int64_t> pixels;
-  size_t richest = 0;         ///< position of the frame that shows the most categories, of equals the first
-  size_t richest_count = 0;   ///< categories in it
+  size_t richest = 0;        ///< position of the frame that shows the most categories, of equals the first
+  size_t richest_count = 0;  ///< categories in it
 };
 
 struct DatasetStatistics {
@@ -36,9 +36,9 @@ struct DatasetStatistics {
   std::map<std::string, WorldCount> worlds;
   std::map<std::string, int64_t> environments;  ///< frames of each
   std::map<CategoryId, CategoryCount> categories;
-  std::vector<int64_t> heights, ranges;                 ///< kHeightBins, kRangeBins
-  int64_t persons = 0, frames_with_persons = 0;         ///< persons: views of a person with pixels
-  int64_t dropped = 0;                                  ///< rows of dropped.csv
+  std::vector<int64_t> heights, ranges;          ///< kHeightBins, kRangeBins
+  int64_t persons = 0, frames_with_persons = 0;  ///< persons: views of a person with pixels
+  int64_t dropped = 0;                           ///< rows of dropped.csv
 };
 
 DatasetStatistics CountDataset(const NativeDataset& data);

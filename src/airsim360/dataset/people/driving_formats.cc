@@ -28,9 +28,11 @@ std::string KittiLine(const Json& person) {
   char line[320];
   std::snprintf(line, sizeof line, "%s %.2f %d %.4f %d.00 %d.00 %d.00 %d.00 %.4f %.4f %.4f %.4f %.4f %.4f %.4f\n",
                 Sits(person) ? "Person_sitting" : "Pedestrian", person["truncation"].get<double>(),
-                fraction > 0.8 ? 0 : fraction > 0.4 ? 1 : 2, person["alpha"].get<double>(), x, y, x + w - 1, y + h - 1,
-                lwh[2].get<double>(), lwh[1].get<double>(), lwh[0].get<double>(), p[0].get<double>(), p[1].get<double>(),
-                p[2].get<double>(), box3d["rotation_y"].get<double>());
+                fraction > 0.8   ? 0
+                : fraction > 0.4 ? 1
+                                 : 2,
+                person["alpha"].get<double>(), x, y, x + w - 1, y + h - 1, lwh[2].get<double>(), lwh[1].get<double>(), lwh[0].get<double>(),
+                p[0].get<double>(), p[1].get<double>(), p[2].get<double>(), box3d["rotation_y"].get<double>());
   return line;
 }
 
@@ -59,7 +61,10 @@ class Tables {
     const int64_t micros = line["t_ns"].get<int64_t>() / 1000;
     Add("sample", {{"token", sample}, {"timestamp", micros}, {"prev", ""}, {"next", ""}, {"scene_token", Token("scene")}});
     const Json& camera = line["camera"];
-    Add("ego_pose", {{"token", Token("pose " + stem)}, {"timestamp", micros}, {"rotation", camera["X_WC"]["q_wxyz"]}, {"translation", camera["X_WC"]["p"]}});
+    Add("ego_pose", {{"token", Token("pose " + stem)},
+                     {"timestamp", micros},
+                     {"rotation", camera["X_WC"]["q_wxyz"]},
+                     {"translation", camera["X_WC"]["p"]}});
     Add("calibrated_sensor", {{"token", Token("calibrated " + stem)},
                               {"sensor_token", Token("sensor")},
                               {"translation", {0, 0, 0}},
@@ -94,11 +99,10 @@ class Tables {
                   {"description", spec_.world}});
     for (auto& [track, rows] : of_instance_) FinishInstance(track, rows);
     std::vector<ExportedFile> files;
-    for (const char* name : {"category", "attribute", "visibility", "instance", "sensor", "calibrated_sensor", "ego_pose",
-                             "log", "scene", "sample", "sample_data", "sample_annotation", "map"}) {
+    for (const char* name : {"category", "attribute", "visibility", "instance", "sensor", "calibrated_sensor", "ego_pose", "log", "scene",
+                             "sample", "sample_data", "sample_annotation", "map"}) {
       Json& table = tables_[name];
-      files.push_back({std::string("nuscenes/v1.0-airsim360/") + name + ".json",
-                       Text(table.is_null() ? Json::array() : table)});
+      files.push_back({std::string("nuscenes/v1.0-airsim360/") + name + ".json", Text(table.is_null() ? Json::array() : table)});
     }
     return files;
   }
@@ -116,25 +120,22 @@ class Tables {
     const Json& box = person["box3d_world"];
     const double half = box["yaw"].get<double>() / 2;
     const bool moves = Norm(ToVec(person["velocity_world"])) > 0.2;
-    const char* attribute = Sits(person) ? "pedestrian.sitting_lying_down"
-                            : moves      ? "pedestrian.moving"
-                                         : "pedestrian.standing";
+    const char* attribute = Sits(person) ? "pedestrian.sitting_lying_down" : moves ? "pedestrian.moving" : "pedestrian.standing";
     const int64_t track = person["track_id"];
     of_instance_[track].push_back(tables_["sample_annotation"].size());
     child_[track] = person["age"].get<double>() < 16;
-    Add("sample_annotation",
-        {{"token", Token("annotation " + stem + " " + std::to_string(track))},
-         {"sample_token", sample},
-         {"instance_token", Token("instance " + std::to_string(track))},
-         {"visibility_token", std::to_string(person["visibility_token"].get<int>())},
-         {"attribute_tokens", {Token(attribute)}},
-         {"translation", box["center"]},
-         {"size", {box["lwh"][1], box["lwh"][0], box["lwh"][2]}},
-         {"rotation", {std::cos(half), 0, 0, std::sin(half)}},
-         {"num_lidar_pts", 0},
-         {"num_radar_pts", 0},
-         {"prev", ""},
-         {"next", ""}});
+    Add("sample_annotation", {{"token", Token("annotation " + stem + " " + std::to_string(track))},
+                              {"sample_token", sample},
+                              {"instance_token", Token("instance " + std::to_string(track))},
+                              {"visibility_token", std::to_string(person["visibility_token"].get<int>())},
+                              {"attribute_tokens", {Token(attribute)}},
+                              {"translation", box["center"]},
+                              {"size", {box["lwh"][1], box["lwh"][0], box["lwh"][2]}},
+                              {"rotation", {std::cos(half), 0, 0, std::sin(half)}},
+                              {"num_lidar_pts", 0},
+                              {"num_radar_pts", 0},
+                              {"prev", ""},
+                              {"next", ""}});
   }
   void FinishInstance(int64_t track, const std::vector<size_t>& rows) {
     Json& annotations = tables_["sample_annotation"];
@@ -157,8 +158,7 @@ class Tables {
 
 /// One split of MonoLoco's file.
 struct Split {
-  Json X = Json::array(), Y = Json::array(), names = Json::array(), kps = Json::array(), K = Json::array(),
-       boxes = Json::array();
+  Json X = Json::array(), Y = Json::array(), names = Json::array(), kps = Json::array(), K = Json::array(), boxes = Json::array();
   Json ToJson() const {
     return {{"X", X}, {"Y", Y}, {"names", names}, {"kps", kps}, {"K", K}, {"boxes_3d", boxes}, {"clst", Json::object()}};
   }
@@ -187,8 +187,8 @@ void AddMonoLoco(const Json& line, const Json& person, Split& split) {
   const Json& lwh = person["box3d_cam"]["lwh"];
   const double h = lwh[2], w = lwh[1], l = lwh[0];
   split.X.push_back(std::move(input));
-  split.Y.push_back({std::atan2(p.z, p.x), std::acos(p.y / r), p.z, r, (h - 1.72) / 0.1, (w - 0.75) / 0.1, (l - 0.68) / 0.1,
-                     std::sin(a), std::cos(a), yaw});
+  split.Y.push_back({std::atan2(p.z, p.x), std::acos(p.y / r), p.z, r, (h - 1.72) / 0.1, (w - 0.75) / 0.1, (l - 0.68) / 0.1, std::sin(a),
+                     std::cos(a), yaw});
   split.names.push_back(line["stem"].get<std::string>());
   split.kps.push_back({xs, ys, confidence});
   split.K.push_back({{f, 0, c}, {0, f, c}, {0, 0, 1}});
@@ -225,10 +225,8 @@ ExportedFile internal::MonoLocoJoints(const std::string& people_jsonl) {
       if (person["area"] != 0) AddMonoLoco(line, person, split);
     }
   });
-  return {"monoloco.json", Text({{"train", splits[0].ToJson()},
-                                 {"val", splits[1].ToJson()},
-                                 {"test", splits[2].ToJson()},
-                                 {"version", "airsim360"}})};
+  return {"monoloco.json",
+          Text({{"train", splits[0].ToJson()}, {"val", splits[1].ToJson()}, {"test", splits[2].ToJson()}, {"version", "airsim360"}})};
 }
 
 }  // namespace airsim360

@@ -73,8 +73,7 @@ HumanRecipe ReadHumanRecipe(const std::filesystem::path& file) {
   for (const std::string& pitch : recipe.pitches_deg) PitchOf(pitch, name);
   if (!recipe.cameras.empty()) recipe.cameras = (file.parent_path() / recipe.cameras).string();
   for (const HumanScene& scene : recipe.scenes) {
-    if (scene.world.empty() || scene.subsets == 0 || scene.subsets > 10000 || scene.frames > 10'000'000 ||
-        scene.most_people > 20000)
+    if (scene.world.empty() || scene.subsets == 0 || scene.subsets > 10000 || scene.frames > 10'000'000 || scene.most_people > 20000)
       throw InputError(name + ": scene '" + scene.scene + "': needs a world, 1 to 10000 subsets, at most 20000 people");
   }
   return recipe;
@@ -92,8 +91,8 @@ std::vector<HumanSubset> SubsetsOf(const HumanRecipe& recipe) {
       HumanSubset subset{.world = scene.world, .name = name};
       subset.width = between(scene.least_width, scene.most_width);
       subset.depth = between(scene.least_depth, scene.most_depth);
-      subset.people = static_cast<uint64_t>(std::llround(
-          between(static_cast<double>(scene.least_people), static_cast<double>(scene.most_people))));
+      subset.people =
+          static_cast<uint64_t>(std::llround(between(static_cast<double>(scene.least_people), static_cast<double>(scene.most_people))));
       subset.pitch_deg = PitchOf(recipe.pitches_deg[k % recipe.pitches_deg.size()], "recipe");
       subset.split = k % 5 == 4 ? "test" : k % 10 == 2 ? "val" : "train";
       // Frames that do not divide evenly go to the first subsets.
@@ -115,8 +114,7 @@ size_t Liveliness(const Scene& scene, Vec2d low, Vec2d high) {
     const Box3f& box = entity.bounds;
     if (box.empty() || std::max({box.size().x, box.size().y, box.size().z}) > kEverydaySize) continue;
     const Vec3d c = VecCast<double>(box.center());
-    if (c.x > low.x - kAround && c.x < high.x + kAround && c.y > low.y - kAround && c.y < high.y + kAround)
-      kinds.insert(entity.category);
+    if (c.x > low.x - kAround && c.x < high.x + kAround && c.y > low.y - kAround && c.y < high.y + kAround) kinds.insert(entity.category);
   }
   return kinds.size();
 }
@@ -139,16 +137,16 @@ NavArea Gathering(const Scene& scene, const NavMesh& mesh) {
 }
 
 bool AreNear(const HumanArea& a, const HumanArea& b) {
-  return a.low.x < b.high.x + kSplitGap && b.low.x < a.high.x + kSplitGap && a.low.y < b.high.y + kSplitGap && b.low.y < a.high.y + kSplitGap;
+  return a.low.x < b.high.x + kSplitGap && b.low.x < a.high.x + kSplitGap && a.low.y < b.high.y + kSplitGap &&
+         b.low.y < a.high.y + kSplitGap;
 }
 
 }  // namespace
 
-HumanArea PickArea(const Scene& scene, const NavMesh& mesh, const HumanSubset& subset, uint64_t seed,
-                   std::span<const HumanArea> apart) {
+HumanArea PickArea(const Scene& scene, const NavMesh& mesh, const HumanSubset& subset, uint64_t seed, std::span<const HumanArea> apart) {
   constexpr int kTries = 96;
-  constexpr double kRoom = 2;      // m^2 a person
-  constexpr double kOpen = 0.6;    // of the most open rectangle's ground
+  constexpr double kRoom = 2;    // m^2 a person
+  constexpr double kOpen = 0.6;  // of the most open rectangle's ground
   struct Candidate {
     HumanArea area;
     double square_metres;
@@ -170,9 +168,8 @@ HumanArea PickArea(const Scene& scene, const NavMesh& mesh, const HumanSubset& s
     most = std::max(most, candidates.back().square_metres);
   }
   if (most < kRoom * static_cast<double>(subset.people)) {
-    throw InputError("subset " + subset.name + ": no area of " + std::to_string(subset.width) + " x " +
-                     std::to_string(subset.depth) + " m in '" + subset.world + "' has room for " +
-                     std::to_string(subset.people) + " people");
+    throw InputError("subset " + subset.name + ": no area of " + std::to_string(subset.width) + " x " + std::to_string(subset.depth) +
+                     " m in '" + subset.world + "' has room for " + std::to_string(subset.people) + " people");
   }
   const double least = std::max(kOpen * most, kRoom * static_cast<double>(subset.people));
   std::erase_if(candidates, [&](const Candidate& candidate) { return candidate.square_metres < least; });
@@ -197,14 +194,13 @@ using PeoplePlaces = std::vector<std::optional<Vec3d>>;
 
 PeoplePlaces PlacesOf(const PeopleState& state) {
   PeoplePlaces places;
-  for (const PersonState& person : state.crowd.people)
-    places.push_back(person.visible ? std::optional(person.p_WP) : std::nullopt);
+  for (const PersonState& person : state.crowd.people) places.push_back(person.visible ? std::optional(person.p_WP) : std::nullopt);
   return places;
 }
 
 // A free place for the camera over or beside the area, facing its middle: of several the one that shows people best.
-RigidTransform PickView(const HumanRecipe& recipe, const HumanSubset& subset, const HumanArea& area,
-                        const RayTracer& world, const PeoplePlaces& people, RngStream& rng) {
+RigidTransform PickView(const HumanRecipe& recipe, const HumanSubset& subset, const HumanArea& area, const RayTracer& world,
+                        const PeoplePlaces& people, RngStream& rng) {
   constexpr int kTries = 400, kRated = 32;
   constexpr float kFree = 1;     // metres to every surface
   constexpr double kBeside = 4;  // metres that the camera may stand outside the area
@@ -212,8 +208,7 @@ RigidTransform PickView(const HumanRecipe& recipe, const HumanSubset& subset, co
   std::optional<RigidTransform> best;
   double most = -1;
   for (int i = 0, rated = 0; i < kTries && rated < kRated; ++i) {
-    const Vec3d p{rng.Uniform(area.low.x - kBeside, area.high.x + kBeside),
-                  rng.Uniform(area.low.y - kBeside, area.high.y + kBeside),
+    const Vec3d p{rng.Uniform(area.low.x - kBeside, area.high.x + kBeside), rng.Uniform(area.low.y - kBeside, area.high.y + kBeside),
                   area.ground + rng.Uniform(recipe.lowest, recipe.highest)};
     const double yaw = std::atan2(middle.y - p.y, middle.x - p.x) + rng.Uniform(-0.6, 0.6);
     if (world.Clearance(VecCast<float>(p), kFree) < kFree) continue;
@@ -248,8 +243,8 @@ Vec3d PickVelocity(const RayTracer& world, Vec3d from, double seconds, RngStream
 
 }  // namespace
 
-Flight FilmSubset(const HumanRecipe& recipe, const HumanSubset& subset, const HumanArea& area,
-                  const SimPeople& people, const RayTracer& world, uint64_t seed) {
+Flight FilmSubset(const HumanRecipe& recipe, const HumanSubset& subset, const HumanArea& area, const SimPeople& people,
+                  const RayTracer& world, uint64_t seed) {
   RngStream rng(seed, "omni360_human views " + subset.name);
   Flight flight;
   PeopleState state = *people.start;

@@ -27,11 +27,11 @@ struct HumanScene {
 struct HumanRecipe {
   std::vector<HumanScene> scenes;
   std::vector<std::string> pitches_deg = {"0", "20", "45"};  ///< camera pitch below the horizon, by turns
-  double interval = 0.5;         ///< seconds between frames
-  double lowest = 1.6, highest = 8;  ///< metres of the camera above the ground
-  uint64_t frames_a_view = 20;   ///< before the camera goes elsewhere
-  double moving = 0;             ///< share of the views during which the camera flies, 0.5 to 2 m/s
-  std::string cameras = {};      ///< file of a rig (docs/reference/cameras.md) instead of one camera; empty = one
+  double interval = 0.5;                                     ///< seconds between frames
+  double lowest = 1.6, highest = 8;                          ///< metres of the camera above the ground
+  uint64_t frames_a_view = 20;                               ///< before the camera goes elsewhere
+  double moving = 0;                                         ///< share of the views during which the camera flies, 0.5 to 2 m/s
+  std::string cameras = {};  ///< file of a rig (docs/reference/cameras.md) instead of one camera; empty = one
 };
 
 /// The paper's table (appendix, Omni360-Human): 61 subsets, 100,700 frames, six scenes.
@@ -72,7 +72,7 @@ std::string PeopleFileOf(const HumanArea& area, uint64_t people);
 /// Frames of a subset: the camera hovers over or beside the area, at least 1 m from every surface of `world`
 /// (the scene without people), where it sees people best of 32 places, and looks a little downwards; the people go on living
 /// and notice it. In the share `moving` of the views, spread evenly, it flies straight on as far as the way is free.
-Flight FilmSubset(const HumanRecipe& recipe, const HumanSubset& subset, const HumanArea& area,
-                  const SimPeople& people, const RayTracer& world, uint64_t seed);
+Flight FilmSubset(const HumanRecipe& recipe, const HumanSubset& subset, const HumanArea& area, const SimPeople& people,
+                  const RayTracer& world, uint64_t seed);
 
 }  // namespace airsim360

@@ -70,8 +70,14 @@ TEST(HumanRecipe, ASubsetIsFilmedInFreeSpaceWithItsPeople) {
 TEST(HumanRecipe, PlacesAreWhereThingsStand) {
   internal::TestGround ground;
   ground.Floor("ground/pavement", -60, -60, 60, 60);
-  const char* things[] = {"traffic/temporary/cone", "furniture/waste/trash_can", "furniture/seating/bench", "furniture/mail/post_box",
-                          "furniture/utility/fire_hydrant", "signage/poster_stand", "vehicle/car", "furniture/lighting/street_light"};
+  const char* things[] = {"traffic/temporary/cone",
+                          "furniture/waste/trash_can",
+                          "furniture/seating/bench",
+                          "furniture/mail/post_box",
+                          "furniture/utility/fire_hydrant",
+                          "signage/poster_stand",
+                          "vehicle/car",
+                          "furniture/lighting/street_light"};
   for (int i = 0; i < 8; ++i) {
     const float x = 30.0f + 3 * static_cast<float>(i);
     ground.Box(things[i], {x, 40, 0}, {x + 0.5f, 40.5f, 1});

@@ -31,7 +31,8 @@ std::vector<ListedSubset> ReadList(const fs::path& file) {
     for (const Json& entry : Json::parse(ReadTextFile(file, uint64_t{16} << 20))) {
       if (!entry.contains("area")) continue;  // not made yet
       list.push_back({entry.at("subset"), entry.at("world"), entry.at("split"), entry.at("area").get<std::array<double, 4>>()});
-      if (list.back().name.find("..") != std::string::npos) throw InputError(file.string() + ": subset '" + list.back().name + "' is no name");
+      if (list.back().name.find("..") != std::string::npos)
+        throw InputError(file.string() + ": subset '" + list.back().name + "' is no name");
     }
   } catch (const Json::exception& error) {
     throw InputError(file.string() + ": is no list of `collect --recipe`: " + error.what());
@@ -40,8 +41,8 @@ std::vector<ListedSubset> ReadList(const fs::path& file) {
 }
 
 bool AreNear(const ListedSubset& a, const ListedSubset& b) {
-  return a.world == b.world && a.area[0] < b.area[2] + kSplitGap && b.area[0] < a.area[2] + kSplitGap && a.area[1] < b.area[3] + kSplitGap &&
-         b.area[1] < a.area[3] + kSplitGap;
+  return a.world == b.world && a.area[0] < b.area[2] + kSplitGap && b.area[0] < a.area[2] + kSplitGap &&
+         a.area[1] < b.area[3] + kSplitGap && b.area[1] < a.area[3] + kSplitGap;
 }
 
 // Who a person is, whatever the world: the name in a pack, the figures of a body of our own.
@@ -85,7 +86,8 @@ int64_t CountShared(const Holders& holders, const char* kind, std::string& examp
   int64_t shared = 0;
   for (const auto& [thing, splits] : holders) {
     if (splits.size() < 2) continue;
-    if (++shared == 1 && example.empty()) example = std::string(kind) + " '" + thing + "' is in " + *splits.begin() + " and " + *splits.rbegin();
+    if (++shared == 1 && example.empty())
+      example = std::string(kind) + " '" + thing + "' is in " + *splits.begin() + " and " + *splits.rbegin();
   }
   return shared;
 }
@@ -122,11 +124,14 @@ uint64_t PeopleSeedOf(const HumanSubset& subset, uint64_t seed) { return RngStre
 SplitLeaks FindSplitLeaks(const fs::path& folder) {
   SplitLeaks leaks;
   std::vector<ListedSubset> list = ReadList(folder / "subsets.json");
-  std::erase_if(list, [&](const ListedSubset& subset) { return subset.split == kNoSplit || !fs::exists(folder / subset.name / "people.jsonl"); });
+  std::erase_if(list,
+                [&](const ListedSubset& subset) { return subset.split == kNoSplit || !fs::exists(folder / subset.name / "people.jsonl"); });
   for (size_t i = 0; i < list.size(); ++i) {
     for (size_t k = 0; k < i; ++k) {
       if (list[i].split == list[k].split || !AreNear(list[i], list[k])) continue;
-      if (++leaks.places == 1) leaks.example = "subsets " + list[k].name + " (" + list[k].split + ") and " + list[i].name + " (" + list[i].split + ") are near each other";
+      if (++leaks.places == 1)
+        leaks.example =
+            "subsets " + list[k].name + " (" + list[k].split + ") and " + list[i].name + " (" + list[i].split + ") are near each other";
     }
   }
   Holders characters, seconds;

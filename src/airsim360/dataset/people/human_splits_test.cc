@@ -18,12 +18,22 @@ namespace fs = std::filesystem;
 
 HumanRecipe OneScene(uint64_t subsets) {
   HumanRecipe recipe;
-  recipe.scenes = {{.scene = "lot", .world = "lot", .subsets = subsets, .least_width = 10, .least_depth = 10, .most_width = 16, .most_depth = 16, .least_people = 3, .most_people = 6, .frames = 100}};
+  recipe.scenes = {{.scene = "lot",
+                    .world = "lot",
+                    .subsets = subsets,
+                    .least_width = 10,
+                    .least_depth = 10,
+                    .most_width = 16,
+                    .most_depth = 16,
+                    .least_people = 3,
+                    .most_people = 6,
+                    .frames = 100}};
   return recipe;
 }
 
 bool Near(const HumanArea& a, const HumanArea& b) {
-  return a.low.x < b.high.x + kSplitGap && b.low.x < a.high.x + kSplitGap && a.low.y < b.high.y + kSplitGap && b.low.y < a.high.y + kSplitGap;
+  return a.low.x < b.high.x + kSplitGap && b.low.x < a.high.x + kSplitGap && a.low.y < b.high.y + kSplitGap &&
+         b.low.y < a.high.y + kSplitGap;
 }
 
 TEST(HumanSplits, TrainAndTestOfThePapersTableHaveEveryPitch) {
@@ -96,7 +106,8 @@ TEST(HumanSplits, AMovingCameraFliesStraightThroughFreeAir) {
 }
 
 std::string Line(int64_t t_ns, double stature) {
-  return "{\"t_ns\":" + std::to_string(t_ns) + ",\"persons\":[{\"track_id\":1,\"character\":\"procedural\",\"stature_m\":" + std::to_string(stature) +
+  return "{\"t_ns\":" + std::to_string(t_ns) +
+         ",\"persons\":[{\"track_id\":1,\"character\":\"procedural\",\"stature_m\":" + std::to_string(stature) +
          ",\"age\":30,\"sex\":\"male\",\"outfit\":\"shirt\"}]}\n";
 }
 
@@ -106,9 +117,12 @@ TEST(HumanSplits, WhatSplitsShareIsFound) {
     for (const char* name : {"w/01", "w/02"}) fs::create_directories(folder / name);
     WriteFileAtomically(folder / "w/01/people.jsonl", Line(0, 1.7) + Line(1'500'000'000, 1.7));
     WriteFileAtomically(folder / "w/02/people.jsonl", Line(0, second_stature));
-    WriteFileAtomically(folder / "subsets.json", "[{\"subset\":\"w/01\",\"world\":\"w\",\"split\":\"train\",\"area\":[0,0,10,10]},"
-                                                 "{\"subset\":\"w/02\",\"world\":\"w\",\"split\":\"test\",\"area\":" + second_area + "},"
-                                                 "{\"subset\":\"w/03\",\"world\":\"w\",\"split\":\"test\"}]");
+    WriteFileAtomically(folder / "subsets.json",
+                        "[{\"subset\":\"w/01\",\"world\":\"w\",\"split\":\"train\",\"area\":[0,0,10,10]},"
+                        "{\"subset\":\"w/02\",\"world\":\"w\",\"split\":\"test\",\"area\":" +
+                            second_area +
+                            "},"
+                            "{\"subset\":\"w/03\",\"world\":\"w\",\"split\":\"test\"}]");
     return FindSplitLeaks(folder);
   };
   const SplitLeaks clean = write("[30,0,40,10]", 1.8);

@@ -12,8 +12,7 @@ template <class Body>
 void ForEachLine(const std::string& text, const Body& body) {
   for (size_t begin = 0; begin < text.size();) {
     const size_t end = std::min(text.find('\n', begin), text.size());
-    body(nlohmann::ordered_json::parse(text.begin() + static_cast<ptrdiff_t>(begin),
-                                       text.begin() + static_cast<ptrdiff_t>(end)));
+    body(nlohmann::ordered_json::parse(text.begin() + static_cast<ptrdiff_t>(begin), text.begin() + static_cast<ptrdiff_t>(end)));
     begin = end + 1;
   }
 }

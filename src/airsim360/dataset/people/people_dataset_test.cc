@@ -136,7 +136,8 @@ TEST_F(PeopleDatasetTest, EveryLineAgreesWithThePictures) {
       for (size_t i = 0; i < 17; ++i) {
         if (person["keypoints"][3 * i + 2] != 2) continue;
         ++visible;
-        const int x = static_cast<int>(person["keypoints"][3 * i].get<double>()), y = static_cast<int>(person["keypoints"][3 * i + 1].get<double>());
+        const int x = static_cast<int>(person["keypoints"][3 * i].get<double>()),
+                  y = static_cast<int>(person["keypoints"][3 * i + 1].get<double>());
         bool near = false;
         for (int k = 0; k < 9; ++k) near |= entity((x + k % 3 + 255) % 256, std::clamp(y + k / 3 - 1, 0, 127)) == id;
         on += near;
@@ -195,8 +196,8 @@ TEST_F(PeopleDatasetTest, ExportsKeepTheRulesOfTheirFormats) {
   EXPECT_EQ(people, 5);
   // nuScenes: tokens resolve, chains of annotations are as long as the instance says.
   std::map<std::string, Json> tables;
-  for (const char* name : {"category", "attribute", "visibility", "instance", "sensor", "calibrated_sensor", "ego_pose", "log",
-                           "scene", "sample", "sample_data", "sample_annotation", "map"})
+  for (const char* name : {"category", "attribute", "visibility", "instance", "sensor", "calibrated_sensor", "ego_pose", "log", "scene",
+                           "sample", "sample_data", "sample_annotation", "map"})
     tables[name] = Json::parse(ReadTextFile(folder_ / "a/nuscenes/v1.0-airsim360" / (std::string(name) + ".json")));
   EXPECT_EQ(tables["sample"].size(), 3u);
   std::map<std::string, Json> annotations;
@@ -218,7 +219,8 @@ TEST_F(PeopleDatasetTest, ExportsKeepTheRulesOfTheirFormats) {
   for (size_t i = 0; i < train["X"].size(); ++i) {
     EXPECT_EQ(train["X"][i].size(), 34u);
     const Json &y = train["Y"][i], &box = train["boxes_3d"][i];
-    EXPECT_NEAR(y[3].get<double>(), std::sqrt(std::pow(box[0].get<double>(), 2) + std::pow(box[1].get<double>(), 2) + std::pow(box[2].get<double>(), 2)), 1e-6);
+    EXPECT_NEAR(y[3].get<double>(),
+                std::sqrt(std::pow(box[0].get<double>(), 2) + std::pow(box[1].get<double>(), 2) + std::pow(box[2].get<double>(), 2)), 1e-6);
     // The crop looks at the person.
     EXPECT_GT(box[2].get<double>(), 0.9 * y[3].get<double>());
   }

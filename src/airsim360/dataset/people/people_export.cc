@@ -20,9 +20,7 @@ ExportedFile OrdersFile() {
     Json names = Json::array(), indices = Json::array();
     for (size_t i = 0; i < order.sockets.size(); ++i) {
       const int socket = order.sockets[i];
-      names.push_back(!order.names.empty() ? std::string(order.names[i])
-                      : socket >= 0        ? std::string(kSocketNames[socket])
-                                           : std::string());
+      names.push_back(!order.names.empty() ? std::string(order.names[i]) : socket >= 0 ? std::string(kSocketNames[socket]) : std::string());
       indices.push_back(socket);
     }
     orders[std::string(order.name)] = {{"names", names}, {"index", indices}};
@@ -34,8 +32,7 @@ ExportedFile OrdersFile() {
     joints.push_back(std::string(JointName(static_cast<Joint>(i))));
     parents.push_back(static_cast<int>(ParentOf(static_cast<Joint>(i))));
   }
-  return {"keypoint_orders.json",
-          Text({{"keypoints", names}, {"joints", joints}, {"joint_parents", parents}, {"orders", orders}})};
+  return {"keypoint_orders.json", Text({{"keypoints", names}, {"joints", joints}, {"joint_parents", parents}, {"orders", orders}})};
 }
 
 // COCO's own skeleton, one-based.
@@ -60,11 +57,30 @@ ExportedFile internal::CocoKeypoints(const std::string& people_jsonl, const Data
     for (const Json& person : line["persons"]) {
       if (person["area"] == 0) continue;
       Json annotation = {{"id", static_cast<int64_t>(annotations.size()) + 1}, {"image_id", image_id}, {"category_id", 1}};
-      for (const char* key : {"area", "iscrowd", "segmentation", "keypoints", "num_keypoints", "track_id", "entity_id",
-                              "behaviour", "group_id", "keypoint_state", "keypoint_occluder", "keypoints_world",
-                              "keypoints_cam", "keypoints_sph", "box2d_amodal", "box2d_amodal_parts",
-                              "visible_fraction", "truncation", "bfov", "rbfov", "box3d_world", "box3d_cam",
-                              "alpha", "velocity_world"}) {
+      for (const char* key : {"area",
+                              "iscrowd",
+                              "segmentation",
+                              "keypoints",
+                              "num_keypoints",
+                              "track_id",
+                              "entity_id",
+                              "behaviour",
+                              "group_id",
+                              "keypoint_state",
+                              "keypoint_occluder",
+                              "keypoints_world",
+                              "keypoints_cam",
+                              "keypoints_sph",
+                              "box2d_amodal",
+                              "box2d_amodal_parts",
+                              "visible_fraction",
+                              "truncation",
+                              "bfov",
+                              "rbfov",
+                              "box3d_world",
+                              "box3d_cam",
+                              "alpha",
+                              "velocity_world"}) {
         if (person.contains(key)) annotation[key] = person[key];
       }
       // COCO's box is inside the picture: of someone across the seam it spans all columns.
@@ -78,8 +94,7 @@ ExportedFile internal::CocoKeypoints(const std::string& people_jsonl, const Data
   Json names = Json::array();
   for (int i = 0; i < kCocoSocketCount; ++i) names.push_back(std::string(kSocketNames[i]));
   const Json category = {{"id", 1}, {"name", "person"}, {"supercategory", "person"}, {"keypoints", names}, {"skeleton", CocoSkeleton()}};
-  return {"person_keypoints.json",
-          Text({{"images", images}, {"annotations", annotations}, {"categories", Json::array({category})}})};
+  return {"person_keypoints.json", Text({{"images", images}, {"annotations", annotations}, {"categories", Json::array({category})}})};
 }
 
 std::vector<ExportedFile> ExportPeople(const std::string& people_jsonl, const DatasetSpec& spec) {

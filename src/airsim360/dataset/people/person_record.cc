@@ -62,8 +62,8 @@ void AddIdentity(const LabelledPicture& picture, const PersonLabel& label, Json&
 }
 
 void AddKeypoints(const PersonLabel& label, Json& json) {
-  Json coco = Json::array(), world = Json::array(), cam = Json::array(), sphere = Json::array(),
-       pixels = Json::array(), states = Json::array(), occluders = Json::array();
+  Json coco = Json::array(), world = Json::array(), cam = Json::array(), sphere = Json::array(), pixels = Json::array(),
+       states = Json::array(), occluders = Json::array();
   int labelled = 0;
   for (size_t i = 0; i < label.keypoints.size(); ++i) {
     const KeypointLabel& k = label.keypoints[i];
@@ -137,7 +137,8 @@ void AddBoxes(const LabelledPicture& picture, const PersonLabel& label, const Se
   const PersonBox3d& box = label.box3d;
   const Json lwh = {Length(box.length), Length(box.width), Length(box.height)};
   json["box3d_world"] = {{"center", Point(box.center_W)}, {"lwh", lwh}, {"yaw", Angle(box.yaw)}};
-  json["box3d_cam"] = {{"center", Point(box.center_C)}, {"bottom", Point(box.bottom_C)}, {"lwh", lwh}, {"rotation_y", Angle(box.rotation_y)}};
+  json["box3d_cam"] = {
+      {"center", Point(box.center_C)}, {"bottom", Point(box.bottom_C)}, {"lwh", lwh}, {"rotation_y", Angle(box.rotation_y)}};
   json["alpha"] = Angle(box.alpha);
   json["distance"] = Length(Norm(box.center_C));
 }
@@ -153,10 +154,8 @@ void AddCrop(const PersonLabel& label, Json& json) {
     keypoints.push_back(inside ? Pixels(pixel->y) : 0.0);
     keypoints.push_back(!inside ? 0 : k.state == KeypointState::kVisible ? 2 : 1);
   }
-  json["crop"] = {{"size", kCropSize},
-                  {"f", Pixels(crop.camera.fx)},
-                  {"q_wxyz_cam", RotationJson(crop.R_CK)},
-                  {"keypoints", std::move(keypoints)}};
+  json["crop"] = {
+      {"size", kCropSize}, {"f", Pixels(crop.camera.fx)}, {"q_wxyz_cam", RotationJson(crop.R_CK)}, {"keypoints", std::move(keypoints)}};
 }
 
 }  // namespace
@@ -183,8 +182,7 @@ std::vector<PersonRow> PersonRows(const LabelledPicture& picture, std::span<cons
   return rows;
 }
 
-std::string PeopleLine(const std::string& frame_line, const DatasetSpec& spec, const View& view,
-                       std::span<const std::string> persons) {
+std::string PeopleLine(const std::string& frame_line, const DatasetSpec& spec, const View& view, std::span<const std::string> persons) {
   constexpr double kDegrees = 180 / std::numbers::pi;
   const Json frame = Json::parse(frame_line);
   const Json& X_WC = spec.cameras.empty() ? frame["X_WC"] : frame["cameras"][view.name]["X_WC"];
@@ -201,10 +199,8 @@ std::string PeopleLine(const std::string& frame_line, const DatasetSpec& spec, c
   camera["projection"] = kProjectionNames[static_cast<int>(view.projection)];
   if (const auto* pinhole = std::get_if<Pinhole>(&view.camera))
     camera["K"] = {{pinhole->fx, 0, pinhole->cx}, {0, pinhole->fy, pinhole->cy}, {0, 0, 1}};
-  Json line = {{"index", frame["index"]},
-               {"stem", frame["stem"].get<std::string>() + view.suffix},
-               {"t_ns", frame["t_ns"]},
-               {"camera", camera}};
+  Json line = {
+      {"index", frame["index"]}, {"stem", frame["stem"].get<std::string>() + view.suffix}, {"t_ns", frame["t_ns"]}, {"camera", camera}};
   std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.back() = ',';  // the persons are texts already
   text += "\"persons\":[";

@@ -25,8 +25,7 @@ struct LabelledPicture {
 std::vector<PersonRow> PersonRows(const LabelledPicture& picture, std::span<const PersonLabel> labels);
 
 /// One line of people.jsonl: frame, camera and all persons of a picture.
-std::string PeopleLine(const std::string& frame_line, const DatasetSpec& spec, const View& view,
-                       std::span<const std::string> persons);
+std::string PeopleLine(const std::string& frame_line, const DatasetSpec& spec, const View& view, std::span<const std::string> persons);
 
 /// COCO's compressed run lengths of an entity's pixels, column by column: five bits a letter from '0' on,
 /// differences to the run before the last. `box` as Segment::box_wrap.

@@ -106,12 +106,9 @@ struct BuiltIn {
   const char* name;
   Recipe (*make)();
 };
-constexpr BuiltIn kRecipes[] = {{"omni360-scene", Scene},
-                                {"omni360-scene-released", SceneReleased},
-                                {"omni360-human", Human},
-                                {"omni360-waypoint-frames", WaypointFrames},
-                                {"omni360-1m", Million},
-                                {"omni360-mini", Mini}};
+constexpr BuiltIn kRecipes[] = {{"omni360-scene", Scene}, {"omni360-scene-released", SceneReleased},
+                                {"omni360-human", Human}, {"omni360-waypoint-frames", WaypointFrames},
+                                {"omni360-1m", Million},  {"omni360-mini", Mini}};
 
 }  // namespace
 

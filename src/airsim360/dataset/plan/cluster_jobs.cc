@@ -40,7 +40,8 @@ std::string YamlBlock(const std::string& lines, size_t indent) {
 // Letters, digits and '-', as clusters name jobs: with a hash and the index of a pod 63 in all.
 std::string JobName(const std::string& name) {
   std::string text;
-  for (const char c : name.substr(0, 40)) text += std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : '-';
+  for (const char c : name.substr(0, 40))
+    text += std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : '-';
   while (!text.empty() && text.front() == '-') text.erase(0, 1);
   while (!text.empty() && text.back() == '-') text.pop_back();
   return text.empty() ? "dataset" : text;
@@ -50,7 +51,8 @@ std::string JobName(const std::string& name) {
 std::string Filled(std::string text, const std::vector<std::pair<std::string, std::string>>& values) {
   for (const auto& [name, value] : values) {
     const std::string mark = "@" + name + "@";
-    for (size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size())) text.replace(at, mark.size(), value);
+    for (size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size()))
+      text.replace(at, mark.size(), value);
   }
   return text;
 }
@@ -202,7 +204,8 @@ struct PlanParts {
 };
 PlanParts PartsOf(const ClusterJob& job) {
   if (job.plan_text.empty()) return {job.plan, "", "", ""};
-  return {"/plan/plan.json", kConfigMap, "            - {name: plan, mountPath: /plan}\n", "        - name: plan\n          configMap: {name: @NAME@-@SHORT@}\n"};
+  return {"/plan/plan.json", kConfigMap, "            - {name: plan, mountPath: /plan}\n",
+          "        - name: plan\n          configMap: {name: @NAME@-@SHORT@}\n"};
 }
 
 // How many pods run at once, or may fail: Kubernetes allows no more in an Indexed Job.
@@ -227,8 +230,10 @@ std::string ClusterScript(ClusterBackend backend, const ClusterJob& job) {
       {"OUT", Quoted(job.out)},
   };
   const std::string shard = Filled(job.remote.empty() ? kShard : kRemoteShard, of_shards);
-  const std::string merge = job.remote.empty() ? "airsim360 dataset merge " + job.out + "/shard-* --out DATASET    puts the shards together"
-                                               : "rclone sync " + job.remote + " SHARDS && airsim360 dataset merge SHARDS/shard-* --out DATASET    puts them together";
+  const std::string merge =
+      job.remote.empty()
+          ? "airsim360 dataset merge " + job.out + "/shard-* --out DATASET    puts the shards together"
+          : "rclone sync " + job.remote + " SHARDS && airsim360 dataset merge SHARDS/shard-* --out DATASET    puts them together";
   const std::vector<std::pair<std::string, std::string>> values = {
       {"CONFIG_MAP", plan.config_map},
       {"PLAN_MOUNT", plan.mount},

@@ -92,7 +92,8 @@ FrameSource::~FrameSource() = default;
 const Flight& FrameSource::FilmOf(RowState& state) {
   if (!state.film.shots.empty()) return state.film;
   const RecipeRow& row = plan_.recipe.rows[state.row];
-  const HumanRecipe recipe{.scenes = {}, .interval = row.interval, .lowest = row.lowest, .highest = row.highest, .frames_a_view = row.view_frames};
+  const HumanRecipe recipe{
+      .scenes = {}, .interval = row.interval, .lowest = row.lowest, .highest = row.highest, .frames_a_view = row.view_frames};
   state.film = FilmSubset(recipe, SubsetOf(row), state.area, *state.stage->people(), *stage_->tracer(), plan_.seed);
   // What follows a view is another one.
   std::vector<Shot>& shots = state.film.shots;
@@ -176,7 +177,9 @@ Take FrameSource::TakeOf(int64_t frame) {
   const FrameBlock block = BlockOf(plan_, frame);
   const RecipeRow& row = plan_.recipe.rows[block.row];
   const Sampler sampler = SamplerOf(row);
-  const int64_t size = sampler == Sampler::kViewpoints ? 1 : sampler == Sampler::kFlights ? static_cast<int64_t>(row.flight_frames) : block.count;
+  const int64_t size = sampler == Sampler::kViewpoints ? 1
+                       : sampler == Sampler::kFlights  ? static_cast<int64_t>(row.flight_frames)
+                                                       : block.count;
   const int64_t first = (frame - block.first) / size * size;
   return {block.first + first, PartOf(block, first, std::min(first + size, block.count))};
 }

@@ -32,9 +32,8 @@ Json ContentJson(const DatasetPlan& plan) {
   for (const auto& [row, list] : plan.aims) {
     for (const Aim& aim : list) aims[row][aim.category] = aim.share;
   }
-  return {{"format", kPlanFormat}, {"seed", plan.seed},   {"frames", plan.frames()},
-          {"worlds", worlds},      {"facts", facts},      {"aims", aims},
-          {"recipe", written}};
+  return {{"format", kPlanFormat}, {"seed", plan.seed}, {"frames", plan.frames()}, {"worlds", worlds},
+          {"facts", facts},        {"aims", aims},      {"recipe", written}};
 }
 
 std::string HashOf(const Json& content) { return Sha256Hex(AsBytes(content.dump(-1, ' ', false, Json::error_handler_t::replace))); }
@@ -94,16 +93,15 @@ bool IsPlanFile(const std::filesystem::path& file) {
   return json.is_object() && json.contains("format") && json.contains("recipe");
 }
 
-DatasetPlan ReadPlan(const std::filesystem::path& file) {
-  return ParsePlan(ReadTextFile(file, uint64_t{64} << 20), file.string());
-}
+DatasetPlan ReadPlan(const std::filesystem::path& file) { return ParsePlan(ReadTextFile(file, uint64_t{64} << 20), file.string()); }
 
 DatasetPlan ParsePlan(std::string_view text, const std::string& name) {
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("format") || !json["format"].is_string() || !json.contains("recipe"))
     throw InputError(name + ": not a plan; make one with airsim360 dataset plan RECIPE --out plan.json");
   if (json["format"] != kPlanFormat)
-    throw InputError(name + ": format '" + json["format"].get<std::string>() + "' is not " + kPlanFormat + ", which this program reads; plan again");
+    throw InputError(name + ": format '" + json["format"].get<std::string>() + "' is not " + kPlanFormat +
+                     ", which this program reads; plan again");
   DatasetPlan plan;
   try {
     ReadYaml(json["recipe"].dump(), name, [&](ConfigVisitor& v) { VisitRecipe(v, plan.recipe); });
@@ -115,7 +113,8 @@ DatasetPlan ParsePlan(std::string_view text, const std::string& name) {
   SealPlan(plan);
   const std::string told = json.value("hash", Json("")).dump();
   if (told != '"' + plan.hash + '"' || PlanJson(plan) != json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n")
-    throw InputError(name + ": it was edited: its hash is " + told + ", that of its content \"" + plan.hash + "\"; change the recipe and plan again");
+    throw InputError(name + ": it was edited: its hash is " + told + ", that of its content \"" + plan.hash +
+                     "\"; change the recipe and plan again");
   for (const RecipeRow& row : plan.recipe.rows) plan.facts(row);
   return plan;
 }

@@ -35,9 +35,9 @@ struct Aim {
 struct DatasetPlan {
   Recipe recipe;
   uint64_t seed = 0;
-  std::map<std::string, WorldFacts> worlds;         ///< by WorldKey
-  std::map<std::string, std::vector<Aim>> aims;     ///< by row; of rows of viewpoints
-  std::string hash;                                 ///< of everything above and the format
+  std::map<std::string, WorldFacts> worlds;      ///< by WorldKey
+  std::map<std::string, std::vector<Aim>> aims;  ///< by row; of rows of viewpoints
+  std::string hash;                              ///< of everything above and the format
 
   int64_t frames() const { return recipe.frames(); }
   const WorldFacts& facts(const RecipeRow& row) const;
@@ -70,9 +70,9 @@ int64_t FirstFrame(const DatasetPlan& plan, size_t row);
 /// Frames of one row that follow one another under one sky.
 struct FrameBlock {
   size_t row = 0;
-  int64_t number = 0;           ///< in the row
-  int64_t first = 0, count = 0; ///< frames of the plan
-  uint64_t seed = 0;            ///< of its frames' noise and samples
+  int64_t number = 0;            ///< in the row
+  int64_t first = 0, count = 0;  ///< frames of the plan
+  uint64_t seed = 0;             ///< of its frames' noise and samples
 };
 FrameBlock BlockOf(const DatasetPlan& plan, int64_t frame);
 

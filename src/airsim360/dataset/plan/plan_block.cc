@@ -19,7 +19,8 @@ nlohmann::ordered_json Three(Vec3d v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
-void FillInput(const DatasetPlan& plan, const FrameBlock& block, int64_t first, Stage& stage, const PlanLabels& labels, CollectInput& input) {
+void FillInput(const DatasetPlan& plan, const FrameBlock& block, int64_t first, Stage& stage, const PlanLabels& labels,
+               CollectInput& input) {
   input.first_frame = first;
   input.t_offset_ns = TimeOffset(plan, block);
   input.renumber = labels.Renumbering(block.row);
@@ -33,7 +34,8 @@ std::string PlannedFrameJson(const DatasetPlan& plan, int64_t frame, const Shot&
   const View view = Views(spec).front();
   const RigidTransform X_WC = CameraPose(PanoramicRig{spec, view.camera, view.X_BC}, shot.body.X_WB);
   const Quaternion q = ToQuaternion(X_WC.R);
-  const nlohmann::ordered_json exposure = HasOwnExposure(spec) ? nlohmann::ordered_json("auto") : nlohmann::ordered_json(spec.exposure_ev + sky.exposure_ev);
+  const nlohmann::ordered_json exposure =
+      HasOwnExposure(spec) ? nlohmann::ordered_json("auto") : nlohmann::ordered_json(spec.exposure_ev + sky.exposure_ev);
   const nlohmann::ordered_json json = {{"index", frame},
                                        {"row", row.name},
                                        {"world", row.world},

@@ -12,7 +12,8 @@
 namespace airsim360 {
 
 /// Sets of `input` what a block decides: times, ids and people. `first` is the frame of the plan of its first shot.
-void FillInput(const DatasetPlan& plan, const FrameBlock& block, int64_t first, Stage& stage, const PlanLabels& labels, CollectInput& input);
+void FillInput(const DatasetPlan& plan, const FrameBlock& block, int64_t first, Stage& stage, const PlanLabels& labels,
+               CollectInput& input);
 
 /// What a frame is, as a line of JSON: index, row, world, t_ns, X_WC (of the first view of `spec`), v_WB, w_WB_B, environment (which
 /// `render --environment` takes), exposure (stops, or "auto"), people, seed and block, the frames that share its sky.

@@ -38,8 +38,8 @@ const PlanFramesOptions& Checked(const PlanFramesOptions& options) {
 struct PlanFrames::OpenRow {
   size_t row;
   std::unique_ptr<FrameSource> source;
-  std::shared_ptr<Stage> stage = nullptr;  // with people
-  airsim360::Take take = {};               // of the last frame
+  std::shared_ptr<Stage> stage = nullptr;    // with people
+  airsim360::Take take = {};                 // of the last frame
   std::optional<EncodeContext> people = {};  // of rows of people
 };
 

@@ -18,8 +18,8 @@
 namespace airsim360 {
 
 struct PlanFramesOptions {
-  DatasetSpec pictures;              ///< of SpecOfPicture
-  EnvironmentFlags environment = {}; ///< over the sky of every frame
+  DatasetSpec pictures;               ///< of SpecOfPicture
+  EnvironmentFlags environment = {};  ///< over the sky of every frame
   DeviceChoice device = {};
   std::filesystem::path cache = {};  ///< folder of frames that were drawn before; empty: none are kept
   uint64_t cache_bytes = uint64_t{2} << 30;
@@ -82,8 +82,8 @@ class PlanFrames {
   const DiskCache cache_;
   std::string key_;  // of everything in a cached frame but its number
 
-  std::mutex mutex_;  // of what follows
-  std::list<OpenRow> rows_;                                             // the last used first
+  std::mutex mutex_;                                                  // of what follows
+  std::list<OpenRow> rows_;                                           // the last used first
   std::list<std::pair<std::string, std::shared_ptr<Stage>>> worlds_;  // by key, the last used first
   SkyRenderer renderer_;
   std::vector<Capture> captures_;  // their memory is used again

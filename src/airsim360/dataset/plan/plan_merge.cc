@@ -111,7 +111,8 @@ CollectResult MergeShards(const std::vector<fs::path>& folders, const fs::path& 
   }
   const DatasetPlan plan = ReadPlan(folders.front() / kPlanName);
   const Json first = ParametersOf(folders.front());
-  const DatasetSpec spec = SpecOfPlan(plan, SpecOfPictures(plan.recipe.picture, first.at("picture").get<std::map<std::string, std::string>>()), 0, 1);
+  const DatasetSpec spec =
+      SpecOfPlan(plan, SpecOfPictures(plan.recipe.picture, first.at("picture").get<std::map<std::string, std::string>>()), 0, 1);
   PlanLabels labels(plan);
   for (const fs::path& folder : folders) {
     const Json parameters = ParametersOf(folder);
@@ -119,7 +120,8 @@ CollectResult MergeShards(const std::vector<fs::path>& folders, const fs::path& 
     DatasetSpec shard = spec;
     shard.shard = parameters["shard"], shard.shards = parameters["shards"];
     const std::string difference = DescribeMetaDifference(ReadTextFile(folder / kMetaName), MetaJson(shard, labels.scene()));
-    if (!difference.empty()) throw InputError("'" + folder.string() + "' does not go with '" + folders.front().string() + "': " + difference);
+    if (!difference.empty())
+      throw InputError("'" + folder.string() + "' does not go with '" + folders.front().string() + "': " + difference);
     for (const DatasetIndex::NamedEntity& entity : DatasetIndex(folder, DatasetIndex::Mode::kRead).Entities())
       labels.Name(entity.id, entity.name, entity.category);
   }

@@ -45,7 +45,8 @@ class BlockWriter {
   SkyRenderer renderer_;
 };
 
-CollectResult WriteBlocks(const PlanRun& run, std::span<const int64_t> frames, const std::function<void(int64_t)>& done, PlanLabels& labels) {
+CollectResult WriteBlocks(const PlanRun& run, std::span<const int64_t> frames, const std::function<void(int64_t)>& done,
+                          PlanLabels& labels) {
   CollectResult result{.frames = static_cast<int64_t>(frames.size())};
   BlockWriter writer(run, labels);
   for (size_t begin = 0; begin < frames.size();) {
@@ -69,7 +70,8 @@ void FillNames(const PlanRun& run, const std::vector<int64_t>& frames, PlanLabel
 void TellWaiting(const DatasetPlan& plan) {
   for (const RecipeRow& row : plan.recipe.rows) {
     if (!plan.facts(row).exists())
-      LogWarning("row '" + row.name + "': world '" + row.world + "' did not exist when this was planned; its " + std::to_string(row.frames) + " frames are left out");
+      LogWarning("row '" + row.name + "': world '" + row.world + "' did not exist when this was planned; its " +
+                 std::to_string(row.frames) + " frames are left out");
   }
 }
 
@@ -84,7 +86,8 @@ CollectResult RunPlan(const PlanRun& run, const RenderElsewhere& elsewhere) {
   input.frames = FramesOfShard(run.plan, run.shard, run.shards);
   bool all_here = false;
   const RenderElsewhere here = [&](const std::vector<int64_t>& missing, const std::function<void()>& written, CollectResult& result) {
-    const CollectResult part = WriteBlocks(run, missing, [&](int64_t) { written(); }, labels);
+    const CollectResult part = WriteBlocks(
+        run, missing, [&](int64_t) { written(); }, labels);
     result.render_ms += part.render_ms, result.write_ms += part.write_ms, result.rays += part.rays;
     all_here = missing.size() == input.frames->size();
   };

@@ -31,10 +31,10 @@ CollectResult RunPlanPart(const PlanRun& run, std::span<const int64_t> frames, c
 std::vector<int64_t> DoneFrames(const DatasetPlan& plan, const std::filesystem::path& folder);
 
 struct PlanStatus {
-  int64_t frames = 0;   ///< of the plan
-  int64_t done = 0;     ///< in any of the folders
-  int64_t missing = 0;  ///< of worlds that exist
-  int64_t waiting = 0;  ///< of worlds that do not exist yet
+  int64_t frames = 0;                                     ///< of the plan
+  int64_t done = 0;                                       ///< in any of the folders
+  int64_t missing = 0;                                    ///< of worlds that exist
+  int64_t waiting = 0;                                    ///< of worlds that do not exist yet
   std::vector<std::pair<int64_t, int64_t>> missing_runs;  ///< [first, last)
 };
 PlanStatus StatusOf(const DatasetPlan& plan, const std::vector<std::filesystem::path>& folders);

@@ -14,8 +14,7 @@ DatasetSpec SpecOfPicture(const RecipePicture& picture, const CameraChoice& came
   // Numbers of materials are those of one world.
   if (spec.products.material || spec.products.part)
     throw InputError("--products: material and part are numbered by world; collect has them");
-  if (spec.products.radiance && spec.tier == Tier::kLabels)
-    throw InputError("--products: tier 'labels' has no light; use --tier fast");
+  if (spec.products.radiance && spec.tier == Tier::kLabels) throw InputError("--products: tier 'labels' has no light; use --tier fast");
   return spec;
 }
 

@@ -176,7 +176,8 @@ TEST(Plan, EntitiesOfWorldsAndOfPeopleHaveIdsOfTheirOwn) {
     if (row == 4) {
       EXPECT_EQ(renumber(1), labels.Renumbering(0)(1));
     }
-    for (EntityId id = row == 4 ? own + 1 : 1; id <= own + kEntitiesOfPerson * plan.recipe.rows[row].people; ++id) EXPECT_TRUE(ids.insert(renumber(id)).second);
+    for (EntityId id = row == 4 ? own + 1 : 1; id <= own + kEntitiesOfPerson * plan.recipe.rows[row].people; ++id)
+      EXPECT_TRUE(ids.insert(renumber(id)).second);
   }
   EXPECT_EQ(static_cast<int64_t>(ids.size()), EntityCount(plan));
   EXPECT_EQ(*ids.begin(), 1u);
@@ -184,7 +185,17 @@ TEST(Plan, EntitiesOfWorldsAndOfPeopleHaveIdsOfTheirOwn) {
 }
 
 TEST(ClusterScript, QuotesWhatAShellWouldTakeApart) {
-  const ClusterJob job{.name = "My set!", .hash = std::string(64, 'a'), .program = "/opt/it's/airsim360", .plan = "/a b/plan.json", .out = "/out $HOME", .flags = {}, .shards = 12, .image = "a\"b", .claim = "c", .secret = {}, .plan_text = {}};
+  const ClusterJob job{.name = "My set!",
+                       .hash = std::string(64, 'a'),
+                       .program = "/opt/it's/airsim360",
+                       .plan = "/a b/plan.json",
+                       .out = "/out $HOME",
+                       .flags = {},
+                       .shards = 12,
+                       .image = "a\"b",
+                       .claim = "c",
+                       .secret = {},
+                       .plan_text = {}};
   const std::string slurm = ClusterScript(ClusterBackend::kSlurm, job);
   EXPECT_NE(slurm.find("--job-name=my-set\n"), std::string::npos);
   EXPECT_NE(slurm.find("--array=0-11\n"), std::string::npos);

@@ -82,7 +82,8 @@ void CheckMixture(const SkyMixture& mixture, const std::string& where) {
       if (!(range.low <= range.high)) throw InputError(at + range.setting + ": low is above high");
       if (index == EnvironmentFields().size()) {
         if (range.low < -kMaxStops || range.high > kMaxStops)
-          throw InputError(at + "exposure: it is in " + std::to_string(-static_cast<int>(kMaxStops)) + " … " + std::to_string(static_cast<int>(kMaxStops)) + " stops");
+          throw InputError(at + "exposure: it is in " + std::to_string(-static_cast<int>(kMaxStops)) + " … " +
+                           std::to_string(static_cast<int>(kMaxStops)) + " stops");
         continue;
       }
       const EnvironmentField& field = EnvironmentFields()[index];
@@ -177,14 +178,16 @@ void CheckExposures(const Recipe& recipe, const PictureSettings& picture, const 
   for (const SkyMixture& mixture : recipe.skies) {
     for (const SkyChoice& choice : mixture.choices) {
       if (std::ranges::count(choice.settings, kExposureSetting, &SettingRange::setting) > 0)
-        throw InputError(where + ": skies '" + mixture.name + "': exposure is drawn, but every picture finds its own with exposure: auto; give a number of stops");
+        throw InputError(where + ": skies '" + mixture.name +
+                         "': exposure is drawn, but every picture finds its own with exposure: auto; give a number of stops");
     }
   }
 }
 
 Recipe FindRecipe(const std::string& name_or_file) {
   if (name_or_file == kWaypointSet)
-    throw InputError(std::string(kWaypointSet) + " holds flights, not frames: airsim360 plan --dataset waypoint --out DIR makes it, with "
+    throw InputError(std::string(kWaypointSet) +
+                     " holds flights, not frames: airsim360 plan --dataset waypoint --out DIR makes it, with "
                      "--shard I/N a part of it; frames along its flights: airsim360 dataset plan omni360-waypoint-frames");
   const std::vector<std::string> names = RecipeNames();
   if (std::ranges::count(names, name_or_file) > 0) {

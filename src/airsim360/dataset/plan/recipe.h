@@ -32,11 +32,11 @@ inline constexpr char kExposureSetting[] = "exposure";
 /// One kind of sky of a mixture.
 struct SkyChoice {
   double weight = 1;
-  std::string weather;                ///< a preset; empty: the world's own environment
-  bool climate = false;               ///< instead: date, hour, clouds and weather by lot, SampleEnvironment of…
-  double latitude_deg = 45;           ///< … this latitude
-  double least_sun_elevation_deg = 2; ///< … and with the sun so high
-  std::vector<SettingRange> settings; ///< drawn over it
+  std::string weather;                 ///< a preset; empty: the world's own environment
+  bool climate = false;                ///< instead: date, hour, clouds and weather by lot, SampleEnvironment of…
+  double latitude_deg = 45;            ///< … this latitude
+  double least_sun_elevation_deg = 2;  ///< … and with the sun so high
+  std::vector<SettingRange> settings;  ///< drawn over it
 };
 
 /// Skies by lot. Consecutive frames share one, because a sky takes seconds to prepare.
@@ -53,12 +53,12 @@ struct RecipeRow {
   uint64_t world_seed = 0;
   uint64_t frames = 0;
   std::string sampler = "viewpoints";
-  std::string skies = "varied";      ///< name of a mixture
-  std::vector<std::string> area;     ///< [x0, y0, x1, y1] metres; empty: where the things of the world are
-  double lowest = 1.6, highest = 120;  ///< metres above the ground
-  double clearance = 1;                ///< metres to every surface
-  double tilt_deg = 0;                 ///< of the body: pitch and roll are drawn from ± this
-  uint64_t flight_frames = 20;         ///< flights: frames of each
+  std::string skies = "varied";                 ///< name of a mixture
+  std::vector<std::string> area;                ///< [x0, y0, x1, y1] metres; empty: where the things of the world are
+  double lowest = 1.6, highest = 120;           ///< metres above the ground
+  double clearance = 1;                         ///< metres to every surface
+  double tilt_deg = 0;                          ///< of the body: pitch and roll are drawn from ± this
+  uint64_t flight_frames = 20;                  ///< flights: frames of each
   double least_length = 50, most_length = 150;  ///< flights: metres
   uint64_t people = 0;                          ///< in the world; sampler people: in the area
   double width = 20, depth = 20;                ///< people: of the area, metres

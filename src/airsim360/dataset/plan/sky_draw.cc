@@ -25,7 +25,8 @@ PlannedSky DrawSky(const SkyMixture& mixture, RngStream random, const Environmen
   const SkyChoice& choice = Choose(mixture, random.Uniform());
   PlannedSky sky{choice.weather.empty() ? world : ParseEnvironmentPreset(choice.weather, world), 0};
   if (choice.climate)
-    sky.environment = SampleEnvironment(random.Bits(), {.latitude_deg = choice.latitude_deg, .least_sun_elevation_deg = choice.least_sun_elevation_deg});
+    sky.environment =
+        SampleEnvironment(random.Bits(), {.latitude_deg = choice.latitude_deg, .least_sun_elevation_deg = choice.least_sun_elevation_deg});
   for (const SettingRange& range : choice.settings) {
     const auto field = std::ranges::find_if(EnvironmentFields(), [&](const EnvironmentField& f) { return f.name == range.setting; });
     // Few digits, as people and flags write them; never outside the range, as rounding could be.

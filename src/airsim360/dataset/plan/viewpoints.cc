@@ -12,13 +12,13 @@
 namespace airsim360 {
 namespace {
 
-constexpr int kTries = 200;       // places of a frame before it is given up
-constexpr int kAimTries = 60;     // places near a rare thing
+constexpr int kTries = 200;                       // places of a frame before it is given up
+constexpr int kAimTries = 60;                     // places near a rare thing
 constexpr int64_t kTryStride = int64_t{1} << 24;  // frames of a row stay below it: no place is tried for two of them
-constexpr int kSkyRays = 32;      // one of them must be free: nobody stands inside of a building
-constexpr double kRareShare = 0.06;  // of viewpoints: categories seen from fewer are aimed at
-constexpr double kAimShare = 0.045;  // of frames, for a category that no viewpoint sees
-constexpr double kMostAims = 0.6;    // of all frames
+constexpr int kSkyRays = 32;                      // one of them must be free: nobody stands inside of a building
+constexpr double kRareShare = 0.06;               // of viewpoints: categories seen from fewer are aimed at
+constexpr double kAimShare = 0.045;               // of frames, for a category that no viewpoint sees
+constexpr double kMostAims = 0.6;                 // of all frames
 
 }  // namespace
 
@@ -95,8 +95,8 @@ Vec3d ViewpointSampler::Even(int64_t k) const {
   for (int64_t i = 0; i < kTries; ++i) {
     const auto n = static_cast<uint64_t>(k + i * kTryStride);
     const double u = LowDiscrepancy(n, 0, offset[0]), v = LowDiscrepancy(n, 1, offset[1]);
-    const Vec2d at = has_area_ ? Vec2d{area_.min.x + u * (area_.max.x - area_.min.x), area_.min.y + v * (area_.max.y - area_.min.y)}
-                               : ground_.At(u, v);
+    const Vec2d at =
+        has_area_ ? Vec2d{area_.min.x + u * (area_.max.x - area_.min.x), area_.min.y + v * (area_.max.y - area_.min.y)} : ground_.At(u, v);
     const auto ground = GroundUnder(tracer_, at);
     if (!ground && open && !ground_.cells.empty()) continue;
     const double bottom = ground.value_or(scene.bounds.min.z);
@@ -128,7 +128,8 @@ bool ViewpointSampler::Near(CategoryId category, int64_t k, Vec3d& p_W) const {
     const double radius = 0.5 * std::min(kLarge, std::max({size.x, size.y, size.z}));
     const double distance = radius + kNearest * std::pow(kFarthest / kNearest, random.Uniform());
     const double azimuth = random.Uniform(0, 2 * std::numbers::pi), elevation = random.Uniform(-0.1, 0.9);
-    const Vec3d p = target + Vec3d{std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)} * distance;
+    const Vec3d p =
+        target + Vec3d{std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)} * distance;
     if (has_area_ && (p.x < area_.min.x || p.x > area_.max.x || p.y < area_.min.y || p.y > area_.max.y)) continue;
     const auto hit = tracer_.Intersect(VecCast<float>(p), VecCast<float>(Normalized(target - p)));
     if (!hit || scene.entity(EntityOfHit(scene, hit->surface)).category != category) continue;

@@ -30,8 +30,8 @@ ImageSize ParseSize(const std::string& text) {
   }
   for (int side : {size.width, size.height}) {
     if (side < kMinSide || side > kMaxSide) {
-      throw InputError("--size: '" + text + "': " + std::to_string(side) + " is not in " +
-                       std::to_string(kMinSide) + " … " + std::to_string(kMaxSide));
+      throw InputError("--size: '" + text + "': " + std::to_string(side) + " is not in " + std::to_string(kMinSide) + " … " +
+                       std::to_string(kMaxSide));
     }
   }
   return size;
@@ -41,8 +41,8 @@ void CheckPanoramaSize(ImageSize size) {
   if (size.width == 2 * size.height) return;
   const int height = std::clamp(size.width / 2, kMinSide / 2, kMaxSide / 2);
   throw InputError("--size: '" + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                   "' is not twice as wide as high, as an equirectangular panorama is; did you mean '" +
-                   std::to_string(2 * height) + "x" + std::to_string(height) + "'?");
+                   "' is not twice as wide as high, as an equirectangular panorama is; did you mean '" + std::to_string(2 * height) + "x" +
+                   std::to_string(height) + "'?");
 }
 
 void CameraChoice::Apply(DatasetSpec& spec) const {

@@ -14,18 +14,13 @@ class JsonWriter : public ConfigVisitor {
 
   void Field(std::string_view name, std::string_view, bool& value) override { Put(name, value); }
   void Field(std::string_view name, std::string_view, uint64_t& value) override { Put(name, value); }
-  void Field(std::string_view name, std::string_view, double& value, double, double) override {
-    Put(name, value);
-  }
+  void Field(std::string_view name, std::string_view, double& value, double, double) override { Put(name, value); }
   void Field(std::string_view name, std::string_view, std::string& value) override { Put(name, value); }
-  void Field(std::string_view name, std::string_view, std::vector<std::string>& value) override {
-    Put(name, value);
-  }
+  void Field(std::string_view name, std::string_view, std::vector<std::string>& value) override { Put(name, value); }
   void Count(std::string_view name, std::string_view, int& value, int) override {
     if (value > 0) Put(name, value);
   }
-  void NumberOr(std::string_view name, std::string_view, const char* word, bool& is_word, double& value,
-                double, double) override {
+  void NumberOr(std::string_view name, std::string_view, const char* word, bool& is_word, double& value, double, double) override {
     if (is_word) return Put(name, word);
     Put(name, value);
   }

@@ -17,8 +17,12 @@ nlohmann::ordered_json PoseJson(const RigidTransform& X) {
 
 // What the camera chose for a picture.
 nlohmann::ordered_json LookJson(const PhotoFigures& photo) {
-  return {{"exposure_ev", photo.exposure_ev}, {"white_cd_m2", photo.white_cd_m2}, {"gain", photo.gain},
-          {"white_balance", {photo.red, photo.green, photo.blue}}, {"contrast", photo.contrast}, {"sun_seen", photo.sun_seen}};
+  return {{"exposure_ev", photo.exposure_ev},
+          {"white_cd_m2", photo.white_cd_m2},
+          {"gain", photo.gain},
+          {"white_balance", {photo.red, photo.green, photo.blue}},
+          {"contrast", photo.contrast},
+          {"sun_seen", photo.sun_seen}};
 }
 
 // Pose, next pose and intrinsics of one camera of a rig.
@@ -38,8 +42,7 @@ nlohmann::ordered_json IntrinsicsJson(const Camera& camera) {
                                   {"fy", c.fy},     {"cx", c.cx},       {"cy", c.cy},         {"distortion", distortion}};
   };
   if (const auto* pinhole = std::get_if<Pinhole>(&camera)) return json("PINHOLE", *pinhole, {});
-  if (const auto* fisheye = std::get_if<Fisheye>(&camera))
-    return json("OPENCV_FISHEYE", *fisheye, {fisheye->k.begin(), fisheye->k.end()});
+  if (const auto* fisheye = std::get_if<Fisheye>(&camera)) return json("OPENCV_FISHEYE", *fisheye, {fisheye->k.begin(), fisheye->k.end()});
   if (const auto* lens = std::get_if<CalibratedLens>(&camera)) {
     const CameraModel model = *ModelOf(camera);
     nlohmann::ordered_json K = json(model.name.c_str(), *lens, {model.parameters.begin() + 4, model.parameters.end()});

@@ -24,7 +24,7 @@ struct PersonRow {
   EntityId entity = kNoEntity;
   int64_t track = 0;
   std::string behaviour;
-  double range = 0;  ///< metres to the middle of the body
+  double range = 0;    ///< metres to the middle of the body
   int64_t pixels = 0;  ///< that show the person
   double visible_fraction = 0;
   std::string json;  ///< entry of people.jsonl
@@ -35,7 +35,7 @@ struct ViewRecord {
   RigidTransform X_WC;
   std::optional<RigidTransform> X_WC_next = {};  ///< where the flow leads to, if the dataset has flow
   std::vector<Segment> segments = {};
-  std::vector<PersonRow> persons = {};  ///< by entity id
+  std::vector<PersonRow> persons = {};     ///< by entity id
   std::optional<PhotoFigures> photo = {};  ///< of look photo
 };
 

@@ -96,9 +96,8 @@ void CheckGimbal(const GimbalEntry& g) {
 }
 
 bool IsName(const std::string& name) {
-  return !name.empty() && name.size() <= 32 && std::ranges::all_of(name, [](unsigned char c) {
-    return std::islower(c) || std::isdigit(c) || c == '_';
-  });
+  return !name.empty() && name.size() <= 32 &&
+         std::ranges::all_of(name, [](unsigned char c) { return std::islower(c) || std::isdigit(c) || c == '_'; });
 }
 
 void CheckName(const std::string& name, std::set<std::string>& names, const char* kind) {
@@ -173,8 +172,8 @@ RigCamera LensOf(const CameraEntry& entry, const fs::path& rig, RigidTransform& 
   if (entry.size.empty()) throw InputError("size: a model needs the size of its pictures, for example 752x480");
   RigCamera sized;
   SetSize(entry.size, sized);
-  return FromCalibration({.model = entry.model, .width = sized.width, .height = sized.height, .parameters = ParseParameters(entry.parameters)},
-                         "", fov_deg);
+  return FromCalibration(
+      {.model = entry.model, .width = sized.width, .height = sized.height, .parameters = ParseParameters(entry.parameters)}, "", fov_deg);
 }
 
 void Place(const Mount& mount, RigCamera& camera) {
@@ -267,8 +266,7 @@ RigCamera MakeRigCamera(const std::string& projection, const std::string& size_t
   const double limit = pinhole ? 179 : 360;
   camera.fov_deg = fov_deg != 0 ? fov_deg : pinhole ? 90 : 180;
   if (!(camera.fov_deg >= 1 && camera.fov_deg <= limit)) {
-    throw InputError("--fov: " + std::to_string(fov_deg) + " degrees is not in 1 … " +
-                     std::to_string(static_cast<int>(limit)));
+    throw InputError("--fov: " + std::to_string(fov_deg) + " degrees is not in 1 … " + std::to_string(static_cast<int>(limit)));
   }
   return camera;
 }

@@ -30,8 +30,8 @@ class SegmentCollector {
   // The segment of an entity, new if it was not seen yet.
   Segment& Find(EntityId id, int x, int y) {
     if (id == kNoEntity || id >= slots_.size()) {
-      throw RuntimeError("renderer: entity id " + std::to_string(id) + " at column " + std::to_string(x) +
-                         ", row " + std::to_string(y) + " is not in the scene");
+      throw RuntimeError("renderer: entity id " + std::to_string(id) + " at column " + std::to_string(x) + ", row " + std::to_string(y) +
+                         " is not in the scene");
     }
     if (slots_[id] < 0) {
       slots_[id] = static_cast<int>(segments_.size());
@@ -57,11 +57,9 @@ class SegmentCollector {
     for (size_t i = 0; i < segments_.size(); ++i) {
       Segment& segment = segments_[i];
       segment.box_wrap = segment.box;
-      if (wraps)
-        std::tie(segment.box_wrap.x, segment.box_wrap.w) = ShortestColumnRun(&columns_[i * words_], width_);
+      if (wraps) std::tie(segment.box_wrap.x, segment.box_wrap.w) = ShortestColumnRun(&columns_[i * words_], width_);
     }
-    std::sort(segments_.begin(), segments_.end(),
-              [](const auto& a, const auto& b) { return a.entity < b.entity; });
+    std::sort(segments_.begin(), segments_.end(), [](const auto& a, const auto& b) { return a.entity < b.entity; });
     return std::move(segments_);
   }
 
@@ -97,9 +95,8 @@ std::pair<int, int> ShortestColumnRun(const uint64_t* bits, int width) {
   return {best_start, width - longest};
 }
 
-std::vector<Segment> FindSegments(const Image<EntityId>& entity, const Image<CategoryId>& semantic,
-                                  const Scene& scene, const PixelSolidAngles& solid_angles,
-                                  PictureKind kind) {
+std::vector<Segment> FindSegments(const Image<EntityId>& entity, const Image<CategoryId>& semantic, const Scene& scene,
+                                  const PixelSolidAngles& solid_angles, PictureKind kind) {
   SegmentCollector collector(scene, entity.width());
   for (int y = 0; y < entity.height(); ++y) {
     const auto ids = entity.row(y);
@@ -116,9 +113,8 @@ std::vector<Segment> FindSegments(const Image<EntityId>& entity, const Image<Cat
       for (; x < entity.width() && ids[x] == ids[begin]; ++x) {
         solid_angle += solid_angles(x, y);
         if (categories[x] != segment.category) {
-          throw RuntimeError("renderer: category " + std::to_string(categories[x]) + " on entity " +
-                             std::to_string(segment.entity) + " of category " +
-                             std::to_string(segment.category));
+          throw RuntimeError("renderer: category " + std::to_string(categories[x]) + " on entity " + std::to_string(segment.entity) +
+                             " of category " + std::to_string(segment.category));
         }
       }
       collector.Add(segment, begin, x, y, solid_angle);

@@ -21,9 +21,9 @@ struct PixelBox {
 struct Segment {
   EntityId entity = kNoEntity;
   CategoryId category = kVoid;
-  int64_t area = 0;   ///< pixels
-  PixelBox box;       ///< tight, inside the picture
-  PixelBox box_wrap;  ///< tight on the circle of columns: 0 <= x < W, x + w may exceed W; same rows as `box`
+  int64_t area = 0;        ///< pixels
+  PixelBox box;            ///< tight, inside the picture
+  PixelBox box_wrap;       ///< tight on the circle of columns: 0 <= x < W, x + w may exceed W; same rows as `box`
   double solid_angle = 0;  ///< steradians
 };
 
@@ -40,7 +40,7 @@ struct PictureKind {
 
 /// All segments of a picture, by entity id; their areas sum to its pixels, but for void ones. The category is
 /// the entity's own; RuntimeError if a pixel has no entity or a semantic id that is not its entity's.
-std::vector<Segment> FindSegments(const Image<EntityId>& entity, const Image<CategoryId>& semantic,
-                                  const Scene& scene, const PixelSolidAngles& solid_angles, PictureKind kind);
+std::vector<Segment> FindSegments(const Image<EntityId>& entity, const Image<CategoryId>& semantic, const Scene& scene,
+                                  const PixelSolidAngles& solid_angles, PictureKind kind);
 
 }  // namespace airsim360

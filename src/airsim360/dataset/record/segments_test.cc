@@ -22,16 +22,12 @@ using Interval = std::pair<int, int>;
 
 TEST(ShortestColumnRun, ClosedCases) {
   EXPECT_EQ(ShortestColumnRun(Columns({{10, 20}}, 100).data(), 100), (Interval{10, 10}));
-  EXPECT_EQ(ShortestColumnRun(Columns({{0, 5}, {95, 100}}, 100).data(), 100),
-            (Interval{95, 10}));  // across the seam
-  EXPECT_EQ(ShortestColumnRun(Columns({{0, 10}, {40, 50}}, 64).data(), 64),
-            (Interval{40, 34}));  // gaps of 30 and 14
-  EXPECT_EQ(ShortestColumnRun(Columns({{0, 11}, {50, 61}}, 64).data(), 64),
-            (Interval{50, 25}));                                                           // gaps of 39 and 3
-  EXPECT_EQ(ShortestColumnRun(Columns({{0, 128}}, 128).data(), 128), (Interval{0, 128}));  // everywhere
+  EXPECT_EQ(ShortestColumnRun(Columns({{0, 5}, {95, 100}}, 100).data(), 100), (Interval{95, 10}));  // across the seam
+  EXPECT_EQ(ShortestColumnRun(Columns({{0, 10}, {40, 50}}, 64).data(), 64), (Interval{40, 34}));    // gaps of 30 and 14
+  EXPECT_EQ(ShortestColumnRun(Columns({{0, 11}, {50, 61}}, 64).data(), 64), (Interval{50, 25}));    // gaps of 39 and 3
+  EXPECT_EQ(ShortestColumnRun(Columns({{0, 128}}, 128).data(), 128), (Interval{0, 128}));           // everywhere
   EXPECT_EQ(ShortestColumnRun(Columns({{63, 64}}, 128).data(), 128), (Interval{63, 1}));
-  EXPECT_EQ(ShortestColumnRun(Columns({{0, 1}, {50, 51}}, 100).data(), 100),
-            (Interval{0, 51}));  // equal gaps: leftmost
+  EXPECT_EQ(ShortestColumnRun(Columns({{0, 1}, {50, 51}}, 100).data(), 100), (Interval{0, 51}));  // equal gaps: leftmost
 }
 
 TEST(ShortestColumnRun, IsTheShortestOfAllStartsForRandomColumns) {
@@ -84,8 +80,7 @@ TEST(FindSegments, BoxesAreasAndSolidAnglesOfADrawnPicture) {
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 16; ++x) semantic(x, y) = scene->entity(entity(x, y)).category;
   }
-  const auto segments =
-      FindSegments(entity, semantic, *scene, PixelSolidAngles(Equirectangular{16, 8}), {.wraps = true});
+  const auto segments = FindSegments(entity, semantic, *scene, PixelSolidAngles(Equirectangular{16, 8}), {.wraps = true});
   ASSERT_EQ(segments.size(), 3u);
   EXPECT_EQ(segments[1].area, 12);
   EXPECT_EQ(segments[1].box, (PixelBox{0, 2, 16, 4}));
@@ -101,8 +96,7 @@ TEST(FindSegments, BoxesAreasAndSolidAnglesOfADrawnPicture) {
   EXPECT_EQ(area, 16 * 8);
   EXPECT_NEAR(solid_angle, 4 * std::numbers::pi, 1e-10);
   // Closed form: 3 of 16 columns between +-45 degrees of elevation.
-  EXPECT_NEAR(segments[1].solid_angle, 2 * std::numbers::pi * 3 / 16 * 2 * std::sin(std::numbers::pi / 4),
-              1e-12);
+  EXPECT_NEAR(segments[1].solid_angle, 2 * std::numbers::pi * 3 / 16 * 2 * std::sin(std::numbers::pi / 4), 1e-12);
 }
 
 TEST(FindSegments, WithoutWrapTheBoxesAreTheSame) {

@@ -35,8 +35,7 @@ std::vector<View> ViewsOf(const RigCamera& spec) {
   }
   std::vector<View> faces;
   for (int face = 0; face < 6; ++face) {
-    faces.push_back({std::string("_") + kCubeFaceNames[face], CubeFace{static_cast<CubeFaceName>(face), w},
-                     spec.projection});
+    faces.push_back({std::string("_") + kCubeFaceNames[face], CubeFace{static_cast<CubeFaceName>(face), w}, spec.projection});
   }
   return faces;
 }
@@ -45,17 +44,12 @@ std::vector<View> ViewsOf(const RigCamera& spec) {
 
 std::vector<View> Views(const DatasetSpec& spec) {
   if (spec.cameras.empty()) {
-    return ViewsOf({.name = "",
-                    .projection = spec.projection,
-                    .width = spec.width,
-                    .height = spec.height,
-                    .fov_deg = spec.fov_deg,
-                    .p_B = {}});
+    return ViewsOf(
+        {.name = "", .projection = spec.projection, .width = spec.width, .height = spec.height, .fov_deg = spec.fov_deg, .p_B = {}});
   }
   std::vector<View> views;
   for (const RigCamera& camera : spec.cameras) {
-    const RigidTransform X_BM =
-        BodyPose(camera.p_B, camera.yaw_deg * kRadians, camera.pitch_deg * kRadians, camera.roll_deg * kRadians);
+    const RigidTransform X_BM = BodyPose(camera.p_B, camera.yaw_deg * kRadians, camera.pitch_deg * kRadians, camera.roll_deg * kRadians);
     for (View& view : ViewsOf(camera)) {
       view.suffix = "_" + camera.name + view.suffix;
       view.X_BC = X_BM * camera.X_IC;
@@ -113,8 +107,7 @@ std::vector<ProductFolder> ProductFolders(const DatasetSpec& spec) {
 }
 
 bool NeedsWideSemantics(const Scene& scene) {
-  return std::any_of(scene.entities.begin(), scene.entities.end(),
-                     [](const Entity& entity) { return entity.category > 255; });
+  return std::any_of(scene.entities.begin(), scene.entities.end(), [](const Entity& entity) { return entity.category > 255; });
 }
 
 }  // namespace airsim360

@@ -20,8 +20,9 @@ namespace {
 constexpr std::string_view kPeople = "people/", kJsonEnd = ".json";
 constexpr std::array kTables{"entities.json", "parts.json", "materials.json"};
 // Of a person; the rest of people.jsonl is for other programs.
-constexpr std::array kPersonFields{"entity_id",      "track_id", "name",   "character", "outfit",         "behaviour",   "locomotion",       "speaking",
-                                   "position_world", "yaw",      "keypoints", "area",   "velocity_world", "bbox_wrap", "visible_fraction", "distance", "box3d_world"};
+constexpr std::array kPersonFields{
+    "entity_id", "track_id",  "name", "character",      "outfit",    "behaviour",        "locomotion", "speaking",   "position_world",
+    "yaw",       "keypoints", "area", "velocity_world", "bbox_wrap", "visible_fraction", "distance",   "box3d_world"};
 
 fs::path DatasetIn(const fs::path& folder) {
   const fs::path frames = folder / "frames";
@@ -74,8 +75,12 @@ Json CategoriesOf(const NativeDataset& data) {
 Json Described(const NativeDataset& data, const std::string& name) {
   Json products = Json::object();
   for (const ProductFolder& product : ProductFolders(data.spec())) products[product.name] = product.extension;
-  Json about{{"name", name},           {"world", data.spec().world},   {"environment", data.spec().environment},
-             {"seed", data.spec().seed}, {"people", data.HasPeople()}, {"products", products},
+  Json about{{"name", name},
+             {"world", data.spec().world},
+             {"environment", data.spec().environment},
+             {"seed", data.spec().seed},
+             {"people", data.HasPeople()},
+             {"products", products},
              {"categories", CategoriesOf(data)}};
   return about;
 }
@@ -127,7 +132,8 @@ std::string ViewedDataset::Impl::Index() const {
   }
   std::string text = Described(data, fs::canonical(data.folder()).filename().string()).dump();
   text.pop_back();
-  text += ",\"frames\":{\"stem\":" + stems.Take() + ",\"t\":" + times.Take() + ",\"range\":" + ranges.Take() + ",\"world\":" + worlds.Take() + "},\"views\":[";
+  text += ",\"frames\":{\"stem\":" + stems.Take() + ",\"t\":" + times.Take() + ",\"range\":" + ranges.Take() +
+          ",\"world\":" + worlds.Take() + "},\"views\":[";
   for (size_t v = 0; v < views.size(); ++v) text += (v ? "," : "") + ViewText(data.views()[v], views[v]);
   return text + "]}";
 }
@@ -193,7 +199,8 @@ std::vector<std::string> ViewedDataset::MadeFiles() const {
   std::vector<std::string> files{"index.json", "appearances.json"};
   if (!impl_->data.HasPeople()) return files;
   for (size_t i = 0; i < impl_->data.size(); ++i) {
-    for (const View& view : impl_->data.views()) files.push_back(std::string(kPeople) + impl_->data.Frame(i).stem + view.suffix + std::string(kJsonEnd));
+    for (const View& view : impl_->data.views())
+      files.push_back(std::string(kPeople) + impl_->data.Frame(i).stem + view.suffix + std::string(kJsonEnd));
   }
   return files;
 }

@@ -69,7 +69,8 @@ double FootprintOverlap(const UprightBox& a, const UprightBox& b) {
 }
 
 double VolumeOverlap(const UprightBox& a, const UprightBox& b) {
-  const double low = std::max(a.centre.z - a.height / 2, b.centre.z - b.height / 2), high = std::min(a.centre.z + a.height / 2, b.centre.z + b.height / 2);
+  const double low = std::max(a.centre.z - a.height / 2, b.centre.z - b.height / 2),
+               high = std::min(a.centre.z + a.height / 2, b.centre.z + b.height / 2);
   if (high <= low) return 0;
   const double shared = SharedFootprint(a, b) * (high - low);
   return shared / (a.length * a.width * a.height + b.length * b.width * b.height - shared);
@@ -82,7 +83,8 @@ double WrappedBoxOverlap(std::array<double, 4> d, std::array<double, 4> t, bool 
   d[0] -= std::floor(d[0] / columns) * columns;
   t[0] -= std::floor(t[0] / columns) * columns;
   double width = 0;
-  for (const double turn : {-columns, 0.0, columns}) width += std::max(0.0, std::min(d[0] + d[2], t[0] + turn + t[2]) - std::max(d[0], t[0] + turn));
+  for (const double turn : {-columns, 0.0, columns})
+    width += std::max(0.0, std::min(d[0] + d[2], t[0] + turn + t[2]) - std::max(d[0], t[0] + turn));
   const double shared = std::min({width, d[2], t[2]}) * height, area = d[2] * d[3];
   if (!(shared > 0)) return 0;
   return shared / (crowd ? area : area + t[2] * t[3] - shared);

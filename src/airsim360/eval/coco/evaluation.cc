@@ -15,8 +15,7 @@ struct Ranked {
   uint32_t image, detection;
 };
 
-std::vector<Ranked> Rank(std::span<const std::vector<CocoMatches>> matches, size_t category, size_t most,
-                         std::span<const uint32_t> draws) {
+std::vector<Ranked> Rank(std::span<const std::vector<CocoMatches>> matches, size_t category, size_t most, std::span<const uint32_t> draws) {
   std::vector<Ranked> ranked;
   for (size_t i = 0; i < matches.size(); ++i) {
     const std::vector<double>& scores = matches[i][category].scores;
@@ -46,8 +45,7 @@ Curve Draw(std::span<const std::vector<CocoMatches>> matches, const std::vector<
     curve.precision.push_back(right / (wrong + right + std::numeric_limits<double>::epsilon()));
   }
   // Precision never rises with recall: the best that is still to come.
-  for (size_t i = curve.precision.size(); i-- > 1;)
-    curve.precision[i - 1] = std::max(curve.precision[i - 1], curve.precision[i]);
+  for (size_t i = curve.precision.size(); i-- > 1;) curve.precision[i - 1] = std::max(curve.precision[i - 1], curve.precision[i]);
   return curve;
 }
 
@@ -136,7 +134,8 @@ CocoTable AccumulateCoco(std::span<const std::vector<CocoMatches>> matches, cons
         const Curve curve = Draw(matches, ranked, k, a, t, truths);
         table.Recall(t, k, a, m) = curve.recall.empty() ? 0 : curve.recall.back();
         for (size_t r = 0; r < kRecallSteps; ++r) {
-          const auto at = std::lower_bound(curve.recall.begin(), curve.recall.end(), r == kRecallSteps - 1 ? 1.0 : static_cast<double>(r) * 0.01);
+          const auto at =
+              std::lower_bound(curve.recall.begin(), curve.recall.end(), r == kRecallSteps - 1 ? 1.0 : static_cast<double>(r) * 0.01);
           table.Precision(t, r, k, a, m) = at == curve.recall.end() ? 0 : curve.precision[static_cast<size_t>(at - curve.recall.begin())];
         }
       }

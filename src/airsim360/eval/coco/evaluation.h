@@ -30,9 +30,9 @@ struct CocoCell {
 };
 
 struct CocoOptions {
-  std::vector<double> thresholds;               ///< of the overlap
-  std::vector<std::array<double, 2>> areas;     ///< ranges, both ends within
-  std::vector<size_t> most_detections;          ///< the best so many of a picture and category, ascending
+  std::vector<double> thresholds;            ///< of the overlap
+  std::vector<std::array<double, 2>> areas;  ///< ranges, both ends within
+  std::vector<size_t> most_detections;       ///< the best so many of a picture and category, ascending
 };
 /// 0.50, 0.55 … 0.95; all, small (up to 32²), medium, large (from 96²) areas; 1, 10, 100 detections.
 CocoOptions StandardCocoOptions();

@@ -62,7 +62,8 @@ TEST(Similarity, KeypointsFallOffAsAGaussian) {
   std::vector<double> truth(51, 0), found(51, 0);
   for (size_t k = 0; k < 17; ++k) truth[3 * k + 2] = k == 0 ? 2 : 0;  // only the nose is labelled
   found[0] = 3;
-  EXPECT_NEAR(KeypointSimilarity(found, truth, CocoKeypointSigmas(), 100, {0, 0, 10, 10}), std::exp(-9 / (2 * 100 * 4 * 0.026 * 0.026)), 1e-12);
+  EXPECT_NEAR(KeypointSimilarity(found, truth, CocoKeypointSigmas(), 100, {0, 0, 10, 10}), std::exp(-9 / (2 * 100 * 4 * 0.026 * 0.026)),
+              1e-12);
   EXPECT_NEAR(BoxOverlap({0, 0, 2, 2}, {1, 0, 2, 2}, false), 2.0 / 6, 1e-15);
   EXPECT_NEAR(BoxOverlap({0, 0, 2, 2}, {1, 0, 9, 9}, true), 0.5, 1e-15);
 }

@@ -13,8 +13,7 @@ std::string SizeText(const RleMask& mask) { return std::to_string(mask.width) + 
 // Calls found(begin, end) for every run of pixels inside both, in column-major order.
 template <class Found>
 void EachSharedRun(const RleMask& a, const RleMask& b, const Found& found) {
-  if (a.width != b.width || a.height != b.height)
-    throw InputError("masks of different size: " + SizeText(a) + " and " + SizeText(b));
+  if (a.width != b.width || a.height != b.height) throw InputError("masks of different size: " + SizeText(a) + " and " + SizeText(b));
   size_t i = 0, j = 0;
   uint64_t begin = 0, a_end = a.counts.empty() ? 0 : a.counts[0], b_end = b.counts.empty() ? 0 : b.counts[0];
   while (i < a.counts.size() && j < b.counts.size()) {
@@ -27,8 +26,7 @@ void EachSharedRun(const RleMask& a, const RleMask& b, const Found& found) {
 }
 
 RleMask Unite(const RleMask& a, const RleMask& b) {
-  if (a.width != b.width || a.height != b.height)
-    throw InputError("masks of different size: " + SizeText(a) + " and " + SizeText(b));
+  if (a.width != b.width || a.height != b.height) throw InputError("masks of different size: " + SizeText(a) + " and " + SizeText(b));
   RleMask united{a.width, a.height, {}};
   size_t i = 0, j = 0;
   uint64_t begin = 0, a_end = a.counts.empty() ? 0 : a.counts[0], b_end = b.counts.empty() ? 0 : b.counts[0];
@@ -54,13 +52,12 @@ RleMask Unite(const RleMask& a, const RleMask& b) {
 
 void CheckMask(const RleMask& mask) {
   const uint64_t pixels = static_cast<uint64_t>(mask.width) * mask.height;
-  if (pixels == 0 || pixels > static_cast<uint64_t>(kMaxPixels))
-    throw InputError("a mask of " + SizeText(mask) + " pixels");
+  if (pixels == 0 || pixels > static_cast<uint64_t>(kMaxPixels)) throw InputError("a mask of " + SizeText(mask) + " pixels");
   uint64_t sum = 0;
   for (const uint32_t count : mask.counts) sum += count;
   if (sum != pixels)
-    throw InputError("run lengths of a mask sum to " + std::to_string(sum) + ", but " + SizeText(mask) + " are " +
-                     std::to_string(pixels) + " pixels");
+    throw InputError("run lengths of a mask sum to " + std::to_string(sum) + ", but " + SizeText(mask) + " are " + std::to_string(pixels) +
+                     " pixels");
 }
 
 RleMask EncodeMask(std::span<const uint8_t> pixels, int width, int height) {
@@ -128,8 +125,7 @@ std::array<double, 4> MaskBox(const RleMask& mask) {
     at = end;
   }
   if (right == 0) return {0, 0, 0, 0};
-  return {static_cast<double>(left), static_cast<double>(top), static_cast<double>(right - left),
-          static_cast<double>(bottom - top)};
+  return {static_cast<double>(left), static_cast<double>(top), static_cast<double>(right - left), static_cast<double>(bottom - top)};
 }
 
 RowSums::RowSums(std::span<const double> weights) : height_(weights.size()), sums_(weights.size() + 1, 0) {

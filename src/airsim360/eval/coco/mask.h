@@ -52,9 +52,7 @@ class RowSums {
   /// One weight a row.
   explicit RowSums(std::span<const double> weights);
   /// Of the first `count` pixels in column-major order.
-  double Before(uint64_t count) const {
-    return static_cast<double>(count / height_) * sums_.back() + sums_[count % height_];
-  }
+  double Before(uint64_t count) const { return static_cast<double>(count / height_) * sums_.back() + sums_[count % height_]; }
 
  private:
   uint64_t height_;

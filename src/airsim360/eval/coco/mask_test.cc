@@ -52,7 +52,8 @@ TEST(RleMask, WeighedAreasOfAWholePanoramaAreFourPi) {
 
 TEST(Polygons, CoverThePixelsThatCocosToolsSay) {
   // Golden: run lengths that pycocotools 2.0 gives. They protect the rule of which pixels an edge takes.
-  const std::vector<double> oblique = {1.2, 0.6, 9.4, 2.1, 7.7, 8.9, 2.3, 6.5}, outside = {-3, -2, 5, 4.5, 20, 1, 6.5, 6.5}, twice = {2, 2, 2, 2, 6, 2, 6, 5, 2, 5};
+  const std::vector<double> oblique = {1.2, 0.6, 9.4, 2.1, 7.7, 8.9, 2.3, 6.5}, outside = {-3, -2, 5, 4.5, 20, 1, 6.5, 6.5},
+                            twice = {2, 2, 2, 2, 6, 2, 6, 5, 2, 5};
   EXPECT_EQ(CompressRle(RasterizePolygon(oblique, 12, 10)), ";195K000010O01OMo0");
   EXPECT_EQ(CompressRle(RasterizePolygon(outside, 12, 8)), "b018000O1O00000O01000M");
   EXPECT_EQ(CompressRle(RasterizePolygon(twice, 8, 7)), "`03400000<");

@@ -35,8 +35,8 @@ std::vector<CocoOverlap> Ordered(const std::vector<CocoOverlap>& overlaps, const
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
-uint32_t Best(const std::vector<CocoOverlap>& candidates, double threshold, const CocoCell& cell,
-              const std::vector<uint8_t>& ignored, const std::vector<uint8_t>& taken) {
+uint32_t Best(const std::vector<CocoOverlap>& candidates, double threshold, const CocoCell& cell, const std::vector<uint8_t>& ignored,
+              const std::vector<uint8_t>& taken) {
   double least = std::min(threshold, kAlmostOne);
   uint32_t best = kNone;
   for (const CocoOverlap& candidate : candidates) {

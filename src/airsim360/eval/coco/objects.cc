@@ -35,7 +35,8 @@ class Overlaps {
     std::vector<MaskFacts> facts;
     if (run_.kind != CocoKind::kMasks) return facts;
     for (const CocoObject* object : group)
-      facts.push_back({MaskBox(object->mask), run_.solid_angle ? WeighedArea(object->mask, sums_) : static_cast<double>(MaskArea(object->mask))});
+      facts.push_back(
+          {MaskBox(object->mask), run_.solid_angle ? WeighedArea(object->mask, sums_) : static_cast<double>(MaskArea(object->mask))});
     return facts;
   }
 
@@ -93,7 +94,8 @@ class Overlaps {
   RowSums sums_;
 };
 
-CocoCell MakeCell(const Group& truths, const Group& detections, const Overlaps& overlaps, const CocoRun& run, std::span<const double> sigmas) {
+CocoCell MakeCell(const Group& truths, const Group& detections, const Overlaps& overlaps, const CocoRun& run,
+                  std::span<const double> sigmas) {
   CocoCell cell;
   const std::vector<MaskFacts> true_facts = overlaps.Facts(truths), facts = overlaps.Facts(detections);
   for (size_t t = 0; t < truths.size(); ++t) {
@@ -105,7 +107,8 @@ CocoCell MakeCell(const Group& truths, const Group& detections, const Overlaps& 
     cell.detections.push_back({detections[d]->score, overlaps.Area(*detections[d], facts, d)});
     auto& list = cell.overlaps.emplace_back();
     for (size_t t = 0; t < truths.size(); ++t) {
-      const double value = facts.empty() ? overlaps.Other(*detections[d], *truths[t], sigmas) : overlaps.Mask(*detections[d], facts[d], *truths[t], true_facts[t]);
+      const double value = facts.empty() ? overlaps.Other(*detections[d], *truths[t], sigmas)
+                                         : overlaps.Mask(*detections[d], facts[d], *truths[t], true_facts[t]);
       if (value >= least) list.push_back({static_cast<uint32_t>(t), value});
     }
   }
@@ -129,7 +132,8 @@ std::vector<std::vector<Group>> GroupObjects(std::span<const CocoObject> objects
 }  // namespace
 
 std::vector<std::vector<CocoMatches>> MatchAll(const CocoTruths& truths, std::span<const CocoObject> results, const CocoRun& run) {
-  const auto true_groups = GroupObjects(truths.objects, truths, run.class_agnostic), groups = GroupObjects(results, truths, run.class_agnostic);
+  const auto true_groups = GroupObjects(truths.objects, truths, run.class_agnostic),
+             groups = GroupObjects(results, truths, run.class_agnostic);
   std::vector<std::vector<CocoMatches>> matches(truths.images.size());
   ParallelFor(static_cast<int64_t>(truths.images.size()), [&](int64_t index) {
     const auto i = static_cast<size_t>(index);

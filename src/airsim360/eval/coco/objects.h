@@ -31,14 +31,14 @@ struct CocoObject {
   double score = 0, area = 0;
   bool crowd = false, no_keypoints = false;
   RleMask mask{};
-  std::array<double, 4> box{};     ///< [x, y, width, height]; x + width may exceed the picture's in boxes on the circle of columns
+  std::array<double, 4> box{};      ///< [x, y, width, height]; x + width may exceed the picture's in boxes on the circle of columns
   std::vector<double> keypoints{};  ///< [x, y, v] each
-  std::array<double, 5> bfov{};    ///< [lon, lat, width, height, turn], degrees
-  std::array<double, 7> box3d{};   ///< centre x, y, z, length, width, height, yaw in degrees
+  std::array<double, 5> bfov{};     ///< [lon, lat, width, height, turn], degrees
+  std::array<double, 7> box3d{};    ///< centre x, y, z, length, width, height, yaw in degrees
 };
 
 struct CocoTruths {
-  std::vector<CocoImage> images;  ///< ascending by id
+  std::vector<CocoImage> images;         ///< ascending by id
   std::vector<CocoCategory> categories;  ///< ascending by id
   std::vector<CocoObject> objects;
   std::vector<std::string> notes;  ///< what the user should know: quirks that the file touches
@@ -47,9 +47,10 @@ struct CocoTruths {
 struct CocoRun {
   CocoKind kind = CocoKind::kMasks;
   bool class_agnostic = false;  ///< all categories are one
-  bool solid_angle = false;     ///< of masks in panoramas: overlaps are of steradians instead of pixels, areas are those of as many pixels at the horizon
-  bool wrap = false;            ///< of boxes in panoramas: columns go round
-  bool own_areas = false;       ///< ranges are about the objects' `area` (any number) also where solid_angle would replace it
+  bool solid_angle =
+      false;  ///< of masks in panoramas: overlaps are of steradians instead of pixels, areas are those of as many pixels at the horizon
+  bool wrap = false;       ///< of boxes in panoramas: columns go round
+  bool own_areas = false;  ///< ranges are about the objects' `area` (any number) also where solid_angle would replace it
   CocoOptions options = StandardCocoOptions();
 };
 

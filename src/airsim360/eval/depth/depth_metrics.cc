@@ -18,15 +18,16 @@ struct Pixel {
 std::vector<Pixel> ValidPixels(std::span<const double> prediction, std::span<const double> truth, std::span<const double> weights,
                                const DepthOptions& options) {
   if (prediction.size() != truth.size() || (!weights.empty() && weights.size() != truth.size()))
-    throw InputError("arrays of different length: " + std::to_string(prediction.size()) + " predictions, " +
-                     std::to_string(truth.size()) + " truths");
+    throw InputError("arrays of different length: " + std::to_string(prediction.size()) + " predictions, " + std::to_string(truth.size()) +
+                     " truths");
   std::vector<Pixel> pixels;
   pixels.reserve(truth.size());
   for (size_t i = 0; i < truth.size(); ++i) {
     const double g = truth[i];
     if (!(g > options.min_depth && g > 0 && g <= options.max_depth && std::isfinite(g))) continue;
     if (!std::isfinite(prediction[i]))
-      throw InputError("the prediction of pixel " + std::to_string(i) + " is no finite number, but its truth is " + std::to_string(g) + " m");
+      throw InputError("the prediction of pixel " + std::to_string(i) + " is no finite number, but its truth is " + std::to_string(g) +
+                       " m");
     pixels.push_back({prediction[i], g, weights.empty() ? 1 : weights[i]});
   }
   return pixels;

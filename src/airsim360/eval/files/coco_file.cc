@@ -28,7 +28,8 @@ std::vector<CocoImage> Images(const JsonCursor& list, bool sized) {
     const JsonCursor one = list[i];
     CocoImage image{.id = one["id"].Integer(), .name = one.Has("file_name") ? one["file_name"].Text() : ""};
     if (sized || one.Has("width")) image.width = Size(one["width"]), image.height = Size(one["height"]);
-    if (static_cast<int64_t>(image.width) * image.height > kMaxPixels) one.Fail("a picture of more than " + std::to_string(kMaxPixels) + " pixels");
+    if (static_cast<int64_t>(image.width) * image.height > kMaxPixels)
+      one.Fail("a picture of more than " + std::to_string(kMaxPixels) + " pixels");
     if (!ids.insert(image.id).second) one.Fail("the id " + std::to_string(image.id) + " occurs twice");
     images.push_back(std::move(image));
   }
@@ -65,8 +66,8 @@ RleMask Mask(const JsonCursor& value, int width, int height) {
   }
   const std::vector<double> size = value["size"].Numbers(2);
   if (size[0] != height || size[1] != width)
-    value.Fail("a mask of " + std::to_string(static_cast<int64_t>(size[1])) + "x" + std::to_string(static_cast<int64_t>(size[0])) + " pixels in a picture of " +
-               std::to_string(width) + "x" + std::to_string(height));
+    value.Fail("a mask of " + std::to_string(static_cast<int64_t>(size[1])) + "x" + std::to_string(static_cast<int64_t>(size[0])) +
+               " pixels in a picture of " + std::to_string(width) + "x" + std::to_string(height));
   const JsonCursor counts = value["counts"];
   if (counts.is_string()) return ParseCompressedRle(counts.Text(), width, height);
   RleMask mask{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {}};
@@ -91,7 +92,8 @@ std::array<double, 5> Bfov(const JsonCursor& value) {
   std::vector<double> numbers = value.Numbers();
   if (numbers.size() == 4) numbers.push_back(0);
   if (numbers.size() != 5) value.Fail("a box on the sphere is [lon, lat, width, height] or [lon, lat, width, height, turn] in degrees");
-  if (!(numbers[2] > 0 && numbers[2] < 180 && numbers[3] > 0 && numbers[3] < 180)) value.Fail("width and height of a box on the sphere must lie between 0 and 180 degrees");
+  if (!(numbers[2] > 0 && numbers[2] < 180 && numbers[3] > 0 && numbers[3] < 180))
+    value.Fail("width and height of a box on the sphere must lie between 0 and 180 degrees");
   return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]};
 }
 
@@ -216,10 +218,11 @@ std::vector<CocoObject> ResultsOf(const JsonCursor& top, CocoKind kind, CocoTrut
     results.push_back(std::move(object));
   }
   if (!strangers.empty())
-    list.Fail("results of " + std::to_string(strangers.size()) + " pictures that the ground truth does not have, image_id " + std::to_string(*strangers.begin()) +
-              " first: are they of another split or numbered otherwise?");
+    list.Fail("results of " + std::to_string(strangers.size()) + " pictures that the ground truth does not have, image_id " +
+              std::to_string(*strangers.begin()) + " first: are they of another split or numbered otherwise?");
   if (boxes && kind == CocoKind::kMasks)
-    truths.notes.push_back("results hold boxes beside masks: as pycocotools does, their areas (small, medium, large) are those of the boxes");
+    truths.notes.push_back(
+        "results hold boxes beside masks: as pycocotools does, their areas (small, medium, large) are those of the boxes");
   return results;
 }
 
@@ -227,7 +230,9 @@ std::vector<CocoObject> ResultsOf(const JsonCursor& top, CocoKind kind, CocoTrut
 
 CocoTruths ReadCocoTruths(const std::filesystem::path& path, CocoKind kind) { return TruthsOf(JsonFile::Read(path).top(), kind); }
 
-CocoTruths ParseCocoTruths(std::string_view text, const std::string& name, CocoKind kind) { return TruthsOf(JsonFile::Parse(text, name).top(), kind); }
+CocoTruths ParseCocoTruths(std::string_view text, const std::string& name, CocoKind kind) {
+  return TruthsOf(JsonFile::Parse(text, name).top(), kind);
+}
 
 std::vector<CocoObject> ReadCocoResults(const std::filesystem::path& path, CocoKind kind, CocoTruths& truths) {
   return ResultsOf(JsonFile::Read(path).top(), kind, truths);

@@ -26,7 +26,8 @@ NumberPicture FromFlo(const fs::path& path) {
     std::memcpy(&magic, bytes.data(), 4);
     std::memcpy(size, bytes.data() + 4, 8);
   }
-  if (magic != kMagic || size[0] < 1 || size[1] < 1 || size[0] > kMaxPixels / size[1]) throw InputError(path.string() + ": is no .flo file");
+  if (magic != kMagic || size[0] < 1 || size[1] < 1 || size[0] > kMaxPixels / size[1])
+    throw InputError(path.string() + ": is no .flo file");
   NumberPicture flow{size[0], size[1], 2, std::vector<double>(2 * static_cast<size_t>(size[0]) * static_cast<size_t>(size[1]))};
   if (bytes.size() < 12 + 4 * flow.values.size()) throw InputError(path.string() + ": ends before its last pixel");
   for (size_t i = 0; i < flow.values.size(); ++i) {

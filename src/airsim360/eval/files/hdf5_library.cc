@@ -97,7 +97,8 @@ std::string ChooseDataset(hid_t file, const std::string& key, const std::string&
     }
   }
   if (names.size() == 1) return names[0];
-  throw InputError(path + ": has " + std::to_string(names.size()) + " datasets, none of them named depth, range or data: name one with --h5-key");
+  throw InputError(path + ": has " + std::to_string(names.size()) +
+                   " datasets, none of them named depth, range or data: name one with --h5-key");
 }
 
 std::vector<int64_t> Shape(hid_t dataset, const std::string& where) {

@@ -28,8 +28,10 @@ Json ParseText(std::string_view text, const std::string& name, size_t line) {
     const size_t at = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
     size_t column = 1;
     for (size_t i = 0; i < at; ++i) {
-      if (text[i] == '\n') ++line, column = 1;
-      else ++column;
+      if (text[i] == '\n')
+        ++line, column = 1;
+      else
+        ++column;
     }
     throw InputError(name + ":" + std::to_string(line) + ":" + std::to_string(column) + ": not JSON");
   } catch (const Json::exception&) {

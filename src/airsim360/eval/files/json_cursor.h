@@ -38,16 +38,16 @@ class JsonCursor {
   bool is_string() const { return value_->is_string(); }
   bool is_number() const { return value_->is_number(); }
 
-  size_t size() const;  ///< of a list; InputError otherwise
+  size_t size() const;                                                              ///< of a list; InputError otherwise
   JsonCursor operator[](size_t index) const { return {root_, &(*value_)[index]}; }  ///< index < size()
   /// A field; InputError naming it if it is missing or null, or if this is no object.
   JsonCursor operator[](const char* field) const;
-  bool Has(const char* field) const;  ///< this is an object and the field is there and not null
+  bool Has(const char* field) const;       ///< this is an object and the field is there and not null
   std::vector<std::string> Names() const;  ///< of the fields of an object
 
-  double Number() const;  ///< finite
+  double Number() const;    ///< finite
   int64_t Integer() const;  ///< also 3.0
-  bool Flag() const;      ///< true, false, 1 or 0
+  bool Flag() const;        ///< true, false, 1 or 0
   const std::string& Text() const;
   std::string IdText() const;  ///< text, or an integer as text
   std::vector<double> Numbers() const;

@@ -14,7 +14,8 @@ constexpr uint64_t kMostBytes = 1 << 20;
 constexpr size_t kMostCorners = 2000;
 
 std::string_view NextWord(std::string_view& line) {
-  const size_t begin = std::min(line.find_first_not_of(" \t\r"), line.size()), end = std::min(line.find_first_of(" \t\r", begin), line.size());
+  const size_t begin = std::min(line.find_first_not_of(" \t\r"), line.size()),
+               end = std::min(line.find_first_of(" \t\r", begin), line.size());
   const std::string_view word = line.substr(begin, end - begin);
   line.remove_prefix(end);
   return word;
@@ -34,7 +35,8 @@ std::vector<Vec2d> FromLines(std::string_view text, const std::string& name) {
       const std::string_view word = NextWord(line);
       const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
       if (error != std::errc() || stop != word.data() + word.size() || !(std::abs(value) < 1e6))
-        throw InputError(name + ":" + std::to_string(number) + ": '" + std::string(word) + "' is no coordinate; a line is \"x y\" in pixels");
+        throw InputError(name + ":" + std::to_string(number) + ": '" + std::string(word) +
+                         "' is no coordinate; a line is \"x y\" in pixels");
     }
     corners.push_back({values[0], values[1]});
   }
@@ -55,7 +57,8 @@ RoomLayout ParseLayoutFile(std::string_view text, const std::string& name, bool 
   } else {
     corners = FromLines(text, name);
   }
-  if (corners.size() % 2 != 0 || corners.size() > kMostCorners) throw InputError(name + ": " + std::to_string(corners.size()) + " corners; they come in pairs of a ceiling and a floor corner");
+  if (corners.size() % 2 != 0 || corners.size() > kMostCorners)
+    throw InputError(name + ": " + std::to_string(corners.size()) + " corners; they come in pairs of a ceiling and a floor corner");
   RoomLayout layout;
   for (size_t i = 0; i < corners.size(); i += 2) {
     layout.ceiling.push_back(corners[i]);

@@ -34,7 +34,8 @@ std::string_view ValueOf(std::string_view header, const char* key, std::string_v
 Header ParseHeader(std::string_view text, std::string_view name) {
   Header header;
   const std::string_view type = ValueOf(text, "descr", name);
-  if (type.size() < 5 || type[0] != '\'' || type[4] != '\'' || type[3] < '1' || type[3] > '8') Fail(name, "numbers of an unknown kind " + std::string(type.substr(0, 12)));
+  if (type.size() < 5 || type[0] != '\'' || type[4] != '\'' || type[3] < '1' || type[3] > '8')
+    Fail(name, "numbers of an unknown kind " + std::string(type.substr(0, 12)));
   header.big_endian = type[1] == '>';
   header.kind = type[2];
   header.size = static_cast<size_t>(type[3] - '0');
@@ -49,8 +50,10 @@ Header ParseHeader(std::string_view text, std::string_view name) {
     }
     int64_t n = 0;
     size_t digits = 0;
-    for (; digits < shape.size() && shape[digits] >= '0' && shape[digits] <= '9' && n <= kMaxPixels; ++digits) n = 10 * n + (shape[digits] - '0');
-    if (digits == 0 || n < 1 || n > kMaxPixels || header.shape.size() == kMostDimensions) Fail(name, "a shape that is none, empty or too large");
+    for (; digits < shape.size() && shape[digits] >= '0' && shape[digits] <= '9' && n <= kMaxPixels; ++digits)
+      n = 10 * n + (shape[digits] - '0');
+    if (digits == 0 || n < 1 || n > kMaxPixels || header.shape.size() == kMostDimensions)
+      Fail(name, "a shape that is none, empty or too large");
     shape.remove_prefix(digits);
     header.shape.push_back(n);
     count *= n;
@@ -69,8 +72,7 @@ double Half(uint16_t bits) {
 
 double ValueAt(const std::byte* at, const Header& header) {
   uint64_t bits = 0;
-  for (size_t i = 0; i < header.size; ++i)
-    bits |= static_cast<uint64_t>(at[i]) << (8 * (header.big_endian ? header.size - 1 - i : i));
+  for (size_t i = 0; i < header.size; ++i) bits |= static_cast<uint64_t>(at[i]) << (8 * (header.big_endian ? header.size - 1 - i : i));
   const int unused = static_cast<int>(64 - 8 * header.size);
   switch (header.kind) {
     case 'i':
@@ -107,7 +109,8 @@ NumberArray DecodeNpy(std::span<const std::byte> bytes, std::string_view name) {
   if (length > text.size() - begin) Fail(name, "ends within its header");
   const Header header = ParseHeader(text.substr(begin, length), name);
   const bool known = (header.kind == 'f' && (header.size == 2 || header.size == 4 || header.size == 8)) ||
-                     ((header.kind == 'i' || header.kind == 'u') && std::has_single_bit(header.size)) || (header.kind == 'b' && header.size == 1);
+                     ((header.kind == 'i' || header.kind == 'u') && std::has_single_bit(header.size)) ||
+                     (header.kind == 'b' && header.size == 1);
   if (!known) Fail(name, std::string("numbers of the kind ") + header.kind + std::to_string(header.size) + " are not known");
   size_t count = 1;
   for (const int64_t n : header.shape) count *= static_cast<size_t>(n);
@@ -124,7 +127,8 @@ NumberArray DecodeNpy(std::span<const std::byte> bytes, std::string_view name) {
     }
     return array;
   }
-  for (size_t i = 0; i < count; ++i) array.values[i] = ValueAt(data + (header.fortran ? FortranPlace(i, header.shape) : i) * header.size, header);
+  for (size_t i = 0; i < count; ++i)
+    array.values[i] = ValueAt(data + (header.fortran ? FortranPlace(i, header.shape) : i) * header.size, header);
   return array;
 }
 

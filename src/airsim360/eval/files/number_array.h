@@ -10,8 +10,8 @@
 namespace airsim360 {
 
 struct NumberArray {
-  std::vector<int64_t> shape;   ///< each at least 1
-  std::vector<double> values;   ///< the last index runs fastest
+  std::vector<int64_t> shape;  ///< each at least 1
+  std::vector<double> values;  ///< the last index runs fastest
 };
 
 /// NumPy's format (NEP 1), versions 1 to 3, either byte order and either order of indices: integers of 8 to 64 bits, floats of 16 to 64, truth

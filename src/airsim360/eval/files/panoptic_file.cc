@@ -76,7 +76,9 @@ PanopticFile Read(const JsonCursor& top, const std::vector<PanopticCategory>* kn
 
 }  // namespace
 
-PanopticFile ReadPanopticFile(const fs::path& path, const std::vector<PanopticCategory>* known) { return Read(JsonFile::Read(path).top(), known); }
+PanopticFile ReadPanopticFile(const fs::path& path, const std::vector<PanopticCategory>* known) {
+  return Read(JsonFile::Read(path).top(), known);
+}
 
 PanopticFile ParsePanopticFile(std::string_view text, const std::string& name, const std::vector<PanopticCategory>* known) {
   return Read(JsonFile::Parse(text, name).top(), known);

@@ -36,7 +36,8 @@ PersonPairs Join(const JsonFile& prediction, const JsonFile& truth) {
   std::unordered_map<std::string, PersonPose> predictions;
   const JsonCursor list = ListOf(prediction), truths = ListOf(truth);
   for (size_t i = 0; i < list.size(); ++i) {
-    if (!predictions.emplace(list[i]["id"].IdText(), Person(list[i])).second) list[i].Fail("the id '" + list[i]["id"].IdText() + "' occurs twice");
+    if (!predictions.emplace(list[i]["id"].IdText(), Person(list[i])).second)
+      list[i].Fail("the id '" + list[i]["id"].IdText() + "' occurs twice");
   }
   PersonPairs pairs;
   std::unordered_map<std::string, size_t> seen;
@@ -55,13 +56,16 @@ PersonPairs Join(const JsonFile& prediction, const JsonFile& truth) {
     pairs.truth.push_back(Person(truths[i]));
   }
   if (truths.size() == 0) truths.Fail("no persons");
-  if (missing > 0) list.Fail("no prediction for " + std::to_string(missing) + " of " + std::to_string(truths.size()) + " persons, '" + first + "' first");
+  if (missing > 0)
+    list.Fail("no prediction for " + std::to_string(missing) + " of " + std::to_string(truths.size()) + " persons, '" + first + "' first");
   return pairs;
 }
 
 }  // namespace
 
-PersonPairs ReadPersonFiles(const std::filesystem::path& prediction, const std::filesystem::path& truth) { return Join(JsonFile::Read(prediction), JsonFile::Read(truth)); }
+PersonPairs ReadPersonFiles(const std::filesystem::path& prediction, const std::filesystem::path& truth) {
+  return Join(JsonFile::Read(prediction), JsonFile::Read(truth));
+}
 
 PersonPairs ParsePersonFiles(std::string_view prediction, std::string_view truth, bool lines) {
   return Join(JsonFile::Parse(prediction, "prediction", lines), JsonFile::Parse(truth, "truth", lines));

@@ -35,7 +35,8 @@ NumberPicture OneChannel(NumberArray array, const fs::path& path) {
     if (n != 1) shape.push_back(n);
   }
   if (array.shape.size() == 2) shape = array.shape;
-  if (shape.size() != 2 || shape[0] > kMaxPixels / shape[1]) throw InputError(path.string() + ": an array of the shape " + ShapeText(array) + " is no picture (H, W)");
+  if (shape.size() != 2 || shape[0] > kMaxPixels / shape[1])
+    throw InputError(path.string() + ": an array of the shape " + ShapeText(array) + " is no picture (H, W)");
   return {static_cast<int>(shape[1]), static_cast<int>(shape[0]), 1, std::move(array.values)};
 }
 
@@ -52,7 +53,8 @@ LabelPicture FromNpy(const fs::path& path) {
   LabelPicture labels{numbers.width, numbers.height, {}};
   labels.ids.reserve(numbers.values.size());
   for (const double v : numbers.values) {
-    if (!(v >= 0 && v <= 0xffffffffu && v == std::floor(v))) throw InputError(path.string() + ": has the value " + std::to_string(v) + ", which is no id");
+    if (!(v >= 0 && v <= 0xffffffffu && v == std::floor(v)))
+      throw InputError(path.string() + ": has the value " + std::to_string(v) + ", which is no id");
     labels.ids.push_back(static_cast<uint32_t>(v));
   }
   return labels;
@@ -65,7 +67,9 @@ std::map<std::string, fs::path> FilesBelow(const fs::path& folder, const std::ve
     if (!entry.is_regular_file() || std::find(endings.begin(), endings.end(), Ending(entry.path())) == endings.end()) continue;
     const std::string name = entry.path().lexically_relative(folder).replace_extension().string();
     const auto [at, fresh] = files.emplace(name, entry.path());
-    if (!fresh) throw InputError(folder.string() + ": two files are named " + name + ": " + at->second.filename().string() + " and " + entry.path().filename().string());
+    if (!fresh)
+      throw InputError(folder.string() + ": two files are named " + name + ": " + at->second.filename().string() + " and " +
+                       entry.path().filename().string());
   }
   return files;
 }
@@ -85,7 +89,8 @@ NumberPicture ReadDepthPicture(const fs::path& path, const DepthFileOptions& opt
     const Bytes bytes = ReadFile(path);
     const PngKind kind = ReadPngKind(bytes, path.string());
     if (kind.channels != 1 || kind.bit_depth != 16)
-      throw InputError(path.string() + ": a PNG of " + std::to_string(kind.channels) + " channels and " + std::to_string(kind.bit_depth) + " bits; depth needs 16-bit gray");
+      throw InputError(path.string() + ": a PNG of " + std::to_string(kind.channels) + " channels and " + std::to_string(kind.bit_depth) +
+                       " bits; depth needs 16-bit gray");
     return FromImage(DecodeGrayPng(bytes, path.string()), options.png_scale);
   }
   throw InputError(path.string() + ": is no .npy, .exr, .h5, .hdf5 or 16-bit .png");
@@ -103,12 +108,14 @@ LabelPicture ReadIdPicture(const fs::path& path) {
   return {image.width(), image.height(), {image.pixels().begin(), image.pixels().end()}};
 }
 
-FilePairs PairFiles(const fs::path& prediction, const fs::path& truth, const std::vector<std::string>& endings, const std::string& product) {
+FilePairs PairFiles(const fs::path& prediction, const fs::path& truth, const std::vector<std::string>& endings,
+                    const std::string& product) {
   for (const fs::path& path : {prediction, truth}) {
     if (!fs::exists(path)) throw InputError(path.string() + ": does not exist");
   }
   if (fs::is_directory(prediction) != fs::is_directory(truth))
-    throw InputError((fs::is_directory(prediction) ? truth : prediction).string() + " is a file, " + (fs::is_directory(prediction) ? prediction : truth).string() + " a folder: give two of a kind");
+    throw InputError((fs::is_directory(prediction) ? truth : prediction).string() + " is a file, " +
+                     (fs::is_directory(prediction) ? prediction : truth).string() + " a folder: give two of a kind");
   if (!fs::is_directory(truth)) return {{{truth.stem().string(), prediction, truth}}, {}};
   const auto truths = FilesBelow(ProductFolder(truth, product), endings);
   auto predictions = FilesBelow(ProductFolder(prediction, product), endings);
@@ -129,10 +136,13 @@ FilePairs PairFiles(const fs::path& prediction, const fs::path& truth, const std
     predictions.erase(found);
   }
   if (!missing.empty())
-    throw InputError(prediction.string() + ": has no prediction for " + std::to_string(missing.size()) + " of " + std::to_string(truths.size()) + " pictures, '" + missing[0] +
-                     "' first" + (predictions.empty() ? "" : "; it has '" + predictions.begin()->first + "', which the truth has not: are files named otherwise?"));
+    throw InputError(
+        prediction.string() + ": has no prediction for " + std::to_string(missing.size()) + " of " + std::to_string(truths.size()) +
+        " pictures, '" + missing[0] + "' first" +
+        (predictions.empty() ? "" : "; it has '" + predictions.begin()->first + "', which the truth has not: are files named otherwise?"));
   if (!predictions.empty())
-    result.notes.push_back(std::to_string(predictions.size()) + " predictions have no truth and are left out, '" + predictions.begin()->first + "' first");
+    result.notes.push_back(std::to_string(predictions.size()) + " predictions have no truth and are left out, '" +
+                           predictions.begin()->first + "' first");
   return result;
 }
 

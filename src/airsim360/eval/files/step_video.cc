@@ -17,7 +17,8 @@ StepFrame ReadStepFrame(const std::filesystem::path& path, const StepClasses& cl
   std::set<uint32_t> seen;
   for (const Rgba8 p : image.pixels()) {
     if (p.r != classes.ignored && p.r >= classes.count)
-      throw InputError(path.string() + ": class " + std::to_string(p.r) + " is not among the " + std::to_string(classes.count) + " classes (--classes)");
+      throw InputError(path.string() + ": class " + std::to_string(p.r) + " is not among the " + std::to_string(classes.count) +
+                       " classes (--classes)");
     const uint32_t instance = classes.things.contains(p.r) ? 256u * p.g + p.b : 0;
     frame.ids.ids.push_back(p.r == classes.ignored ? 0 : (p.r + 1u) << 16 | instance);
     if (frame.ids.ids.size() < 2 || frame.ids.ids.back() != frame.ids.ids[frame.ids.ids.size() - 2]) seen.insert(frame.ids.ids.back());

@@ -16,7 +16,7 @@ struct StepClasses {
   std::set<int> things;
 };
 struct StepFrame {
-  LabelPicture ids;  ///< 65536 (class + 1) + instance, 0 = ignored
+  LabelPicture ids;                       ///< 65536 (class + 1) + instance, 0 = ignored
   std::vector<PanopticSegment> segments;  ///< in the order of ids
 };
 /// Instance 0 of a thing is a crowd in truths. InputError naming the file for a class that does not exist.

@@ -84,7 +84,8 @@ std::vector<NamedVlnEpisode> Join(const JsonFile& episodes, const JsonFile& resu
   }
   if (list.empty()) episodes.top().Fail("no episodes");
   if (missing > 0)
-    results.top().Fail("no flown path ('pred') for " + std::to_string(missing) + " of " + std::to_string(list.size()) + " episodes, '" + list[first].id + "' first");
+    results.top().Fail("no flown path ('pred') for " + std::to_string(missing) + " of " + std::to_string(list.size()) + " episodes, '" +
+                       list[first].id + "' first");
   for (const NamedVlnEpisode& one : list) {
     if (one.episode.reference.empty()) episodes.top().Fail("the episode '" + one.id + "' has no reference path ('ref')");
   }
@@ -97,7 +98,8 @@ std::vector<NamedVlnEpisode> ReadVlnFiles(const std::filesystem::path& episodes,
   return Join(JsonFile::Read(episodes), JsonFile::Read(results));
 }
 
-std::vector<NamedVlnEpisode> ParseVlnFiles(std::string_view episodes, const std::string& name, std::string_view results, const std::string& results_name, bool lines) {
+std::vector<NamedVlnEpisode> ParseVlnFiles(std::string_view episodes, const std::string& name, std::string_view results,
+                                           const std::string& results_name, bool lines) {
   return Join(JsonFile::Parse(episodes, name, lines), JsonFile::Parse(results, results_name, lines));
 }
 

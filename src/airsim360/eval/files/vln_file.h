@@ -20,7 +20,7 @@ struct NamedVlnEpisode {
 /// Either file may hold both, and they may be the same. Points are [x, y, z, …] or [x, y]. In the order of `episodes`. InputError naming the file
 /// and the field, or how many episodes have no result and which is the first.
 std::vector<NamedVlnEpisode> ReadVlnFiles(const std::filesystem::path& episodes, const std::filesystem::path& results);
-std::vector<NamedVlnEpisode> ParseVlnFiles(std::string_view episodes, const std::string& name, std::string_view results, const std::string& results_name,
-                                           bool lines);
+std::vector<NamedVlnEpisode> ParseVlnFiles(std::string_view episodes, const std::string& name, std::string_view results,
+                                           const std::string& results_name, bool lines);
 
 }  // namespace airsim360

@@ -23,20 +23,25 @@ double Angle(Vec3d a, Vec3d b) { return std::atan2(Norm(Cross(a, b)), Dot(a, b))
 
 }  // namespace
 
-std::array<double, kFlowFigures.size()> Figures(const FlowErrors& e) { return {e.epe, e.fl_all, e.within1, e.within3, e.within5, e.angle_deg}; }
+std::array<double, kFlowFigures.size()> Figures(const FlowErrors& e) {
+  return {e.epe, e.fl_all, e.within1, e.within3, e.within5, e.angle_deg};
+}
 
-FlowErrors MeasureFlow(std::span<const double> prediction, std::span<const double> truth, int width, int height, std::span<const uint32_t> source,
-                       std::span<const double> weights) {
+FlowErrors MeasureFlow(std::span<const double> prediction, std::span<const double> truth, int width, int height,
+                       std::span<const uint32_t> source, std::span<const double> weights) {
   const size_t pixels = truth.size() / 2;
-  if (prediction.size() != truth.size() || truth.size() % 2 != 0 || (!source.empty() && source.size() != pixels) || (!weights.empty() && weights.size() != pixels))
-    throw InputError("arrays of different length: " + std::to_string(prediction.size()) + " predictions, " + std::to_string(truth.size()) + " truths");
+  if (prediction.size() != truth.size() || truth.size() % 2 != 0 || (!source.empty() && source.size() != pixels) ||
+      (!weights.empty() && weights.size() != pixels))
+    throw InputError("arrays of different length: " + std::to_string(prediction.size()) + " predictions, " + std::to_string(truth.size()) +
+                     " truths");
   const bool panorama = width == 2 * height;
   FlowErrors sum;
   double all = 0;
   for (size_t i = 0; i < pixels; ++i) {
     const double gx = truth[2 * i], gy = truth[2 * i + 1], px = prediction[2 * i], py = prediction[2 * i + 1];
     if (!std::isfinite(gx) || !std::isfinite(gy)) continue;
-    if (!std::isfinite(px) || !std::isfinite(py)) throw InputError("the predicted flow of pixel " + std::to_string(i) + " is no number, but it has a truth");
+    if (!std::isfinite(px) || !std::isfinite(py))
+      throw InputError("the predicted flow of pixel " + std::to_string(i) + " is no number, but it has a truth");
     const double dx = panorama ? std::remainder(px - gx, static_cast<double>(width)) : px - gx, error = std::hypot(dx, py - gy);
     const double w = weights.empty() ? 1 : weights[i];
     all += w;
@@ -53,7 +58,8 @@ FlowErrors MeasureFlow(std::span<const double> prediction, std::span<const doubl
   }
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const double n = all > 0 ? all : kNan;
-  return {sum.epe / n, sum.fl_all / n, sum.within1 / n, sum.within3 / n, sum.within5 / n, panorama ? sum.angle_deg / n * 180 / kPi : kNan, sum.valid};
+  return {sum.epe / n, sum.fl_all / n, sum.within1 / n, sum.within3 / n, sum.within5 / n, panorama ? sum.angle_deg / n * 180 / kPi : kNan,
+          sum.valid};
 }
 
 }  // namespace airsim360

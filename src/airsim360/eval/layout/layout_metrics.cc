@@ -25,10 +25,12 @@ struct Room {
 
 Room Raise(const RoomLayout& layout, int width, int height, const char* whose) {
   const std::string name(whose);
-  if (layout.floor.size() < 3 || layout.ceiling.size() != layout.floor.size()) throw InputError(name + ": a room has at least three pairs of a ceiling and a floor corner");
+  if (layout.floor.size() < 3 || layout.ceiling.size() != layout.floor.size())
+    throw InputError(name + ": a room has at least three pairs of a ceiling and a floor corner");
   Room room;
   for (size_t i = 0; i < layout.floor.size(); ++i) {
-    const double down = Down(layout.floor[i].y, height), up = -Down(layout.ceiling[i].y, height), azimuth = Azimuth(layout.floor[i].x, width);
+    const double down = Down(layout.floor[i].y, height), up = -Down(layout.ceiling[i].y, height),
+                 azimuth = Azimuth(layout.floor[i].x, width);
     if (!(down > 0 && down < kPi / 2 && up > 0 && up < kPi / 2))
       throw InputError(name + ": pair " + std::to_string(i) + " is not a ceiling corner above the horizon, then a floor corner below it");
     if (std::abs(std::remainder(layout.floor[i].x - layout.ceiling[i].x, static_cast<double>(width))) > 1)
@@ -72,7 +74,8 @@ double CornerError(const RoomLayout& a, const RoomLayout& b, int width, int heig
   if (a.floor.size() != b.floor.size()) return std::numeric_limits<double>::quiet_NaN();
   double sum = 0;
   for (size_t i = 0; i < a.floor.size(); ++i)
-    sum += std::hypot(a.floor[i].x - b.floor[i].x, a.floor[i].y - b.floor[i].y) + std::hypot(a.ceiling[i].x - b.ceiling[i].x, a.ceiling[i].y - b.ceiling[i].y);
+    sum += std::hypot(a.floor[i].x - b.floor[i].x, a.floor[i].y - b.floor[i].y) +
+           std::hypot(a.ceiling[i].x - b.ceiling[i].x, a.ceiling[i].y - b.ceiling[i].y);
   return 100 * sum / (2 * static_cast<double>(a.floor.size())) / std::hypot(width, height);
 }
 
@@ -80,7 +83,8 @@ void MeasurePixels(const Room& p, const Room& g, int width, int height, LayoutEr
   double wrong = 0, square = 0, near = 0;
   for (int x = 0; x < width; ++x) {
     const double wall_p = WallDistance(p, Azimuth(x, width)), wall_g = WallDistance(g, Azimuth(x, width));
-    if (wall_p == 0 || wall_g == 0) throw InputError(std::string(wall_p == 0 ? "the prediction" : "the truth") + ": the camera is outside the room");
+    if (wall_p == 0 || wall_g == 0)
+      throw InputError(std::string(wall_p == 0 ? "the prediction" : "the truth") + ": the camera is outside the room");
     for (int y = 0; y < height; ++y) {
       const Seen a = Look(p, wall_p, Down(y, height)), b = Look(g, wall_g, Down(y, height));
       wrong += a.surface != b.surface;
@@ -96,7 +100,9 @@ void MeasurePixels(const Room& p, const Room& g, int width, int height, LayoutEr
 
 }  // namespace
 
-std::array<double, kLayoutFigures.size()> Figures(const LayoutErrors& e) { return {e.iou2d, e.iou3d, e.corner_error, e.pixel_error, e.rmse, e.delta1}; }
+std::array<double, kLayoutFigures.size()> Figures(const LayoutErrors& e) {
+  return {e.iou2d, e.iou3d, e.corner_error, e.pixel_error, e.rmse, e.delta1};
+}
 
 LayoutErrors MeasureLayout(const RoomLayout& prediction, const RoomLayout& truth, int width, int height) {
   const Room p = Raise(prediction, width, height, "the prediction"), g = Raise(truth, width, height, "the truth");

@@ -23,7 +23,8 @@ struct LayoutErrors {
   double rmse = 0;          ///< of the range of the empty rooms, metres for a camera 1.6 m above the floor
   double delta1 = 0;        ///< share of pixels with ranges within a factor of 1.25
 };
-inline constexpr std::array<std::string_view, 6> kLayoutFigures = {"iou2d", "iou3d", "corner_error_percent", "pixel_error_percent", "rmse", "d1"};
+inline constexpr std::array<std::string_view, 6> kLayoutFigures = {"iou2d", "iou3d", "corner_error_percent", "pixel_error_percent",
+                                                                   "rmse",  "d1"};
 std::array<double, kLayoutFigures.size()> Figures(const LayoutErrors& errors);
 
 /// As HorizonNet's evaluation (Sun et al., CVPR 2019) has them, but boundaries are exact where that code joins rounded columns. InputError for fewer than three

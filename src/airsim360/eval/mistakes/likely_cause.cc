@@ -21,10 +21,22 @@ struct Turn {
   Place (*from)(Place p, int width, int height);  // where the right pixel is
 };
 constexpr std::array<Turn, 4> kTurns = {{
-    {"mirrored left to right (longitude counted the other way)", [](Place p, int w, int) { return Place{w - 1 - p.x, p.y}; }},
-    {"turned by 180 degrees (half the width)", [](Place p, int w, int) { return Place{(p.x + w / 2) % w, p.y}; }},
-    {"upside down", [](Place p, int, int h) { return Place{p.x, h - 1 - p.y}; }},
-    {"upside down and mirrored", [](Place p, int w, int h) { return Place{w - 1 - p.x, h - 1 - p.y}; }},
+    {"mirrored left to right (longitude counted the other way)",
+     [](Place p, int w, int) {
+       return Place{w - 1 - p.x, p.y};
+     }},
+    {"turned by 180 degrees (half the width)",
+     [](Place p, int w, int) {
+       return Place{(p.x + w / 2) % w, p.y};
+     }},
+    {"upside down",
+     [](Place p, int, int h) {
+       return Place{p.x, h - 1 - p.y};
+     }},
+    {"upside down and mirrored",
+     [](Place p, int w, int h) {
+       return Place{w - 1 - p.x, h - 1 - p.y};
+     }},
 }};
 
 double Median(std::vector<double> values) {
@@ -38,7 +50,8 @@ std::vector<Place> SamplePlaces(std::span<const double> truth, int width, int he
   // A step that shares no factor with a power of two, so that columns do not repeat.
   const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height), step = std::max<size_t>(1, pixels / kSamples) | 1;
   for (size_t i = 0; i < pixels; i += step) {
-    if (truth[i] > 0 && std::isfinite(truth[i])) places.push_back({static_cast<int>(i % static_cast<size_t>(width)), static_cast<int>(i / static_cast<size_t>(width))});
+    if (truth[i] > 0 && std::isfinite(truth[i]))
+      places.push_back({static_cast<int>(i % static_cast<size_t>(width)), static_cast<int>(i / static_cast<size_t>(width))});
   }
   return places;
 }
@@ -56,7 +69,8 @@ std::string UnitMistake(const std::vector<double>& ratios) {
   for (const auto& [factor, words] : kUnits) {
     if (median < 0.8 * factor || median > 1.25 * factor) continue;
     // Most pixels say so.
-    const auto close = std::count_if(ratios.begin(), ratios.end(), [factor = factor](double r) { return r > 0.5 * factor && r < 2 * factor; });
+    const auto close =
+        std::count_if(ratios.begin(), ratios.end(), [factor = factor](double r) { return r > 0.5 * factor && r < 2 * factor; });
     if (2 * static_cast<size_t>(close) < ratios.size()) continue;
     char text[160];
     std::snprintf(text, sizeof(text), "predictions are %.4g times the truth (median): %s? (--pred-scale %g)", median, words, 1 / factor);

@@ -14,12 +14,22 @@ using Spl = VlnProtocol::Spl;
 
 constexpr std::array<VlnProtocol, 7> kProtocols = {{
     {.name = "ours", .quirk = "three dimensions, at most the radius, the agent must stop; SPL by the shortest free way"},
-    {.name = "aerialvln", .quirk = "distances to the goal leave the height out; nDTW is exact here (their code approximates it by fastdtw)", .horizontal = true},
-    {.name = "openfly", .quirk = "nearer than the radius; no stop is needed; SPL is straight line / flown and may exceed 1", .strict = true, .needs_stop = false,
+    {.name = "aerialvln",
+     .quirk = "distances to the goal leave the height out; nDTW is exact here (their code approximates it by fastdtw)",
+     .horizontal = true},
+    {.name = "openfly",
+     .quirk = "nearer than the radius; no stop is needed; SPL is straight line / flown and may exceed 1",
+     .strict = true,
+     .needs_stop = false,
      .spl = Spl::kStraightUnbounded},
-    {.name = "citynav-mgp", .quirk = "distances to the goal leave the height out; no stop is needed", .horizontal = true, .needs_stop = false},
+    {.name = "citynav-mgp",
+     .quirk = "distances to the goal leave the height out; no stop is needed",
+     .horizontal = true,
+     .needs_stop = false},
     {.name = "citynav-vlnce", .quirk = "nearer than the radius, in three dimensions", .strict = true},
-    {.name = "traveluav", .quirk = "SPL takes the reference's length less the radius as the shortest way", .spl = Spl::kReferenceLessRadius},
+    {.name = "traveluav",
+     .quirk = "SPL takes the reference's length less the radius as the shortest way",
+     .spl = Spl::kReferenceLessRadius},
     {.name = "uavon", .quirk = "a collision is a failure", .collision_fails = true},
 }};
 

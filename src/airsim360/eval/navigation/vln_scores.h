@@ -14,9 +14,9 @@ namespace airsim360 {
 
 struct VlnEpisode {
   std::vector<Vec3d> reference{}, flown{};  ///< at least one point each
-  std::optional<Vec3d> goal{};          ///< else the last point of the reference
-  std::optional<double> shortest{};     ///< shortest free way from start to goal; else the length of the reference
-  bool stopped = true;                  ///< the agent said that it had arrived
+  std::optional<Vec3d> goal{};              ///< else the last point of the reference
+  std::optional<double> shortest{};         ///< shortest free way from start to goal; else the length of the reference
+  bool stopped = true;                      ///< the agent said that it had arrived
   bool collided = false;
 };
 
@@ -46,7 +46,8 @@ struct VlnScore {
   double length = 0;        ///< of the flown path
 };
 /// Names of means of the nine figures, in order, and their values.
-inline constexpr std::array<std::string_view, 9> kVlnFigures = {"sr", "osr", "spl", "spl_straight", "ne", "ndtw", "sdtw", "cls", "path_length"};
+inline constexpr std::array<std::string_view, 9> kVlnFigures = {"sr",   "osr",  "spl", "spl_straight", "ne",
+                                                                "ndtw", "sdtw", "cls", "path_length"};
 std::array<double, kVlnFigures.size()> Figures(const VlnScore& score);
 
 /// InputError for a path without points, numbers that are not finite or a radius that is not above 0.

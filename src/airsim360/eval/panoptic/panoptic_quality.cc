@@ -25,7 +25,8 @@ std::unordered_map<uint32_t, const PanopticSegment*> Index(std::span<const Panop
     if (!pixels.contains(segment.id)) throw InputError(name + " is listed, but no pixel has this id");
   }
   for (const auto& [id, area] : pixels) {
-    if (id != kVoid && !index.contains(id)) throw InputError("pixels have the id " + std::to_string(id) + ", but no " + std::string(whose) + " segment of it is listed");
+    if (id != kVoid && !index.contains(id))
+      throw InputError("pixels have the id " + std::to_string(id) + ", but no " + std::string(whose) + " segment of it is listed");
   }
   return index;
 }
@@ -40,13 +41,18 @@ std::vector<PanopticSegment> Present(std::span<const PanopticSegment> segments, 
 
 }  // namespace
 
-std::vector<PanopticSegment> PanopticOverlap::PresentPredictions(std::span<const PanopticSegment> segments) const { return Present(segments, predicted_); }
+std::vector<PanopticSegment> PanopticOverlap::PresentPredictions(std::span<const PanopticSegment> segments) const {
+  return Present(segments, predicted_);
+}
 
-std::vector<PanopticSegment> PanopticOverlap::PresentTruths(std::span<const PanopticSegment> segments) const { return Present(segments, true_); }
+std::vector<PanopticSegment> PanopticOverlap::PresentTruths(std::span<const PanopticSegment> segments) const {
+  return Present(segments, true_);
+}
 
 void PanopticOverlap::Add(std::span<const uint32_t> prediction, std::span<const uint32_t> truth, std::span<const double> weights) {
   if (prediction.size() != truth.size() || (!weights.empty() && weights.size() != truth.size()))
-    throw InputError("arrays of different length: " + std::to_string(prediction.size()) + " predictions, " + std::to_string(truth.size()) + " truths");
+    throw InputError("arrays of different length: " + std::to_string(prediction.size()) + " predictions, " + std::to_string(truth.size()) +
+                     " truths");
   // Neighbours mostly belong to the same pair: look each run up once.
   for (size_t i = 0; i < truth.size();) {
     const uint32_t t = truth[i], p = prediction[i];

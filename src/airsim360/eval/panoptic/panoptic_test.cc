@@ -10,8 +10,8 @@
 namespace airsim360 {
 namespace {
 
-std::vector<PanopticCount> Count(const std::vector<uint32_t>& p, const std::vector<uint32_t>& t, std::vector<PanopticSegment> ps, std::vector<PanopticSegment> ts,
-                                 std::vector<double> weights = {}) {
+std::vector<PanopticCount> Count(const std::vector<uint32_t>& p, const std::vector<uint32_t>& t, std::vector<PanopticSegment> ps,
+                                 std::vector<PanopticSegment> ts, std::vector<double> weights = {}) {
   PanopticOverlap overlap;
   overlap.Add(p, t, weights);
   std::vector<PanopticCount> counts(2);
@@ -28,10 +28,10 @@ TEST(PanopticQuality, MatchesAboveOneHalfOnly) {
 }
 
 TEST(PanopticQuality, VoidAndCrowdExcusePredictions) {
-  EXPECT_DOUBLE_EQ(Count({1, 1, 1, 1}, {5, 5, 0, 0}, {{1, 0}}, {{5, 0}})[0].iou, 1);       // void counts for neither
-  EXPECT_EQ(Count({1, 1, 1, 1}, {5, 0, 0, 0}, {{1, 1}}, {{5, 0}})[1].fp, 0);               // mostly void
-  EXPECT_EQ(Count({1, 1, 1, 1}, {5, 5, 5, 5}, {{1, 0}}, {{5, 0, true}})[0].fp, 0);         // all crowd
-  EXPECT_EQ(Count({1, 1, 1, 1}, {5, 5, 5, 5}, {{1, 1}}, {{5, 0, true}})[1].fp, 1);         // of another category
+  EXPECT_DOUBLE_EQ(Count({1, 1, 1, 1}, {5, 5, 0, 0}, {{1, 0}}, {{5, 0}})[0].iou, 1);  // void counts for neither
+  EXPECT_EQ(Count({1, 1, 1, 1}, {5, 0, 0, 0}, {{1, 1}}, {{5, 0}})[1].fp, 0);          // mostly void
+  EXPECT_EQ(Count({1, 1, 1, 1}, {5, 5, 5, 5}, {{1, 0}}, {{5, 0, true}})[0].fp, 0);    // all crowd
+  EXPECT_EQ(Count({1, 1, 1, 1}, {5, 5, 5, 5}, {{1, 1}}, {{5, 0, true}})[1].fp, 1);    // of another category
 }
 
 TEST(PanopticQuality, WeightsAreAreas) {

@@ -41,11 +41,12 @@ TrackingQuality::TrackingQuality(std::vector<bool> things)
 
 void TrackingQuality::Add(const Labels& prediction, const Labels& truth, std::span<const double> weights) {
   const size_t n = truth.category.size();
-  if (prediction.category.size() != n || prediction.instance.size() != n || truth.instance.size() != n || (!weights.empty() && weights.size() != n))
+  if (prediction.category.size() != n || prediction.instance.size() != n || truth.instance.size() != n ||
+      (!weights.empty() && weights.size() != n))
     throw InputError("arrays of different length");
   const auto run = [&](size_t a, size_t b) {
-    return truth.category[a] == truth.category[b] && truth.instance[a] == truth.instance[b] && prediction.category[a] == prediction.category[b] &&
-           prediction.instance[a] == prediction.instance[b];
+    return truth.category[a] == truth.category[b] && truth.instance[a] == truth.instance[b] &&
+           prediction.category[a] == prediction.category[b] && prediction.instance[a] == prediction.instance[b];
   };
   for (size_t i = 0; i < n;) {
     const size_t first = i;
@@ -54,7 +55,8 @@ void TrackingQuality::Add(const Labels& prediction, const Labels& truth, std::sp
     const uint32_t t = truth.category[first], p = prediction.category[first];
     const size_t row = t < classes_ ? t : classes_, column = p < classes_ ? p : classes_;
     confusion_[row * (classes_ + 1) + column] += sum;
-    const bool thing = t < classes_ && things_[t], crowd = thing && truth.instance[first] == 0, predicted = p < classes_ && things_[p] && !crowd;
+    const bool thing = t < classes_ && things_[t], crowd = thing && truth.instance[first] == 0,
+               predicted = p < classes_ && things_[p] && !crowd;
     const uint64_t true_tube = Tube(t, truth.instance[first]), predicted_tube = Tube(p, prediction.instance[first]);
     if (thing && !crowd) true_[true_tube] += sum;
     if (predicted) predicted_[predicted_tube] += sum;

@@ -40,7 +40,7 @@ class TrackingQuality {
   size_t classes_;
   std::vector<bool> things_;
   int64_t frames_ = 0;
-  std::vector<double> confusion_;  // true x predicted, the last for void
+  std::vector<double> confusion_;                          // true x predicted, the last for void
   std::unordered_map<uint64_t, double> predicted_, true_;  // tube (category, instance) -> size
   std::map<std::pair<uint64_t, uint64_t>, double> shared_;
 };

@@ -29,7 +29,8 @@ double MeanOf(size_t classes, const Value& value) {
 
 void Confusion::Add(std::span<const uint16_t> prediction, std::span<const uint16_t> truth, std::span<const double> weights) {
   if (prediction.size() != truth.size() || (!weights.empty() && weights.size() != truth.size()))
-    throw InputError("arrays of different length: " + std::to_string(prediction.size()) + " predictions, " + std::to_string(truth.size()) + " truths");
+    throw InputError("arrays of different length: " + std::to_string(prediction.size()) + " predictions, " + std::to_string(truth.size()) +
+                     " truths");
   for (size_t i = 0; i < truth.size(); ++i) {
     if (truth[i] >= classes_) continue;
     const size_t predicted = prediction[i] < classes_ ? prediction[i] : classes_;

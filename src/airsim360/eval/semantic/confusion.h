@@ -21,8 +21,8 @@ class Confusion {
   void Add(const Confusion& other, double times = 1);
 
   size_t classes() const { return classes_; }
-  double True(size_t truth) const;                          ///< of a class, whatever was predicted
-  double Predicted(size_t prediction) const;                ///< as a class, where the truth has one
+  double True(size_t truth) const;            ///< of a class, whatever was predicted
+  double Predicted(size_t prediction) const;  ///< as a class, where the truth has one
   double At(size_t truth, size_t prediction) const { return table_[truth * (classes_ + 1) + prediction]; }
 
   /// Intersection over union of a class; NaN where neither truth nor prediction has it.

@@ -68,8 +68,8 @@ std::vector<double> RowWeights(int height, int width, PixelWeight weight) {
   if (weight == PixelWeight::kPixel) return weights;
   for (int y = 0; y < height; ++y) {
     const double top = kPi * (0.5 - static_cast<double>(y) / height), bottom = kPi * (0.5 - (y + 1.0) / height);
-    weights[static_cast<size_t>(y)] = weight == PixelWeight::kSolidAngle ? 2 * kPi / width * (std::sin(top) - std::sin(bottom))
-                                                                         : std::cos((top + bottom) / 2);
+    weights[static_cast<size_t>(y)] =
+        weight == PixelWeight::kSolidAngle ? 2 * kPi / width * (std::sin(top) - std::sin(bottom)) : std::cos((top + bottom) / 2);
   }
   return weights;
 }
@@ -84,7 +84,8 @@ PixelView WholeView(int width, int height, PixelWeight weight) {
 
 PixelView BandView(int width, int height, int band, int bands, PixelWeight weight) {
   CheckPanorama(width, height, "--latitude-bands");
-  if (bands > height) throw InputError("--latitude-bands " + std::to_string(bands) + ": the pictures have " + std::to_string(height) + " rows");
+  if (bands > height)
+    throw InputError("--latitude-bands " + std::to_string(bands) + ": the pictures have " + std::to_string(height) + " rows");
   // Row y is in the band of its centre: floor((y + 0.5) / height * bands).
   const auto first = [&](int b) { return static_cast<int>(std::ceil(static_cast<double>(b) * height / bands - 0.5)); };
   return Rows(width, height, first(band), first(band + 1), weight);
@@ -93,7 +94,8 @@ PixelView BandView(int width, int height, int band, int bands, PixelWeight weigh
 PixelView SeamView(int width, int height, int columns, bool near, PixelWeight weight) {
   CheckPanorama(width, height, "--seam");
   if (columns < 1 || 2 * columns >= width)
-    throw InputError("--seam " + std::to_string(columns) + ": must be at least 1 and less than half the width, " + std::to_string(width / 2));
+    throw InputError("--seam " + std::to_string(columns) + ": must be at least 1 and less than half the width, " +
+                     std::to_string(width / 2));
   const std::vector<double> weights = RowWeights(height, width, weight);
   PixelView view;
   for (int y = 0; y < height; ++y) {
@@ -147,7 +149,8 @@ PixelView TurnedView(int width, int height, double yaw, double pitch, double rol
   CheckPanorama(width, height, "turning");
   const double cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch), cr = std::cos(roll), sr = std::sin(roll);
   // Columns of R_C_turned: what the turned camera's axes are in the first one.
-  const Vec3d right{cy * cr + sy * sp * sr, cp * sr, -sy * cr + cy * sp * sr}, down{-cy * sr + sy * sp * cr, cp * cr, sy * sr + cy * sp * cr}, ahead{sy * cp, -sp, cy * cp};
+  const Vec3d right{cy * cr + sy * sp * sr, cp * sr, -sy * cr + cy * sp * sr},
+      down{-cy * sr + sy * sp * cr, cp * cr, sy * sr + cy * sp * cr}, ahead{sy * cp, -sp, cy * cp};
   PixelView view;
   view.source.reserve(static_cast<size_t>(width) * static_cast<size_t>(height));
   for (int y = 0; y < height; ++y) {

@@ -11,9 +11,9 @@ namespace airsim360 {
 
 /// What a pixel of a panorama counts.
 enum class PixelWeight {
-  kPixel,         ///< 1
-  kSolidAngle,    ///< steradians, exact: 2 pi / W times the difference of the sines of the row's borders
-  kCosLatitude,   ///< cosine of the latitude of the row's centre
+  kPixel,        ///< 1
+  kSolidAngle,   ///< steradians, exact: 2 pi / W times the difference of the sines of the row's borders
+  kCosLatitude,  ///< cosine of the latitude of the row's centre
 };
 /// "pixel", "solid_angle"; InputError naming --weights otherwise.
 PixelWeight ParsePixelWeight(const std::string& text);

@@ -8,8 +8,8 @@ namespace airsim360 {
 namespace {
 
 constexpr int kSides = 16;
-constexpr Vec3f kCarbon{0.03f, 0.03f, 0.035f}, kShell{0.22f, 0.23f, 0.25f}, kMetal{0.35f, 0.35f, 0.36f},
-    kFront{0.75f, 0.12f, 0.03f}, kBlade{0.08f, 0.08f, 0.09f};
+constexpr Vec3f kCarbon{0.03f, 0.03f, 0.035f}, kShell{0.22f, 0.23f, 0.25f}, kMetal{0.35f, 0.35f, 0.36f}, kFront{0.75f, 0.12f, 0.03f},
+    kBlade{0.08f, 0.08f, 0.09f};
 
 /// Axes of a solid: three orthogonal unit vectors.
 struct Axes {
@@ -31,11 +31,9 @@ class Builder {
   void Box(Vec3d center, const Axes& axes, Vec3d half) {
     const uint32_t first = Size();
     for (int i = 0; i < 8; ++i) {
-      Add(center + axes.x * (i & 1 ? half.x : -half.x) + axes.y * (i & 2 ? half.y : -half.y) +
-          axes.z * (i & 4 ? half.z : -half.z));
+      Add(center + axes.x * (i & 1 ? half.x : -half.x) + axes.y * (i & 2 ? half.y : -half.y) + axes.z * (i & 4 ? half.z : -half.z));
     }
-    constexpr uint32_t kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    constexpr uint32_t kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     for (const auto& f : kFaces) {
       Triangle(first + f[0], first + f[1], first + f[2]);
       Triangle(first + f[0], first + f[2], first + f[3]);
@@ -80,8 +78,7 @@ void AddBlades(Builder& builder, const RotorModel& rotor, Vec3d hub, int blades,
   for (int i = 0; i < blades; ++i) {
     const double angle = 2 * std::numbers::pi * i / blades;
     const Vec3d out = axes.x * std::cos(angle) + axes.y * std::sin(angle), side = Cross(axes.z, out);
-    const Axes blade{out, side * std::cos(lean) + axes.z * std::sin(lean),
-                     axes.z * std::cos(lean) - side * std::sin(lean)};
+    const Axes blade{out, side * std::cos(lean) + axes.z * std::sin(lean), axes.z * std::cos(lean) - side * std::sin(lean)};
     const double radius = rotor.diameter / 2;
     builder.Box(hub + out * (radius / 2), blade, {radius / 2, 0.05 * rotor.diameter, thick / 2});
   }
@@ -121,8 +118,7 @@ DroneBody MakeDroneBody(const DroneModel& model, const DroneBodyOptions& options
       const Vec3d along = foot / reach;
       const Vec3d side = Normalized(Cross({0, 0, 1}, along));
       builder.Begin("arm" + number, kCarbon);
-      builder.Box(foot * 0.5, {along, side, Cross(along, side)},
-                  {reach / 2, 0.04 * diameter, 0.025 * diameter});
+      builder.Box(foot * 0.5, {along, side, Cross(along, side)}, {reach / 2, 0.04 * diameter, 0.025 * diameter});
     }
     builder.Begin("motor" + number, rotor.p_B.x > 0.2 * arm ? kFront : kMetal);
     builder.Cylinder(foot, up, motor, height);

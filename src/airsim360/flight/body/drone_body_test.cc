@@ -12,8 +12,7 @@ namespace airsim360 {
 namespace {
 
 std::vector<DroneModel> Models() {
-  return {CatalogModel("crazyflie"), CatalogModel("agilicious"), CatalogModel("octo"),
-          DroneFromPrompt("a coaxial 8 kg drone").model};
+  return {CatalogModel("crazyflie"), CatalogModel("agilicious"), CatalogModel("octo"), DroneFromPrompt("a coaxial 8 kg drone").model};
 }
 
 TEST(DroneBody, EveryPartIsAClosedSurfaceTurnedOutwards) {
@@ -27,8 +26,8 @@ TEST(DroneBody, EveryPartIsAClosedSurfaceTurnedOutwards) {
         for (uint32_t t = part.first; t < part.first + part.count; ++t) {
           const Vec3u v = body.triangles[t];
           for (const auto& [a, b] : {std::pair{v.x, v.y}, {v.y, v.z}, {v.z, v.x}}) ++edges[{a, b}];
-          volume += Dot(VecCast<double>(body.positions[v.x]),
-                        Cross(VecCast<double>(body.positions[v.y]), VecCast<double>(body.positions[v.z])));
+          volume +=
+              Dot(VecCast<double>(body.positions[v.x]), Cross(VecCast<double>(body.positions[v.y]), VecCast<double>(body.positions[v.z])));
         }
         EXPECT_GT(volume, 0) << model.name << " " << part.name;
         for (const auto& [edge, count] : edges) {

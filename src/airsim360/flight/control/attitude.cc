@@ -8,9 +8,7 @@ namespace airsim360::internal {
 
 double HeadingOf(const Mat3d& R_WB) { return std::atan2(R_WB.m[1][0], R_WB.m[0][0]); }
 
-double WrapAngle(double angle) {
-  return angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi) + 0.5);
-}
+double WrapAngle(double angle) { return angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi) + 0.5); }
 
 RollPitch RollPitchOf(const Mat3d& R_WB) {
   return {std::atan2(R_WB.m[2][1], R_WB.m[2][2]), std::asin(std::clamp(R_WB.m[2][0], -1.0, 1.0))};

@@ -10,9 +10,7 @@
 namespace airsim360::internal {
 namespace {
 
-Vec3d VeeOf(const Mat3d& M) {
-  return Vec3d{M.m[2][1] - M.m[1][2], M.m[0][2] - M.m[2][0], M.m[1][0] - M.m[0][1]} * 0.5;
-}
+Vec3d VeeOf(const Mat3d& M) { return Vec3d{M.m[2][1] - M.m[1][2], M.m[0][2] - M.m[2][0], M.m[1][0] - M.m[0][1]} * 0.5; }
 
 TEST(Attitude, HasTheThrustAxisAndTheHeadingThatWereAsked) {
   RngStream rng(1, "attitude");
@@ -46,9 +44,7 @@ TEST(Attitude, ErrorIsTheTurnThatIsMissing) {
 TEST(Attitude, RatesAreTheDerivativesOfTheFlatAttitude) {
   const Lemniscate curve({}, 2, 4, 1, 2);
   const double yaw0 = 0.3, yaw_rate = 0.5;
-  const auto attitude = [&](double t) {
-    return AttitudeFor(curve.At(t).a + Vec3d{0, 0, 9.8}, yaw0 + yaw_rate * t);
-  };
+  const auto attitude = [&](double t) { return AttitudeFor(curve.At(t).a + Vec3d{0, 0, 9.8}, yaw0 + yaw_rate * t); };
   const auto rates = [&](double t) {
     const ReferencePoint p = curve.At(t);
     const Vec3d f = p.a + Vec3d{0, 0, 9.8};

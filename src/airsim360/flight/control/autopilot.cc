@@ -34,10 +34,9 @@ void CheckOption(const char* name, double value, double low, double high) {
 /// "" or why a disarmed drone cannot do it.
 std::string DisarmedProblem(const Command& command, const AutopilotState& state) {
   if (state.mode != FlightMode::kDisarmed) return "";
-  const bool fine =
-      std::holds_alternative<ArmCommand>(command) || std::holds_alternative<DisarmCommand>(command) ||
-      std::holds_alternative<TakeoffCommand>(command) || std::holds_alternative<HoverCommand>(command) ||
-      std::holds_alternative<LandCommand>(command);
+  const bool fine = std::holds_alternative<ArmCommand>(command) || std::holds_alternative<DisarmCommand>(command) ||
+                    std::holds_alternative<TakeoffCommand>(command) || std::holds_alternative<HoverCommand>(command) ||
+                    std::holds_alternative<LandCommand>(command);
   return fine ? "" : CommandName(command) + ": the drone is disarmed; arm it or take off first";
 }
 
@@ -92,8 +91,7 @@ void Autopilot::WatchRotors(const StateEstimate& estimate, AutopilotState& state
     const double tau = std::max(rotor.tau_up, rotor.tau_down);
     double& expected = state.expected_speeds[i];
     expected += (state.commanded_speeds[i] - expected) * dt / (tau + dt);
-    const bool slow =
-        expected > kFaultFloor * rotor.max_speed && estimate.rotor_speeds[i] < kFaultShare * expected;
+    const bool slow = expected > kFaultFloor * rotor.max_speed && estimate.rotor_speeds[i] < kFaultShare * expected;
     state.fault_time[i] = slow ? state.fault_time[i] + dt : 0;
     if (state.fault_time[i] > kFaultTime) {
       state.failed_rotors |= uint64_t{1} << i;
@@ -102,8 +100,7 @@ void Autopilot::WatchRotors(const StateEstimate& estimate, AutopilotState& state
   }
 }
 
-RotorValues Autopilot::Drive(const StateEstimate& estimate, const RotorValues& thrust,
-                             AutopilotState& state) const {
+RotorValues Autopilot::Drive(const StateEstimate& estimate, const RotorValues& thrust, AutopilotState& state) const {
   RotorValues speeds{};
   for (size_t i = 0; i < model_.rotors.size(); ++i) {
     // Past the goal by the lead, so that the rotor gets there sooner than its own lag lets it.
@@ -131,8 +128,7 @@ RotorValues Autopilot::Unflown(const Goal& goal, AutopilotState& state) const {
   return speeds;
 }
 
-RotorValues Autopilot::Step(const StateEstimate& estimate, const ActiveCommand& command,
-                            AutopilotState& state) const {
+RotorValues Autopilot::Step(const StateEstimate& estimate, const ActiveCommand& command, AutopilotState& state) const {
   const bool armed = state.mode != FlightMode::kDisarmed;
   if (armed) WatchRotors(estimate, state);
   state.flags &= ~uint64_t{kSaturated | kBatteryLow | kBatteryEmpty};
@@ -142,8 +138,7 @@ RotorValues Autopilot::Step(const StateEstimate& estimate, const ActiveCommand& 
   const Goal goal = internal::Guide(*this, estimate, command, state);
   if (goal.level <= GoalLevel::kSpeeds) return Unflown(goal, state);
   if (options_.controller == ControllerKind::kSimpleFlight) {
-    RotorValues speeds =
-        SimpleFlightSignals(model_, options_.simple_flight, goal, estimate, options_.control_dt, state);
+    RotorValues speeds = SimpleFlightSignals(model_, options_.simple_flight, goal, estimate, options_.control_dt, state);
     for (size_t i = 0; i < model_.rotors.size(); ++i) {
       speeds[i] = std::sqrt(speeds[i]) * model_.rotors[i].max_speed;
     }
@@ -154,8 +149,7 @@ RotorValues Autopilot::Step(const StateEstimate& estimate, const ActiveCommand& 
   // A lost rotor changes the mix; the mixer of the whole drone is kept ready.
   const uint64_t failed = state.failed_rotors;
   const Mixer mixer = failed ? Mixer(model_, failed) : mixer_;
-  const internal::TrackingStep step{
-      model_, gains_, mixer, estimate, ToMatrix(estimate.q_WB), goal, options_.control_dt, filter_};
+  const internal::TrackingStep step{model_, gains_, mixer, estimate, ToMatrix(estimate.q_WB), goal, options_.control_dt, filter_};
   RotorWrench wrench = options_.controller == ControllerKind::kPx4   ? internal::Px4Wrench(step, state)
                        : options_.controller == ControllerKind::kSe3 ? internal::Se3Wrench(step, state)
                                                                      : internal::IndiWrench(step, state);
@@ -169,11 +163,9 @@ RotorValues Autopilot::Step(const StateEstimate& estimate, const ActiveCommand& 
 }
 
 std::string DescribeState(const AutopilotState& state) {
-  static constexpr const char* kModes[] = {"disarmed", "on the ground", "commanded", "hold",
-                                           "takeoff",  "return",        "land"};
-  static constexpr const char* kFlags[] = {"command refused",   "command lost", "done",
-                                           "held by the fence", "rotor failed", "battery low",
-                                           "battery empty",     "saturated"};
+  static constexpr const char* kModes[] = {"disarmed", "on the ground", "commanded", "hold", "takeoff", "return", "land"};
+  static constexpr const char* kFlags[] = {"command refused", "command lost", "done",          "held by the fence",
+                                           "rotor failed",    "battery low",  "battery empty", "saturated"};
   std::string text = kModes[static_cast<size_t>(state.mode)];
   std::string why;
   for (size_t i = 0; i < std::size(kFlags); ++i) {

@@ -61,8 +61,7 @@ struct Check {
   void operator()(const DisarmCommand&) const {}
   void operator()(const RotorSpeedCommand& c) const {
     for (size_t i = 0; i < model.rotors.size(); ++i) {
-      check.Range(("speeds[" + std::to_string(i) + "]").c_str(), c.speeds[i], 0,
-                  10 * model.rotors[i].max_speed);
+      check.Range(("speeds[" + std::to_string(i) + "]").c_str(), c.speeds[i], 0, 10 * model.rotors[i].max_speed);
     }
   }
   void operator()(const RotorSignalCommand& c) const {
@@ -118,9 +117,8 @@ struct Check {
 }  // namespace
 
 std::string CommandName(const Command& command) {
-  static constexpr const char* kNames[] = {
-      "hover",    "arm",      "disarm", "rotor_speeds", "rotor_signals", "rates", "attitude",
-      "velocity", "position", "path",   "trajectory",   "takeoff",       "land",  "return"};
+  static constexpr const char* kNames[] = {"hover",    "arm",      "disarm", "rotor_speeds", "rotor_signals", "rates", "attitude",
+                                           "velocity", "position", "path",   "trajectory",   "takeoff",       "land",  "return"};
   static_assert(std::size(kNames) == std::variant_size_v<Command>);
   return kNames[command.index()];
 }

@@ -88,9 +88,8 @@ struct ReturnCommand {
   bool land = true;
 };
 
-using Command = std::variant<HoverCommand, ArmCommand, DisarmCommand, RotorSpeedCommand, RotorSignalCommand,
-                             RateCommand, AttitudeCommand, VelocityCommand, PositionCommand, PathCommand,
-                             TrajectoryCommand, TakeoffCommand, LandCommand, ReturnCommand>;
+using Command = std::variant<HoverCommand, ArmCommand, DisarmCommand, RotorSpeedCommand, RotorSignalCommand, RateCommand, AttitudeCommand,
+                             VelocityCommand, PositionCommand, PathCommand, TrajectoryCommand, TakeoffCommand, LandCommand, ReturnCommand>;
 
 /// A command as a drone receives it. A new `id` is a new command; the same id again changes nothing but
 /// `timeout_ns`, so that a stream of setpoints renews itself with new ids.

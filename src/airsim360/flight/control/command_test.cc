@@ -15,8 +15,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-FlightLoop Hovering(const char* name = "agilicious", ControllerKind kind = ControllerKind::kIndi,
-                    Vec3d at = {0, 0, 10}) {
+FlightLoop Hovering(const char* name = "agilicious", ControllerKind kind = ControllerKind::kIndi, Vec3d at = {0, 0, 10}) {
   AutopilotOptions options;
   options.controller = kind;
   return FlightLoop(CatalogModel(name), options, at);

@@ -5,8 +5,7 @@
 
 namespace airsim360 {
 
-FlightLoop::FlightLoop(const DroneModel& model, const AutopilotOptions& options, Vec3d p_W,
-                       double dynamics_dt)
+FlightLoop::FlightLoop(const DroneModel& model, const AutopilotOptions& options, Vec3d p_W, double dynamics_dt)
     : autopilot_(model, options),
       dynamics_(model, dynamics_dt),
       substeps_(static_cast<int>(std::lround(options.control_dt / dynamics_dt))) {
@@ -39,8 +38,7 @@ void FlightLoop::Run(double seconds) {
   for (int64_t i = 0; i < steps; ++i) Step();
 }
 
-TrackingError Track(FlightLoop& loop, std::shared_ptr<const ReferenceTrajectory> trajectory, double from,
-                    double to) {
+TrackingError Track(FlightLoop& loop, std::shared_ptr<const ReferenceTrajectory> trajectory, double from, double to) {
   const double start = loop.time();
   loop.Give(TrajectoryCommand{trajectory});
   TrackingError error;
@@ -77,14 +75,12 @@ FlightCheck CheckFlight(const DroneModel& model) {
   FlightCheck check;
   check.lemniscate = StandardLemniscateFor(model, loop.autopilot().gains());
   const Vec3d center{0, 0, 0};
-  const auto curve =
-      std::make_shared<Lemniscate>(center, check.lemniscate.amplitude, check.lemniscate.speed, 1, 3);
+  const auto curve = std::make_shared<Lemniscate>(center, check.lemniscate.amplitude, check.lemniscate.speed, 1, 3);
   loop.Run(0.5);
   check.tracking = Track(loop, curve, 0, curve->duration());
   loop.Run(2);
   check.hover_error = Norm(loop.state.p_WB - curve->At(curve->duration()).p);
-  check.passed = check.tracking.upright && check.tracking.rms < 0.05 * check.lemniscate.amplitude &&
-                 check.hover_error < 0.02;
+  check.passed = check.tracking.upright && check.tracking.rms < 0.05 * check.lemniscate.amplitude && check.hover_error < 0.02;
   return check;
 }
 

@@ -11,8 +11,7 @@ namespace airsim360 {
 class FlightLoop {
  public:
   /// Hovers at `p_W`. `dynamics_dt` divides options.control_dt.
-  FlightLoop(const DroneModel& model, const AutopilotOptions& options, Vec3d p_W = {},
-             double dynamics_dt = 1e-3);
+  FlightLoop(const DroneModel& model, const AutopilotOptions& options, Vec3d p_W = {}, double dynamics_dt = 1e-3);
 
   /// One control step: the command, then the dynamics.
   void Step();
@@ -44,8 +43,7 @@ struct TrackingError {
   bool upright = true;  ///< never turned over, always finite
 };
 /// Gives `trajectory` and compares from `from` seconds into it until `to`.
-TrackingError Track(FlightLoop& loop, std::shared_ptr<const ReferenceTrajectory> trajectory, double from,
-                    double to);
+TrackingError Track(FlightLoop& loop, std::shared_ptr<const ReferenceTrajectory> trajectory, double from, double to);
 
 /// The lemniscate by which a drone of any size is judged: ten arm lengths (0.5 to 10 m) in amplitude, flown
 /// at 60 % of the acceleration and at most 80 % of the speed that its guidance asks for.

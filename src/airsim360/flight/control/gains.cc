@@ -44,8 +44,7 @@ Vec3d Authority(const DroneModel& model) {
   for (const RotorModel& rotor : model.rotors) {
     const double most = ThrustAtSpeed(rotor, rotor.max_speed);
     const double room = most * std::min(hover_share, 1 - hover_share);
-    const Vec3d effect =
-        Cross(rotor.p_B, rotor.axis_B) + rotor.axis_B * (rotor.direction * rotor.torque_ratio);
+    const Vec3d effect = Cross(rotor.p_B, rotor.axis_B) + rotor.axis_B * (rotor.direction * rotor.torque_ratio);
     torque += Vec3d{std::abs(effect.x), std::abs(effect.y), std::abs(effect.z)} * room;
   }
   const auto& J = model.inertia_B.m;

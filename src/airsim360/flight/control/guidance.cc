@@ -20,8 +20,7 @@ constexpr double kForwardSpeed = 0.3;  // slower than this, "forward" is no dire
 /// One step of guidance; visits the command.
 class Guider {
  public:
-  Guider(const Autopilot& autopilot, const StateEstimate& estimate, const ActiveCommand& active,
-         AutopilotState& state)
+  Guider(const Autopilot& autopilot, const StateEstimate& estimate, const ActiveCommand& active, AutopilotState& state)
       : pilot_(autopilot), gains_(autopilot.gains()), now_(estimate), active_(active), state_(state) {}
 
   Goal Run() {
@@ -219,8 +218,7 @@ class Guider {
   Goal Chase(const PathCommand& c) {
     const std::vector<Vec3d>& points = *c.waypoints;
     const double speed = c.speed > 0 ? c.speed : gains_.max_speed;
-    const double lookahead =
-        c.lookahead > 0 ? c.lookahead : std::max(kLeastLookahead, kLookaheadTime * speed);
+    const double lookahead = c.lookahead > 0 ? c.lookahead : std::max(kLeastLookahead, kLookaheadTime * speed);
     const auto end = static_cast<int64_t>(points.size());
     const Vec3d at = state_.has_reference ? state_.reference_p : now_.p_WB;
     const auto from = [&](int64_t segment) { return segment == 0 ? state_.start_p_W : points[segment - 1]; };
@@ -276,9 +274,7 @@ class Guider {
     }
   }
 
-  bool Reached(Vec3d p_W) const {
-    return Norm(now_.p_WB - p_W) < kReachedDistance && Norm(now_.v_WB) < kReachedSpeed;
-  }
+  bool Reached(Vec3d p_W) const { return Norm(now_.p_WB - p_W) < kReachedDistance && Norm(now_.v_WB) < kReachedSpeed; }
 
   const Autopilot& pilot_;
   const ControlGains& gains_;
@@ -289,8 +285,7 @@ class Guider {
 
 }  // namespace
 
-Goal Guide(const Autopilot& autopilot, const StateEstimate& estimate, const ActiveCommand& command,
-           AutopilotState& state) {
+Goal Guide(const Autopilot& autopilot, const StateEstimate& estimate, const ActiveCommand& command, AutopilotState& state) {
   Goal goal = Guider(autopilot, estimate, command, state).Run();
   const auto& fence = autopilot.options().fence;
   if (fence && KeepInside(*fence, autopilot.gains(), estimate, goal, state)) state.flags |= kFenceHeld;

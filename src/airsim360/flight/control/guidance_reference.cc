@@ -40,8 +40,8 @@ ReferenceLoop LoopOf(const ControlGains& gains) {
 
 double ClimbTo(double z, double at, double climb, const ControlGains& gains, double k) {
   const double d = z - at;
-  const double most = std::min(SpeedToStop(std::abs(d), k, kBrakeShare * gains.max_climb_acceleration),
-                               d > 0 ? climb : std::min(climb, gains.max_descent));
+  const double most =
+      std::min(SpeedToStop(std::abs(d), k, kBrakeShare * gains.max_climb_acceleration), d > 0 ? climb : std::min(climb, gains.max_descent));
   return std::copysign(most, d);
 }
 
@@ -50,8 +50,7 @@ Vec3d WantedVelocity(const ControlGains& gains, const ReferenceLoop& loop, Vec3d
   if (goal.level == GoalLevel::kPosition) {
     const Vec3d d = Level(goal.p_W - at);
     const double distance = Norm(d);
-    const double speed =
-        std::min(SpeedToStop(distance, loop.position, kBrakeShare * gains.max_acceleration), goal.speed);
+    const double speed = std::min(SpeedToStop(distance, loop.position, kBrakeShare * gains.max_acceleration), goal.speed);
     Vec3d v = distance > 1e-12 ? d * (speed / distance) : Vec3d{};
     v.z = ClimbTo(goal.p_W.z, at.z, goal.climb, gains, loop.position);
     return v;
@@ -59,13 +58,11 @@ Vec3d WantedVelocity(const ControlGains& gains, const ReferenceLoop& loop, Vec3d
   // No drone keeps more than its level speed at full tilt.
   const double most = gains.max_speed / 0.7;
   Vec3d v = Limit(Level(goal.v_W), most);
-  v.z = goal.hold_z ? ClimbTo(goal.p_W.z, at.z, gains.max_climb, gains, loop.position)
-                    : std::clamp(goal.v_W.z, -most, most);
+  v.z = goal.hold_z ? ClimbTo(goal.p_W.z, at.z, gains.max_climb, gains, loop.position) : std::clamp(goal.v_W.z, -most, most);
   return v;
 }
 
-void MoveYaw(const ControlGains& gains, const StateEstimate& estimate, double dt, const Goal& goal,
-             AutopilotState& state) {
+void MoveYaw(const ControlGains& gains, const StateEstimate& estimate, double dt, const Goal& goal, AutopilotState& state) {
   const double most = gains.max_rate.z, k = gains.attitude.z / 2;
   const double wanted = goal.yaw_by_rate ? goal.yaw_rate : k * WrapAngle(goal.yaw - state.reference_yaw);
   const double rate = std::clamp(wanted, -most, most);
@@ -86,8 +83,7 @@ void ResetReference(const StateEstimate& estimate, AutopilotState& state) {
   state.has_reference = 1;
 }
 
-void MoveReference(const ControlGains& gains, const StateEstimate& estimate, double dt, Goal& goal,
-                   AutopilotState& state) {
+void MoveReference(const ControlGains& gains, const StateEstimate& estimate, double dt, Goal& goal, AutopilotState& state) {
   if (goal.level == GoalLevel::kTrajectory) {
     const ReferencePoint& r = goal.reference;
     state.reference_p = r.p;
@@ -138,8 +134,7 @@ void MoveReference(const ControlGains& gains, const StateEstimate& estimate, dou
   } else {
     MoveYaw(gains, estimate, dt, goal, state);
   }
-  goal.reference = {state.reference_p,   state.reference_v,       state.reference_a, jerk, {},
-                    state.reference_yaw, state.reference_yaw_rate};
+  goal.reference = {state.reference_p, state.reference_v, state.reference_a, jerk, {}, state.reference_yaw, state.reference_yaw_rate};
 }
 
 namespace {
@@ -170,8 +165,7 @@ Vec3d SlowDown(const Geofence& fence, const ControlGains& gains, Vec3d home, Vec
 
 }  // namespace
 
-bool KeepInside(const Geofence& fence, const ControlGains& gains, const StateEstimate& estimate, Goal& goal,
-                AutopilotState& state) {
+bool KeepInside(const Geofence& fence, const ControlGains& gains, const StateEstimate& estimate, Goal& goal, AutopilotState& state) {
   const Vec3d home = state.home_W;
   // Stops, inside; until the next command.
   const auto stop = [&] {
@@ -200,8 +194,7 @@ bool KeepInside(const Geofence& fence, const ControlGains& gains, const StateEst
       const Vec3d at = state.has_reference ? state.reference_p : estimate.p_WB;
       const Vec3d v = SlowDown(fence, gains, home, at, goal.v_W);
       const double z = std::clamp(goal.p_W.z, fence.low.z, fence.high.z);
-      const bool held =
-          goal.hold_z ? z != goal.p_W.z || v.x != goal.v_W.x || v.y != goal.v_W.y : v != goal.v_W;
+      const bool held = goal.hold_z ? z != goal.p_W.z || v.x != goal.v_W.x || v.y != goal.v_W.y : v != goal.v_W;
       goal.v_W = v;
       goal.p_W.z = z;
       return held;

@@ -42,8 +42,7 @@ void Observe(const TrackingStep& step, AutopilotState& state) {
     const Vec3d mean_w = (w + state.previous_w) * 0.5;
     const Mat3d& J = step.model.inertia_B;
     const Vec3d a = (v - state.previous_v) / step.dt + Vec3d{0, 0, kGravity} - mean_force;
-    const Vec3d alpha =
-        (w - state.previous_w) / step.dt - SolveInertia(J, mean_torque - Cross(mean_w, J * mean_w));
+    const Vec3d alpha = (w - state.previous_w) / step.dt - SolveInertia(J, mean_torque - Cross(mean_w, J * mean_w));
     state.disturbance_a += (a - state.disturbance_a) * step.filter;
     state.disturbance_alpha += (alpha - state.disturbance_alpha) * step.filter;
     state.disturbance_a = Clamp(state.disturbance_a, {kMostForce, kMostForce, kMostForce});
@@ -62,8 +61,7 @@ void Observe(const TrackingStep& step, AutopilotState& state) {
 RotorWrench IndiWrench(const TrackingStep& step, AutopilotState& state) {
   Observe(step, state);
   const Vec3d a = WantedAcceleration(step) - state.disturbance_a;
-  const AttitudeDemand demand =
-      IsByHand(step.goal) ? DemandByHand(step, a.z) : DemandForForce(step, a + Vec3d{0, 0, kGravity}, true);
+  const AttitudeDemand demand = IsByHand(step.goal) ? DemandByHand(step, a.z) : DemandForForce(step, a + Vec3d{0, 0, kGravity}, true);
   const Vec3d w = step.estimate.w_WB_B;
   const Vec3d alpha = step.gains.rate * (WantedRates(step, demand) - w) + demand.alpha_B;
   return {TorqueFor(step.model, alpha - state.disturbance_alpha, w), demand.thrust};

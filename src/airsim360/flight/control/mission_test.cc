@@ -44,8 +44,7 @@ TEST(Mission, ADisarmedDroneRefusesToFlyAndItsRotorsStandStill) {
   loop.Give(command);
   RunOnFloor(loop, 0.5);
   EXPECT_TRUE(loop.pilot.flags & kCommandRefused);
-  EXPECT_EQ(loop.autopilot().Problem(command, loop.pilot),
-            "velocity: the drone is disarmed; arm it or take off first");
+  EXPECT_EQ(loop.autopilot().Problem(command, loop.pilot), "velocity: the drone is disarmed; arm it or take off first");
   EXPECT_EQ(loop.state.p_WB.z, 0);
   EXPECT_EQ(loop.state.rotor_speeds[0], 0);
 }
@@ -63,8 +62,7 @@ TEST(Mission, ArmingIdlesTheRotorsWithoutLeavingTheGround) {
 }
 
 TEST(Mission, TakesOffKeepsItsHeightLandsAndDisarmsAtRestWithEveryController) {
-  for (const ControllerKind kind :
-       {ControllerKind::kIndi, ControllerKind::kSe3, ControllerKind::kPx4, ControllerKind::kSimpleFlight}) {
+  for (const ControllerKind kind : {ControllerKind::kIndi, ControllerKind::kSe3, ControllerKind::kPx4, ControllerKind::kSimpleFlight}) {
     // AirSim's gains belong to its own drone.
     FlightLoop loop = OnTheGround(kind == ControllerKind::kSimpleFlight ? "airsim_quad" : "f450", kind);
     loop.Give(TakeoffCommand{2, 1});
@@ -111,8 +109,7 @@ TEST(Mission, TheFenceHoldsPositionsVelocitiesTrajectoriesAndFlightByHand) {
   attitude.pitch = -0.4;
   attitude.vertical = {VerticalTarget::Mode::kAltitude, 10};
   const TrajectoryCommand trajectory{std::make_shared<Lemniscate>(Vec3d{0, 0, 10}, 8, 5)};
-  for (const Command& command :
-       {Command(velocity), Command(position), Command(attitude), Command(trajectory)}) {
+  for (const Command& command : {Command(velocity), Command(position), Command(attitude), Command(trajectory)}) {
     FlightLoop loop(CatalogModel("agilicious"), options, {0, 0, 10});
     loop.Give(command);
     double furthest = 0;
@@ -188,8 +185,7 @@ Command RandomCommand(RngStream& rng) {
     case 5: {
       std::vector<Vec3d> points(1 + rng.Index(5));
       for (Vec3d& p : points) p = vector(20);
-      return PathCommand{std::make_shared<const std::vector<Vec3d>>(points), rng.Uniform(0, 10) + broken, 0,
-                         yaw};
+      return PathCommand{std::make_shared<const std::vector<Vec3d>>(points), rng.Uniform(0, 10) + broken, 0, yaw};
     }
     case 6:
       return TrajectoryCommand{std::make_shared<Lemniscate>(vector(10), 5, 1 + rng.Uniform(0, 10))};

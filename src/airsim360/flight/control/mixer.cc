@@ -50,8 +50,7 @@ Mixer::Mixer(const DroneModel& model, uint64_t failed) : n_(static_cast<int>(mod
   for (int i = 0; i < n_; ++i) {
     if (failed >> i & 1) continue;
     const RotorModel& rotor = model.rotors[i];
-    const Vec3d torque =
-        Cross(rotor.p_B, rotor.axis_B) + rotor.axis_B * (rotor.direction * rotor.torque_ratio);
+    const Vec3d torque = Cross(rotor.p_B, rotor.axis_B) + rotor.axis_B * (rotor.direction * rotor.torque_ratio);
     effect_[i] = {torque.x, torque.y, torque.z, rotor.axis_B.z};
     max_[i] = ThrustAtSpeed(rotor, rotor.max_speed);
     min_[i] = max_[i] * kIdleSpeed * kIdleSpeed;
@@ -113,8 +112,7 @@ Mixer::Result Mixer::Allocate(const RotorWrench& wanted, double density_ratio) c
   return result;
 }
 
-RotorValues Mixer::TiltAndThrust(const RotorWrench& wanted, const RotorValues& low,
-                                 const RotorValues& high) const {
+RotorValues Mixer::TiltAndThrust(const RotorWrench& wanted, const RotorValues& low, const RotorValues& high) const {
   RotorValues tilt{};
   for (int i = 0; i < n_; ++i) {
     tilt[i] = loose_[i].roll * wanted.torque_B.x + loose_[i].pitch * wanted.torque_B.y;
@@ -145,8 +143,7 @@ RotorValues Mixer::TiltAndThrust(const RotorWrench& wanted, const RotorValues& l
   return tilt;
 }
 
-void Mixer::AddYaw(double yaw_torque, const RotorValues& low, const RotorValues& high,
-                   RotorValues& thrust) const {
+void Mixer::AddYaw(double yaw_torque, const RotorValues& low, const RotorValues& high, RotorValues& thrust) const {
   // The largest share of what is missing that keeps every rotor in range.
   const double missing = yaw_torque - WrenchOf(thrust).torque_B.z;
   double share = 1;

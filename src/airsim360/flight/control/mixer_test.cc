@@ -35,8 +35,7 @@ TEST(Mixer, GivesExactlyTheWantedWrenchWhereItFits) {
     for (int i = 0; i < 50; ++i) {
       const double c = model.rotors[0].torque_ratio;
       const RotorWrench wanted{
-          {0.05 * weight * arm * rng.Uniform(-1, 1), 0.05 * weight * arm * rng.Uniform(-1, 1),
-           0.05 * weight * c * rng.Uniform(-1, 1)},
+          {0.05 * weight * arm * rng.Uniform(-1, 1), 0.05 * weight * arm * rng.Uniform(-1, 1), 0.05 * weight * c * rng.Uniform(-1, 1)},
           weight * rng.Uniform(0.8, 1.1)};
       const Mixer::Result result = mixer.Allocate(wanted);
       EXPECT_FALSE(result.saturated) << model.name;
@@ -51,8 +50,7 @@ TEST(Mixer, KeepsEveryRotorWithinItsRange) {
     const double full = MaxThrust(model);
     RngStream rng(2, model.name);
     for (int i = 0; i < 200; ++i) {
-      const RotorWrench wild{{full * rng.Normal(), full * rng.Normal(), full * rng.Normal()},
-                             full * rng.Uniform(-1, 3)};
+      const RotorWrench wild{{full * rng.Normal(), full * rng.Normal(), full * rng.Normal()}, full * rng.Uniform(-1, 3)};
       const Mixer::Result result = mixer.Allocate(wild);
       for (int k = 0; k < mixer.rotors(); ++k) {
         EXPECT_GE(result.thrust[k], 0);

@@ -50,8 +50,7 @@ RotorWrench Px4Wrench(const TrackingStep& step, AutopilotState& state) {
   RunOuter(step, state);
   const Vec3d damping = (state.disturbance_a - step.goal.reference.a) * (kVelocityD * step.gains.velocity);
   const Vec3d force = state.outer_force - damping;
-  const AttitudeDemand demand =
-      by_hand ? DemandByHand(step, force.z - kGravity) : DemandForForce(step, force, false);
+  const AttitudeDemand demand = by_hand ? DemandByHand(step, force.z - kGravity) : DemandForForce(step, force, false);
 
   // Rate PID; the integral is bounded by half of what the rotors can do.
   const Vec3d error = WantedRates(step, demand) - w;

@@ -41,10 +41,7 @@ void SineOf(const Phase& phase, double k, double out[5]) {
 }  // namespace
 
 Lemniscate::Lemniscate(Vec3d center, double amplitude, double peak_speed, int loops, double ramp)
-    : center_(center),
-      amplitude_(amplitude),
-      w_(peak_speed / (std::numbers::sqrt2 * amplitude)),
-      ramp_(ramp) {
+    : center_(center), amplitude_(amplitude), w_(peak_speed / (std::numbers::sqrt2 * amplitude)), ramp_(ramp) {
   // Each ramp covers half of what cruising would: together they take one ramp's time off the whole turns.
   const double turns = std::ceil(std::max<double>(loops, 1) + w_ * ramp_ / (2 * std::numbers::pi));
   cruise_ = turns * 2 * std::numbers::pi / w_ - ramp_;

@@ -6,8 +6,7 @@ namespace airsim360::internal {
 
 RotorWrench Se3Wrench(const TrackingStep& step, AutopilotState&) {
   const Vec3d a = WantedAcceleration(step);
-  const AttitudeDemand demand =
-      IsByHand(step.goal) ? DemandByHand(step, a.z) : DemandForForce(step, a + Vec3d{0, 0, kGravity}, true);
+  const AttitudeDemand demand = IsByHand(step.goal) ? DemandByHand(step, a.z) : DemandForForce(step, a + Vec3d{0, 0, kGravity}, true);
   const Vec3d w = step.estimate.w_WB_B;
 
   // e_R = 1/2 (R_d' R - R' R_d)^vee, e_w = w - R' R_d w_d.

@@ -75,8 +75,7 @@ RotorValues Mix(const DroneModel& model, const SimpleFlightGains& gains, const O
   for (size_t i = 0; i < n; ++i) {
     const RotorModel& rotor = model.rotors[i];
     // A rotor on the left side lifts it: rolls right; in front: nose up; reaction along -Z of B: yaws right.
-    signals[i] = out.throttle + out.roll * rotor.p_B.y / y_most + out.pitch * rotor.p_B.x / x_most -
-                 out.yaw * rotor.direction;
+    signals[i] = out.throttle + out.roll * rotor.p_B.y / y_most + out.pitch * rotor.p_B.x / x_most - out.yaw * rotor.direction;
     least = std::min(least, signals[i]);
   }
   for (size_t i = 0; i < n; ++i) {
@@ -89,8 +88,8 @@ RotorValues Mix(const DroneModel& model, const SimpleFlightGains& gains, const O
 
 }  // namespace
 
-RotorValues SimpleFlightSignals(const DroneModel& model, const SimpleFlightGains& gains, const Goal& goal,
-                                const StateEstimate& estimate, double dt, AutopilotState& state) {
+RotorValues SimpleFlightSignals(const DroneModel& model, const SimpleFlightGains& gains, const Goal& goal, const StateEstimate& estimate,
+                                double dt, AutopilotState& state) {
   const Mat3d R = ToMatrix(estimate.q_WB);
   const double yaw = internal::HeadingOf(R);
   const Frd now = ToFrd(estimate, R);
@@ -111,8 +110,7 @@ RotorValues SimpleFlightSignals(const DroneModel& model, const SimpleFlightGains
     state.throttle_integral = 0;
   } else {
     // Down is positive: a drone that sinks too slowly gets less throttle.
-    const double integral =
-        state.throttle_integral * gains.integral_discount + gains.velocity_i_z * error.z * dt;
+    const double integral = state.throttle_integral * gains.integral_discount + gains.velocity_i_z * error.z * dt;
     state.throttle_integral = Unit(integral);
     const double pid = Unit(gains.velocity_p.z * error.z + state.throttle_integral);
     out.throttle = std::clamp((1 - pid) / 2, gains.min_throttle, 1.0);
@@ -124,10 +122,9 @@ RotorValues SimpleFlightSignals(const DroneModel& model, const SimpleFlightGains
     w.x = Unit(gains.level_p.x * internal::WrapAngle(roll - now.roll)) * gains.max_rate;
     w.y = Unit(gains.level_p.y * internal::WrapAngle(pitch - now.pitch)) * gains.max_rate;
     // A heading angle goes through the level loop, a rate does not.
-    const double turn =
-        goal.yaw_by_rate && goal.yaw_rate != 0
-            ? goal.yaw_rate
-            : Unit(gains.level_p.z * internal::WrapAngle(goal.reference.yaw - yaw)) * gains.max_rate;
+    const double turn = goal.yaw_by_rate && goal.yaw_rate != 0
+                            ? goal.yaw_rate
+                            : Unit(gains.level_p.z * internal::WrapAngle(goal.reference.yaw - yaw)) * gains.max_rate;
     w.z = -turn;
   }
   out.roll = Unit(gains.rate_p.x * (w.x - now.w.x));

@@ -25,7 +25,7 @@ struct SimpleFlightGains {
 
 /// Signals of the rotors, 0 to 1 of each one's full thrust. Quad X layouts get AirSim's mixing matrix; others
 /// the signs and proportions of their arms in its place.
-RotorValues SimpleFlightSignals(const DroneModel& model, const SimpleFlightGains& gains, const Goal& goal,
-                                const StateEstimate& estimate, double dt, AutopilotState& state);
+RotorValues SimpleFlightSignals(const DroneModel& model, const SimpleFlightGains& gains, const Goal& goal, const StateEstimate& estimate,
+                                double dt, AutopilotState& state);
 
 }  // namespace airsim360

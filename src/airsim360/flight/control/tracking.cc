@@ -25,9 +25,7 @@ Vec3d LimitForce(const TrackingStep& step, Vec3d f) {
 
 }  // namespace
 
-bool IsByHand(const Goal& goal) {
-  return goal.level == GoalLevel::kRates || goal.level == GoalLevel::kAttitude;
-}
+bool IsByHand(const Goal& goal) { return goal.level == GoalLevel::kRates || goal.level == GoalLevel::kAttitude; }
 
 Vec3d WantedAcceleration(const TrackingStep& step) {
   const ControlGains& gains = step.gains;
@@ -89,9 +87,7 @@ Vec3d WantedRates(const TrackingStep& step, const AttitudeDemand& demand) {
   return Min(Max(turn, -most), most) + demand.w_B;
 }
 
-Vec3d TorqueFor(const DroneModel& model, Vec3d alpha_B, Vec3d w_B) {
-  return model.inertia_B * alpha_B + Cross(w_B, model.inertia_B * w_B);
-}
+Vec3d TorqueFor(const DroneModel& model, Vec3d alpha_B, Vec3d w_B) { return model.inertia_B * alpha_B + Cross(w_B, model.inertia_B * w_B); }
 
 Vec3d SolveInertia(const Mat3d& J, Vec3d torque) {
   // Cramer's rule; J is symmetric and positive definite.

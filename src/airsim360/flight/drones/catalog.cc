@@ -26,10 +26,8 @@ constexpr CatalogDrone kDrones[] = {
      "a 500 g research quad with 200 mm propellers and 17 cm arms"},
     {"airsim_quad", "AirSim's generic quad X", "AirSim 1.8.1 MultiRotorParams.hpp, RotorParams.hpp",
      "a 1 kg hobby quad with 9 inch propellers and 22.75 cm arms"},
-    {"airsim_hexa", "AirSim's generic hexa X", "AirSim 1.8.1 MultiRotorParams.hpp; its propellers overlap",
-     ""},
-    {"airsim_octo", "AirSim's generic octo X", "AirSim 1.8.1 MultiRotorParams.hpp; its propellers overlap",
-     ""},
+    {"airsim_hexa", "AirSim's generic hexa X", "AirSim 1.8.1 MultiRotorParams.hpp; its propellers overlap", ""},
+    {"airsim_octo", "AirSim's generic octo X", "AirSim 1.8.1 MultiRotorParams.hpp; its propellers overlap", ""},
     {"f450", "DJI Flamewheel F450 as AirSim has it", "AirSim 1.8.1 MultiRotorParams.hpp (Flamewheel)",
      "a 1.635 kg flamewheel kit quad with 9 inch propellers and a 450 mm wheelbase"},
     {"f550", "DJI Flamewheel F550, hexa",
@@ -127,21 +125,19 @@ DroneModel Hummingbird() {
 }
 
 /// AirSim's frames: a box, and motors at hubs `above` it; `drag` times its coefficient.
-DroneModel AirSim(int count, double mass, double motor, double arm, Vec3d box, double c_t, double c_p,
-                  double rpm, double above = 0.025, double drag = 1) {
+DroneModel AirSim(int count, double mass, double motor, double arm, Vec3d box, double c_t, double c_p, double rpm, double above = 0.025,
+                  double drag = 1) {
   const double pi = std::numbers::pi, D = 0.2286, speed = rpm * 2 * pi / 60;
   DroneModel model;
   model.mass = mass;
   model.rotors = internal::PlaceRotors(count, RotorLayout::kX, arm, above);
   model.inertia_B = internal::CompositeInertia(model.rotors, motor, 0, mass - count * motor, box);
-  SetRotors(model, c_t * kSeaLevelAirDensity * std::pow(D, 4) / (4 * pi * pi), c_p * D / (2 * pi * c_t),
-            0.005, speed, D);
+  SetRotors(model, c_t * kSeaLevelAirDensity * std::pow(D, 4) / (4 * pi * pi), c_p * D / (2 * pi * c_t), 0.005, speed, D);
   // Six faces with the propellers' discs (its disc is pi D^2) and blade edges (1 cm) shared out among them,
   // times its linear drag coefficient 1.3 / 4 and rho / 2 (folded into rho F).
   const double disc = count * pi * D * D, edge = count * pi * D * 0.01;
   const double k = drag * 1.3 / 4 / 2 * kSeaLevelAirDensity;
-  model.quadratic_drag_B = {(box.y * box.z + edge) * k, (box.x * box.z + edge) * k,
-                            (box.x * box.y + disc) * k};
+  model.quadratic_drag_B = {(box.y * box.z + edge) * k, (box.x * box.z + edge) * k, (box.x * box.y + disc) * k};
   SetSize(model, std::max(0.05, above + 0.02));
   return model;
 }

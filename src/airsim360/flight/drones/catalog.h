@@ -10,10 +10,10 @@
 namespace airsim360 {
 
 struct CatalogDrone {
-  std::string_view name;    ///< "crazyflie", "hummingbird", …
-  std::string_view title;   ///< what it is
-  std::string_view source;  ///< where the figures come from, and what they lack
-  std::string_view prompt;  ///< mass, size and kind in words: what the laws make of it is compared with it
+  std::string_view name;                                 ///< "crazyflie", "hummingbird", …
+  std::string_view title;                                ///< what it is
+  std::string_view source;                               ///< where the figures come from, and what they lack
+  std::string_view prompt;                               ///< mass, size and kind in words: what the laws make of it is compared with it
   bool measured_inertia = true, measured_thrust = true;  ///< false: figures of our own sizing laws
 };
 

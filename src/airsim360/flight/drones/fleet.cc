@@ -27,10 +27,8 @@ DroneModel Draw(RngStream& rng, const FleetRanges& ranges) {
   const double loading = rng.Uniform(40, 130);
   const double D = std::sqrt(4 * model.mass * kGravity / (n * kPi * loading));
   const double arm = rng.Uniform(1.05, 1.5) * D / (2 * std::sin(kPi / n));
-  const internal::PropellerCoefficients c =
-      internal::CoefficientsOf(rng.Uniform(0.35, 0.9), 2 + static_cast<int>(rng.Index(2)), D);
-  model.rotors = internal::PlaceRotors(n, rng.Chance(0.2) ? RotorLayout::kPlus : RotorLayout::kX, arm,
-                                       rng.Uniform(0, 0.15) * arm);
+  const internal::PropellerCoefficients c = internal::CoefficientsOf(rng.Uniform(0.35, 0.9), 2 + static_cast<int>(rng.Index(2)), D);
+  model.rotors = internal::PlaceRotors(n, rng.Chance(0.2) ? RotorLayout::kPlus : RotorLayout::kX, arm, rng.Uniform(0, 0.15) * arm);
   const double rho = kSeaLevelAirDensity, D3 = D * D * D;
   const double k_f = c.thrust * rho * D3 * D / (4 * kPi * kPi) * rng.Uniform(0.9, 1.1);
   const double tau = std::clamp(internal::RotorLag(D, false) * rng.Uniform(0.6, 1.6), 0.005, 0.1);
@@ -60,11 +58,9 @@ DroneModel Draw(RngStream& rng, const FleetRanges& ranges) {
 }  // namespace
 
 DroneModel SampleDrone(uint64_t seed, uint64_t id, const FleetRanges& ranges) {
-  const bool fits = ranges.least_mass > 0 && ranges.most_mass >= ranges.least_mass &&
-                    ranges.least_thrust_to_weight > 1 &&
+  const bool fits = ranges.least_mass > 0 && ranges.most_mass >= ranges.least_mass && ranges.least_thrust_to_weight > 1 &&
                     ranges.most_thrust_to_weight >= ranges.least_thrust_to_weight;
-  if (!fits)
-    throw InputError("fleet: ranges of mass and thrust to weight must be positive, the latter above 1");
+  if (!fits) throw InputError("fleet: ranges of mass and thrust to weight must be positive, the latter above 1");
   RngStream rng(seed, "fleet", id);
   for (int i = 0; i < kTries; ++i) {
     DroneModel model = Draw(rng, ranges);

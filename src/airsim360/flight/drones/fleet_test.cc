@@ -40,8 +40,7 @@ TEST(Fleet, RandomDronesFlyUntuned) {
   for (uint64_t id = 0; id < 24; ++id) {
     const DroneModel model = SampleDrone(11, id);
     const FlightCheck check = CheckFlight(model);
-    EXPECT_TRUE(check.passed) << model.name << " rms " << check.tracking.rms << " of "
-                              << check.lemniscate.amplitude;
+    EXPECT_TRUE(check.passed) << model.name << " rms " << check.tracking.rms << " of " << check.lemniscate.amplitude;
   }
 }
 

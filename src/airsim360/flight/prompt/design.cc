@@ -102,8 +102,7 @@ void Designer::ChooseRotors() {
   if (n_ % 2 == 1) Decide("an odd number of rotors: their torques cancel at unequal thrusts");
   const bool quad_only = layout_ == RotorLayout::kH || layout_ == RotorLayout::kWideX;
   if (quad_only && n_ != 4) {
-    Refuse("'" + Words("layout") + "' is a layout of four rotors, '" + Words("rotors") + "' are " +
-           std::to_string(n_));
+    Refuse("'" + Words("layout") + "' is a layout of four rotors, '" + Words("rotors") + "' are " + std::to_string(n_));
   }
   Law("rotors", said_.rotors ? Said("rotors") : coaxial ? "coaxial pairs on four arms" : "four unless said");
 }
@@ -118,8 +117,7 @@ void Designer::ChooseSize() {
     Law("diameter", Said("propeller"));
   } else if (said_.arm) {
     D_ = *said_.arm * 2 * std::sin(kPi / ArmsOf(n_, layout_)) / kind_.spacing;
-    Law("diameter",
-        Text("neighbouring hubs %.2f diameters apart (%s)", kind_.spacing, out_.drone_class.c_str()));
+    Law("diameter", Text("neighbouring hubs %.2f diameters apart (%s)", kind_.spacing, out_.drone_class.c_str()));
   }
   ChooseMass();
   if (D_ <= 0) {
@@ -173,9 +171,7 @@ double Designer::SizeFactor() const {
 void Designer::CheckSize() const {
   const double loading = m_ * kGravity / Disc(D_);
   if (loading < kLeastLoading || loading > kMostLoading) {
-    const std::string size = said_.propeller ? "'" + Words("propeller") + "'"
-                             : said_.arm     ? "'" + Words("arm") + "'"
-                                             : "its propellers";
+    const std::string size = said_.propeller ? "'" + Words("propeller") + "'" : said_.arm ? "'" + Words("arm") + "'" : "its propellers";
     const std::string mass = said_.mass ? "'" + Words("mass") + "'" : Text("%.3g kg", m_);
     Refuse(mass + " contradicts " + size +
            Text(": %d propellers of %.0f mm would carry %.3g N per square metre of disc, "
@@ -183,16 +179,12 @@ void Designer::CheckSize() const {
                 n_, D_ * 1000, loading, kLeastLoading, kMostLoading));
   }
   if (said_.payload && *said_.payload > 0.6 * m_) {
-    Refuse("the payload '" + Words("payload") + "' is too much of " +
-           (said_.mass ? "'" + Words("mass") + "'" : Text("%.3g kg", m_)) + " in all (at most 60 %)");
+    Refuse("the payload '" + Words("payload") + "' is too much of " + (said_.mass ? "'" + Words("mass") + "'" : Text("%.3g kg", m_)) +
+           " in all (at most 60 %)");
   }
   if (!said_.size || !said_.mass) return;
   const std::string& size = *said_.size;
-  const bool fits = size == "tiny"    ? m_ < 5
-                    : size == "small" ? m_ < 30
-                    : size == "large" ? m_ > 0.08
-                    : size == "huge"  ? m_ > 0.5
-                                      : true;
+  const bool fits = size == "tiny" ? m_ < 5 : size == "small" ? m_ < 30 : size == "large" ? m_ > 0.08 : size == "huge" ? m_ > 0.5 : true;
   if (!fits) Refuse("'" + Words("size") + Text("' contradicts a mass of %.3g kg", m_) + " ('" + Words("mass") + "')");
 }
 
@@ -200,27 +192,21 @@ void Designer::ChooseArms() {
   const int arms = ArmsOf(n_, layout_);
   // Where the longer sides of an H or a wide X leave the propellers no room, its motors stand in a square.
   const bool oblong = layout_ == RotorLayout::kH || layout_ == RotorLayout::kWideX;
-  if (oblong && said_.arm && *said_.arm * 1.2 < 1.02 * D_ &&
-      *said_.arm * 2 * std::sin(kPi / 4) >= 1.02 * D_) {
+  if (oblong && said_.arm && *said_.arm * 1.2 < 1.02 * D_ && *said_.arm * 2 * std::sin(kPi / 4) >= 1.02 * D_) {
     layout_ = RotorLayout::kX;
     Decide("the motors of the frame stand in a square, for the propellers to have room");
   }
   // Distance of neighbouring hubs over arm length; H and wide X have their shorter side in between.
-  const double gap =
-      layout_ == RotorLayout::kH || layout_ == RotorLayout::kWideX ? 1.2 : 2 * std::sin(kPi / arms);
+  const double gap = layout_ == RotorLayout::kH || layout_ == RotorLayout::kWideX ? 1.2 : 2 * std::sin(kPi / arms);
   L_ = said_.arm.value_or(D_ * kind_.spacing / gap);
-  Law("arm", said_.arm ? Said("arm")
-                       : Text("neighbouring hubs %.2f diameters apart (%s)", kind_.spacing,
-                              out_.drone_class.c_str()));
+  Law("arm", said_.arm ? Said("arm") : Text("neighbouring hubs %.2f diameters apart (%s)", kind_.spacing, out_.drone_class.c_str()));
   if (L_ * gap < 1.02 * D_) {
     Refuse(Text("propellers of %.0f mm overlap on arms of %.0f mm", D_ * 1000, L_ * 1000) +
-           (said_.propeller && said_.arm ? ": '" + Words("propeller") + "' contradicts '" + Words("arm") + "'"
-                                         : ""));
+           (said_.propeller && said_.arm ? ": '" + Words("propeller") + "' contradicts '" + Words("arm") + "'" : ""));
   }
   if (L_ * gap > 6 * D_) {
     Refuse(Text("arms of %.0f mm are out of proportion to propellers of %.0f mm", L_ * 1000, D_ * 1000) +
-           (said_.propeller && said_.arm ? ": '" + Words("propeller") + "' contradicts '" + Words("arm") + "'"
-                                         : ""));
+           (said_.propeller && said_.arm ? ": '" + Words("propeller") + "' contradicts '" + Words("arm") + "'" : ""));
   }
 }
 
@@ -229,8 +215,8 @@ void Designer::ChoosePropeller() {
   out_.pitch = said_.pitch.value_or(std::max(kind_.pitch_ratio, give_.pitch) * D_);
   const double b = out_.pitch / D_;
   if (b < 0.15 || b > 1.3) {
-    Refuse(Text("a pitch of %.0f mm contradicts a diameter of %.0f mm", out_.pitch * 1000, D_ * 1000) +
-           " ('" + Words("pitch") + "'): propellers have 0.15 to 1.3 diameters");
+    Refuse(Text("a pitch of %.0f mm contradicts a diameter of %.0f mm", out_.pitch * 1000, D_ * 1000) + " ('" + Words("pitch") +
+           "'): propellers have 0.15 to 1.3 diameters");
   }
   const PropellerCoefficients c = CoefficientsOf(b, out_.blades, D_);
   // The figure of merit stays below what the gate lets pass.
@@ -238,15 +224,12 @@ void Designer::ChoosePropeller() {
   merit_least_ = std::min(1.0, std::max(0.8, figure / 0.78));
   k_f_ = c.thrust * kSeaLevelAirDensity * std::pow(D_, 4) / (4 * kPi * kPi);
   ratio_km_ = give_.merit * c.power * D_ / (2 * kPi * c.thrust);
-  Law("pitch",
-      said_.pitch ? Said("pitch") : Text("%.2f diameters (%s)", kind_.pitch_ratio, out_.drone_class.c_str()));
+  Law("pitch", said_.pitch ? Said("pitch") : Text("%.2f diameters (%s)", kind_.pitch_ratio, out_.drone_class.c_str()));
   Law("blades", said_.blades ? Said("blades") : "usual for " + out_.drone_class);
   Law("thrust_factor", Text("C_T = 0.0427 + 0.144 pitch/D (Budinger 2020), (blades/2)^0.61: C_T %.4f; k_f "
                             "= C_T rho D^4 / (2 pi)^2",
                             c.thrust));
-  Law("torque_ratio",
-      Text("C_P = -0.00148 + 0.0972 pitch/D (Budinger 2020): C_P %.4f; k_m / k_f = C_P D / (2 pi C_T)",
-           c.power));
+  Law("torque_ratio", Text("C_P = -0.00148 + 0.0972 pitch/D (Budinger 2020): C_P %.4f; k_m / k_f = C_P D / (2 pi C_T)", c.power));
 }
 
 }  // namespace internal
@@ -255,19 +238,18 @@ namespace {
 
 /// The figure of that name, else nullptr.
 std::optional<double>* FieldOf(DroneRequest& request, const std::string& field) {
-  const std::pair<const char*, std::optional<double>*> fields[] = {
-      {"thrust_to_weight", &request.thrust_to_weight},
-      {"speed", &request.speed},
-      {"hover_time", &request.hover_time},
-      {"flight_time", &request.flight_time},
-      {"pitch", &request.pitch},
-      {"energy_wh", &request.energy_wh},
-      {"cells", &request.cells},
-      {"capacity_ah", &request.capacity_ah},
-      {"arm", &request.arm},
-      {"propeller", &request.propeller},
-      {"payload", &request.payload},
-      {"mass", &request.mass}};
+  const std::pair<const char*, std::optional<double>*> fields[] = {{"thrust_to_weight", &request.thrust_to_weight},
+                                                                   {"speed", &request.speed},
+                                                                   {"hover_time", &request.hover_time},
+                                                                   {"flight_time", &request.flight_time},
+                                                                   {"pitch", &request.pitch},
+                                                                   {"energy_wh", &request.energy_wh},
+                                                                   {"cells", &request.cells},
+                                                                   {"capacity_ah", &request.capacity_ah},
+                                                                   {"arm", &request.arm},
+                                                                   {"propeller", &request.propeller},
+                                                                   {"payload", &request.payload},
+                                                                   {"mass", &request.mass}};
   for (const auto& [name, value] : fields) {
     if (field == name) return value;
   }
@@ -287,10 +269,9 @@ namespace {
 
 DroneDesign DesignWithFacts(const DroneRequest& request) {
   // Facts give way in this order, the most derived ones first.
-  static constexpr const char* kOrder[] = {
-      "thrust_to_weight", "speed",     "hover_time", "flight_time", "pitch",
-      "capacity_ah",      "energy_wh", "cells",      "arm",         "propeller",
-      "payload",          "layout",    "mass"};
+  static constexpr const char* kOrder[] = {"thrust_to_weight", "speed",     "hover_time", "flight_time", "pitch",
+                                           "capacity_ah",      "energy_wh", "cells",      "arm",         "propeller",
+                                           "payload",          "layout",    "mass"};
   DroneRequest said = request;
   for (const char* field : kOrder) {
     if (said.facts.empty()) break;

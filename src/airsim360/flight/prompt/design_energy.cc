@@ -13,8 +13,8 @@ namespace airsim360::internal {
 namespace {
 constexpr double kMostUsable = 0.97;  // of the charge, before better motors are looked for
 constexpr double kMostEfficiency = 0.88;
-constexpr double kLoaded = 0.72;    // speed of a motor at full power over that without load
-constexpr double kFullCell = 4.2;   // volts
+constexpr double kLoaded = 0.72;                    // speed of a motor at full power over that without load
+constexpr double kFullCell = 4.2;                   // volts
 constexpr double kPackLeast = 40, kPackMost = 320;  // W h/kg that batteries have
 }  // namespace
 
@@ -57,9 +57,10 @@ void Designer::CheckBatterySaid() const {
   const double energy = EnergySaid();
   const double specific = energy / *said_.battery_mass;
   if (energy > 0 && (said_.cells || said_.energy_wh) && (specific < kPackLeast || specific > kPackMost)) {
-    Refuse("a battery of '" + Words("battery_mass") + Text("' with %.4g Wh has %.0f Wh/kg, where batteries have "
-                                                           "%.0f to %.0f",
-                                                           energy, specific, kPackLeast, kPackMost));
+    Refuse("a battery of '" + Words("battery_mass") +
+           Text("' with %.4g Wh has %.0f Wh/kg, where batteries have "
+                "%.0f to %.0f",
+                energy, specific, kPackLeast, kPackMost));
   }
 }
 
@@ -71,8 +72,7 @@ bool Designer::MatchEnergy() {
              Text("': hovering lasts about %.2f of flying", kFlightPower));
     }
   }
-  const double energy = said_.battery_mass && EnergySaid() <= 0 ? *said_.battery_mass * give_.specific_energy
-                                                                : EnergySaid();
+  const double energy = said_.battery_mass && EnergySaid() <= 0 ? *said_.battery_mass * give_.specific_energy : EnergySaid();
   const double time = HoverTimeAsked();
   if (time <= 0 || energy <= 0) return true;
   // As little as was said is flown of the charge; where it is not enough, good motors and propellers help.
@@ -107,8 +107,7 @@ void Designer::FillBattery() {
   // The pack must give the hover current without losing more than a quarter of its voltage.
   const double voltage = kCellVoltage * battery.cells;
   if (battery.resistance * out_.hover_power / voltage > 0.25 * voltage) {
-    Refuse(Text("a battery of %.2g Ah cannot give the %.3g W of hovering", battery.capacity_ah,
-                out_.hover_power));
+    Refuse(Text("a battery of %.2g Ah cannot give the %.3g W of hovering", battery.capacity_ah, out_.hover_power));
   }
 }
 
@@ -118,15 +117,15 @@ void Designer::CheckJourney() const {
     const double density = StandardAir(std::min(*said_.altitude, kHighest)).density / kSeaLevelAirDensity;
     if (*said_.altitude > kHighest || ratio_ * density < 1) {
       Refuse("at '" + Words("altitude") +
-             Text("' the air has %.2g of its density at the sea%s, and with it goes a thrust of %.3g times the weight",
-                  density, *said_.altitude > kHighest ? " or less" : "", ratio_));
+             Text("' the air has %.2g of its density at the sea%s, and with it goes a thrust of %.3g times the weight", density,
+                  *said_.altitude > kHighest ? " or less" : "", ratio_));
     }
   }
   // Nobody cruises at top speed for as long as hovering lasts: twice that is beyond any doubt.
   const double reach = 2 * out_.flight_time * out_.level_speed;
   if (said_.range && *said_.range > reach) {
-    Refuse("'" + Words("range") + Text("' on one charge: %.0f s of flight at %.1f m/s end after %.3g km",
-                                       out_.flight_time, out_.level_speed, reach / 2000));
+    Refuse("'" + Words("range") +
+           Text("' on one charge: %.0f s of flight at %.1f m/s end after %.3g km", out_.flight_time, out_.level_speed, reach / 2000));
   }
 }
 

@@ -53,8 +53,7 @@ bool Designer::GiveMass() {
   if (battery && !said_.battery_mass && Step(give_.specific_energy, 1.05, 255)) return true;
   if (timed && Step(give_.efficiency, 1.02, 0.86)) return true;
   if (timed && Step(give_.merit, 0.98, merit_least_)) return true;
-  if (timed && !said_.propeller && !said_.arm && Step(give_.loading, 0.93, 22 / kind_.disc_loading))
-    return true;
+  if (timed && !said_.propeller && !said_.arm && Step(give_.loading, 0.93, 22 / kind_.disc_loading)) return true;
   if (GiveOtherMass(1.08, 3)) return true;
   if (GiveRatio(1.5)) return true;
   if (Step(give_.motors, 0.93, 0.5)) return true;
@@ -77,19 +76,15 @@ void Designer::TellLatitude() {
   }
   if (give_.efficiency > kUsual.efficiency)
     Decide(Text("motors and speed controllers have an efficiency of %.2f instead of 0.75", give_.efficiency));
-  if (give_.merit < 1)
-    Decide(Text("the propellers take %.0f %% less torque than usual", 100 * (1 - give_.merit)));
+  if (give_.merit < 1) Decide(Text("the propellers take %.0f %% less torque than usual", 100 * (1 - give_.merit)));
   if (give_.motors < 1) Decide(Text("the motors weigh %.2f of what is usual", give_.motors));
   if (give_.blades > 2 || give_.pitch > 0)
-    Decide(Text("propellers of %d blades and %.2f diameters of pitch, for the thrust", out_.blades,
-                out_.pitch / D_));
+    Decide(Text("propellers of %d blades and %.2f diameters of pitch, for the thrust", out_.blades, out_.pitch / D_));
   if (give_.arms < 1) Decide(Text("the arms weigh %.2f of what is usual", give_.arms));
   if (speed_held_) Decide("the said top speed is held by its lean: its thrust would carry it faster");
   if (!said_.mass) Decide(Text("the mass was not said: %.4g kg, ", m_) + out_.laws["mass"]);
-  if (!said_.rotors && said_.layout != RotorLayout::kCoaxial)
-    Decide("four rotors, for their number was not said");
-  if (!said_.drone_class && out_.drone_class == "generic")
-    Decide("no kind was said: the usual of all kinds is taken");
+  if (!said_.rotors && said_.layout != RotorLayout::kCoaxial) Decide("four rotors, for their number was not said");
+  if (!said_.drone_class && out_.drone_class == "generic") Decide("no kind was said: the usual of all kinds is taken");
 }
 
 }  // namespace airsim360::internal

@@ -29,8 +29,7 @@ DroneModel Designer::Aerodynamics() const {
   // Drag coefficient 1 for the box and for arms as wide as 8 % of the propellers, times what a said speed needs.
   const Vec3d box = Box();
   const double arms = ArmsOf(n_, layout_) * L_ * 0.08 * D_;
-  model.quadratic_drag_B =
-      Vec3d{box.y * box.z + 0.7 * arms, box.x * box.z + 0.7 * arms, box.x * box.y + arms} * (0.5 * rho * drag_);
+  model.quadratic_drag_B = Vec3d{box.y * box.z + 0.7 * arms, box.x * box.z + 0.7 * arms, box.x * box.y + arms} * (0.5 * rho * drag_);
   return model;
 }
 
@@ -59,17 +58,15 @@ bool Designer::Weigh() {
 double Designer::BatteryMass() const {
   if (said_.battery_mass) return *said_.battery_mass;
   if (const double energy = EnergySaid()) return energy / give_.specific_energy;
-  if (const double time = HoverTimeAsked())
-    return HoverPower() * time / 3600 / give_.usable / give_.specific_energy;
+  if (const double time = HoverTimeAsked()) return HoverPower() * time / 3600 / give_.usable / give_.specific_energy;
   return kind_.battery_share * (m_ - said_.payload.value_or(0));
 }
 
 void Designer::RefuseWeights() const {
   const DroneParts& p = out_.parts;
   std::string asked;
-  for (const char* field :
-       {"mass", "payload", "hover_time", "flight_time", "capacity_ah", "energy_wh", "battery_mass",
-        "thrust_to_weight", "speed", "propeller"}) {
+  for (const char* field : {"mass", "payload", "hover_time", "flight_time", "capacity_ah", "energy_wh", "battery_mass", "thrust_to_weight",
+                            "speed", "propeller"}) {
     if (said_.words.count(field)) asked += (asked.empty() ? "'" : ", '") + Words(field) + "'";
   }
   Refuse((asked.empty() ? "" : asked + " do not go together: ") +
@@ -85,8 +82,7 @@ void Designer::Finish() {
   model.name = said_.prompt;
   const DroneParts& parts = out_.parts;
   const double hub = (parts.motors + parts.propellers + parts.guards) / n_;
-  model.inertia_B =
-      CompositeInertia(model.rotors, hub, parts.arms, parts.body + parts.battery + parts.payload, Box());
+  model.inertia_B = CompositeInertia(model.rotors, hub, parts.arms, parts.body + parts.battery + parts.payload, Box());
   // A guard is a ring around its hub, half of its mass on either side.
   if (parts.guards > 0) {
     const double ring = parts.guards * D_ * D_ / 4;
@@ -116,46 +112,38 @@ void Designer::Finish() {
 }
 
 void Designer::FillLaws() {
-  Law("inertia", "motors, propellers and guards at the hubs, arms as rods, body and battery as a box (" +
-                     out_.drone_class +
+  Law("inertia", "motors, propellers and guards at the hubs, arms as rods, body and battery as a box (" + out_.drone_class +
                      Text("): %.2f x %.2f x %.2f arm lengths", kind_.body_x, kind_.body_y, kind_.body_z));
-  Law("motors",
-      Text("14.5 g (torque / 0.0466 N m)^(3/3.5) (Budinger 2020), speed controllers + 25 %%, times %.3g (%s)",
-           kind_.motor_factor * give_.motors, out_.drone_class.c_str()));
+  Law("motors", Text("14.5 g (torque / 0.0466 N m)^(3/3.5) (Budinger 2020), speed controllers + 25 %%, times %.3g (%s)",
+                     kind_.motor_factor * give_.motors, out_.drone_class.c_str()));
   Law("propellers", "3.2 g (D / 127 mm)^2 blades / 3 (Budinger 2020)");
   Law("guards", guarded_ ? "12 % of the mass" : "none");
   Law("arms", Text("%.0f %% of the mass (%s)", kind_.arm_share * give_.arms * 100, out_.drone_class.c_str()));
   const char* energy = said_.energy_wh ? "energy_wh" : "capacity_ah";
   const char* time = said_.hover_time ? "hover_time" : "flight_time";
   const std::string pack = Text("%.0f W h/kg", give_.specific_energy);
-  Law("battery", said_.battery_mass        ? Said("battery_mass")
-                 : EnergySaid() > 0        ? Said(energy) + ", " + pack
-                 : HoverTimeAsked() > 0    ? Said(time) + Text(": hover power over %.0f %% of the charge, ",
-                                                               give_.usable * 100) + pack
-                                           : Text("%.0f %% of the mass without payload (%s)",
-                                                  kind_.battery_share * 100, out_.drone_class.c_str()));
+  Law("battery", said_.battery_mass ? Said("battery_mass")
+                 : EnergySaid() > 0 ? Said(energy) + ", " + pack
+                 : HoverTimeAsked() > 0
+                     ? Said(time) + Text(": hover power over %.0f %% of the charge, ", give_.usable * 100) + pack
+                     : Text("%.0f %% of the mass without payload (%s)", kind_.battery_share * 100, out_.drone_class.c_str()));
   Law("body", "what is left of the mass");
   Law("payload", said_.payload ? Said("payload") : "none");
-  Law("cells",
-      said_.cells ? Said("cells") : "voltage 1.84 P^0.36 (Budinger 2020) at full power, 3.7 V a cell");
+  Law("cells", said_.cells ? Said("cells") : "voltage 1.84 P^0.36 (Budinger 2020) at full power, 3.7 V a cell");
   Law("capacity_ah", said_.capacity_ah ? Said("capacity_ah") : "battery energy over 3.7 V a cell");
   Law("motor_kv", said_.motor_kv ? Said("motor_kv") : "full speed at 0.72 of the speed without load, 4.2 V a cell");
-  Law("hover_time", said_.hover_time ? Said("hover_time")
-                                     : Text("%.0f %% of the charge over hover power", give_.usable * 100));
-  Law("flight_time", said_.flight_time ? Said("flight_time")
-                                       : "hover time / 0.87: the best speed takes less power than hovering");
-  Law("level_speed", speed_held_    ? Said("speed") + Text(": its lean is held, its thrust would reach %.1f m/s",
-                                                           LevelSpeed())
-                     : said_.speed  ? Said("speed") + Text(": drag area %.2f times that of the law", drag_)
-                                    : "largest lean that keeps the height with 5 % of the thrust in reserve");
+  Law("hover_time", said_.hover_time ? Said("hover_time") : Text("%.0f %% of the charge over hover power", give_.usable * 100));
+  Law("flight_time", said_.flight_time ? Said("flight_time") : "hover time / 0.87: the best speed takes less power than hovering");
+  Law("level_speed", speed_held_   ? Said("speed") + Text(": its lean is held, its thrust would reach %.1f m/s", LevelSpeed())
+                     : said_.speed ? Said("speed") + Text(": drag area %.2f times that of the law", drag_)
+                                   : "largest lean that keeps the height with 5 % of the thrust in reserve");
   Law("resistance", "12 mOhm Ah a cell");
   Law("efficiency", Text("of motors and speed controllers: %.2f", give_.efficiency));
   Law("idle_power", "0.3 W + 4 W/kg up to 2 kg");
-  Law("tau", kind_.brushed ? "72 ms, brushed motors of the Crazyflie (Eschmann 2024)"
-                           : "33 ms (D / 127 mm)^0.5, through 5-inch racers and X500");
+  Law("tau",
+      kind_.brushed ? "72 ms, brushed motors of the Crazyflie (Eschmann 2024)" : "33 ms (D / 127 mm)^0.5, through 5-inch racers and X500");
   Law("rotor_inertia", "propeller as a thin rod: m D^2 / 12");
-  Law("in_plane_drag",
-      "0.0065 rho D^3, between the Crazyflie's 0.0081 (Forster 2015) and 5-inch racers' 0.0048");
+  Law("in_plane_drag", "0.0065 rho D^3, between the Crazyflie's 0.0081 (Forster 2015) and 5-inch racers' 0.0048");
   Law("inflow", "0.012 rho D^3, between the Crazyflie's 0.006 and the Hummingbird's 0.024 (RotorPy)");
   Law("translational_lift", "0.03 rho D^2, half of the Hummingbird's (RotorPy)");
   Law("flapping", "rigid small propellers: none");

@@ -12,11 +12,11 @@
 namespace airsim360::internal {
 namespace {
 constexpr double kPi = std::numbers::pi;
-constexpr double kSpeedOfSound = 340.3;  // m/s
-constexpr double kFastestTip = 0.65 * kSpeedOfSound;  // m/s; the gate ends at Mach 0.7
+constexpr double kSpeedOfSound = 340.3;                    // m/s
+constexpr double kFastestTip = 0.65 * kSpeedOfSound;       // m/s; the gate ends at Mach 0.7
 constexpr double kFastestTipAsked = 0.69 * kSpeedOfSound;  // for a thrust that was said
-constexpr double kFastestIdleTip = 700;  // m/s without load: beyond what any motor and propeller are sold for
-constexpr double kLeastRatio = 1.5;           // thrust to weight that is not gone below unasked
+constexpr double kFastestIdleTip = 700;                    // m/s without load: beyond what any motor and propeller are sold for
+constexpr double kLeastRatio = 1.5;                        // thrust to weight that is not gone below unasked
 // Speed of a loaded motor over its speed without load, between hard and easy work.
 constexpr double kLeastLoaded = 0.5, kMostLoaded = 0.92;
 constexpr double kFullCell = 4.2;  // volts
@@ -36,17 +36,13 @@ void Designer::ChooseThrust() {
   if (said_.thrust_to_weight) {
     SetThrust(*said_.thrust_to_weight, Said("thrust_to_weight"));
   } else {
-    SetThrust(kind_.thrust_to_weight,
-              Text("thrust to weight %.1f (%s)", kind_.thrust_to_weight, out_.drone_class.c_str()));
+    SetThrust(kind_.thrust_to_weight, Text("thrust to weight %.1f (%s)", kind_.thrust_to_weight, out_.drone_class.c_str()));
     // Motors that belong to the propeller rather than to the weight.
     const double matched = kind_.full_disc_loading * kPi * D_ * D_ / 4 * n_ / (m_ * kGravity);
-    if (matched > ratio_)
-      SetThrust(matched,
-                Text("motors matched to the propeller, %g N/m^2 at full throttle", kind_.full_disc_loading));
+    if (matched > ratio_) SetThrust(matched, Text("motors matched to the propeller, %g N/m^2 at full throttle", kind_.full_disc_loading));
     HoldToMotors();
     if (ratio_ > give_.ratio) {
-      SetThrust(give_.ratio, give_.ratio < 14 ? law_of_thrust_ + ", lowered to leave mass for the body"
-                                              : "thrust to weight at most 14");
+      SetThrust(give_.ratio, give_.ratio < 14 ? law_of_thrust_ + ", lowered to leave mass for the body" : "thrust to weight at most 14");
     }
   }
   // Tips stay subsonic.
@@ -58,8 +54,8 @@ void Designer::ChooseThrust() {
       return ChooseThrust();
     }
     if (said_.thrust_to_weight || most < kLeastRatio) {
-      Refuse(Text("%d propellers of %.0f mm at Mach %.2f of their tips give %.2f times the weight of %.3g kg",
-                  n_, D_ * 1000, tip / kSpeedOfSound, most, m_) +
+      Refuse(Text("%d propellers of %.0f mm at Mach %.2f of their tips give %.2f times the weight of %.3g kg", n_, D_ * 1000,
+                  tip / kSpeedOfSound, most, m_) +
              (said_.thrust_to_weight ? ", not " + Words("thrust_to_weight") : ""));
     }
     SetThrust(most, "as much as tips at Mach 0.65 give");
@@ -67,8 +63,7 @@ void Designer::ChooseThrust() {
   // Five rotors hover with thrusts up to 1.25 times their mean, seven with 1.19.
   const double unequal = n_ == 5 ? 1.25 : n_ == 7 ? 1.19 : 1;
   if (unequal > 1 && ratio_ < 1.1 * unequal) {
-    Refuse(Text("%d rotors whose torques cancel need a thrust to weight of %.2f, not %.2f", n_, 1.1 * unequal,
-                ratio_));
+    Refuse(Text("%d rotors whose torques cancel need a thrust to weight of %.2f, not %.2f", n_, 1.1 * unequal, ratio_));
   }
   most_ratio_ = std::min({most, 14.0, give_.ratio});
   drag_ = 1;
@@ -89,8 +84,8 @@ void Designer::HoldToMotors() {
   const double least = ratio_at(kLeastLoaded * idle), most = ratio_at(kMostLoaded * idle);
   if (most < 1.3) {
     Refuse("'" + Words("motor_kv") + "' on '" + Words("cells") +
-           Text("' turn propellers of %.0f mm at most at %.0f rad/s, which lifts %.2f times the weight of %.3g kg",
-                D_ * 1000, kMostLoaded * idle, most, m_));
+           Text("' turn propellers of %.0f mm at most at %.0f rad/s, which lifts %.2f times the weight of %.3g kg", D_ * 1000,
+                kMostLoaded * idle, most, m_));
   }
   if (ratio_ < least || ratio_ > most)
     SetThrust(std::clamp(ratio_, least, most), "motors of " + Words("motor_kv") + " on " + Words("cells"));
@@ -112,8 +107,7 @@ void Designer::ReachSpeed() {
   drag_ = kLeastDrag;
   if (LevelSpeed() < speed) {
     Refuse("'" + Words(field) + "' contradicts " +
-           (said_.thrust_to_weight ? "'" + Words("thrust_to_weight") + "'"
-                                   : Text("a thrust of %.1f times the weight", ratio_)) +
+           (said_.thrust_to_weight ? "'" + Words("thrust_to_weight") + "'" : Text("a thrust of %.1f times the weight", ratio_)) +
            Text(": level flight ends at %.1f m/s", LevelSpeed()));
   }
   drag_ = 1;

@@ -31,8 +31,7 @@ constexpr DroneClass kClasses[] = {
 std::span<const DroneClass> DroneClasses() { return kClasses; }
 
 const DroneClass& FindDroneClass(std::string_view name) {
-  return *std::find_if(std::begin(kClasses), std::end(kClasses),
-                       [&](const DroneClass& c) { return c.name == name; });
+  return *std::find_if(std::begin(kClasses), std::end(kClasses), [&](const DroneClass& c) { return c.name == name; });
 }
 
 }  // namespace airsim360

@@ -27,24 +27,15 @@ std::string Quoted(std::string_view text) {
 class YamlWriter : public ConfigVisitor {
  public:
   explicit YamlWriter(int depth = 0) : indent_(2 * depth, ' '), depth_(depth) {}
-  void Field(std::string_view name, std::string_view help, bool& value) override {
-    Line(name, value ? "true" : "false", help);
-  }
-  void Field(std::string_view name, std::string_view help, uint64_t& value) override {
-    Line(name, std::to_string(value), help);
-  }
-  void Field(std::string_view name, std::string_view help, double& value, double, double) override {
-    Line(name, Number(value), help);
-  }
-  void Field(std::string_view name, std::string_view help, std::string& value) override {
-    Line(name, Quoted(value), help);
-  }
+  void Field(std::string_view name, std::string_view help, bool& value) override { Line(name, value ? "true" : "false", help); }
+  void Field(std::string_view name, std::string_view help, uint64_t& value) override { Line(name, std::to_string(value), help); }
+  void Field(std::string_view name, std::string_view help, double& value, double, double) override { Line(name, Number(value), help); }
+  void Field(std::string_view name, std::string_view help, std::string& value) override { Line(name, Quoted(value), help); }
   void Field(std::string_view, std::string_view, std::vector<std::string>&) override {}
   void Count(std::string_view name, std::string_view help, int& value, int) override {
     if (value != 0) Line(name, std::to_string(value), help);
   }
-  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value,
-                double, double) override {
+  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value, double, double) override {
     Line(name, is_word ? std::string(word) : Number(value), help);
   }
   void Choice(std::string_view name, std::string_view help, std::span<const char* const> names, size_t index,
@@ -82,8 +73,7 @@ class Fields {
     v.Field("prompt", "the words it was made from", d_.prompt);
     v.Field("class", Help("", "drone_class"), d_.drone_class);
     v.Field("mass", Help("kg", "mass"), m_.mass, 1e-3, 1000);
-    v.Group("inertia", Help("kg m^2, about the centre of mass, in B", "inertia"),
-            [&](auto& g) { Inertia(g); });
+    v.Group("inertia", Help("kg m^2, about the centre of mass, in B", "inertia"), [&](auto& g) { Inertia(g); });
     v.Group("parts", "kg; for the record, the model above counts", [&](auto& g) { Parts(g); });
     v.Group("propellers", "for the record", [&](auto& g) {
       g.Field("pitch", Help("m", "pitch"), d_.pitch, 0, 10);
@@ -107,8 +97,7 @@ class Fields {
     if (found != d_.laws.end() && !found->second.empty()) help_ += (help_.empty() ? "" : "; ") + found->second;
     return help_;
   }
-  static void Vector(ConfigVisitor& v, std::string_view name, std::string_view help, Vec3d& value, double low,
-                     double high) {
+  static void Vector(ConfigVisitor& v, std::string_view name, std::string_view help, Vec3d& value, double low, double high) {
     v.Group(name, std::string(help), [&](auto& g) {
       g.Field("x", "", value.x, low, high);
       g.Field("y", "", value.y, low, high);
@@ -141,8 +130,7 @@ class Fields {
     uint64_t count = m_.rotors.size();
     g.Field("count", "", count);
     if (count < 3 || count > kMaxRotors) {
-      throw InputError("rotors: count " + std::to_string(count) + " is not in 3 to " +
-                       std::to_string(kMaxRotors));
+      throw InputError("rotors: count " + std::to_string(count) + " is not in 3 to " + std::to_string(kMaxRotors));
     }
     m_.rotors.resize(count);
     for (size_t i = 0; i < count; ++i) {
@@ -214,8 +202,6 @@ DroneDesign ReadDroneYaml(std::string_view text, std::string_view name) {
   return design;
 }
 
-DroneDesign ReadDroneFile(const std::filesystem::path& file) {
-  return ReadDroneYaml(ReadTextFile(file, uint64_t{1} << 20), file.string());
-}
+DroneDesign ReadDroneFile(const std::filesystem::path& file) { return ReadDroneYaml(ReadTextFile(file, uint64_t{1} << 20), file.string()); }
 
 }  // namespace airsim360

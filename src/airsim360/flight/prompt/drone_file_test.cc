@@ -24,16 +24,15 @@ void ExpectSame(const DroneModel& a, const DroneModel& b) {
   EXPECT_EQ(a.battery.efficiency, b.battery.efficiency);
   EXPECT_EQ(a.battery.idle_power, b.battery.idle_power);
   ASSERT_EQ(a.rotors.size(), b.rotors.size());
-  static_assert(sizeof(RotorModel) == 18 * sizeof(double),
-                "a new field of RotorModel goes into the file too");
+  static_assert(sizeof(RotorModel) == 18 * sizeof(double), "a new field of RotorModel goes into the file too");
   for (size_t i = 0; i < a.rotors.size(); ++i) {
     EXPECT_EQ(std::memcmp(&a.rotors[i], &b.rotors[i], sizeof(RotorModel)), 0) << i;
   }
 }
 
 TEST(DroneFile, ReadsBackBitForBit) {
-  for (const char* prompt : {"a 250 g five-inch racing quad", "a coaxial X8 delivery drone of 15 kg",
-                             "a 5 kg hexacopter with a \"4S\" 5000 mAh battery"}) {
+  for (const char* prompt :
+       {"a 250 g five-inch racing quad", "a coaxial X8 delivery drone of 15 kg", "a 5 kg hexacopter with a \"4S\" 5000 mAh battery"}) {
     std::string text(prompt);
     std::erase(text, '"');
     const DroneDesign design = DroneFromPrompt(text);
@@ -73,8 +72,7 @@ TEST(DroneFile, MistakesAreNamedWithTheirPlace) {
     return ErrorOf(text);
   };
   EXPECT_EQ(ErrorOf(good), "no error");
-  EXPECT_NE(with("mass: 0.752", "mas: 0.752").find("unknown key 'mas'; did you mean 'mass'?"),
-            std::string::npos);
+  EXPECT_NE(with("mass: 0.752", "mas: 0.752").find("unknown key 'mas'; did you mean 'mass'?"), std::string::npos);
   EXPECT_NE(with("mass: 0.752", "mass: heavy").find("expected a number"), std::string::npos);
   EXPECT_NE(with("mass: 0.752", "mass: .nan").find("mass"), std::string::npos);
   EXPECT_NE(with("count: 4", "count: 2").find("3 to 8"), std::string::npos);

@@ -19,10 +19,12 @@ void Add(Words& words, double first, double step, std::initializer_list<const ch
 const Words& GermanParts() {
   static const Words kWords = [] {
     Words words;
-    Add(words, 1, 1, {"ein", "zwei", "drei", "vier", "funf", "sechs", "sieben", "acht", "neun", "zehn", "elf", "zwolf", "dreizehn",
-                      "vierzehn", "funfzehn", "sechzehn", "siebzehn", "achtzehn", "neunzehn"});
+    Add(words, 1, 1,
+        {"ein", "zwei", "drei", "vier", "funf", "sechs", "sieben", "acht", "neun", "zehn", "elf", "zwolf", "dreizehn", "vierzehn",
+         "funfzehn", "sechzehn", "siebzehn", "achtzehn", "neunzehn"});
     Add(words, 20, 10, {"zwanzig", "dreissig", "vierzig", "funfzig", "sechzig", "siebzig", "achtzig", "neunzig"});
-    for (const auto& [name, value] : {std::pair("fuenf", 5), {"zwoelf", 12}, {"fuenfzehn", 15}, {"fuenfzig", 50}}) words.emplace(name, value);
+    for (const auto& [name, value] : {std::pair("fuenf", 5), {"zwoelf", 12}, {"fuenfzehn", 15}, {"fuenfzig", 50}})
+      words.emplace(name, value);
     return words;
   }();
   return kWords;
@@ -53,11 +55,13 @@ double German(std::string_view word) {
 /// Words of a language that writes numbers apart; 100 and 1000 multiply what stands before them.
 Words Spanish() {
   Words words;
-  Add(words, 1, 1, {"un", "dos", "tres", "cuatro", "cinco", "seis", "siete", "ocho", "nueve", "diez", "once", "doce", "trece", "catorce", "quince",
-                    "dieciseis", "diecisiete", "dieciocho", "diecinueve", "veinte", "veintiun", "veintidos", "veintitres", "veinticuatro",
+  Add(words, 1, 1, {"un",          "dos",        "tres",        "cuatro",     "cinco",      "seis",      "siete",      "ocho",
+                    "nueve",       "diez",       "once",        "doce",       "trece",      "catorce",   "quince",     "dieciseis",
+                    "diecisiete",  "dieciocho",  "diecinueve",  "veinte",     "veintiun",   "veintidos", "veintitres", "veinticuatro",
                     "veinticinco", "veintiseis", "veintisiete", "veintiocho", "veintinueve"});
   Add(words, 30, 10, {"treinta", "cuarenta", "cincuenta", "sesenta", "setenta", "ochenta", "noventa"});
-  Add(words, 200, 100, {"doscientos", "trescientos", "cuatrocientos", "quinientos", "seiscientos", "setecientos", "ochocientos", "novecientos"});
+  Add(words, 200, 100,
+      {"doscientos", "trescientos", "cuatrocientos", "quinientos", "seiscientos", "setecientos", "ochocientos", "novecientos"});
   for (const char* one : {"uno", "una"}) words.emplace(one, 1);
   for (const char* hundred : {"cien", "ciento"}) words.emplace(hundred, 100);
   words.emplace("mil", 1000);
@@ -66,9 +70,12 @@ Words Spanish() {
 
 Words French() {
   Words words;
-  Add(words, 1, 1, {"un", "deux", "trois", "quatre", "cinq", "six", "sept", "huit", "neuf", "dix", "onze", "douze", "treize", "quatorze", "quinze", "seize"});
+  Add(words, 1, 1,
+      {"un", "deux", "trois", "quatre", "cinq", "six", "sept", "huit", "neuf", "dix", "onze", "douze", "treize", "quatorze", "quinze",
+       "seize"});
   Add(words, 20, 10, {"vingt", "trente", "quarante", "cinquante", "soixante"});
-  for (const auto& [name, value] : {std::pair("une", 1), {"vingts", 20}, {"cent", 100}, {"cents", 100}, {"mille", 1000}}) words.emplace(name, value);
+  for (const auto& [name, value] : {std::pair("une", 1), {"vingts", 20}, {"cent", 100}, {"cents", 100}, {"mille", 1000}})
+    words.emplace(name, value);
   return words;
 }
 
@@ -103,7 +110,8 @@ size_t Read(const Words& words, const std::vector<std::string>& text, size_t at,
     const auto word = words.find(text[joins ? i + 1 : i]);
     if (word == words.end()) break;
     const double next = word->second;
-    const bool eighty = below == 4 && next == 20 && last == 4, teens = (last == 60 || last == 20) && next < 20 && std::fmod(below, 100) != 20;
+    const bool eighty = below == 4 && next == 20 && last == 4,
+               teens = (last == 60 || last == 20) && next < 20 && std::fmod(below, 100) != 20;
     const double room = last >= 100 ? 100 : last >= 20 ? 10 : 0;
     if (next == 1000 && whole == 0) {
       whole = 1000 * (used == 0 ? 1 : below), below = 0;
@@ -134,13 +142,15 @@ std::string Figures(double value) {
 /// Whether "y medio", "et demie", "e mezzo" stand after a number and its unit at `at`.
 bool HalfFollows(const std::vector<std::string>& text, size_t at) {
   static const std::regex kHalf("medi[oa]|demie?|mezz[oa]");
-  return at + 2 < text.size() && (text[at + 1] == "y" || text[at + 1] == "et" || text[at + 1] == "e") && std::regex_match(text[at + 2], kHalf);
+  return at + 2 < text.size() && (text[at + 1] == "y" || text[at + 1] == "et" || text[at + 1] == "e") &&
+         std::regex_match(text[at + 2], kHalf);
 }
 
 /// A run of words that only spaces and dashes part, in digits where it is a number; empty: nothing is.
 std::string InDigits(const std::vector<std::string>& text) {
   static const Words kLanguages[] = {Spanish(), French(), Italian()};
-  static const std::regex kUnit("kilos?|chil[oi]|horas?|heures?|or[ae]|minut[oi]s?|minutes?|metros?|metres?|metri|litros?|litres?|litri|libras?|livres?");
+  static const std::regex kUnit(
+      "kilos?|chil[oi]|horas?|heures?|or[ae]|minut[oi]s?|minutes?|metros?|metres?|metri|litros?|litres?|litri|libras?|livres?");
   std::string out;
   bool changed = false;
   for (size_t i = 0; i < text.size();) {

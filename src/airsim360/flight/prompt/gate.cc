@@ -36,8 +36,7 @@ class Gate {
 void CheckInertia(const DroneModel& model, Gate& gate) {
   const auto& J = model.inertia_B.m;
   const double xy = J[0][0] * J[1][1] - J[0][1] * J[1][0];
-  gate.Require(J[0][0] > 0 && xy > 0 && model.inertia_B.determinant() > 0,
-               "inertia is not positive definite");
+  gate.Require(J[0][0] > 0 && xy > 0 && model.inertia_B.determinant() > 0, "inertia is not positive definite");
   const double trace = J[0][0] + J[1][1] + J[2][2];
   // trace / 2 - J >= 0 is that condition in any axes; for a diagonal J it reads entry by entry.
   Mat3d second;
@@ -45,8 +44,7 @@ void CheckInertia(const DroneModel& model, Gate& gate) {
     for (int k = 0; k < 3; ++k) second.m[i][k] = (i == k ? trace / 2 : 0) - J[i][k];
   }
   const auto& S = second.m;
-  const bool body = S[0][0] >= 0 && S[1][1] >= 0 && S[2][2] >= 0 && S[0][0] * S[1][1] >= S[0][1] * S[1][0] &&
-                    second.determinant() >= 0;
+  const bool body = S[0][0] >= 0 && S[1][1] >= 0 && S[2][2] >= 0 && S[0][0] * S[1][1] >= S[0][1] * S[1][0] && second.determinant() >= 0;
   gate.Require(body, "inertia breaks the triangle inequality: no body has it");
 }
 

@@ -88,8 +88,7 @@ void ApplyModel(const KnownModel& m, DroneRequest& r) {
   // Larger propellers than the frame has room for stand on longer arms.
   const double arms = r.layout == RotorLayout::kCoaxial ? *r.rotors / 2 : *r.rotors;
   const double room = scale * m.diagonal / 1000 * std::sin(std::numbers::pi / arms);
-  fact("arm", r.arm, scale * m.diagonal / 2000,
-       m.diagonal > 0 && *r.rotors == m.rotors && !(said_propeller && *r.propeller * 1.02 > room));
+  fact("arm", r.arm, scale * m.diagonal / 2000, m.diagonal > 0 && *r.rotors == m.rotors && !(said_propeller && *r.propeller * 1.02 > room));
   if (same_battery && scale == 1) fact("cells", r.cells, static_cast<double>(m.cells), m.cells > 0);
   if (same_battery && same_time && scale == 1) {
     fact("capacity_ah", r.capacity_ah, m.capacity, m.capacity > 0);

@@ -31,9 +31,7 @@ PropellerCoefficients CoefficientsOf(double pitch_ratio, int blades, double diam
 
 double MotorMass(double torque) { return 1.25 * 14.5e-3 * std::pow(torque / 0.0466, 3 / 3.5); }
 
-double PropellerMass(double diameter, int blades) {
-  return 3.2e-3 * std::pow(diameter / kReferenceDiameter, 2) * blades / 3;
-}
+double PropellerMass(double diameter, int blades) { return 3.2e-3 * std::pow(diameter / kReferenceDiameter, 2) * blades / 3; }
 
 double RotorLag(double diameter, bool brushed) {
   // 33 ms measured for 5-inch racers (Agilicious, rl-tools), 54 to 65 ms for 12 to 15 inches (X500, FS
@@ -90,8 +88,7 @@ std::vector<RotorModel> PlaceRotors(int count, RotorLayout layout, double arm, d
   return rotors;
 }
 
-Mat3d CompositeInertia(const std::vector<RotorModel>& rotors, double mass_at_hub, double arms_mass,
-                       double box_mass, Vec3d box) {
+Mat3d CompositeInertia(const std::vector<RotorModel>& rotors, double mass_at_hub, double arms_mass, double box_mass, Vec3d box) {
   // Hubs; a rod from the centre to a hub has a third of its mass there. Coaxial pairs share one rod.
   Vec3d J;
   for (const RotorModel& rotor : rotors) {

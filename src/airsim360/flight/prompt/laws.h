@@ -36,7 +36,6 @@ std::vector<RotorModel> PlaceRotors(int count, RotorLayout layout, double arm, d
 int ArmsOf(int count, RotorLayout layout);
 
 /// Point masses at the hubs, rods from the centre to them, and a box at the centre, kg m^2.
-Mat3d CompositeInertia(const std::vector<RotorModel>& rotors, double mass_at_hub, double arms_mass,
-                       double box_mass, Vec3d box);
+Mat3d CompositeInertia(const std::vector<RotorModel>& rotors, double mass_at_hub, double arms_mass, double box_mass, Vec3d box);
 
 }  // namespace airsim360::internal

@@ -61,8 +61,7 @@ size_t Distance(std::string_view a, std::string_view b, size_t most) {
     row[0] = i;
     for (size_t k = 1; k <= b.size(); ++k) {
       row[k] = std::min({before[k] + 1, row[k - 1] + 1, before[k - 1] + (a[i - 1] != b[k - 1])});
-      if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1])
-        row[k] = std::min(row[k], before2[k - 2] + 1);
+      if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1]) row[k] = std::min(row[k], before2[k - 2] + 1);
     }
     before2 = std::exchange(before, row);
   }
@@ -134,8 +133,8 @@ std::string_view UnitAsHeard(std::string_view text) {
   std::string_view best;
   for (const auto& [alias, entry] : TheIndex().entries()) {
     const WordKind kind = entry.word->kind;
-    const bool unit = kind == WordKind::kMassUnit || kind == WordKind::kLengthUnit || kind == WordKind::kTimeUnit ||
-                      kind == WordKind::kVolumeUnit;
+    const bool unit =
+        kind == WordKind::kMassUnit || kind == WordKind::kLengthUnit || kind == WordKind::kTimeUnit || kind == WordKind::kVolumeUnit;
     if (!unit || alias.size() < 5 || alias[0] != text[0] || alias.starts_with("pint")) continue;
     if (Consonants(alias) != sound || Distance(text, alias, 3) > 3) continue;
     if (best.empty() || alias < best) best = alias;
@@ -144,8 +143,8 @@ std::string_view UnitAsHeard(std::string_view text) {
 }
 
 const Word* FindCompound(std::string_view text) {
-  for (const std::string_view head : {"drohne", "drohnen", "copter", "kopter", "gewicht", "akku", "batterie", "kamera",
-                                      "propeller", "propellern", "rotoren", "motoren", "tank", "zeit", "minuten"}) {
+  for (const std::string_view head : {"drohne", "drohnen", "copter", "kopter", "gewicht", "akku", "batterie", "kamera", "propeller",
+                                      "propellern", "rotoren", "motoren", "tank", "zeit", "minuten"}) {
     if (text.size() < head.size() + 3 || !text.ends_with(head)) continue;
     if (head == "zeit") return FindWord("flugzeit", false);
     return FindWord(head.ends_with("kopter") || head.ends_with("copter") ? "copter" : head, false);

@@ -57,8 +57,7 @@ constexpr Word kWords[] = {
     {kMultiplier, 100, "", "hundred"},
     {kMultiplier, 1000, "", "thousand"},
     {kHalf, 0.5, "", "half|half a|half an|a half|half of a|one half"},
-    {kHalf, 0.25, "",
-     "quarter|a quarter of a|a quarter of an|quarter of a|quarter of an|a quarter|quarter of"},
+    {kHalf, 0.25, "", "quarter|a quarter of a|a quarter of an|quarter of a|quarter of an|a quarter|quarter of"},
     {kHalf, 0.75, "", "three quarters of a|three quarters of an|three quarter"},
     // Units.
     {kMassUnit, 1e-3, "", "g|gr|gram|grams|gramme|grammes|gm|gms|gf"},
@@ -109,7 +108,8 @@ constexpr Word kWords[] = {
      "day|hectare|hectares|acre|acres|dof|degrees of freedom|tof|db|lumen|lumens|mm lens|x "
      "zoom|gb|tb|ms|rpm|bit"},
     // Comparing.
-    {kAtMost, 0, "", "under|below|less than|sub|not heavier than|no heavier than|unter|weniger als|moins de|sous les|menos de|por debajo de|meno di|sotto i|低于|不到|小于|lighter than|smaller than|fewer than|<|shorter than"},
+    {kAtMost, 0, "",
+     "under|below|less than|sub|not heavier than|no heavier than|unter|weniger als|moins de|sous les|menos de|por debajo de|meno di|sotto i|低于|不到|小于|lighter than|smaller than|fewer than|<|shorter than"},
     {kFactor, 2, "", "twice|double|doubled|two times|twofold|doubling"},
     {kFactor, 3, "", "thrice|triple|tripled|three times"},
     {kFactor, 4, "", "quadruple|four times"},

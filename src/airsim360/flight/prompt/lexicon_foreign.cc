@@ -15,8 +15,7 @@ constexpr Word kWords[] = {
      "aproximadamente|schwere|schweren|schweres|schwerer|unos|que|se|peut|max|su|son|maximo|maxima|massimo|的|个|约|大约|为|是|一架|一个|一款|"
      "左右|の|最大|"
      "可|能|架|款|支持|具有|采用|约为|可以|达|飞行器|台|一台"},
-    {kBreak, 0, "",
-     "mit|com|und|fur|bei|avec|et|pour|con|y|para|e|per|a|和|与|带|配|搭载|携带|并|用于|以及|で|と|用"},
+    {kBreak, 0, "", "mit|com|und|fur|bei|avec|et|pour|con|y|para|e|per|a|和|与|带|配|搭载|携带|并|用于|以及|で|と|用"},
     {kNumber, 1, "", "eins|一"},
     {kNumber, 2, "", "zwei|deux|dos|due|二|两|双"},
     {kNumber, 3, "", "drei|trois|tres|tre|三"},
@@ -39,8 +38,7 @@ constexpr Word kWords[] = {
     {kHalf, 0.25, "",
      "quart|un quart d|un quart de|quart d|quart de|un cuarto de|cuarto de|un cuarto|cuarto|viertel|"
      "un quarto d|un quarto di|quarto d|quarto di|四分之一"},
-    {kHalf, 0.75, "",
-     "trois quarts d|trois quarts de|tres cuartos de|tre quarti d|tre quarti di|dreiviertel|drei viertel"},
+    {kHalf, 0.75, "", "trois quarts d|trois quarts de|tres cuartos de|tre quarti d|tre quarti di|dreiviertel|drei viertel"},
     {kTimeUnit, 900, "", "viertelstunde"},
     {kMultiplier, 100, "", "hundert|cent|cien|百"},
     {kMultiplier, 1000, "", "tausend|mille|mil|千"},
@@ -52,8 +50,7 @@ constexpr Word kWords[] = {
     {kLengthUnit, 1e-2, "", "zentimeter|centimetros|centimetri|厘米|公分|センチ"},
     {kLengthUnit, 1, "", "metros|metri|米"},
     {kTimeUnit, 60, "", "minuten|minutos|minuti|minuto|分钟|分鐘|分"},
-    {kTimeUnit, 3600, "",
-     "stunden|stunde|std|heure|heures|hora|horas|ora|ore|小时|小時|時間|个小时|個小時|个钟头|个钟"},
+    {kTimeUnit, 3600, "", "stunden|stunde|std|heure|heures|hora|horas|ora|ore|小时|小時|時間|个小时|個小時|个钟头|个钟"},
     {kSpeedUnit, 1, "", "米每秒|米秒|米/秒"},
     {kSpeedUnit, 1 / 3.6, "", "公里每小时|公里小时|千米每小时|公里/小时|时速公里|stundenkilometer"},
     {kCapacityUnit, 1e-3, "", "毫安时|毫安"},
@@ -67,16 +64,14 @@ constexpr Word kWords[] = {
      "drohne|drohnen|dron|drones|drone|无人机|無人機|飞机|ドローン|multikopter|multicoptere|multirrotor|"
      "multirotore|aeronave"},
     {kClass, 0, "racing", "穿越机|竞速|竞速无人机|carreras|renndrohne|rennen|de course|da corsa"},
-    {kClass, 0, "camera",
-     "航拍|摄影|拍摄|kameradrohne|fotografia|空撮|luftaufnahmen|prise de vue|prises de vue"},
+    {kClass, 0, "camera", "航拍|摄影|拍摄|kameradrohne|fotografia|空撮|luftaufnahmen|prise de vue|prises de vue"},
     {kClass, 0, "agricultural",
      "植保|农业|喷洒|农用|fumigacion|agricola|spruhdrohne|landwirtschaft|pulverisation|"
      "fumigar|农药|spritzen|农业喷洒|農薬|agricole|agricultura"},
     {kClass, 0, "survey",
      "测绘|测量|巡检|vermessung|vermessungs|vermessungsdrohne|cartographie|cartografia|mapeo|"
      "topographie|mappatura|uberwachung"},
-    {kClass, 0, "delivery",
-     "物流|快递|运输|送货|lieferdrohne|livraison|entrega|paketdrohne|consegna|reparto|lieferung"},
+    {kClass, 0, "delivery", "物流|快递|运输|送货|lieferdrohne|livraison|entrega|paketdrohne|consegna|reparto|lieferung"},
     {kClass, 0, "inspection", "inspektion|inspektionsdrohne|inspeccion|ispezione|rettung|industrie"},
     {kClass, 0, "research", "forschung|recherche|investigacion|ricerca|科研|研究"},
     {kSize, 0, "small", "kleine|kleiner|kleines|klein|petit|petite|pequeno|pequena|piccolo|小型|微型|迷你"},
@@ -87,8 +82,7 @@ constexpr Word kWords[] = {
      "cuadcoptero|quadricottero|quadrocoptero|四旋翼|四轴|四旋翼飞行器|クアッドコプター|quadrikopter|"
      "cuadrotor|"
      "quadricotteri|四轴飞行器|四軸"},
-    {kRotors, 6, "",
-     "hexakopter|hexacoptere|hexacoptero|esacottero|六旋翼|六轴|六軸|ヘキサコプター|hexarotore|hexarrotor"},
+    {kRotors, 6, "", "hexakopter|hexacoptere|hexacoptero|esacottero|六旋翼|六轴|六軸|ヘキサコプター|hexarotore|hexarrotor"},
     {kRotors, 8, "", "oktokopter|octocoptere|octocoptero|ottocottero|八旋翼|八轴|八軸|オクトコプター"},
     {kRotors, 3, "", "三旋翼|三轴|trikopter|tricoptere|tricoptero"},
     {kLayout, 0, "coaxial", "koaxial|koaxialer|coaxiale|共轴|同轴"},
@@ -110,7 +104,8 @@ constexpr Word kWords[] = {
      "decollo|起飞重量|最大起飞重量|起飞质量|总重|总重量|重量|重|自重|全重|重さ|重量は|整机重量|整机|含电池|"
      "带电池|"
      "en ordre de vol|al decollo|poids total"},
-    {kEmpty, 0, "", "masse a vide|poids vide|eigengewicht|leermasse|ohne nutzlast|ohne zuladung|sans charge|sans charge utile|sin carga|sin carga util|"
+    {kEmpty, 0, "",
+     "masse a vide|poids vide|eigengewicht|leermasse|ohne nutzlast|ohne zuladung|sans charge|sans charge utile|sin carga|sin carga util|"
      "senza carico|leergewicht|poids a vide|peso en vacio|peso vacio|peso a vuoto|空重|空机重量"},
     {kPayload, 0, "",
      "charge de|charge max|charge maximale|charge max de|nutzlast|zuladung|tragt|tragen|charge "
@@ -141,8 +136,7 @@ constexpr Word kWords[] = {
     {kLoad, 0, "", "nacelle|capteur|sensore|soporte|cardan"},
     {kLoad, 0, "camera", "kamera|appareil photo|camara|相机|摄像头|カメラ"},
     {kLoad, 0, "", "激光雷达|云台|paket|pakete|paketen|colis|paquete|paquetes|包裹|pacco|pacchi"},
-    {kLoad, 0, "liquid",
-     "药箱|药液|水箱|tanque|deposito|cuve|behalter|serbatoio|reservoir|wasser|agua|acqua|eau"},
+    {kLoad, 0, "liquid", "药箱|药液|水箱|tanque|deposito|cuve|behalter|serbatoio|reservoir|wasser|agua|acqua|eau"},
     // Russian
     {kBreak, 0, "", "с|и|для"},
     {kMassUnit, 1e-3, "", "г|грамм|граммов"},

@@ -7,7 +7,8 @@ using enum WordKind;
 
 // Masses in kg are those of the makers' sheets, as remembered, without lenses, mounts and cables.
 constexpr Word kWords[] = {
-    {kLoad, 0, "camera", "hasselblad camera|full frame camera|camera|cameras|gimbal camera|camera gimbal|cam|cams|dslr|mirrorless|mirrorless camera"},
+    {kLoad, 0, "camera",
+     "hasselblad camera|full frame camera|camera|cameras|gimbal camera|camera gimbal|cam|cams|dslr|mirrorless|mirrorless camera"},
     {kLoad, 0, "",
      "gimbal|gimbals|spray can|paint can|lidar|laser scanner|sensor|sensors|parcel|parcels|package|packages|box|cargo box|medicine|pizza|"
      "thermal camera|depth camera|stereo camera|multispectral camera|multispectral sensor|hyperspectral camera|"
@@ -18,10 +19,10 @@ constexpr Word kWords[] = {
      "sling load|slung load|fire extinguisher|hose|extinguishing balls|microphone|net|mortar|optics|pod|"
      "sensor head|sensor package|sensor suite|camera package|stuff|goods|food|books|bomb|lens|load|loads|lifebuoy|"
      "life ring|rope|tool|tools|module|modules|phone|tablet|vr camera|mail|letter|bag|coffee|beer|meal|meals"},
-    {kLoad, 0, "liquid",
-     "liquid|tank|pesticides|herbicide|water|fertilizer|chemical|chemicals|solution|granules|spray tank|hopper"},
-    {kLoad, 0.153, "", "gopro|go pro|gopro hero|hero 9|hero 10|hero 11|hero 12|gopro hero 9|gopro hero 10|"
-                       "gopro hero 11|gopro hero 12|action camera|action cam|osmo action|full size gopro"},
+    {kLoad, 0, "liquid", "liquid|tank|pesticides|herbicide|water|fertilizer|chemical|chemicals|solution|granules|spray tank|hopper"},
+    {kLoad, 0.153, "",
+     "gopro|go pro|gopro hero|hero 9|hero 10|hero 11|hero 12|gopro hero 9|gopro hero 10|"
+     "gopro hero 11|gopro hero 12|action camera|action cam|osmo action|full size gopro"},
     {kLoad, 0.028, "", "naked gopro"},
     {kLoad, 0.149, "", "insta360 one r|insta360|insta 360|insta360 x3|insta360 x4"},
     {kLoad, 0.95, "", "red komodo|komodo"},

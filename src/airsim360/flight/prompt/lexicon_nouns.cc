@@ -26,8 +26,7 @@ constexpr Word kWords[] = {
      "cinematography|vlogging|vlog|travel|prosumer|folding camera|foldable "
      "camera|cinema|movie|movies|videos|photos"},
     {kClass, 0, "research", "research|lab|laboratory|experimental|academic|swarm|university"},
-    {kClass, 0, "hobby",
-     "hobby|training|trainer|hobbyist|beginner|beginners|toy|kids|educational|education|school"},
+    {kClass, 0, "hobby", "hobby|training|trainer|hobbyist|beginner|beginners|toy|kids|educational|education|school"},
     {kClass, 0, "frame_kit", "diy|kit|flamewheel|flame wheel|development|dev|homebuilt|home built|home made"},
     {kClass, 0, "survey",
      "survey|surveying|mapping|surveillance|photogrammetry|scouting|topographic|long range|long ranger|long "
@@ -37,8 +36,7 @@ constexpr Word kWords[] = {
      "inspection|inspecting|inspect|enterprise|industrial|matrice|rescue|search and "
      "rescue|police|firefighting|"
      "fire fighting|public safety|commercial|professional"},
-    {kClass, 0, "delivery",
-     "delivery|courier|transport|deliveries|deliver|delivers|delivering|logistics|drop"},
+    {kClass, 0, "delivery", "delivery|courier|transport|deliveries|deliver|delivers|delivering|logistics|drop"},
     {kClass, 0, "heavy_lift",
      "heavy lift|lifter|cargo|heavy lifter|heavylift|cine lifter|cinelifter|heavy lifting|freight|heavy "
      "duty"},
@@ -57,8 +55,7 @@ constexpr Word kWords[] = {
      "quad|quadcopter|quadrotor|quads|quadrocopter|quadricopter|quadracopter|quadcopters|quadrotors|four "
      "rotor|"
      "quadrupel|quadri copter|quadropter"},
-    {kRotors, 6, "",
-     "hexa|hex|tarot x6|hexacopter|hexarotor|hexrotor|hexcopter|hexicopter|hexacopters|six rotor|hexakopter"},
+    {kRotors, 6, "", "hexa|hex|tarot x6|hexacopter|hexarotor|hexrotor|hexcopter|hexicopter|hexacopters|six rotor|hexakopter"},
     {kRotors, 8, "",
      "octo|octocopter|octorotor|octa|octacopter|octarotor|octacopters|octocopters|oktocopter|"
      "eight rotor|oktokopter"},
@@ -85,8 +82,7 @@ constexpr Word kWords[] = {
     {kRotorNoun, 0, "",
      "rotor|rotors|rotored|rotor count|number of rotors|no of rotors|num rotors|rotor number|rotors count|n "
      "rotors|thrusters"},
-    {kMotor, 0, "",
-     "motor|motors|engine|engines|motored|motor count|number of motors|no of motors|num motors"},
+    {kMotor, 0, "", "motor|motors|engine|engines|motored|motor count|number of motors|no of motors|num motors"},
     {kPropeller, 0, "",
      "propeller|propellers|prop|props|rotor diameter|propeller diameter|prop "
      "diameter|propellor|propellors|airscrew|"
@@ -165,8 +161,7 @@ constexpr Word kWords[] = {
      "lasts|lasting|last|stay in the air|stay in the air for|stays in the air|stays in the air "
      "for|endurance|flight time|flying time|fly time|air time|airtime|in the air|aloft|battery life|"
      "stay up|airborne|stays up|runtime|run time|flight duration"},
-    {kSpeed, 0, "",
-     "speed|top speed|max speed|maximum speed|velocity|speeds|full speed|flat out|vmax|level speed|top end"},
+    {kSpeed, 0, "", "speed|top speed|max speed|maximum speed|velocity|speeds|full speed|flat out|vmax|level speed|top end"},
     {kWind, 0, "",
      "wind|winds|gust|gusts|wind resistance|windy|breeze|cruise|cruising|cruises|cruise speed|cruising speed|"
      "headwind|crosswind|storm"},
@@ -220,8 +215,7 @@ constexpr Word kWords[] = {
     {kNoMultirotor, 0, "a water craft",
      "submarine|submarines|underwater|under water|rov|submersible|auv|torpedo|torpedoes|diving drone|sub "
      "sea|subsea"},
-    {kNoMultirotor, 0, "lighter than air",
-     "blimp|airship|zeppelin|balloon|hot air balloon|weather balloon|dirigible|aerostat|helium"},
+    {kNoMultirotor, 0, "lighter than air", "blimp|airship|zeppelin|balloon|hot air balloon|weather balloon|dirigible|aerostat|helium"},
     {kNoMultirotor, 0, "a jet or rocket",
      "jet fighter|fighter jet|turbofan|turbofans|turbojet|jet engine|jet engines|jet "
      "powered|afterburner|afterburners|"

@@ -17,16 +17,13 @@ size_t Digits(std::string_view text, size_t at) {
 }
 
 bool IsUnit(const Token& token) {
-  return token.kind == Token::Kind::kWord && token.word->kind >= WordKind::kMassUnit &&
-         token.word->kind <= WordKind::kPercent;
+  return token.kind == Token::Kind::kWord && token.word->kind >= WordKind::kMassUnit && token.word->kind <= WordKind::kPercent;
 }
 
 /// Whole words for a unit, of which there can be "a": "a kilo", but not "a g".
 bool IsLongUnit(const Token& token) { return IsUnit(token) && token.text.size() >= 4; }
 
-bool IsNumber(const Token& token) {
-  return token.kind == Token::Kind::kNumber || token.Is(WordKind::kNumber);
-}
+bool IsNumber(const Token& token) { return token.kind == Token::Kind::kNumber || token.Is(WordKind::kNumber); }
 
 class Joiner {
  public:
@@ -48,9 +45,9 @@ class Joiner {
 
  private:
   bool StartsArticle() const {
-    const bool article = in_[at_].text == "a" || in_[at_].text == "an" || in_[at_].text == "un" ||
-                         in_[at_].text == "ein" || in_[at_].text == "une" || in_[at_].text == "una" ||
-                         in_[at_].text == "eine" || in_[at_].text == "einer" || in_[at_].text == "einen";
+    const bool article = in_[at_].text == "a" || in_[at_].text == "an" || in_[at_].text == "un" || in_[at_].text == "ein" ||
+                         in_[at_].text == "une" || in_[at_].text == "una" || in_[at_].text == "eine" || in_[at_].text == "einer" ||
+                         in_[at_].text == "einen";
     return article && at_ + 1 < in_.size() && IsLongUnit(in_[at_ + 1]) && !in_[at_ + 1].Is(WordKind::kCells) &&
            in_[at_ + 1].text != "second" && !IsNumber(Before());
   }
@@ -106,8 +103,8 @@ class Joiner {
       value += in_[i + 1].word->value;
       text += " and " + in_[i + 1].text;
       i += 2;
-    } else if (i + 2 < in_.size() && AtText(i, "/") && in_[i + 1].kind == Token::Kind::kNumber && value == 1 &&
-               in_[i + 1].value >= 2 && in_[i + 1].value <= 8 && IsUnit(in_[i + 2])) {
+    } else if (i + 2 < in_.size() && AtText(i, "/") && in_[i + 1].kind == Token::Kind::kNumber && value == 1 && in_[i + 1].value >= 2 &&
+               in_[i + 1].value <= 8 && IsUnit(in_[i + 2])) {
       value /= in_[i + 1].value;
       text += "/" + in_[i + 1].text;
       i += 2;
@@ -147,9 +144,7 @@ class Joiner {
     const size_t link = unit_between ? i + 1 : i;
     // "between 15 and 20 minutes"
     const bool between = Before().text == "between" && AtText(link, "and");
-    if (!(between || in_[link].kind == Token::Kind::kDash || in_[link].Is(WordKind::kTo)) ||
-        link + 1 >= in_.size())
-      return false;
+    if (!(between || in_[link].kind == Token::Kind::kDash || in_[link].Is(WordKind::kTo)) || link + 1 >= in_.size()) return false;
     double high = 0;
     std::string high_text;
     const size_t more = ReadOne(link + 1, high, high_text);
@@ -160,8 +155,7 @@ class Joiner {
     if (unit_between && in_[i].word->kind != in_[end].word->kind) return false;
     // "2306-2450kv": a stator before its KV.
     const double height = std::fmod(low, 100);
-    if (has_unit && in_[end].Is(WordKind::kKvUnit) && low >= 1000 && low < 10000 && height >= 2 && height <= 45 &&
-        std::fmod(low, 10) != 0)
+    if (has_unit && in_[end].Is(WordKind::kKvUnit) && low >= 1000 && low < 10000 && height >= 2 && height <= 45 && std::fmod(low, 10) != 0)
       return false;
     const double scale = unit_between && in_[end].word->value > 0 ? in_[i].word->value / in_[end].word->value : 1;
     if (!(low * scale < high && high < 4 * low * scale)) return false;
@@ -213,8 +207,7 @@ size_t ReadNumber(std::string_view text, double& value) {
   }
   if (plain.empty()) return 0;
   if (plain[0] == '.') plain = "0" + plain;
-  const auto [end, error] =
-      std::from_chars(plain.data(), plain.data() + plain.size(), value, std::chars_format::fixed);
+  const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value, std::chars_format::fixed);
   if (error != std::errc() || !(value < 1e9)) {
     throw InputError("the number '" + std::string(text.substr(0, 20)) + "' describes no drone");
   }
@@ -230,8 +223,9 @@ size_t ReadThousands(std::string_view text, size_t length, double& value) {
   };
   const auto is_small = [](std::string_view unit) {
     const Word* word = FindWord(unit, false);
-    return word != nullptr && (word->kind == WordKind::kMassUnit || word->kind == WordKind::kCapacityUnit ||
-                               word->kind == WordKind::kLengthUnit) && word->value == 1e-3;
+    return word != nullptr &&
+           (word->kind == WordKind::kMassUnit || word->kind == WordKind::kCapacityUnit || word->kind == WordKind::kLengthUnit) &&
+           word->value == 1e-3;
   };
   const std::string_view digits = text.substr(0, length);
   const size_t whole = Digits(digits, 0);

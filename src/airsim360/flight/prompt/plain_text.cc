@@ -14,8 +14,7 @@ struct Decoded {
 Decoded Decode(std::string_view text) {
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
-  const size_t length = first < 0x80 ? 1 : first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3
-                        : first < 0xf5 ? 4 : 0;
+  const size_t length = first < 0x80 ? 1 : first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
   if (length == 0 || length > text.size()) return {};
   if (length == 1) return {first, 1};
   uint32_t code = first & (0x7fu >> length);
@@ -33,12 +32,11 @@ struct Sign {
   const char* plain;
 };
 constexpr Sign kSigns[] = {
-    {0xb5, "u"},      {0x3bc, "u"},     {0xd7, "x"},     {0xbd, ".5"},   {0xbc, ".25"},  {0xbe, ".75"},
-    {0xdf, "ss"},     {0xe6, "ae"},     {0xc6, "ae"},    {0x153, "oe"},  {0x2032, "'"},  {0x2033, "\""},
-    {0x201c, "\""},   {0x201d, "\""},   {0x2018, "'"},   {0x2019, "'"},  {0x2010, "-"},  {0x2011, "-"},
-    {0x2012, "-"},    {0x2013, "-"},    {0x2014, " - "}, {0x2212, "-"},  {0x2248, " "},  {0x2264, " max "},
-    {0x2265, " min "}, {0x3001, ","},   {0x3002, ". "},  {0x2026, "..."}, {0x3000, " "}, {0xb1, "+-"},
-    {0x2a09, "x"},    {0x2715, "x"},    {0x2716, "x"},   {0x300c, " "},  {0x300d, " "},
+    {0xb5, "u"},   {0x3bc, "u"},  {0xd7, "x"},       {0xbd, ".5"},      {0xbc, ".25"},  {0xbe, ".75"},  {0xdf, "ss"},
+    {0xe6, "ae"},  {0xc6, "ae"},  {0x153, "oe"},     {0x2032, "'"},     {0x2033, "\""}, {0x201c, "\""}, {0x201d, "\""},
+    {0x2018, "'"}, {0x2019, "'"}, {0x2010, "-"},     {0x2011, "-"},     {0x2012, "-"},  {0x2013, "-"},  {0x2014, " - "},
+    {0x2212, "-"}, {0x2248, " "}, {0x2264, " max "}, {0x2265, " min "}, {0x3001, ","},  {0x3002, ". "}, {0x2026, "..."},
+    {0x3000, " "}, {0xb1, "+-"},  {0x2a09, "x"},     {0x2715, "x"},     {0x2716, "x"},  {0x300c, " "},  {0x300d, " "},
 };
 
 /// Latin letters of U+00C0 to U+017F without their accents, in order.
@@ -71,8 +69,8 @@ std::string PrintableText(std::string_view bytes) {
   for (size_t at = 0; at < bytes.size();) {
     const auto [code, length] = Decode(bytes.substr(at));
     const bool control = code < 0x20 || (code >= 0x7f && code < 0xa0) || (code >= 0x2000 && code < 0x2010) ||
-                         (code >= 0x2028 && code < 0x2030) || (code >= 0xfe00 && code < 0xff01) ||
-                         (code >= 0xff5f && code < 0x10000) || (code >= 0xe000 && code < 0xf900);
+                         (code >= 0x2028 && code < 0x2030) || (code >= 0xfe00 && code < 0xff01) || (code >= 0xff5f && code < 0x10000) ||
+                         (code >= 0xe000 && code < 0xf900);
     if (length == 0 || control) {
       text += ' ';
     } else {

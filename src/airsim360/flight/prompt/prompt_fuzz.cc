@@ -14,8 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const DroneDesign design = DroneFromPrompt({reinterpret_cast<const char*>(data), size});
     if (!GateProblems(design.model).empty()) std::abort();
     const DroneDesign again = ReadDroneYaml(DroneYaml(design), "fuzz");
-    if (again.model.mass != design.model.mass || again.model.inertia_B != design.model.inertia_B)
-      std::abort();
+    if (again.model.mass != design.model.mass || again.model.inertia_B != design.model.inertia_B) std::abort();
   } catch (const InputError&) {
   }
   return 0;

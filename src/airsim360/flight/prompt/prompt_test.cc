@@ -20,8 +20,7 @@ std::string ErrorOf(std::string_view prompt) {
 
 ::testing::AssertionResult Says(const std::string& text, std::initializer_list<const char*> parts) {
   for (const char* part : parts) {
-    if (text.find(part) == std::string::npos)
-      return ::testing::AssertionFailure() << "'" << part << "' is not in: " << text;
+    if (text.find(part) == std::string::npos) return ::testing::AssertionFailure() << "'" << part << "' is not in: " << text;
   }
   return ::testing::AssertionSuccess();
 }
@@ -149,28 +148,23 @@ TEST(Prompt, WordsThatContradictEachOtherAreRefusedNamingBoth) {
   EXPECT_TRUE(Says(ErrorOf("an H octocopter"), {"'h'", "8"}));
   EXPECT_TRUE(Says(ErrorOf("a 10 kg quad with 2 inch propellers"), {"'10 kg'", "'2 inch'", "disc"}));
   EXPECT_TRUE(Says(ErrorOf("a 20 g quad with 20 inch propellers"), {"'20 g'", "'20 inch'"}));
-  EXPECT_TRUE(Says(ErrorOf("a quad with 10 inch propellers and a 250 mm wheelbase"),
-                   {"overlap", "'10 inch'", "'250 mm'"}));
+  EXPECT_TRUE(Says(ErrorOf("a quad with 10 inch propellers and a 250 mm wheelbase"), {"overlap", "'10 inch'", "'250 mm'"}));
   EXPECT_TRUE(Says(ErrorOf("a 1 kg quad with a 5 kg payload"), {"'5 kg'", "'1 kg'"}));
   EXPECT_TRUE(Says(ErrorOf("a tiny 20 kg quad"), {"'tiny'", "'20 kg'"}));
   EXPECT_TRUE(Says(ErrorOf("a huge 100 g quad"), {"'huge'"}));
   EXPECT_TRUE(Says(ErrorOf("a 500 g quad with 5 hours of flight time"), {"'5 hours'", "battery"}));
-  EXPECT_TRUE(Says(ErrorOf("a 1 kg quad with thrust to weight 1.3 that flies 40 m/s"),
-                   {"'40 m/s'", "level flight ends"}));
-  EXPECT_TRUE(
-      Says(ErrorOf("a 2 kg quad with 5 inch propellers and thrust to weight 12"), {"thrust to weight 12"}));
+  EXPECT_TRUE(Says(ErrorOf("a 1 kg quad with thrust to weight 1.3 that flies 40 m/s"), {"'40 m/s'", "level flight ends"}));
+  EXPECT_TRUE(Says(ErrorOf("a 2 kg quad with 5 inch propellers and thrust to weight 12"), {"thrust to weight 12"}));
   EXPECT_TRUE(Says(ErrorOf("a quad with 5x9 propellers"), {"pitch"}));
-  EXPECT_TRUE(Says(ErrorOf("a 1 kg quad with 10 inch propellers, 60 minutes and a 1000 mAh battery"),
-                   {"'60 minutes'", "'1000 mah'"}));
+  EXPECT_TRUE(Says(ErrorOf("a 1 kg quad with 10 inch propellers, 60 minutes and a 1000 mAh battery"), {"'60 minutes'", "'1000 mah'"}));
 }
 
 TEST(Prompt, EveryParameterHasItsLaw) {
   const DroneDesign design = DroneFromPrompt("a 250 g five-inch racing quad");
   EXPECT_TRUE(Says(design.laws.at("mass"), {"said: '250 g'"}));
   EXPECT_TRUE(Says(design.laws.at("thrust_factor"), {"C_T", "Budinger"}));
-  for (const char* name :
-       {"rotors", "arm", "diameter", "torque_ratio", "max_speed", "inertia", "tau", "in_plane_drag",
-        "quadratic_drag", "cells", "capacity_ah", "battery", "motors", "half_size"}) {
+  for (const char* name : {"rotors", "arm", "diameter", "torque_ratio", "max_speed", "inertia", "tau", "in_plane_drag", "quadratic_drag",
+                           "cells", "capacity_ah", "battery", "motors", "half_size"}) {
     EXPECT_FALSE(design.laws.at(name).empty()) << name;
   }
 }
@@ -192,9 +186,8 @@ TEST(Prompt, WhereThereIsNoAirNothingIsBuilt) {
 }
 
 TEST(Design, PartsAddUpToTheMassAndSaidFiguresAreKept) {
-  for (const char* prompt :
-       {"a 250 g five-inch racing quad", "a 12 kg delivery octocopter with a 4 kg parcel",
-        "a 2 kg hexacopter with 20 minutes, thrust to weight 2.5"}) {
+  for (const char* prompt : {"a 250 g five-inch racing quad", "a 12 kg delivery octocopter with a 4 kg parcel",
+                             "a 2 kg hexacopter with 20 minutes, thrust to weight 2.5"}) {
     const DroneDesign design = DroneFromPrompt(prompt);
     EXPECT_NEAR(design.parts.Sum(), design.model.mass, 1e-12 * design.model.mass);
     EXPECT_GT(design.parts.body, 0);
@@ -211,11 +204,9 @@ TEST(Design, FollowsTheWorkedExampleOfItsLaws) {
   const DroneFigures figures = FiguresOf(design.model);
   const double c_t = (0.0427 + 0.144 * 0.86) * std::pow(1.5, 0.61);
   EXPECT_NEAR(figures.thrust_coefficient, c_t, 1e-12);
-  EXPECT_NEAR(design.model.rotors[0].thrust_factor, c_t * 1.225 * std::pow(0.127, 4) / (4 * M_PI * M_PI),
-              1e-18);
+  EXPECT_NEAR(design.model.rotors[0].thrust_factor, c_t * 1.225 * std::pow(0.127, 4) / (4 * M_PI * M_PI), 1e-18);
   // Hover: n k_f w^2 = m g.
-  EXPECT_NEAR(4 * design.model.rotors[0].thrust_factor * figures.hover_speed * figures.hover_speed,
-              0.25 * kGravity, 1e-12);
+  EXPECT_NEAR(4 * design.model.rotors[0].thrust_factor * figures.hover_speed * figures.hover_speed, 0.25 * kGravity, 1e-12);
   EXPECT_NEAR(figures.max_thrust, 8 * 0.25 * kGravity, 1e-9);
 }
 

@@ -45,8 +45,7 @@ DroneRequest Reader::Run() {
   // Kinds and layouts first: counts and numbers lean on them.
   for (size_t i = 0; i < tokens_.size(); ++i) {
     if (tokens_[i].kind == Token::Kind::kWord) ReadWord(i);
-    if (tokens_[i].kind == Token::Kind::kUnknown || Is(i, WordKind::kTimes) || tokens_[i].text == "h")
-      ReadSign(i);
+    if (tokens_[i].kind == Token::Kind::kUnknown || Is(i, WordKind::kTimes) || tokens_[i].text == "h") ReadSign(i);
   }
   for (size_t i = 0; i < tokens_.size(); ++i) {
     if (used_[i]) continue;
@@ -200,8 +199,7 @@ void Reader::FinishMasses() {
   // "... and a 4S 5 Ah battery weighing 2 kg": no battery of that charge is so heavy, the drone is.
   const double energy = request_.energy_wh.value_or(request_.capacity_ah.value_or(0) * 3.7 * request_.cells.value_or(0));
   const bool above_model = model_ && energy <= 0 && request_.battery_mass.value_or(0) > 0.7 * model_->mass;
-  if (request_.battery_mass && !request_.mass &&
-      (above_model || (energy > 0 && energy < 60 * *request_.battery_mass))) {
+  if (request_.battery_mass && !request_.mass && (above_model || (energy > 0 && energy < 60 * *request_.battery_mass))) {
     const std::string words = request_.words["battery_mass"];
     Decide("'" + words + "' is too much for that battery and is read as the mass of the drone");
     Set(mass, request_.mass, *request_.battery_mass, words);
@@ -254,8 +252,7 @@ void Reader::PlaceLoose(const Loose& loose) {
   const bool carried = (loose.thing || IsOfLoad(q)) && !bound && !request_.payload;
   const bool inside = loose.part || loose.thing || IsIncluded(q);
   if (whole_of_mass_ && inside && request_.mass && q.value * loose.count > *request_.mass) {
-    throw InputError("no drone fits the description: parts of '" + q.words + "' are more than '" + request_.words["mass"] +
-                     "' in all");
+    throw InputError("no drone fits the description: parts of '" + q.words + "' are more than '" + request_.words["mass"] + "' in all");
   }
   if (whole_of_mass_ && !carried && !bound && request_.mass && q.value < 0.98 * *request_.mass) {
     Decide("'" + q.words + "' is of a part of '" + request_.words["mass"] + "' and left to the design");
@@ -288,12 +285,12 @@ void Reader::ListUnused() {
     if (used_[i]) continue;
     const Token& token = tokens_[i];
     const Word* word = WordAt(i);
-    const bool says_nothing = token.kind == Token::Kind::kUnknown || token.kind == Token::Kind::kNumber ||
-                              (word && ((word->kind >= WordKind::kMassUnit && word->kind <= WordKind::kOtherUnit &&
-                                         i > 0 && tokens_[i - 1].kind == Token::Kind::kNumber) ||
-                                        word->kind == WordKind::kElse || word->kind == WordKind::kVehicle ||
-                                        word->kind == WordKind::kNoMultirotor || word->kind == WordKind::kLoad ||
-                                        word->kind == WordKind::kFactor));
+    const bool says_nothing =
+        token.kind == Token::Kind::kUnknown || token.kind == Token::Kind::kNumber ||
+        (word && ((word->kind >= WordKind::kMassUnit && word->kind <= WordKind::kOtherUnit && i > 0 &&
+                   tokens_[i - 1].kind == Token::Kind::kNumber) ||
+                  word->kind == WordKind::kElse || word->kind == WordKind::kVehicle || word->kind == WordKind::kNoMultirotor ||
+                  word->kind == WordKind::kLoad || word->kind == WordKind::kFactor));
     if (says_nothing) request_.unused.push_back(token.text);
   }
 }

@@ -251,15 +251,15 @@ class Reader {
   std::map<size_t, MassRole> roles_;
   int unexplained_ = 0;
   bool heavy_parts_ = false, contradicted_ = false;
-  bool on_top_ = false;  ///< what is carried is not in the mass of the drone
+  bool on_top_ = false;        ///< what is carried is not in the mass of the drone
   std::vector<bool> used_;     ///< tokens that said something
   std::vector<bool> claimed_;  ///< nouns that have their number
   DroneRequest request_;
   const KnownModel* model_ = nullptr;
   struct Loose {
     Quantity quantity;
-    bool thing = false;  ///< "a 300 g sandwich"
-    bool part = false;   ///< "a 300 g frame"
+    bool thing = false;   ///< "a 300 g sandwich"
+    bool part = false;    ///< "a 300 g frame"
     bool loaded = false;  ///< "3 kg with camera"
     double count = 1;     ///< parts that have it each
   };
@@ -274,14 +274,14 @@ class Reader {
   const Token* spanning_ = nullptr;      ///< the number that is being read
   /// A number of rotors that no drone here has, and its words.
   std::optional<std::pair<double, std::string>> bad_rotors_;
-  bool whole_said_ = false;  ///< the mass is that of take-off
+  bool whole_said_ = false;     ///< the mass is that of take-off
   bool whole_of_mass_ = false;  ///< the same, of request_.mass as it stands
   Quantity mass_quantity_;      ///< that request_.mass was read from
-  bool things_said_ = false;  ///< the payload is the sum of things
-  size_t last_thing_ = kNone;  ///< token that ends the mass of the last of them
-  size_t rotor_words_ = 0;   ///< "quad", "Y6"
+  bool things_said_ = false;    ///< the payload is the sum of things
+  size_t last_thing_ = kNone;   ///< token that ends the mass of the last of them
+  size_t rotor_words_ = 0;      ///< "quad", "Y6"
   bool coaxial_said_ = false;
-  bool liquid_said_ = false;   ///< litres of something
+  bool liquid_said_ = false;  ///< litres of something
   struct Thrust {
     double kilograms = 0;
     bool each = false, whole = false;  ///< of one motor, of all together; neither: not said

@@ -9,9 +9,7 @@ namespace {
 
 constexpr size_t kLabel = 12;  // tokens that a mass's label may have before it
 
-bool IsSpacedDash(const std::vector<Token>& tokens, size_t k) {
-  return tokens[k].kind == Token::Kind::kDash && !tokens[k].glued;
-}
+bool IsSpacedDash(const std::vector<Token>& tokens, size_t k) { return tokens[k].kind == Token::Kind::kDash && !tokens[k].glued; }
 
 }  // namespace
 
@@ -47,8 +45,8 @@ bool Reader::IsIncludedBefore(size_t k) const {
 /// Whether a label says for certain what a mass is of, so that what stands before it says no more.
 bool Reader::EndsLabel(size_t k) const {
   if (IsOneOf(tokens_[k].text, {"all in", "total", "in total", "in all", "total of", "total weight"})) return false;
-  return RoleOf(k) == MassRole::kWhole || Is(k, WordKind::kMass) || Is(k, WordKind::kBare) || Is(k, WordKind::kEmpty) || Is(k, WordKind::kBattery) ||
-         (Is(k, WordKind::kPayload) && !IsCarryVerb(tokens_[k].text));
+  return RoleOf(k) == MassRole::kWhole || Is(k, WordKind::kMass) || Is(k, WordKind::kBare) || Is(k, WordKind::kEmpty) ||
+         Is(k, WordKind::kBattery) || (Is(k, WordKind::kPayload) && !IsCarryVerb(tokens_[k].text));
 }
 
 std::vector<Quantity> Reader::Masses() const {

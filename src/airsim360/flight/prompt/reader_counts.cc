@@ -24,8 +24,7 @@ void Reader::ReadRotorsWord(size_t i) {
   const std::string& text = tokens_[i].text;
   const size_t next = i + 1 < tokens_.size() && tokens_[i + 1].kind == Token::Kind::kDash ? i + 2 : i + 1;
   const auto next_is = [&](std::initializer_list<const char*> words) {
-    return next < tokens_.size() &&
-           std::any_of(words.begin(), words.end(), [&](const char* w) { return tokens_[next].text == w; });
+    return next < tokens_.size() && std::any_of(words.begin(), words.end(), [&](const char* w) { return tokens_[next].text == w; });
   };
   if (next_is({"core", "cores", "bike", "lock", "hd", "band", "sim"})) return;  // "a quad-core computer"
   // "tri-blade" and "tri 51466" are of the propellers.
@@ -34,13 +33,11 @@ void Reader::ReadRotorsWord(size_t i) {
     return;
   used_[i] = true;
   // "A quad-arm octo", but no "quadrotor arm length"
-  if (next_is({"arm", "arms"}) &&
-      !(next + 1 < tokens_.size() && tokens_[next + 1].kind == Token::Kind::kNumber)) {
+  if (next_is({"arm", "arms"}) && !(next + 1 < tokens_.size() && tokens_[next + 1].kind == Token::Kind::kNumber)) {
     SetArms(word.value, text + " " + tokens_[next].text);
     return Use(next);
   }
-  const bool negated = i > 0 && ((Is(i - 1, WordKind::kNegation) && tokens_[i - 1].text != "never") ||
-                                 tokens_[i - 1].text == "not");
+  const bool negated = i > 0 && ((Is(i - 1, WordKind::kNegation) && tokens_[i - 1].text != "never") || tokens_[i - 1].text == "not");
   if (negated) return;
   if (i > 1 && (tokens_[i - 1].text == "or" || tokens_[i - 1].text == "/") &&
       (Is(i - 2, WordKind::kRotors) || Is(i - 2, WordKind::kCoaxial)))
@@ -78,8 +75,7 @@ bool Reader::IsSpare(size_t i, size_t noun) const {
     if (tokens_[k].text == "spare" || tokens_[k].text == "bag" || tokens_[k].text == "extra") return true;
   }
   for (size_t k = i + 1; k < last && (k < noun || tokens_[k].kind != Token::Kind::kComma); ++k) {
-    for (const char* word :
-         {"spare", "spares", "extra", "replacement", "additional", "backup", "broken", "bent"}) {
+    for (const char* word : {"spare", "spares", "extra", "replacement", "additional", "backup", "broken", "bent"}) {
       if (tokens_[k].text == word) return true;
     }
   }
@@ -129,11 +125,8 @@ void Reader::ReadRotorCount(size_t i, size_t noun) {
 bool Reader::ReadCount(size_t i) {
   const Token& token = tokens_[i];
   const bool whole = token.value == std::floor(token.value);
-  const bool none = token.value < 1 || (i + 1 < tokens_.size() && Is(i + 1, WordKind::kRotorNoun) &&
-                                        (!whole || token.value > 40));
-  if (none &&
-      (Is(i + 1, WordKind::kRotorNoun) || Is(i + 1, WordKind::kPropeller) || Is(i + 1, WordKind::kMotor)) &&
-      token.value < 1000)
+  const bool none = token.value < 1 || (i + 1 < tokens_.size() && Is(i + 1, WordKind::kRotorNoun) && (!whole || token.value > 40));
+  if (none && (Is(i + 1, WordKind::kRotorNoun) || Is(i + 1, WordKind::kPropeller) || Is(i + 1, WordKind::kMotor)) && token.value < 1000)
     SetRotors(token.value, token.text + " " + tokens_[i + 1].text);
   if (!whole || token.value > 40 || token.value < 1) return false;
   bool other_words = false;
@@ -145,8 +138,7 @@ bool Reader::ReadCount(size_t i) {
       Set({"blades", 2, 6, ""}, request_.blades, token.value, token.text + " " + tokens_[k].text);
       return true;
     }
-    if (word && (word->kind == WordKind::kRotorNoun || word->kind == WordKind::kMotor ||
-                 word->kind == WordKind::kPropeller)) {
+    if (word && (word->kind == WordKind::kRotorNoun || word->kind == WordKind::kMotor || word->kind == WordKind::kPropeller)) {
       // "14 pole motors" are no count.
       if (other_words && (token.value < 3 || token.value > 12)) return false;
       ReadRotorCount(i, k);
@@ -178,16 +170,15 @@ bool Reader::ReadCount(size_t i) {
 void Reader::RefuseRotors() const {
   const auto& [value, words] = *bad_rotors_;
   if (value == 3) {
-    throw InputError(
-        "'" + words +
-        "': three fixed rotors cannot hold a heading, for their torques do not cancel, and a servo that tilts the "
-        "rotor at the tail is not modelled; say 4 to 8 (a quad comes nearest), or Y6 for three arms with two rotors "
-        "each");
+    throw InputError("'" + words +
+                     "': three fixed rotors cannot hold a heading, for their torques do not cancel, and a servo that tilts the "
+                     "rotor at the tail is not modelled; say 4 to 8 (a quad comes nearest), or Y6 for three arms with two rotors "
+                     "each");
   }
   throw InputError("'" + words + "': a drone here has 4 to 8 rotors" +
                    (value > 8 ? ", and the dynamics hold no more than 8: an octocopter or an X8 with " + LargerBy(value) +
-                                   " times larger propellers carries the same on the same disc area"
-                                 : ""));
+                                    " times larger propellers carries the same on the same disc area"
+                              : ""));
 }
 
 void Reader::FinishRotors() {

@@ -15,16 +15,16 @@ bool SaysAltitude(const std::string& text) {
 }
 
 bool SaysJourney(const std::string& text) {
-  return StartsAny(text, {"fly", "flies", "flight", "flown", "travel", "cover", "cross", "journey", "fliegt", "vole",
-                          "vuela", "flugstrecke", "reichweite", "autonomie", "autonomia", "飞", "航程"}) ||
+  return StartsAny(text, {"fly", "flies", "flight", "flown", "travel", "cover", "cross", "journey", "fliegt", "vole", "vuela",
+                          "flugstrecke", "reichweite", "autonomie", "autonomia", "飞", "航程"}) ||
          IsOneOf(text, {"range", "trip", "nonstop", "non stop", "goes", "go", "away"});
 }
 
 /// What a radio, a camera or a survey reaches is no journey.
 bool SaysOtherReach(const std::string& text) {
-  return StartsAny(text, {"radio", "telemetry", "video", "transmission", "transmit", "link", "control", "elrs",
-                          "crossfire", "signal", "antenna", "lidar", "remote", "laser", "rangefinder", "receiver",
-                          "lora", "detection", "radar", "day", "week", "month", "year", "total", "battery swap"}) ||
+  return StartsAny(text, {"radio",  "telemetry", "video", "transmission", "transmit", "link",        "control",     "elrs", "crossfire",
+                          "signal", "antenna",   "lidar", "remote",       "laser",    "rangefinder", "receiver",    "lora", "detection",
+                          "radar",  "day",       "week",  "month",        "year",     "total",       "battery swap"}) ||
          IsOneOf(text, {"rc", "o3", "o4", "rx", "tx", "vtx", "fpv", "lte", "4g", "5g", "per", "swaps"});
 }
 
@@ -49,10 +49,9 @@ bool Reader::ReadDistance(const Quantity& q) {
   if (metres < 1000 || HasNear(q, SaysOtherReach)) return false;
   const bool high = HasNear(q, SaysAltitude);
   // So far that its verb may stand anywhere: "from London to New York nonstop (5,500 km)".
-  const bool journey = HasNear(q, SaysJourney) ||
-                       (metres >= 300e3 && std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) {
-                          return StartsAny(token.text, {"flies", "fly", "nonstop", "cross"});
-                        }));
+  const bool journey = HasNear(q, SaysJourney) || (metres >= 300e3 && std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) {
+                                                     return StartsAny(token.text, {"flies", "fly", "nonstop", "cross"});
+                                                   }));
   if (!high && !journey) return false;
   Field& field = high ? request_.altitude : request_.range;
   if (field.value_or(0) < metres) {
@@ -89,8 +88,8 @@ double Reader::PacksInParallel(const Quantity& q) const {
       if (counts) return tokens_[m].value;
     }
   }
-  while (k > 0 && (Is(k - 1, WordKind::kCells) || Is(k - 1, WordKind::kBattery) || Is(k - 1, WordKind::kLithiumIon) ||
-                   SaysLittle(k - 1) || (tokens_[k - 1].kind == Token::Kind::kNumber && Is(k, WordKind::kCells))))
+  while (k > 0 && (Is(k - 1, WordKind::kCells) || Is(k - 1, WordKind::kBattery) || Is(k - 1, WordKind::kLithiumIon) || SaysLittle(k - 1) ||
+                   (tokens_[k - 1].kind == Token::Kind::kNumber && Is(k, WordKind::kCells))))
     --k;
   // "2x 16000 mAh", "5000 mAh x2": packs that are counted so fly together.
   const bool times = k > 1 && Is(k - 1, WordKind::kTimes) && tokens_[k - 2].kind == Token::Kind::kNumber;

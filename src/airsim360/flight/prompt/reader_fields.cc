@@ -16,15 +16,14 @@ std::string Spoken(std::string name) {
 
 /// Whether a noun can have a figure in such a unit at all: masses have no length, speeds no mass.
 bool CanHave(WordKind noun, WordKind unit) {
-  const bool timed = noun == WordKind::kHover || noun == WordKind::kFlight || noun == WordKind::kSpeed ||
-                     noun == WordKind::kThrustRatio;
+  const bool timed = noun == WordKind::kHover || noun == WordKind::kFlight || noun == WordKind::kSpeed || noun == WordKind::kThrustRatio;
   if (unit == WordKind::kLengthUnit) {
-    return !timed && noun != WordKind::kMass && noun != WordKind::kEmpty && noun != WordKind::kPayload &&
-           noun != WordKind::kWind && noun != WordKind::kBare && noun != WordKind::kThrust;
+    return !timed && noun != WordKind::kMass && noun != WordKind::kEmpty && noun != WordKind::kPayload && noun != WordKind::kWind &&
+           noun != WordKind::kBare && noun != WordKind::kThrust;
   }
   if (unit != WordKind::kMassUnit) return true;
-  return !timed && noun != WordKind::kWheelbase && noun != WordKind::kAcross && noun != WordKind::kPitch &&
-         noun != WordKind::kArm && noun != WordKind::kThing;
+  return !timed && noun != WordKind::kWheelbase && noun != WordKind::kAcross && noun != WordKind::kPitch && noun != WordKind::kArm &&
+         noun != WordKind::kThing;
 }
 
 constexpr size_t kPhrase = 7;  // tokens on either side that a noun is looked for
@@ -46,8 +45,7 @@ void Reader::Set(const FieldRange& range, Field& field, double value, const std:
   field = value;
   request_.words[range.name] = words;
   if (spanning_ != nullptr && spanning_->high > 0)
-    request_.ranges[range.name] = {value * spanning_->low / spanning_->value,
-                                   value * spanning_->high / spanning_->value};
+    request_.ranges[range.name] = {value * spanning_->low / spanning_->value, value * spanning_->high / spanning_->value};
 }
 
 void Reader::CorrectWith(const char* name, Field& field, size_t i) {
@@ -79,8 +77,7 @@ void Reader::SumUp(const char* name, Field& field, const Quantity& q) {
   const size_t next = q.last + 1;
   if (!field || next >= tokens_.size() || q.value <= *field) return;
   const std::string& text = tokens_[next].text;
-  if (text != "in all" && text != "altogether" && text != "all together" && text != "in total" && text != "total")
-    return;
+  if (text != "in all" && text != "altogether" && text != "all together" && text != "in total" && text != "total") return;
   Decide("'" + q.words + "' is the sum of '" + request_.words[name] + "'");
   field.reset();
   request_.words.erase(name);
@@ -100,8 +97,7 @@ bool Reader::EndsPhrase(size_t i) const {
 }
 
 bool Reader::SaysLittle(size_t i) const {
-  return Is(i, WordKind::kFiller) || Is(i, WordKind::kTo) || Is(i, WordKind::kAtMost) ||
-         tokens_[i].kind == Token::Kind::kDash;
+  return Is(i, WordKind::kFiller) || Is(i, WordKind::kTo) || Is(i, WordKind::kAtMost) || tokens_[i].kind == Token::Kind::kDash;
 }
 
 /// Nouns that a number can belong to.
@@ -125,9 +121,8 @@ size_t Reader::LabelInParentheses(size_t open) const {
   for (size_t i = open + 1; i < tokens_.size() && i < open + 6; ++i) {
     if (tokens_[i].text == ")") return found;
     if (tokens_[i].kind == Token::Kind::kNumber || tokens_[i].kind == Token::Kind::kComma) return kNone;
-    const bool label = Is(i, WordKind::kBare) || Is(i, WordKind::kEmpty) || Is(i, WordKind::kMass) ||
-                       Is(i, WordKind::kWheelbase) || Is(i, WordKind::kHover) ||
-                       Is(i, WordKind::kPropeller) ||
+    const bool label = Is(i, WordKind::kBare) || Is(i, WordKind::kEmpty) || Is(i, WordKind::kMass) || Is(i, WordKind::kWheelbase) ||
+                       Is(i, WordKind::kHover) || Is(i, WordKind::kPropeller) ||
                        (Is(i, WordKind::kPayload) && tokens_[i].text.starts_with("payload"));
     if (label && found == kNone && !claimed_[i]) found = i;
   }
@@ -136,8 +131,7 @@ size_t Reader::LabelInParentheses(size_t open) const {
 
 size_t Reader::NounAfter(const Quantity& q) const {
   size_t found = kNone;
-  if (const size_t label = LabelInParentheses(q.last + 1);
-      label != kNone && q.unit && CanHave(WordAt(label)->kind, q.unit->kind))
+  if (const size_t label = LabelInParentheses(q.last + 1); label != kNone && q.unit && CanHave(WordAt(label)->kind, q.unit->kind))
     return label;
   for (size_t i = q.last + 1; i < tokens_.size() && i <= q.last + kPhrase; ++i) {
     if (tokens_[i].text == "(" && i == q.last + 1) {  // "5 lb (2.27 kg) payload"
@@ -157,30 +151,25 @@ size_t Reader::NounAfter(const Quantity& q) const {
     if (found != kNone && SaysLittle(i) && kind != Token::Kind::kDash) break;
     // "a 2 kg quad carrying ..." goes on with something else.
     const std::string& text = tokens_[i].text;
-    const bool verb = (Is(i, WordKind::kPayload) || Is(i, WordKind::kMass) || Is(i, WordKind::kHover) ||
-                       Is(i, WordKind::kWind)) &&
-                      (text.ends_with("ing") || text.ends_with("s") || text == "carry") &&
-                      !text.ends_with("payloads") && !text.ends_with("mass");
+    const bool verb = (Is(i, WordKind::kPayload) || Is(i, WordKind::kMass) || Is(i, WordKind::kHover) || Is(i, WordKind::kWind)) &&
+                      (text.ends_with("ing") || text.ends_with("s") || text == "carry") && !text.ends_with("payloads") &&
+                      !text.ends_with("mass");
     if (verb && found != kNone) break;
     if (!Claims(i) || claimed_[i]) continue;
     if (WordAt(i) && q.unit && !CanHave(WordAt(i)->kind, q.unit->kind)) break;
     // "A 1.5 kg parachute: climb, drop"
-    if (found != kNone && Is(found, WordKind::kLoad) && Is(i, WordKind::kElse) && q.unit &&
-        q.unit->kind == WordKind::kMassUnit)
-      break;
+    if (found != kNone && Is(found, WordKind::kLoad) && Is(i, WordKind::kElse) && q.unit && q.unit->kind == WordKind::kMassUnit) break;
     // "4 kg payload 1 kg": the noun is of the number after it, which has no other.
     size_t own = i + 1;
     while (own < tokens_.size() && SaysLittle(own)) ++own;
-    if (own + 1 < tokens_.size() && tokens_[own].kind == Token::Kind::kNumber && q.unit &&
-        Is(own + 1, q.unit->kind) &&
+    if (own + 1 < tokens_.size() && tokens_[own].kind == Token::Kind::kNumber && q.unit && Is(own + 1, q.unit->kind) &&
         (verb || own + 2 >= tokens_.size() || EndsPhrase(own + 2) || tokens_[own + 2].kind == Token::Kind::kNumber))
       break;
     found = i;
     // These say for certain; of other nouns the last is the head: "249 g camera drone".
     const Word* word = WordAt(i);
-    if (word &&
-        (word->kind == WordKind::kMass || word->kind == WordKind::kPayload ||
-         word->kind == WordKind::kEmpty || word->kind == WordKind::kElse || word->kind == WordKind::kBare))
+    if (word && (word->kind == WordKind::kMass || word->kind == WordKind::kPayload || word->kind == WordKind::kEmpty ||
+                 word->kind == WordKind::kElse || word->kind == WordKind::kBare))
       break;
   }
   return found;
@@ -218,7 +207,8 @@ size_t Reader::Apposed(const Quantity& q) const {
   if (Is(close, WordKind::kBreak) && tokens_[close].text == "with" && Is(close + 1, WordKind::kLoad)) close += 2;
   if (close < tokens_.size() && tokens_[close].kind != Token::Kind::kComma) return kNone;
   // "... and the nacelle (600 g)": a thing that the lexicon does not know is named right before.
-  const bool thing = open > 0 && q.unit->kind == WordKind::kMassUnit && tokens_[open - 1].kind == Token::Kind::kUnknown && IsThing(open - 1);
+  const bool thing =
+      open > 0 && q.unit->kind == WordKind::kMassUnit && tokens_[open - 1].kind == Token::Kind::kUnknown && IsThing(open - 1);
   if (thing) return kNone;
   bool carried = false;
   for (size_t i = 0; i < open; ++i) carried |= Is(i, WordKind::kPayload);
@@ -238,9 +228,7 @@ size_t Reader::VolumeBefore(const Quantity& q) const {
   size_t open = q.first;
   while (open-- > 0 && (SaysLittle(open) || Is(open, WordKind::kCorrection))) {
   }
-  if (open == kNone || tokens_[open].text != "(" || q.unit->kind != WordKind::kMassUnit ||
-      NounAfter(q) != kNone)
-    return kNone;
+  if (open == kNone || tokens_[open].text != "(" || q.unit->kind != WordKind::kMassUnit || NounAfter(q) != kNone) return kNone;
   for (size_t k = open; k-- > 1 && open - k < 6 && tokens_[k].kind != Token::Kind::kComma;) {
     if (Is(k, WordKind::kVolumeUnit)) return k - 1;
     if (tokens_[k].kind == Token::Kind::kNumber) return kNone;
@@ -266,18 +254,17 @@ bool Reader::IsTakenBack(const Quantity& q) const {
   size_t i = q.first;
   while (i-- > 0 && (tokens_[i].text == "a" || tokens_[i].text == "an" || tokens_[i].text == "the")) {
   }
-  return i != kNone && (tokens_[i].text == "not" || tokens_[i].text.starts_with("not a") ||
-                        tokens_[i].text.starts_with("instead of") || tokens_[i].text.starts_with("rather than"));
+  return i != kNone && (tokens_[i].text == "not" || tokens_[i].text.starts_with("not a") || tokens_[i].text.starts_with("instead of") ||
+                        tokens_[i].text.starts_with("rather than"));
 }
 
 size_t Reader::OwnerOfDiameter(const Quantity& q) const {
   const auto owns = [&](size_t i) {
     const Word* word = WordAt(i);
     if (word == nullptr) return tokens_[i].kind == Token::Kind::kModel;
-    return word->kind == WordKind::kPropeller || word->kind == WordKind::kRotorNoun ||
-           word->kind == WordKind::kBlades || word->kind == WordKind::kArm || word->kind == WordKind::kFrame ||
-           word->kind == WordKind::kDrone || word->kind == WordKind::kRotors || word->kind == WordKind::kLoad ||
-           word->kind == WordKind::kWheelbase;
+    return word->kind == WordKind::kPropeller || word->kind == WordKind::kRotorNoun || word->kind == WordKind::kBlades ||
+           word->kind == WordKind::kArm || word->kind == WordKind::kFrame || word->kind == WordKind::kDrone ||
+           word->kind == WordKind::kRotors || word->kind == WordKind::kLoad || word->kind == WordKind::kWheelbase;
   };
   for (size_t i = q.first; i-- > 0 && q.first - i <= kPhrase;) {
     const bool each = i + 1 < tokens_.size() && tokens_[i + 1].text == "each";

@@ -29,8 +29,8 @@ bool Reader::IsMotorName(size_t i) const {
     const std::string& text = tokens_[k].text;
     if (IsOneOf(text, {"hobbywing", "xrotor", "tmotor", "motor", "motors"})) return true;
     if (tokens_[k].kind == Token::Kind::kNumber && i - k <= 2 && tokens_[k].value >= 4 && tokens_[k].value <= 8) {
-      const bool kv = i + 2 < tokens_.size() && (Is(i + 1, WordKind::kKvUnit) || Is(i + 2, WordKind::kKvUnit) ||
-                                                 Is(i + 3, WordKind::kKvUnit));
+      const bool kv =
+          i + 2 < tokens_.size() && (Is(i + 1, WordKind::kKvUnit) || Is(i + 2, WordKind::kKvUnit) || Is(i + 3, WordKind::kKvUnit));
       return kv || Is(i + 1, WordKind::kMotor);
     }
     if (tokens_[k].kind != Token::Kind::kUnknown && !Is(k, WordKind::kTimes)) return false;
@@ -44,10 +44,10 @@ bool Reader::ReadPower(const Quantity& q) {
   const bool kilo = unit == "kw";
   if (!kilo && unit != "w" && unit != "watt" && unit != "watts") return false;
   bool hover = false;
-  const auto look = [&](size_t k) {
-    hover |= Is(k, WordKind::kHover);
-  };
-  for (size_t k = q.first; k-- > 0 && q.first - k <= 10 && tokens_[k].kind != Token::Kind::kComma && tokens_[k].kind != Token::Kind::kNumber;) look(k);
+  const auto look = [&](size_t k) { hover |= Is(k, WordKind::kHover); };
+  for (size_t k = q.first;
+       k-- > 0 && q.first - k <= 10 && tokens_[k].kind != Token::Kind::kComma && tokens_[k].kind != Token::Kind::kNumber;)
+    look(k);
   for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 4 && !EndsPhrase(k) && tokens_[k].kind != Token::Kind::kNumber; ++k)
     look(k);
   if (!hover || power_) return false;
@@ -77,14 +77,12 @@ bool Reader::ReadAxes(const Quantity& q) {
 
 /// Whether a voltage stands beside what is said of the battery: "4S 22.2 V 5000 mAh lipo".
 bool Reader::IsOfBattery(const Quantity& q) const {
-  const auto of_battery = [&](size_t k) {
-    return Is(k, WordKind::kCells) || Is(k, WordKind::kCapacityUnit) || Is(k, WordKind::kBattery);
-  };
+  const auto of_battery = [&](size_t k) { return Is(k, WordKind::kCells) || Is(k, WordKind::kCapacityUnit) || Is(k, WordKind::kBattery); };
   // "6S battery, 11.1 V": a voltage that packs have reaches over the comma.
   const double cells = q.value / kNominalCell, full = q.value / 4.2;
   const bool of_pack = std::abs(cells - std::round(cells)) < 0.02 || std::abs(full - std::round(full)) < 0.02;
-  for (size_t k = q.first; k-- > 0 && q.first - k <= 4 && (of_pack || tokens_[k].text != ",") && tokens_[k].text != "." &&
-                            !IsDroneWord(k);) {
+  for (size_t k = q.first;
+       k-- > 0 && q.first - k <= 4 && (of_pack || tokens_[k].text != ",") && tokens_[k].text != "." && !IsDroneWord(k);) {
     if (of_battery(k)) return true;
   }
   for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 4 && !(EndsPhrase(k) && tokens_[k].text != "("); ++k) {
@@ -98,8 +96,8 @@ void Reader::CheckLoadOfModel() const {
   constexpr double kMostLoads = 5;
   if (model_ == nullptr || !request_.payload || request_.mass || request_.empty_mass) return;
   if (*request_.payload <= kMostLoads * model_->mass) return;
-  throw InputError("no drone fits the description: '" + request_.words.at("payload") + "' are more than " +
-                   std::string(model_->title) + ", which weighs " + Number(model_->mass) + " kg, can lift");
+  throw InputError("no drone fits the description: '" + request_.words.at("payload") + "' are more than " + std::string(model_->title) +
+                   ", which weighs " + Number(model_->mass) + " kg, can lift");
 }
 
 void Reader::CheckVoltage() const {
@@ -133,14 +131,13 @@ void Reader::CheckTips() const {
 
 void Reader::CheckPower() const {
   if (!power_) return;
-  const double energy =
-      request_.energy_wh.value_or(request_.capacity_ah.value_or(0) * kNominalCell * request_.cells.value_or(0));
+  const double energy = request_.energy_wh.value_or(request_.capacity_ah.value_or(0) * kNominalCell * request_.cells.value_or(0));
   const double time = request_.hover_time.value_or(request_.flight_time.value_or(0));
   const double needed = power_->value * time / 3600;
   if (energy > 0 && needed > 1.05 * energy) {
     const char* said = request_.hover_time ? "hover_time" : "flight_time";
-    throw InputError("no drone fits the description: '" + power_->words + "' for '" + request_.words.at(said) +
-                     "' take " + Number(needed) + " Wh, and the battery holds " + Number(energy) + " Wh");
+    throw InputError("no drone fits the description: '" + power_->words + "' for '" + request_.words.at(said) + "' take " + Number(needed) +
+                     " Wh, and the battery holds " + Number(energy) + " Wh");
   }
   if (!request_.mass || !request_.propeller || request_.facts.count("mass") || request_.facts.count("propeller")) return;
   // Actuator disc: no rotor hovers with less.
@@ -149,8 +146,7 @@ void Reader::CheckPower() const {
   const double least = std::sqrt(std::pow(*request_.mass * kGravityHere, 3) / (2 * kAirDensity * disc));
   if (power_->value >= least) return;
   throw InputError("no drone fits the description: '" + request_.words.at("mass") + "' on propellers of '" +
-                   request_.words.at("propeller") + "' hover with " + Number(least) + " W at least, not with '" +
-                   power_->words + "'");
+                   request_.words.at("propeller") + "' hover with " + Number(least) + " W at least, not with '" + power_->words + "'");
 }
 
 /// Generators on the propellers give back less than they take.
@@ -161,13 +157,12 @@ void Reader::RefuseFreeEnergy() const {
     generator |= text.starts_with("generator") || text.starts_with("dynamo") || text.starts_with("alternator") ||
                  text.starts_with("windmill") || text.starts_with("generador") || text.starts_with("generateur") ||
                  text.starts_with("lichtmaschine");
-    on_board |= Is(i, WordKind::kBare) || text.starts_with("recharg") || text.starts_with("charg") ||
-                text == "themselves" || text == "itself" ||
-                (Is(i, WordKind::kNoMultirotor) && tokens_[i].word->meaning == "an endless flight");
+    on_board |= Is(i, WordKind::kBare) || text.starts_with("recharg") || text.starts_with("charg") || text == "themselves" ||
+                text == "itself" || (Is(i, WordKind::kNoMultirotor) && tokens_[i].word->meaning == "an endless flight");
   }
   const bool fuel = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) {
-    return token.text.starts_with("petrol") || token.text.starts_with("gasoline") || token.text == "hybrid" ||
-           token.text == "fuel" || token.text == "ground" || token.text == "diesel";
+    return token.text.starts_with("petrol") || token.text.starts_with("gasoline") || token.text == "hybrid" || token.text == "fuel" ||
+           token.text == "ground" || token.text == "diesel";
   });
   if (!generator || !on_board || fuel) return;
   throw InputError(

@@ -17,15 +17,12 @@ size_t Reader::WeighedThing(const Quantity& q, size_t noun) const {
   if (noun == kNone && tokens_[before].text == "at" && Is(before - 1, WordKind::kLoad)) return before - 1;
   if (noun == kNone && tokens_[before].text == ",") {
     size_t loads = 0;
-    for (size_t k = before; k-- > 0 && tokens_[k].kind != Token::Kind::kComma;)
-      loads += Is(k, WordKind::kLoad);
+    for (size_t k = before; k-- > 0 && tokens_[k].kind != Token::Kind::kComma;) loads += Is(k, WordKind::kLoad);
     const double known = known_load_.value_or(0);
-    if (loads > 1 && Is(before - 1, WordKind::kLoad) && q.value > 0.8 * known && q.value < 5 * known)
-      return before - 1;
+    if (loads > 1 && Is(before - 1, WordKind::kLoad) && q.value > 0.8 * known && q.value < 5 * known) return before - 1;
   }
   const std::string& who = tokens_[before - 1].text;
-  if (noun != before || !Is(before, WordKind::kMass) || (who != "he" && who != "she" && who != "they"))
-    return kNone;
+  if (noun != before || !Is(before, WordKind::kMass) || (who != "he" && who != "she" && who != "they")) return kNone;
   for (size_t k = before; k-- > 0;) {
     if (Is(k, WordKind::kPayload) && !claimed_[k]) return k;
   }
@@ -35,8 +32,8 @@ size_t Reader::WeighedThing(const Quantity& q, size_t noun) const {
 /// "AUW", "total": words that say the mass of the whole drone, whatever stands before them.
 bool Reader::IsWhole(size_t noun) const {
   const std::string& text = tokens_[noun].text;
-  for (const char* part : {"total", "all", "auw", "tow", "mto", "take", "gross", "fly", "flight", "launch",
-                           "loaded", "rtf", "abflug", "start", "decoll", "despeg", "gesamt"}) {
+  for (const char* part : {"total", "all", "auw", "tow", "mto", "take", "gross", "fly", "flight", "launch", "loaded", "rtf", "abflug",
+                           "start", "decoll", "despeg", "gesamt"}) {
     if (text.find(part) != std::string::npos) return true;
   }
   return false;
@@ -55,16 +52,13 @@ size_t Reader::WholeBefore(const Quantity& q) const {
   for (size_t k = q.first; k-- > 0 && q.first - k <= 10;) {
     const std::string& text = tokens_[k].text;
     if (Is(k, WordKind::kMassUnit) && used_[k]) return kNone;  // the whole has its mass: this is what it includes
-    if (Is(k, WordKind::kMass) && text.find("battery") == std::string::npos)
-      return includes && !claimed_[k] ? k : kNone;
+    if (Is(k, WordKind::kMass) && text.find("battery") == std::string::npos) return includes && !claimed_[k] ? k : kNone;
     includes |= Is(k, WordKind::kMass) && (MeansIncluding(text) || text.starts_with("incl") || text.starts_with("with"));
-    includes |=
-        Is(k, WordKind::kBreak) && (text == "with" || text == "w" || text.starts_with("incl") || text == "&");
-    const bool thing = Is(k, WordKind::kLoad) || Is(k, WordKind::kBattery) || Is(k, WordKind::kLithiumIon) ||
-                       Is(k, WordKind::kMass) || Is(k, WordKind::kRotors) || Is(k, WordKind::kDrone) ||
-                       tokens_[k].kind == Token::Kind::kUnknown || SaysLittle(k) ||
-                       includes || text == "and" || text == "+" || text == "/" || text == "(" ||
-                       text == ")" || (text == "." && k > 0 && tokens_[k - 1].text == "incl");
+    includes |= Is(k, WordKind::kBreak) && (text == "with" || text == "w" || text.starts_with("incl") || text == "&");
+    const bool thing = Is(k, WordKind::kLoad) || Is(k, WordKind::kBattery) || Is(k, WordKind::kLithiumIon) || Is(k, WordKind::kMass) ||
+                       Is(k, WordKind::kRotors) || Is(k, WordKind::kDrone) || tokens_[k].kind == Token::Kind::kUnknown || SaysLittle(k) ||
+                       includes || text == "and" || text == "+" || text == "/" || text == "(" || text == ")" ||
+                       (text == "." && k > 0 && tokens_[k - 1].text == "incl");
     if (!thing) return kNone;
   }
   return kNone;
@@ -79,8 +73,8 @@ size_t Reader::NounOfMass(const Quantity& q) const {
   const auto is_label = [&](size_t noun) {
     if (noun == kNone) return false;
     const WordKind kind = kind_of(noun);
-    return kind == WordKind::kMass || kind == WordKind::kPayload || kind == WordKind::kEmpty ||
-           kind == WordKind::kBattery || kind == WordKind::kBare;
+    return kind == WordKind::kMass || kind == WordKind::kPayload || kind == WordKind::kEmpty || kind == WordKind::kBattery ||
+           kind == WordKind::kBare;
   };
   if (const size_t bare = BareInParentheses(q); bare != kNone) return bare;
   size_t noun = NounBefore(q, true);
@@ -106,8 +100,7 @@ size_t Reader::NounOfMass(const Quantity& q) const {
       owned = true;
     }
   }
-  const bool says_empty =
-      after != kNone && (kind_of(after) == WordKind::kEmpty || kind_of(after) == WordKind::kBare);
+  const bool says_empty = after != kNone && (kind_of(after) == WordKind::kEmpty || kind_of(after) == WordKind::kBare);
   if (const size_t whole = WholeBefore(q); whole != kNone && !says_empty) return whole;
   // "3 kilos all in incl. a 500 g payload": what is included has its own noun.
   for (size_t k = q.first; noun != kNone && noun < q.first && k-- > noun + 1;) {
@@ -125,9 +118,7 @@ size_t Reader::NounOfMass(const Quantity& q) const {
   }
   if (const size_t owner = WeighedThing(q, noun); owner != kNone) noun = owner;
   // "quadricoptere camera: 900 g" is a camera drone, in the order of Romance languages.
-  if (noun != kNone && noun > 0 && noun < q.first && Is(noun, WordKind::kLoad) &&
-      Is(noun - 1, WordKind::kRotors))
-    return kNone;
+  if (noun != kNone && noun > 0 && noun < q.first && Is(noun, WordKind::kLoad) && Is(noun - 1, WordKind::kRotors)) return kNone;
   return noun;
 }
 
@@ -165,10 +156,9 @@ void Reader::ReadMass(const Quantity& q) {
   if (IsTaken(q) && !request_.payload) return SetThing(q);
   const size_t noun = NounOfMass(q);
   const auto kind_of = [&](size_t noun) { return WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone; };
-  const bool thing = noun == kNone && q.first > 0 && q.last + 1 < tokens_.size() &&
-                     tokens_[q.last + 1].kind == Token::Kind::kUnknown && !MeansDrone(tokens_[q.last + 1].text) &&
-                     (tokens_[q.first - 1].text == "a" || tokens_[q.first - 1].text == "an") && q.first > 1 &&
-                     Is(q.first - 2, WordKind::kBreak);
+  const bool thing = noun == kNone && q.first > 0 && q.last + 1 < tokens_.size() && tokens_[q.last + 1].kind == Token::Kind::kUnknown &&
+                     !MeansDrone(tokens_[q.last + 1].text) && (tokens_[q.first - 1].text == "a" || tokens_[q.first - 1].text == "an") &&
+                     q.first > 1 && Is(q.first - 2, WordKind::kBreak);
   const FieldRange payload{"payload", 0.0005, 1000, "kg"};
   // "a 300 g frame quad, 2 kg"
   if (noun != kNone && noun > q.last && Is(q.last + 1, WordKind::kFrame) && Is(noun, WordKind::kRotors))
@@ -176,25 +166,21 @@ void Reader::ReadMass(const Quantity& q) {
   if (VolumeBefore(q) != kNone && !request_.payload) return Set(payload, request_.payload, q.value, q.words);
   // "8 kilos of mix" are carried; "3 kg + 1 kg payload" are 4 kg in all.
   const size_t next = q.last + 1;
-  const bool of_thing = noun == kNone && next + 1 < tokens_.size() && tokens_[next].text == "of" &&
-                        tokens_[next + 1].kind == Token::Kind::kUnknown;
+  const bool of_thing =
+      noun == kNone && next + 1 < tokens_.size() && tokens_[next].text == "of" && tokens_[next + 1].kind == Token::Kind::kUnknown;
   const auto follows = [&](size_t k, std::initializer_list<const char*> words) {
-    return k < tokens_.size() &&
-           std::any_of(words.begin(), words.end(), [&](const char* word) { return tokens_[k].text == word; });
+    return k < tokens_.size() && std::any_of(words.begin(), words.end(), [&](const char* word) { return tokens_[k].text == word; });
   };
   // "5.5 kg on the hook", "65 lb of cargo", "cargo 3 kg", "3 kg cargo, ..."
   const bool ends = next + 1 >= tokens_.size() || tokens_[next + 1].kind == Token::Kind::kComma;
-  const bool hung =
-      (follows(next, {"on"}) && (follows(next + 1, {"hook"}) || follows(next + 2, {"hook", "sling"}))) ||
-      (follows(next, {"of"}) && follows(next + 1, {"cargo", "freight"})) ||
-      (ends && follows(next, {"cargo", "freight"})) ||
-      (q.first > 0 && follows(q.first - 1, {"cargo", "freight", "charge"}));
+  const bool hung = (follows(next, {"on"}) && (follows(next + 1, {"hook"}) || follows(next + 2, {"hook", "sling"}))) ||
+                    (follows(next, {"of"}) && follows(next + 1, {"cargo", "freight"})) || (ends && follows(next, {"cargo", "freight"})) ||
+                    (q.first > 0 && follows(q.first - 1, {"cargo", "freight", "charge"}));
   if ((of_thing || hung) && !request_.payload) return Set(payload, request_.payload, q.value, q.words);
-  const bool added =
-      (noun == kNone || kind_of(noun) == WordKind::kMass || kind_of(noun) == WordKind::kDrone) &&
-      next + 3 < tokens_.size() && (tokens_[next].text == "+" || tokens_[next].text == "plus") &&
-      tokens_[next + 1].kind == Token::Kind::kNumber && Is(next + 2, WordKind::kMassUnit) &&
-      Is(next + 3, WordKind::kPayload);
+  const bool added = (noun == kNone || kind_of(noun) == WordKind::kMass || kind_of(noun) == WordKind::kDrone) &&
+                     next + 3 < tokens_.size() && (tokens_[next].text == "+" || tokens_[next].text == "plus") &&
+                     tokens_[next + 1].kind == Token::Kind::kNumber && Is(next + 2, WordKind::kMassUnit) &&
+                     Is(next + 3, WordKind::kPayload);
   if (added) return Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
   if ((!IsLoaded(q) || IsApposedToThing(q)) && IsOfThing(q, noun)) {
     if (noun != kNone && !Is(noun, WordKind::kMass)) Use(noun);
@@ -213,8 +199,7 @@ bool Reader::IsLoaded(const Quantity& q) const {
   if (k >= tokens_.size() || (tokens_[k].text != "with" && tokens_[k].text != "w")) return false;
   while (++k < tokens_.size() && SaysLittle(k)) {
   }
-  return (Is(k, WordKind::kLoad) || Is(k, WordKind::kPayload)) &&
-         !(k + 1 < tokens_.size() && !EndsPhrase(k + 1));
+  return (Is(k, WordKind::kLoad) || Is(k, WordKind::kPayload)) && !(k + 1 < tokens_.size() && !EndsPhrase(k + 1));
 }
 
 /// "Weighs 2.4 kg, 3 kg with camera": the first is the mass without payload.
@@ -273,8 +258,8 @@ void Reader::FinishBareMass() {
 void Reader::SetMassOf(size_t noun, const Quantity& q) {
   const FieldRange payload{"payload", 0.0005, 1000, "kg"};
   const WordKind kind = WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone;
-  if (kind == WordKind::kElse || kind == WordKind::kMotor || kind == WordKind::kPropeller ||
-      kind == WordKind::kFrame || kind == WordKind::kWind)
+  if (kind == WordKind::kElse || kind == WordKind::kMotor || kind == WordKind::kPropeller || kind == WordKind::kFrame ||
+      kind == WordKind::kWind)
     return kind == WordKind::kElse ? (++unexplained_, NameElse(q, noun))
                                    : loose_masses_.push_back({q, false, kind != WordKind::kWind, false, CountOfParts(q)});
   // A drone has other figures besides.
@@ -387,8 +372,7 @@ bool Reader::IsSumOf(double whole, double own) const {
 void Reader::SumUpMass(const Quantity& q) {
   bool so = false;
   for (size_t k = q.first; k-- > 0 && q.first - k <= 6;)
-    so |= tokens_[k].text == "so" || tokens_[k].text == "makes" || tokens_[k].text == "then" ||
-          tokens_[k].text == "=";
+    so |= tokens_[k].text == "so" || tokens_[k].text == "makes" || tokens_[k].text == "then" || tokens_[k].text == "=";
   if (!so || !request_.mass || q.value <= *request_.mass) return;
   Decide("'" + q.words + "' is the sum of '" + request_.words["mass"] + "' and what is added");
   request_.mass.reset();
@@ -401,8 +385,7 @@ void Reader::FinishOwnMass() {
   if (!request_.mass || !request_.payload || whole_said_ || request_.empty_mass) return;
   if (*request_.payload <= 0.6 * *request_.mass || *request_.payload > *request_.mass) return;
   const std::string words = request_.words["mass"];
-  Decide("'" + words + "' is read as the mass without payload, for '" + request_.words["payload"] +
-         "' is most of it");
+  Decide("'" + words + "' is read as the mass without payload, for '" + request_.words["payload"] + "' is most of it");
   request_.empty_mass = request_.mass;
   request_.words["empty_mass"] = words;
   request_.mass.reset();

@@ -31,8 +31,8 @@ size_t Reader::Beside(size_t i, WordKind kind, bool after) const {
     const bool blades = after && tokens_[k].kind == Token::Kind::kNumber && (Is(k + 1, WordKind::kBlades) || Is(k + 2, WordKind::kBlades));
     if (tokens_[k].kind == Token::Kind::kNumber && !blades) break;  // "5051 3-blade propellers"
     if (Is(k, kind)) return k;
-    const bool goes_on = blades || Is(k, WordKind::kBlades) || SaysLittle(k) || tokens_[k].kind == Token::Kind::kUnknown || Is(k, WordKind::kBrushless) ||
-                         Is(k, WordKind::kSize);
+    const bool goes_on = blades || Is(k, WordKind::kBlades) || SaysLittle(k) || tokens_[k].kind == Token::Kind::kUnknown ||
+                         Is(k, WordKind::kBrushless) || Is(k, WordKind::kSize);
     if (!goes_on) break;
   }
   return kNone;
@@ -52,24 +52,21 @@ void Reader::ReadCode(size_t i) {
 /// "KDE4215XF-465", "2207-1950": the KV that is written onto the name or the stator of a motor.
 bool Reader::ReadMotorCode(size_t i) {
   const double value = tokens_[i].value;
-  if (i < 2 || request_.motor_kv || !tokens_[i].glued || value < 50 || value > 30000 || value != std::floor(value))
-    return false;
+  if (i < 2 || request_.motor_kv || !tokens_[i].glued || value < 50 || value > 30000 || value != std::floor(value)) return false;
   const bool onto = tokens_[i - 1].kind == Token::Kind::kDash || tokens_[i - 1].text == "/";
   const Token& name = tokens_[i - 2];
-  if (!onto || !tokens_[i - 1].glued || (i + 1 < tokens_.size() && WordAt(i + 1) &&
-                                         WordAt(i + 1)->kind >= WordKind::kMassUnit &&
-                                         WordAt(i + 1)->kind <= WordKind::kOtherUnit))
+  if (!onto || !tokens_[i - 1].glued ||
+      (i + 1 < tokens_.size() && WordAt(i + 1) && WordAt(i + 1)->kind >= WordKind::kMassUnit &&
+       WordAt(i + 1)->kind <= WordKind::kOtherUnit))
     return false;
-  const size_t digits = static_cast<size_t>(std::count_if(name.text.begin(), name.text.end(),
-                                                          [](char c) { return c >= '0' && c <= '9'; }));
+  const size_t digits = static_cast<size_t>(std::count_if(name.text.begin(), name.text.end(), [](char c) { return c >= '0' && c <= '9'; }));
   const bool coded = name.kind == Token::Kind::kUnknown && digits >= 3 && digits < name.text.size();
   const bool stator = name.kind == Token::Kind::kNumber && IsStator(name.value) && used_[i - 2];
   // "3510XF-475"
   const bool lettered = name.kind == Token::Kind::kUnknown && name.glued && name.text.size() <= 3 && i > 2 &&
                         tokens_[i - 3].kind == Token::Kind::kNumber && IsStator(tokens_[i - 3].value);
   if (!coded && !stator && !lettered) return false;
-  Decide("'" + name.text + tokens_[i - 1].text + tokens_[i].text + "' is read as a motor of " + tokens_[i].text +
-         " KV");
+  Decide("'" + name.text + tokens_[i - 1].text + tokens_[i].text + "' is read as a motor of " + tokens_[i].text + " KV");
   Set({"motor_kv", 10, 50000, "rpm/V"}, request_.motor_kv, value, tokens_[i].text + " kv");
   return used_[i] = true;
 }
@@ -118,18 +115,15 @@ bool Reader::ReadPartNumber(size_t i) {
          (tokens_[next].text == "/" || tokens_[next].kind == Token::Kind::kDash || tokens_[next].text == ","))
     ++next;
   const bool kv = next + 1 < tokens_.size() && tokens_[next].kind == Token::Kind::kNumber &&
-                  (Is(next + 1, WordKind::kKvUnit) ||
-                   (tokens_[next + 1].kind == Token::Kind::kDash && Is(next + 2, WordKind::kKvUnit)));
-  const bool written_on = next == i + 2 && next < tokens_.size() && tokens_[next].kind == Token::Kind::kNumber &&
-                          tokens_[next].glued && IsStator(token.value) && tokens_[next - 1].text != "," &&
-                          tokens_[next].value >= 50;
+                  (Is(next + 1, WordKind::kKvUnit) || (tokens_[next + 1].kind == Token::Kind::kDash && Is(next + 2, WordKind::kKvUnit)));
+  const bool written_on = next == i + 2 && next < tokens_.size() && tokens_[next].kind == Token::Kind::kNumber && tokens_[next].glued &&
+                          IsStator(token.value) && tokens_[next - 1].text != "," && tokens_[next].value >= 50;
   // "1045, 1000 kv": no stator is as high as that.
   const bool stator = kv && (IsStator(token.value) || std::fmod(token.value, 100) < 40 || token.value > 9999);
   if (stator || written_on || Beside(i, WordKind::kMotor, true) != kNone) return used_[i] = true;
   double code[3];
-  const bool propeller =
-      Beside(i, WordKind::kPropeller, true) != kNone || Beside(i, WordKind::kPropeller, false) != kNone ||
-      Beside(i, WordKind::kBlades, true) != kNone;
+  const bool propeller = Beside(i, WordKind::kPropeller, true) != kNone || Beside(i, WordKind::kPropeller, false) != kNone ||
+                         Beside(i, WordKind::kBlades, true) != kNone;
   if (propeller && ReadPropellerFigures(token.text, code)) {
     Token read = token;
     std::copy(std::begin(code), std::end(code), std::begin(read.code));
@@ -146,19 +140,18 @@ bool Reader::ReadPartNumber(size_t i) {
 bool Reader::ReadCharge(size_t i) {
   const double value = tokens_[i].value;
   if (value < 100 || value > 99999) return false;
-  for (const WordKind kind : {WordKind::kRotors, WordKind::kFrame, WordKind::kSizeNoun, WordKind::kDrone,
-                              WordKind::kWheelbase, WordKind::kPropeller, WordKind::kMotor}) {
+  for (const WordKind kind : {WordKind::kRotors, WordKind::kFrame, WordKind::kSizeNoun, WordKind::kDrone, WordKind::kWheelbase,
+                              WordKind::kPropeller, WordKind::kMotor}) {
     if (Beside(i, kind, true) != kNone && value < 1000) return false;
   }
   size_t before = i;
-  while (before-- > 0 && (SaysLittle(before) || tokens_[before].text == "/" || Is(before, WordKind::kBattery) ||
-                          Is(before, WordKind::kLithiumIon))) {
+  while (before-- > 0 &&
+         (SaysLittle(before) || tokens_[before].text == "/" || Is(before, WordKind::kBattery) || Is(before, WordKind::kLithiumIon))) {
     if (Is(before, WordKind::kBattery)) break;
   }
   if (before != kNone && before > 1 && Is(before, WordKind::kTimes) && tokens_[before - 1].value <= 8) before -= 2;  // "6S 2x 4500"
   const bool cells_before = before != kNone && Is(before, WordKind::kCells) && used_[before];
-  const bool cells_after = i + 2 < tokens_.size() && tokens_[i + 1].kind == Token::Kind::kNumber &&
-                           Is(i + 2, WordKind::kCells);
+  const bool cells_after = i + 2 < tokens_.size() && tokens_[i + 1].kind == Token::Kind::kNumber && Is(i + 2, WordKind::kCells);
   const bool battery = Is(i + 1, WordKind::kBattery) || (before != kNone && Is(before, WordKind::kBattery));
   if (!cells_before && !cells_after && !battery) return false;
   // "Battery 155" of a list of grams, beside "1500 mAh"
@@ -180,11 +173,13 @@ bool Reader::ReadBareMass(size_t i) {
   if (i + 1 < tokens_.size() && !EndsPhrase(i + 1)) return false;
   const std::vector<Quantity> masses = Masses();
   if (!IsWhole(noun) && !masses.empty()) return false;
-  const bool toy = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) { return token.text.find("whoop") != std::string::npos; });
+  const bool toy =
+      std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) { return token.text.find("whoop") != std::string::npos; });
   const Word* unit = FindWord(masses.empty() ? (value < 20 && !toy ? "kg" : "g") : tokens_[masses[0].last].text, false);
   if (unit == nullptr || value * unit->value < 0.01 || value * unit->value > 400) return false;
   used_[i] = true;
-  Decide("'" + tokens_[noun].text + " " + tokens_[i].text + "' is read in " + std::string(unit->value < 0.1 ? "grams" : "the unit of the masses"));
+  Decide("'" + tokens_[noun].text + " " + tokens_[i].text + "' is read in " +
+         std::string(unit->value < 0.1 ? "grams" : "the unit of the masses"));
   Use(noun);
   ReadMassAs(MassRole::kWhole, {i, i, value * unit->value, unit, tokens_[i].text});
   return true;
@@ -220,8 +215,8 @@ bool Reader::ReadLabelled(size_t i) {
   };
   if (ReadBareMass(i)) return true;
   const bool count = token.value == std::floor(token.value) && token.value < 41;
-  if (const size_t arms = label(WordKind::kArm); arms != kNone && token.Counts(12) && !arm_count_ && tokens_[arms].text == "arms" &&
-                                                  (i + 1 >= tokens_.size() || EndsPhrase(i + 1))) {
+  if (const size_t arms = label(WordKind::kArm);
+      arms != kNone && token.Counts(12) && !arm_count_ && tokens_[arms].text == "arms" && (i + 1 >= tokens_.size() || EndsPhrase(i + 1))) {
     Use(arms);
     used_[i] = true;
     SetArms(token.value, "arms " + token.text);
@@ -243,7 +238,9 @@ bool Reader::ReadLabelled(size_t i) {
   }
   for (const bool after : {false, true}) {
     const size_t noun = after ? Beside(i, WordKind::kPropeller, true) : label(WordKind::kPropeller);
-    if (noun == kNone || token.value < 1.2 || token.value > 60 || request_.propeller || tokens_[i + 1 < tokens_.size() ? i + 1 : i].text == "x") continue;
+    if (noun == kNone || token.value < 1.2 || token.value > 60 || request_.propeller ||
+        tokens_[i + 1 < tokens_.size() ? i + 1 : i].text == "x")
+      continue;
     if (after && (count && token.value < 9)) continue;
     Use(noun);
     used_[i] = true;
@@ -263,8 +260,9 @@ bool Reader::ReadDifference(const Quantity& q) {
   const auto begins = [&](std::initializer_list<const char*> words) {
     return std::any_of(words.begin(), words.end(), [&](const char* word) { return tokens_[k].text.starts_with(word); });
   };
-  const double sign = begins({"more", "extra", "additional", "heavier", "longer", "faster"})    ? 1
-                      : begins({"less", "lighter", "shorter", "slower", "fewer"}) ? -1 : 0;
+  const double sign = begins({"more", "extra", "additional", "heavier", "longer", "faster"}) ? 1
+                      : begins({"less", "lighter", "shorter", "slower", "fewer"})            ? -1
+                                                                                             : 0;
   const bool load = Is(k + 1, WordKind::kPayload) || Is(k + 1, WordKind::kLoad);
   if (sign == 0 || load) return false;
   const std::string words = q.words + " " + tokens_[k].text;
@@ -303,7 +301,7 @@ bool Reader::ReadComparison(size_t i, double factor, size_t last) {
     if (word == nullptr || word->kind == WordKind::kFiller || word->kind == WordKind::kTo) continue;
     const bool percent = Is(last, WordKind::kPercent);
     const bool compares = word->kind >= WordKind::kHeavier && word->kind <= WordKind::kFaster;
-    const double f = percent && !share ? 1 + (compares && word->value < 0 ? -factor : factor)
+    const double f = percent && !share                           ? 1 + (compares && word->value < 0 ? -factor : factor)
                      : compares && word->value < 0 && factor > 1 ? 1 / factor
                                                                  : factor;
     const std::string words = tokens_[i].text + (percent ? " % " : " ") + tokens_[k].text;
@@ -316,8 +314,7 @@ bool Reader::ReadComparison(size_t i, double factor, size_t last) {
       Set({"mass", 0.01, 400, "kg"}, request_.mass, model_->mass * f, words);
     } else if (word->kind == WordKind::kBigger || word->kind == WordKind::kSizeNoun) {
       if (model_->diagonal > 0) Set({"arm", 0.02, 3, "m"}, request_.arm, f * model_->diagonal / 2000, words);
-      if (model_->propeller > 0)
-        Set(kPropellerRange, request_.propeller, f * model_->propeller * 0.0254, words);
+      if (model_->propeller > 0) Set(kPropellerRange, request_.propeller, f * model_->propeller * 0.0254, words);
       if (!request_.mass) loose_masses_.push_back({{i, k, f * f * model_->mass, nullptr, words}, false});
     } else if (word->kind == WordKind::kLonger || word->kind == WordKind::kFlight || word->kind == WordKind::kHover) {
       const double minutes = model_->flight > 0 && word->kind != WordKind::kHover ? model_->flight : model_->hover;
@@ -360,8 +357,7 @@ void Reader::ReadBareNumber(size_t i) {
     Use(ratio);
     used_[i] = true;
     if (Is(i + 1, WordKind::kTo) && i + 2 < tokens_.size() && tokens_[i + 2].value == 1) used_[i + 2] = true;
-    return Set({"thrust_to_weight", 1.05, 20, ""}, request_.thrust_to_weight, value,
-               "thrust to weight " + tokens_[i].text);
+    return Set({"thrust_to_weight", 1.05, 20, ""}, request_.thrust_to_weight, value, "thrust to weight " + tokens_[i].text);
   }
   if (ReadCount(i) || ReadLabelled(i)) return;
   if (const size_t kv = Beside(i, WordKind::kKvUnit, false); kv != kNone && !claimed_[kv]) {
@@ -380,10 +376,10 @@ void Reader::ReadBareNumber(size_t i) {
     return Set({"thrust_to_weight", 1.05, 20, ""}, request_.thrust_to_weight, value, tokens_[i].text);
   }
   // "a 250 class quad", "450 frame", "a 450 quad": millimetres between motors that face each other.
-  const bool size =
-      Beside(i, WordKind::kSizeNoun, true) != kNone || (i > 0 && Is(i - 1, WordKind::kSizeNoun)) || Beside(i, WordKind::kFrame, true) != kNone ||
-      Beside(i, WordKind::kWheelbase, true) != kNone || Beside(i, WordKind::kWheelbase, false) != kNone ||
-      Beside(i, WordKind::kRotors, true) != kNone || Beside(i, WordKind::kFrame, false) != kNone;
+  const bool size = Beside(i, WordKind::kSizeNoun, true) != kNone || (i > 0 && Is(i - 1, WordKind::kSizeNoun)) ||
+                    Beside(i, WordKind::kFrame, true) != kNone || Beside(i, WordKind::kWheelbase, true) != kNone ||
+                    Beside(i, WordKind::kWheelbase, false) != kNone || Beside(i, WordKind::kRotors, true) != kNone ||
+                    Beside(i, WordKind::kFrame, false) != kNone;
   if (size && value >= 60 && value <= 2500 && !request_.arm) {
     used_[i] = true;
     Decide("'" + tokens_[i].text + "' is read as the diagonal in millimetres");

@@ -17,8 +17,8 @@ double ThingsOf(const std::vector<Token>& tokens, const Quantity& q) {
   const auto text = [&](size_t k) { return k < tokens.size() ? tokens[k].text : std::string(); };
   if (q.unit->kind != WordKind::kMassUnit) return 1;
   if (i > 1 && tokens[i - 1].Is(WordKind::kTimes) && tokens[i - 2].Counts(kMostThings)) return tokens[i - 2].value;
-  const bool thing = q.last + 1 < tokens.size() && (tokens[q.last + 1].kind == Token::Kind::kUnknown ||
-                                                    tokens[q.last + 1].Is(WordKind::kLoad));
+  const bool thing =
+      q.last + 1 < tokens.size() && (tokens[q.last + 1].kind == Token::Kind::kUnknown || tokens[q.last + 1].Is(WordKind::kLoad));
   if (i > 0 && thing && tokens[i - 1].Counts(kMostThings)) return tokens[i - 1].value;
   // "Three cartons of 400 g"
   const bool plural = i > 2 && text(i - 1) == "of" && text(i - 2).ends_with("s") &&
@@ -29,8 +29,8 @@ double ThingsOf(const std::vector<Token>& tokens, const Quantity& q) {
   if (after != "each" && after != "apiece" && !each_before) return 1;
   const bool comma = i > 1 && tokens[i - 1].kind == Token::Kind::kComma;  // "2 crates, 1.5 kg each"
   for (size_t k = each_before ? i - 2 : comma ? i - 1 : i; k-- > 0 && i - k <= 7 && tokens[k].kind != Token::Kind::kComma;) {
-    const bool part = tokens[k].Is(WordKind::kDrone) || tokens[k].Is(WordKind::kRotors) || tokens[k].Is(WordKind::kMotor) || tokens[k].Is(WordKind::kPropeller) ||
-                      tokens[k].Is(WordKind::kRotorNoun) || tokens[k].Is(WordKind::kBattery);
+    const bool part = tokens[k].Is(WordKind::kDrone) || tokens[k].Is(WordKind::kRotors) || tokens[k].Is(WordKind::kMotor) ||
+                      tokens[k].Is(WordKind::kPropeller) || tokens[k].Is(WordKind::kRotorNoun) || tokens[k].Is(WordKind::kBattery);
     if (part) return 1;
     if (tokens[k].Counts(kMostThings) && tokens[k + 1].Is(WordKind::kCells)) return 1;
     if (tokens[k].Counts(kMostThings)) return tokens[k].value;
@@ -39,7 +39,6 @@ double ThingsOf(const std::vector<Token>& tokens, const Quantity& q) {
 }
 
 }  // namespace
-
 
 bool Reader::ReadQuantity(size_t i) {
   size_t unit = i + 1;
@@ -64,8 +63,7 @@ bool Reader::ReadQuantity(size_t i) {
   // "2 lb 3 oz", "1 h 30 min"
   const size_t next = unit + (Is(unit + 1, WordKind::kBreak) && tokens_[unit + 1].text == "and" ? 2 : 1);
   if (next + 1 < tokens_.size() && tokens_[next].kind == Token::Kind::kNumber && Is(next + 1, word->kind) &&
-      tokens_[next + 1].word->value < 0.7 * word->value &&
-      tokens_[next].value * tokens_[next + 1].word->value < word->value) {
+      tokens_[next + 1].word->value < 0.7 * word->value && tokens_[next].value * tokens_[next + 1].word->value < word->value) {
     q.value += tokens_[next].value * tokens_[next + 1].word->value;
     q.last = next + 1;
     q.words += " " + tokens_[next].text + " " + tokens_[next + 1].text;
@@ -113,8 +111,7 @@ bool Reader::IsOfEmptyDrone(const Quantity& q) const {
 void Reader::Extend(Quantity& q) {
   const size_t link = q.last + 1;
   const bool half = Is(link, WordKind::kBreak) && Is(link + 1, WordKind::kHalf);
-  if (!half || (WordAt(link + 2) && WordAt(link + 2)->kind >= WordKind::kMassUnit &&
-                WordAt(link + 2)->kind <= WordKind::kOtherUnit))
+  if (!half || (WordAt(link + 2) && WordAt(link + 2)->kind >= WordKind::kMassUnit && WordAt(link + 2)->kind <= WordKind::kOtherUnit))
     return;
   q.value += tokens_[link + 1].word->value * q.unit->value;
   q.last = link + 1;
@@ -157,8 +154,7 @@ void Reader::Dispatch(const Quantity& q) {
     case WordKind::kCells:
       if (ReadPlural(i, q.last)) return;
       // "no less than 1500 s": no battery has so many cells, these are seconds.
-      if (tokens_[i].value >= 100 && i > 0 && Is(i - 1, WordKind::kCells) && ReadCharge(i))
-        return;  // "4S 1500s"
+      if (tokens_[i].value >= 100 && i > 0 && Is(i - 1, WordKind::kCells) && ReadCharge(i)) return;  // "4S 1500s"
       if (tokens_[i].value > 40 && tokens_[q.last].text == "s") return ReadTime({i, q.last, tokens_[i].value, q.unit, q.words});
       if (tokens_[i].high > 0) {  // "3-4S": what takes both is made for the higher
         Decide("of '" + q.words + "' the higher is taken");
@@ -169,8 +165,7 @@ void Reader::Dispatch(const Quantity& q) {
         throw InputError("'" + q.words + "' is not a whole number");
       }
       if (const double packs = PacksInSeries(i); packs > 1)
-        return Set({"cells", 1, 24, ""}, request_.cells, packs * tokens_[i].value,
-                   tokens_[i - 1].text + " " + q.words);
+        return Set({"cells", 1, 24, ""}, request_.cells, packs * tokens_[i].value, tokens_[i - 1].text + " " + q.words);
       if (ReadInchesAsPlural(i, q.last)) return;
       CorrectWith("cells", request_.cells, i);
       Set({"cells", 1, 24, ""}, request_.cells, tokens_[i].value, q.words);
@@ -188,10 +183,10 @@ void Reader::ReadCapacity(const Quantity& q) {
   SumUp("capacity_ah", request_.capacity_ah, q);
   const FieldRange range{"capacity_ah", 0.03, 500, "Ah"};
   const double packs = std::max(PacksInParallel(q), CellsInParallel(q));
-  if (packs > 1 && !request_.capacity_ah)
-    Decide("the packs of '" + q.words + "' are taken in parallel");
+  if (packs > 1 && !request_.capacity_ah) Decide("the packs of '" + q.words + "' are taken in parallel");
   // "2 x 16 Ah in parallel" after the sum of both was said says nothing new.
-  const bool sum_said = packs > 1 && request_.capacity_ah && std::abs(*request_.capacity_ah - packs * q.value) < 0.02 * *request_.capacity_ah;
+  const bool sum_said =
+      packs > 1 && request_.capacity_ah && std::abs(*request_.capacity_ah - packs * q.value) < 0.02 * *request_.capacity_ah;
   if (!sum_said) Set(range, request_.capacity_ah, packs * q.value, q.words);
 }
 
@@ -219,8 +214,7 @@ bool Reader::ReadWeight(const Quantity& q) {
 /// Days of flight are more than any multirotor has; days of anything else are none of its figures.
 void Reader::ReadDays(const Quantity& q) {
   const std::string& text = tokens_[q.last].text;
-  const bool days = text.starts_with("day") || text.starts_with("week") || text.starts_with("month") ||
-                    text.starts_with("year");
+  const bool days = text.starts_with("day") || text.starts_with("week") || text.starts_with("month") || text.starts_with("year");
   const bool flown = PhraseHas(q, WordKind::kFlight) || PhraseHas(q, WordKind::kHover);
   const bool age = q.last + 1 < tokens_.size() && tokens_[q.last + 1].text == "old";
   if (days && flown && !age) throw InputError("'" + q.words + "': the flight time of a drone is 10 to 36000 s");
@@ -239,11 +233,10 @@ void Reader::ReadLength(const Quantity& q) {
   const size_t before = NounBefore(q, true);
   const auto kind_of = [&](size_t n) { return WordAt(n) ? WordAt(n)->kind : WordKind::kDrone; };
   const auto says = [&](size_t n) {
-    return n != kNone && (kind_of(n) == WordKind::kPropeller || kind_of(n) == WordKind::kArm ||
-                          kind_of(n) == WordKind::kWheelbase || kind_of(n) == WordKind::kPitch ||
-                          kind_of(n) == WordKind::kRotorNoun || kind_of(n) == WordKind::kElse ||
-                          kind_of(n) == WordKind::kThing || kind_of(n) == WordKind::kFrame ||
-                          kind_of(n) == WordKind::kBlades || kind_of(n) == WordKind::kAcross);
+    return n != kNone && (kind_of(n) == WordKind::kPropeller || kind_of(n) == WordKind::kArm || kind_of(n) == WordKind::kWheelbase ||
+                          kind_of(n) == WordKind::kPitch || kind_of(n) == WordKind::kRotorNoun || kind_of(n) == WordKind::kElse ||
+                          kind_of(n) == WordKind::kThing || kind_of(n) == WordKind::kFrame || kind_of(n) == WordKind::kBlades ||
+                          kind_of(n) == WordKind::kAcross);
   };
   const size_t head = noun;
   if (!says(noun)) noun = says(before) ? before : says(Apposed(q)) ? Apposed(q) : kNone;
@@ -252,19 +245,18 @@ void Reader::ReadLength(const Quantity& q) {
   if (noun != kNone && (kind_of(noun) == WordKind::kAcross || radius)) {
     const size_t owner = OwnerOfDiameter(q);
     if (owner != kNone && Is(owner, WordKind::kLoad)) return NameElse(q, noun);
-    const bool propellers = owner != kNone && (Is(owner, WordKind::kPropeller) || Is(owner, WordKind::kRotorNoun) ||
-                                               Is(owner, WordKind::kBlades));
+    const bool propellers =
+        owner != kNone && (Is(owner, WordKind::kPropeller) || Is(owner, WordKind::kRotorNoun) || Is(owner, WordKind::kBlades));
     if (propellers || !radius) Use(noun);
     if (propellers) noun = owner;
     if (propellers && radius) value *= 2;
   }
-  WordKind kind = noun == kNone ? WordKind::kFiller : kind_of(noun) == WordKind::kAcross ? WordKind::kWheelbase
-                                                                                         : kind_of(noun);
+  WordKind kind = noun == kNone ? WordKind::kFiller : kind_of(noun) == WordKind::kAcross ? WordKind::kWheelbase : kind_of(noun);
   if (kind == WordKind::kPropeller && WordAt(noun)->value > 0) value *= WordAt(noun)->value;
   // "5 inch sensor", "a 6 inch screen", "at 30 m": not of the drone.
   // A figure of what is carried: "1 inch camera", "30 cm box".
-  const bool load_only = noun == kNone && head != kNone && kind_of(head) == WordKind::kLoad &&
-                         (!inches || q.value < 0.04 || tokens_[head].text == "sensor");
+  const bool load_only =
+      noun == kNone && head != kNone && kind_of(head) == WordKind::kLoad && (!inches || q.value < 0.04 || tokens_[head].text == "sensor");
   const bool across = noun != kNone && kind_of(noun) == WordKind::kAcross;  // "across campus (400 m)"
   const bool of_drone = kind == WordKind::kPropeller || kind == WordKind::kWheelbase || kind == WordKind::kArm ||
                         kind == WordKind::kRotorNoun || kind == WordKind::kFrame;
@@ -300,8 +292,7 @@ bool Reader::IsOfPlace(const Quantity& q) const {
   while (before-- > 0 && SaysLittle(before)) {
   }
   if (before == kNone) return thing;
-  for (const char* word :
-       {"through", "inside", "within", "into", "above", "over", "behind", "from", "past", "every"}) {
+  for (const char* word : {"through", "inside", "within", "into", "above", "over", "behind", "from", "past", "every"}) {
     if (tokens_[before].text == word) return true;
   }
   return thing;
@@ -382,8 +373,8 @@ void Reader::ReadSpeed(const Quantity& q) {
   // "the wind is bad, so a top speed of 18 m/s"
   const size_t label = NounBefore(q, true);
   const std::string& said = label == kNone ? q.words : tokens_[label].text;
-  const bool top = Is(label, WordKind::kSpeed) && (said.starts_with("top") || said.starts_with("max") ||
-                                                   said.starts_with("full") || said.starts_with("vmax"));
+  const bool top = Is(label, WordKind::kSpeed) &&
+                   (said.starts_with("top") || said.starts_with("max") || said.starts_with("full") || said.starts_with("vmax"));
   const bool cruises = Is(verb, WordKind::kWind) && tokens_[verb].text.starts_with("cruis");
   if (!top && (cruises || PhraseHas(q, WordKind::kWind))) {
     if (request_.least_speed && *request_.least_speed >= q.value) return;
@@ -411,9 +402,7 @@ void Reader::ReadVoltage(const Quantity& q) {
   const bool charged = std::abs(full - std::round(full)) < 0.01;
   const double cells = charged ? std::round(full) : std::round(q.value / 3.8);
   if (IsOfBattery(q)) volts_.push_back(q);
-  const bool cells_said = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) {
-    return token.Is(WordKind::kCells);
-  });
+  const bool cells_said = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) { return token.Is(WordKind::kCells); });
   if (request_.cells || cells_said || cells < 1) return NameElse(q, kNone);
   Decide("'" + q.words + "' is read as " + std::to_string(static_cast<int>(cells)) + " cells");
   Set({"cells", 1, 24, ""}, request_.cells, cells, q.words);

@@ -8,7 +8,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr size_t kMostPairs = 6;  // masses of which two at once are read otherwise
+constexpr size_t kMostPairs = 6;                                                       // masses of which two at once are read otherwise
 constexpr double kMostLoad = 0.6, kMostBattery = 0.75, kMostBoth = 0.88, kSum = 0.05;  // shares of the whole
 
 /// How often what was read breaks the balance of masses.

@@ -65,14 +65,13 @@ bool Reader::IsAddedTo(const Quantity& q) const {
 }
 
 /// "19.5 kg + payload 3.5 kg = 23 kg", "... so 3.4 kg"
-bool Reader::IsSumAfter(size_t k) const {
-  return IsOneOf(tokens_[k].text, {"=", "so", "makes", "making", "giving", "equals", "then"});
-}
+bool Reader::IsSumAfter(size_t k) const { return IsOneOf(tokens_[k].text, {"=", "so", "makes", "making", "giving", "equals", "then"}); }
 
 /// "Payload of 0.3 kg on top of that", "an additional 500 g sensor"
 bool Reader::IsOnTop(const Quantity& q) const {
   const auto adds = [&](size_t k) {
-    return IsOneOf(tokens_[k].text, {"on top", "top", "another", "additional", "additionally", "extra", "addition", "zusatzlich", "ademas", "add"});
+    return IsOneOf(tokens_[k].text,
+                   {"on top", "top", "another", "additional", "additionally", "extra", "addition", "zusatzlich", "ademas", "add"});
   };
   for (size_t k = q.first; k-- > 0 && q.first - k <= 5 && tokens_[k].kind != Token::Kind::kComma;) {
     if (Is(k, WordKind::kMassUnit)) break;
@@ -106,7 +105,8 @@ bool Reader::IsTaken(const Quantity& q) const {
   while (verb-- > 0 && SaysLittle(verb)) {
   }
   const bool ends = q.last + 1 >= tokens_.size() || EndsPhrase(q.last + 1);
-  return ends && verb != kNone && IsOneOf(tokens_[verb].text, {"take", "takes", "handle", "handles", "manage", "manages", "accommodate", "accommodates"});
+  return ends && verb != kNone &&
+         IsOneOf(tokens_[verb].text, {"take", "takes", "handle", "handles", "manage", "manages", "accommodate", "accommodates"});
 }
 
 /// "Drone without parcel but with battery 9 kg"
@@ -155,8 +155,7 @@ void Reader::RefuseHeavyParts() {
   }
   if (words.empty() || sum <= 1.03 * *request_.mass) return;
   heavy_parts_ = true;
-  throw InputError("no drone fits the description: parts of " + words + " are more than '" + request_.words.at("mass") +
-                   "' in all");
+  throw InputError("no drone fits the description: parts of " + words + " are more than '" + request_.words.at("mass") + "' in all");
 }
 
 }  // namespace airsim360::internal

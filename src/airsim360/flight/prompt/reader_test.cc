@@ -16,8 +16,7 @@ TEST(Reader, AMassBelongsToTheWholeToItsLoadOrToTheDroneWithoutBattery) {
   EXPECT_EQ(ParsePrompt("quad, take-off weight with camera and battery 1.9 kg").mass, 1.9);
   EXPECT_EQ(ParsePrompt("X500, we add a RealSense so total is 1.95 kg").mass, 1.95);
   EXPECT_EQ(ParsePrompt("quad, 900 g (without battery), 4S 5000 mAh").bare_mass, 0.9);
-  EXPECT_NEAR(DroneFromPrompt("quad, 900 g (without battery), 4S 5000 mAh, 10 inch").model.mass,
-              0.9 + 74 / 150.0, 0.15);
+  EXPECT_NEAR(DroneFromPrompt("quad, 900 g (without battery), 4S 5000 mAh, 10 inch").model.mass, 0.9 + 74 / 150.0, 0.15);
   EXPECT_NEAR(*ParsePrompt("5 inch quad, 420 g dry, the lipo adds 190 g").mass, 0.61, 1e-12);
   EXPECT_NEAR(*ParsePrompt("quad, 310 g without the GoPro, 120 g payload").mass, 0.43, 1e-12);
   EXPECT_EQ(ParsePrompt("quad, lifts 1 litre of water (call it 1 kg), weighs 5 kg").payload, 1);
@@ -34,7 +33,8 @@ TEST(Reader, TheSameInAnotherUnitIsNoSecondFigureUnlessItDiffers) {
 }
 
 TEST(Reader, OfSeveralReadingsTheOneThatExplainsAllMassesIsTaken) {
-  const DroneRequest list = ParsePrompt("quad: frame 115 g, four motors 34 g each, stack 18 g, lipo 205 g, rx and straps 24 g, action cam 120 g");
+  const DroneRequest list =
+      ParsePrompt("quad: frame 115 g, four motors 34 g each, stack 18 g, lipo 205 g, rx and straps 24 g, action cam 120 g");
   EXPECT_NEAR(*list.mass, 0.115 + 4 * 0.034 + 0.018 + 0.205 + 0.024 + 0.12, 1e-12);
   EXPECT_NEAR(*list.payload, 0.12, 1e-12);
   const DroneRequest sum = ParsePrompt("hexa. Payload: lidar 1.35 kg plus 45 MP camera 0.65 kg. MTOW 12.5 kg");
@@ -57,7 +57,8 @@ TEST(Reader, PartsAreNoMoreThanTheirWhole) {
   for (const char* prompt :
        {"hexa, six motors of 400 g each, AUW 600 g", "quad, frame 2 kg, battery 3 kg, payload 5 kg, take-off weight 3 kg",
         "Mass budget: airframe 4 kg, battery 6 kg, payload 5 kg. Take-off mass with all of these on board: 3 kg. Octo",
-        "Quadricopt\xc3\xa8re de 4 kg au d\xc3\xa9""collage ; chacun des quatre moteurs \xc3\xa0 bord p\xc3\xa8se 3,5 kg"})
+        "Quadricopt\xc3\xa8re de 4 kg au d\xc3\xa9"
+        "collage ; chacun des quatre moteurs \xc3\xa0 bord p\xc3\xa8se 3,5 kg"})
     EXPECT_THROW(DroneFromPrompt(prompt), InputError) << prompt;
   EXPECT_EQ(ParsePrompt("hexa, six motors of 40 g each, AUW 600 g").mass, 0.6);
 }
@@ -114,8 +115,7 @@ TEST(Reader, CountsOfOtherThingsAreNone) {
 }
 
 TEST(Reader, LengthsOfPlacesAndBoxesAreNone) {
-  const DroneRequest r =
-      ParsePrompt("450 mm quad, 10 inch props, fits a 60x40x30 cm case and a 3 m x 3 m room");
+  const DroneRequest r = ParsePrompt("450 mm quad, 10 inch props, fits a 60x40x30 cm case and a 3 m x 3 m room");
   EXPECT_DOUBLE_EQ(*r.arm, 0.225);
   EXPECT_DOUBLE_EQ(*r.propeller, 0.254);
   EXPECT_FALSE(ParsePrompt("survey quad, GSD 2 cm").arm);

@@ -8,22 +8,22 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr size_t kClause = 14;  // tokens that a verb reaches
+constexpr size_t kClause = 14;      // tokens that a verb reaches
 constexpr size_t kSpanOfThing = 5;  // tokens of a thing's name
 
 /// Ends a sentence, not only a phrase.
-bool EndsSentence(const Token& token) {
-  return token.kind == Token::Kind::kComma && IsOneOf(token.text, {".", "!", "?", ";", "|"});
-}
+bool EndsSentence(const Token& token) { return token.kind == Token::Kind::kComma && IsOneOf(token.text, {".", "!", "?", ";", "|"}); }
 
 bool IsParenthesis(const Token& token) { return token.text == "(" || token.text == "["; }
 
 bool IsLink(const Token& token) {
-  return IsOneOf(token.text,
-                 {"is", "are", "was", "be", "comes", "come", "coming", "totals", "totalling", "totaling", "total",
-                  "makes", "make", "weighs", "weigh", "weighing", "weight", "mass", "weighs in at", "weighing in at",
-                  "tips the scales at", "wiegt", "wiegen", "schwer", "pese", "pesant", "pesa", "pesan", "pesando",
-                  "gewicht", "has", "have", "hat", "tiene", "ha", "adds", "add", "poids", "peso", "masse", "masa", "weighed", "pesent", "ist", "est", "es"});
+  return IsOneOf(token.text, {"is",      "are",       "was",      "be",    "comes",        "come",           "coming",
+                              "totals",  "totalling", "totaling", "total", "makes",        "make",           "weighs",
+                              "weigh",   "weighing",  "weight",   "mass",  "weighs in at", "weighing in at", "tips the scales at",
+                              "wiegt",   "wiegen",    "schwer",   "pese",  "pesant",       "pesa",           "pesan",
+                              "pesando", "gewicht",   "has",      "have",  "hat",          "tiene",          "ha",
+                              "adds",    "add",       "poids",    "peso",  "masse",        "masa",           "weighed",
+                              "pesent",  "ist",       "est",      "es"});
 }
 
 }  // namespace
@@ -41,14 +41,11 @@ bool Reader::IsDroneWord(size_t i) const {
     return token.text.ends_with("er") || token.text.ends_with("ers") || token.text.find("whoop") != std::string::npos ||
            token.text.find("drone") != std::string::npos || token.text.find("drohne") != std::string::npos;
   }
-  return word->kind == WordKind::kDrone || word->kind == WordKind::kRotors || word->kind == WordKind::kCoaxial ||
-         MeansDrone(token.text);
+  return word->kind == WordKind::kDrone || word->kind == WordKind::kRotors || word->kind == WordKind::kCoaxial || MeansDrone(token.text);
 }
 
 /// "Defibrillator kit", "carry a rescue kit": no drone, though a kit alone is one.
-bool Reader::IsNamedThing(size_t i) const {
-  return (i > 0 && IsThing(i - 1)) || FollowsCarryVerb(i);
-}
+bool Reader::IsNamedThing(size_t i) const { return (i > 0 && IsThing(i - 1)) || FollowsCarryVerb(i); }
 
 bool Reader::FollowsCarryVerb(size_t i) const {
   for (size_t k = i; k-- > 0 && i - k <= kSpanOfThing && !EndsPhrase(k);) {
@@ -90,11 +87,12 @@ bool Reader::IsThing(size_t i) const {
   }
   if (word == nullptr) return false;
   if (token.text == "arm" && i > 0 && tokens_[i - 1].text == "dof") return true;  // "2-DoF arm"
-  if (token.text == "arm" && i > 0 && tokens_[i - 1].kind == Token::Kind::kUnknown) return CanBeThing(tokens_[i - 1].text);  // "contact arm"
+  if (token.text == "arm" && i > 0 && tokens_[i - 1].kind == Token::Kind::kUnknown)
+    return CanBeThing(tokens_[i - 1].text);  // "contact arm"
   if (word->kind == WordKind::kClass) return IsOneOf(token.text, {"cargo", "freight", "drop", "crop", "spray"});
   if (word->kind == WordKind::kElse) {
-    return IsOneOf(token.text, {"lens", "screen", "display", "monitor", "tv", "lcd", "oled", "antenna", "barrel",
-                                "filter", "cable", "goggles", "controller", "transmitter", "imager", "tether", "sensor"});
+    return IsOneOf(token.text, {"lens", "screen", "display", "monitor", "tv", "lcd", "oled", "antenna", "barrel", "filter", "cable",
+                                "goggles", "controller", "transmitter", "imager", "tether", "sensor"});
   }
   return word->kind == WordKind::kLoad || word->kind == WordKind::kThing || word->kind == WordKind::kVehicle ||
          (word->kind == WordKind::kPayload && token.text.starts_with("payload"));
@@ -102,17 +100,15 @@ bool Reader::IsThing(size_t i) const {
 
 bool Reader::IsPart(size_t i) const {
   const Word* word = WordAt(i);
-  return word && ((word->kind >= WordKind::kRotorNoun && word->kind <= WordKind::kBlades) ||
-                  word->kind == WordKind::kArm || word->kind == WordKind::kFrame || word->kind == WordKind::kBattery ||
-                  word->kind == WordKind::kGuards || word->kind == WordKind::kLithiumIon ||
-                  word->kind == WordKind::kCells);
+  return word && ((word->kind >= WordKind::kRotorNoun && word->kind <= WordKind::kBlades) || word->kind == WordKind::kArm ||
+                  word->kind == WordKind::kFrame || word->kind == WordKind::kBattery || word->kind == WordKind::kGuards ||
+                  word->kind == WordKind::kLithiumIon || word->kind == WordKind::kCells);
 }
 
 bool Reader::SpeaksOfDrone(size_t from, size_t to) const {
   for (size_t k = from; k < to; ++k) {
     const Word* word = WordAt(k);
-    if (IsDroneWord(k) || (word && (word->kind == WordKind::kClass || word->kind == WordKind::kSize ||
-                                    word->kind == WordKind::kLayout)))
+    if (IsDroneWord(k) || (word && (word->kind == WordKind::kClass || word->kind == WordKind::kSize || word->kind == WordKind::kLayout)))
       return true;
   }
   return false;
@@ -142,8 +138,8 @@ bool Reader::IsOfThingAfter(const Quantity& q) const {
   size_t head = q.last + 1;
   bool of = false;
   if (head < tokens_.size() && tokens_[head].text == "worth") return true;
-  for (; head < tokens_.size() && (IsOneOf(tokens_[head].text, {"of", "de", "di", "von", "d", "worth"}) ||
-                                   tokens_[head].kind == Token::Kind::kDash);
+  for (; head < tokens_.size() &&
+         (IsOneOf(tokens_[head].text, {"of", "de", "di", "von", "d", "worth"}) || tokens_[head].kind == Token::Kind::kDash);
        ++head)
     of |= tokens_[head].kind != Token::Kind::kDash;
   size_t last = kNone;
@@ -153,8 +149,7 @@ bool Reader::IsOfThingAfter(const Quantity& q) const {
     // "Hexa with a 4 kg spreader": of two words for a drone the second is a thing.
     const bool second = Is(k, WordKind::kClass) && SpeaksOfDrone(0, q.first) && IsFitted(q.first);
     if (second) return true;
-    if (IsDroneWord(k) || IsPart(k) || Is(k, WordKind::kMass) || Is(k, WordKind::kBare) || Is(k, WordKind::kEmpty))
-      return false;
+    if (IsDroneWord(k) || IsPart(k) || Is(k, WordKind::kMass) || Is(k, WordKind::kBare) || Is(k, WordKind::kEmpty)) return false;
     const bool can = k > head && tokens_[k].text == "can" && !IsArticle(tokens_[k - 1].text);  // "a spray can"
     if (k > head && SaysLittle(k) && kind != Token::Kind::kDash && !can) break;
     if (kind != Token::Kind::kDash && !(SaysLittle(k) && of)) last = k;
@@ -172,16 +167,15 @@ bool Reader::IsIntroduced(size_t i) const {
     const std::string& text = tokens_[k].text;
     if (IsArticle(text)) {
       article = true;
-    } else if (!(SaysLittle(k) || Is(k, WordKind::kLoad) ||
-                 (tokens_[k].kind == Token::Kind::kUnknown && !MeansDrone(text))) ||
+    } else if (!(SaysLittle(k) || Is(k, WordKind::kLoad) || (tokens_[k].kind == Token::Kind::kUnknown && !MeansDrone(text))) ||
                JoinsThing(text)) {
       break;
     }
   }
   if (k == kNone) return false;
   const std::string& text = tokens_[k].text;
-  const bool sought = k > 0 && IsOneOf(tokens_[k - 1].text, {"looking", "search", "searching", "quote", "quotes",
-                                                             "asking", "shopping", "hunting", "plans", "aiming"});
+  const bool sought = k > 0 && IsOneOf(tokens_[k - 1].text, {"looking", "search", "searching", "quote", "quotes", "asking", "shopping",
+                                                             "hunting", "plans", "aiming"});
   if (JoinsThing(text)) return !sought;
   const bool wished = IsOneOf(text, {"want", "need", "build", "make", "have", "got", "is", "design", "give me"});
   return article && !wished && !Is(k, WordKind::kCorrection) && SpeaksOfDrone(0, k + 1);
@@ -237,8 +231,7 @@ bool Reader::IsOfWeighedThing(const Quantity& q) const {
     --k;
   if (pronoun && HasItsMass(k)) return false;
   if (!IsThing(k) || IsDroneWord(k) || IsPart(k)) return false;
-  if (const Word* known = WordAt(k); known && known->kind == WordKind::kLoad && known->value > 0 &&
-                                     q.value > 2.5 * known->value)
+  if (const Word* known = WordAt(k); known && known->kind == WordKind::kLoad && known->value > 0 && q.value > 2.5 * known->value)
     return false;
   if (pronoun && person) return true;
   if (pronoun && !SpeaksOfDrone(0, k)) return true;
@@ -279,8 +272,8 @@ bool Reader::IsApposedToThing(const Quantity& q) const {
   // What follows the mass may say whose it is.
   for (size_t k = q.last + 1; k < tokens_.size() && k < q.last + 7; ++k) {
     if (tokens_[k].text == ")" || (!parenthesis && tokens_[k].kind == Token::Kind::kComma)) break;
-    const bool whole = Is(k, WordKind::kMass) || Is(k, WordKind::kBare) || Is(k, WordKind::kEmpty) ||
-                       IsDroneWord(k) || Is(k, WordKind::kBattery);
+    const bool whole =
+        Is(k, WordKind::kMass) || Is(k, WordKind::kBare) || Is(k, WordKind::kEmpty) || IsDroneWord(k) || Is(k, WordKind::kBattery);
     if (whole) return false;
   }
   const size_t thing = comma - 1;
@@ -306,8 +299,8 @@ bool Reader::IsForThing(size_t end) const {
   for (size_t k = end; k-- > 0 && end - k <= kClause;) {
     if (tokens_[k].kind == Token::Kind::kComma || IsDroneWord(k) || IsPart(k)) return false;
     const std::string& text = tokens_[k].text;
-    const bool code = tokens_[k].kind == Token::Kind::kUnknown &&
-                      std::any_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+    const bool code =
+        tokens_[k].kind == Token::Kind::kUnknown && std::any_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
     named |= code || Is(k, WordKind::kLoad);
     if (text == "for") return named && k + 1 < end && IsArticle(tokens_[k + 1].text);
   }
@@ -345,8 +338,8 @@ bool Reader::IsBeforeFinalVerb(const Quantity& q) const {
   const size_t next = q.last + 1;
   if (!(thing != kNone && IsThing(thing)) && !(next < tokens_.size() && IsThing(next))) return false;
   for (size_t k = next; k < tokens_.size() && k < next + 9; ++k) {
-    if (IsOneOf(tokens_[k].text, {"bringen", "bringt", "tragen", "tragt", "heben", "hebt", "liefern", "ausliefern",
-                                  "transportieren", "transportiert", "befordern", "schleppen", "abwerfen"}))
+    if (IsOneOf(tokens_[k].text, {"bringen", "bringt", "tragen", "tragt", "heben", "hebt", "liefern", "ausliefern", "transportieren",
+                                  "transportiert", "befordern", "schleppen", "abwerfen"}))
       return true;
     if (tokens_[k].kind == Token::Kind::kComma && tokens_[k].text != ")") return false;
   }
@@ -357,9 +350,8 @@ bool Reader::IsBeforeFinalVerb(const Quantity& q) const {
 bool Reader::Hangs(const Quantity& q) const {
   size_t k = q.last + 1;
   for (; k < tokens_.size() && k < q.last + 5 && tokens_[k].kind != Token::Kind::kComma; ++k) {
-    if (IsOneOf(tokens_[k].text,
-                {"hook", "sling", "winch", "slung", "underslung", "hanging", "suspended", "dangling", "hung",
-                 "underneath", "beneath", "strapped", "claw", "claws", "gripper", "aboard", "hopper", "tank"}))
+    if (IsOneOf(tokens_[k].text, {"hook", "sling", "winch", "slung", "underslung", "hanging", "suspended", "dangling", "hung", "underneath",
+                                  "beneath", "strapped", "claw", "claws", "gripper", "aboard", "hopper", "tank"}))
       return true;
     const bool goes_on = SaysLittle(k) || IsOneOf(tokens_[k].text, {"on", "in", "from", "under", "by", "off"});
     if (!goes_on && !IsThing(k)) return false;
@@ -381,8 +373,8 @@ bool Reader::IsOfThing(const Quantity& q, size_t noun) const {
   }
   const bool labelled = noun != kNone && Is(noun, WordKind::kMass);
   if (labelled) return IsShare(q) || IsOfWeighedThing(q);
-  return IsShare(q) || IsOfWeighedThing(q) || IsOfThingAfter(q) || IsApposedToThing(q) || IsOfThingBefore(q) ||
-         IsBeforeFinalVerb(q) || Hangs(q);
+  return IsShare(q) || IsOfWeighedThing(q) || IsOfThingAfter(q) || IsApposedToThing(q) || IsOfThingBefore(q) || IsBeforeFinalVerb(q) ||
+         Hangs(q);
 }
 
 /// "A 370 g camera, a 250 g camera", "camera 380 g, gimbal 420 g": whether a comma alone, and no word for the drone,

@@ -21,10 +21,9 @@ constexpr const char* kEach[] = {"each", "per", "per motor",   "each motor", "ap
                                  "por",  "par", "each of the", "单轴",       "单个",   "每个"};
 constexpr const char* kWhole[] = {"total",  "together", "all",     "combined",     "altogether",
                                   "in all", "in total", "overall", "all together", "sum"};
-constexpr const char* kGives[] = {"produce", "produces", "generate", "generates", "give",
-                                  "gives",   "make",     "makes",    "push",      "pushes",
-                                  "put out", "puts out", "provide",  "provides",
-                                  "deliver", "delivers", "develop", "develops", "exert",    "exerts", "producing", "generating"};
+constexpr const char* kGives[] = {"produce", "produces", "generate", "generates", "give",      "gives",     "make",    "makes",
+                                  "push",    "pushes",   "put out",  "puts out",  "provide",   "provides",  "deliver", "delivers",
+                                  "develop", "develops", "exert",    "exerts",    "producing", "generating"};
 
 }  // namespace
 
@@ -41,20 +40,18 @@ bool Reader::ReadThrust(const Quantity& q) {
   const auto look = [&](size_t k) {
     const std::string& text = tokens_[k].text;
     if (Is(k, WordKind::kThrust) && noun == kNone && !claimed_[k]) noun = k;
-    motor |=
-        Is(k, WordKind::kMotor) || Is(k, WordKind::kPropeller) || Is(k, WordKind::kRotorNoun) || text == "per motor" || text == "each motor";
+    motor |= Is(k, WordKind::kMotor) || Is(k, WordKind::kPropeller) || Is(k, WordKind::kRotorNoun) || text == "per motor" ||
+             text == "each motor";
     gives |= IsOneOf(text, kGives);
     thrust.each |= IsOneOf(text, kEach);
-    thrust.whole |= IsOneOf(text, kWhole) ||
-                    (Is(k, WordKind::kThrust) && text.find("total") != std::string::npos) ||
+    thrust.whole |= IsOneOf(text, kWhole) || (Is(k, WordKind::kThrust) && text.find("total") != std::string::npos) ||
                     (Is(k, WordKind::kThrust) && text.find("combined") != std::string::npos) ||
-                    (Is(k, WordKind::kThrust) && text.find("gesamt") != std::string::npos) ||
-                    text.find("总") != std::string::npos;
+                    (Is(k, WordKind::kThrust) && text.find("gesamt") != std::string::npos) || text.find("总") != std::string::npos;
   };
   // A number with a noun of its own ends the clause on either side.
   const auto ends = [&](size_t k) {
-    return tokens_[k].kind == Token::Kind::kComma || tokens_[k].text == "and" || tokens_[k].text == "with" ||
-           Is(k, WordKind::kMass) || Is(k, WordKind::kPayload);
+    return tokens_[k].kind == Token::Kind::kComma || tokens_[k].text == "and" || tokens_[k].text == "with" || Is(k, WordKind::kMass) ||
+           Is(k, WordKind::kPayload);
   };
   for (size_t k = q.first; k-- > 0 && q.first - k <= 9 && !(ends(k) && tokens_[k].text != "total" && tokens_[k].text != ")");) {
     while (k > 0 && tokens_[k].text == ")") {  // "each rotor (15 cm) delivers"
@@ -63,9 +60,7 @@ bool Reader::ReadThrust(const Quantity& q) {
     }
     look(k);
   }
-  for (size_t k = q.last + 1;
-       k < tokens_.size() && k <= q.last + 9 && !(ends(k) && tokens_[k].text != "total"); ++k)
-    look(k);
+  for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 9 && !(ends(k) && tokens_[k].text != "total"); ++k) look(k);
   // "The motors produce 30 N in total" needs no word for thrust.
   const bool without_noun = motor && gives && (thrust.each || thrust.whole);
   if (noun == kNone ? !without_noun : tokens_[noun].text.starts_with("pull") && !motor) return false;
@@ -101,22 +96,19 @@ void Reader::FinishThrust() {
   const bool each = thrust_->each || (!thrust_->whole && thrust_->kilograms < 1.2 * *request_.mass);
   const double ratio = thrust_->kilograms * (each && !thrust_->whole ? rotors : 1) / *request_.mass;
   if (ratio < 1.05 && !request_.facts.count("mass")) {
-    throw InputError("no drone fits the description: '" + thrust_->words + "' of thrust do not lift '" +
-                     request_.words["mass"] + "'");
+    throw InputError("no drone fits the description: '" + thrust_->words + "' of thrust do not lift '" + request_.words["mass"] + "'");
   }
   const bool told = thrust_->each || thrust_->whole;
-  if (request_.thrust_to_weight && told && *request_.thrust_to_weight > 1.1 * ratio &&
-      !request_.facts.count("thrust_to_weight") && !request_.facts.count("mass")) {
+  if (request_.thrust_to_weight && told && *request_.thrust_to_weight > 1.1 * ratio && !request_.facts.count("thrust_to_weight") &&
+      !request_.facts.count("mass")) {
     char figure[32];
     std::snprintf(figure, sizeof(figure), "%.2f", ratio);
-    throw InputError("no drone fits the description: '" + thrust_->words + "' of thrust lift '" +
-                     request_.words["mass"] + "' " + figure + " times, which contradicts '" +
-                     request_.words["thrust_to_weight"] + "'");
+    throw InputError("no drone fits the description: '" + thrust_->words + "' of thrust lift '" + request_.words["mass"] + "' " + figure +
+                     " times, which contradicts '" + request_.words["thrust_to_weight"] + "'");
   }
   if (request_.thrust_to_weight) return;
   if (ratio < 1.05 || ratio > kMostRatio)
-    return Decide("'" + thrust_->words +
-                  "' of thrust is not what drones of that mass have and is left to the design");
+    return Decide("'" + thrust_->words + "' of thrust is not what drones of that mass have and is left to the design");
   request_.thrust_to_weight = ratio;
   request_.words["thrust_to_weight"] = thrust_->words + " of thrust";
   request_.facts.insert("thrust_to_weight");

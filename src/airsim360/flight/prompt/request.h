@@ -33,8 +33,8 @@ struct DroneRequest {
   std::optional<double> flight_time;  ///< seconds at the speed of least power
   std::optional<double> speed;        ///< m/s, level
   std::optional<double> least_speed;  ///< m/s that level flight reaches at least: of a wind, of cruising
-  std::optional<double> altitude;  ///< metres above the sea that it flies at
-  std::optional<double> range;     ///< metres that it flies on one charge
+  std::optional<double> altitude;     ///< metres above the sea that it flies at
+  std::optional<double> range;        ///< metres that it flies on one charge
   std::optional<double> cells;
   std::optional<double> capacity_ah;
   std::optional<double> energy_wh;
@@ -47,10 +47,9 @@ struct DroneRequest {
   bool lithium_ion = false;
   std::map<std::string, std::string> words;
   std::set<std::string> facts;
-  std::map<std::string, std::pair<double, double>>
-      ranges;                        ///< of fields said as a range, whose middle they hold
-  std::vector<std::string> unused;   ///< words that say nothing of a drone's figures
-  std::vector<std::string> decided;  ///< what was chosen for the user, one sentence each
+  std::map<std::string, std::pair<double, double>> ranges;  ///< of fields said as a range, whose middle they hold
+  std::vector<std::string> unused;                          ///< words that say nothing of a drone's figures
+  std::vector<std::string> decided;                         ///< what was chosen for the user, one sentence each
 };
 
 /// Reads a description such as "a 250 g five-inch racing quad" or "like a Mavic 3 but twice as heavy". A word

@@ -38,24 +38,26 @@ const std::vector<Rule>& Numbers() {
       {std::regex(R"(\bsingle (propeller|prop|motor)\b)"), "1 $1"},
       {std::regex(R"((\d)-?ish\b)"), "$1 "},
       {std::regex(R"((\d ?(min|mins|minutes?)) ?(and )?([0-5]?[05]) ?s\b(?! *\d))"), "$1 $4 sec"},  // "4 min 30 s"
-      {std::regex(R"(\b(\d{1,2}) ?h ?(\d{1,2}) ?m(in|ins)?\b)"), "$1 h $2 min"},  // "1h10m"
-      {std::regex(R"(\b(\d{1,2}(\.\d+)?) x (\d{1,2}\.\d{1,2})\b(?!\s*(x|mm|cm|m|kg|g|in|inch|ah|mah|s|k)\b|\s*\x22))"), "$1x$3"},  // "18 x 6.1 carbon"
+      {std::regex(R"(\b(\d{1,2}) ?h ?(\d{1,2}) ?m(in|ins)?\b)"), "$1 h $2 min"},                    // "1h10m"
+      {std::regex(R"(\b(\d{1,2}(\.\d+)?) x (\d{1,2}\.\d{1,2})\b(?!\s*(x|mm|cm|m|kg|g|in|inch|ah|mah|s|k)\b|\s*\x22))"),
+       "$1x$3"},  // "18 x 6.1 carbon"
       {std::regex(R"(\b(propellers?|props?) ?[:=] ?(\d{1,2}(\.\d+)?) x (\d{1,2}(\.\d+)?)(?![\d.]))"), "$1 $2x$4"},
       {std::regex(R"(\b(w/o|without)\s*(?=[).;]|$))"), "without battery "},  // "310 g w/o"
       // "Flight time 4:30", "4:30 min"
-      {std::regex(R"(\b((time|flights?|hovers?|endurance|flies|fly|of)[ :~a-z]{0,12})(\d{1,2}):([0-5]\d)( ?min(utes|s)?)?(?![\d:]))"), "$1$3 min $4 sec"},
+      {std::regex(R"(\b((time|flights?|hovers?|endurance|flies|fly|of)[ :~a-z]{0,12})(\d{1,2}):([0-5]\d)( ?min(utes|s)?)?(?![\d:]))"),
+       "$1$3 min $4 sec"},
       {std::regex(R"(\b(\d{1,2}):([0-5]\d) ?(min|mins|minutes)\b)"), "$1 min $2 sec"},
       {std::regex(R"((\d)\s*\*\s*(?=\d))"), "$1x"},  // "24*7.8"
       // "Shy of 230 g... say 225"
-      {std::regex(R"((\d+(\.\d+)?)\s*(kg|g|grams|kilos|min|minutes|lbs?)\b([ ,.;-]+)(let s |lets |let's |let us )?(say|call it|make it|make that) (\d+(\.\d+)?)(?![\d.]*\s*[a-z%\x22]))"),
+      {std::regex(
+           R"((\d+(\.\d+)?)\s*(kg|g|grams|kilos|min|minutes|lbs?)\b([ ,.;-]+)(let s |lets |let's |let us )?(say|call it|make it|make that) (\d+(\.\d+)?)(?![\d.]*\s*[a-z%\x22]))"),
        "$1 $3 , make that $7 $3"},
       {std::regex(R"(每小时\s*(\d+(\.\d+)?)\s*公里)"), "$1 公里每小时"},
       {std::regex(R"(时速\s*(\d+(\.\d+)?)\s*公里)"), "速度 $1 公里每小时"},
       {std::regex(R"(\bfrom (\d{1,2}) ?s to (\d{1,2}) ?s\b)"), "$2s"},  // a battery that is changed
       {std::regex(R"(\b((9|[1-3]\d)(\.\d+)?) x (\d+(\.\d+)?)(?=( [a-z]+)? prop))"), "$1x$4"},
       {std::regex(R"(\b(propellers?|props?) ((9|[1-3]\d)(\.\d+)?) x (\d+(\.\d+)?))"), "$1 $2x$5"},
-      {std::regex(R"(\b(propellers|props|rotors)\s*,\s*([\d.]+\s*(cm|mm|m|inch|inches|in|")) each\b)"),
-       "$1 $2"},
+      {std::regex(R"(\b(propellers|props|rotors)\s*,\s*([\d.]+\s*(cm|mm|m|inch|inches|in|")) each\b)"), "$1 $2"},
   };
   return kRules;
 }
@@ -69,13 +71,17 @@ const std::vector<Rule>& Phrases() {
       {std::regex(R"(\b(\d+(\.\d+)? ?(mph|km/h|kmh|kph|m/s|knots|kts)) level\b)"), "top speed $1"},
       {std::regex(R"((\d) in parallel\b)"), "$1 parallel"},
       // "5G WiFi", "2.4G remote": no grams.
-      {std::regex(R"(\b(2\.4|5\.8|[345])\s?g(hz)?\b(?=[ -]*(wi-?fi|wlan|fpv|lte|network|modem|transmission|signal|link|module|connection|rc|remote|radio|control|transmitter|video|live)))"), " "},
+      {std::regex(
+           R"(\b(2\.4|5\.8|[345])\s?g(hz)?\b(?=[ -]*(wi-?fi|wlan|fpv|lte|network|modem|transmission|signal|link|module|connection|rc|remote|radio|control|transmitter|video|live)))"),
+       " "},
       {std::regex(R"(\b(wi-?fi|lte)[ -]?[45]g\b)"), " "},
       {std::regex(R"(\bfor (a|one) (whole|full|entire) day\b)"), "for 24 hours"},
       // "58 g without and 84 g with battery"
-      {std::regex(R"((\d ?(g|grams?|kg|lbs?|oz)) (without|dry|w/o)\s*(,|and|/|-)?\s*(and )?([\d.]+ ?(g|grams?|kg|lbs?|oz)) (with|w/|incl\.?) (the |a )?(battery|lipo|batt|pack)\b)"),
+      {std::regex(
+           R"((\d ?(g|grams?|kg|lbs?|oz)) (without|dry|w/o)\s*(,|and|/|-)?\s*(and )?([\d.]+ ?(g|grams?|kg|lbs?|oz)) (with|w/|incl\.?) (the |a )?(battery|lipo|batt|pack)\b)"),
        "$1 without battery, $6 with battery"},
-      {std::regex(R"((\d ?(g|grams?|kg|lbs?|oz)) (without|w/o)\s*(,|and|/|-)?\s*(and )?([\d.]+ ?(g|grams?|kg|lbs?|oz)) (with|w/|incl\.?) (the |a )?(payload|load|camera|cargo)\b)"),
+      {std::regex(
+           R"((\d ?(g|grams?|kg|lbs?|oz)) (without|w/o)\s*(,|and|/|-)?\s*(and )?([\d.]+ ?(g|grams?|kg|lbs?|oz)) (with|w/|incl\.?) (the |a )?(payload|load|camera|cargo)\b)"),
        "$1 without payload, $6 total with payload"},
       {std::regex(R"(\bin space\s*([,.;!?]|$))"), "in outer space $1"},
       {std::regex(R"(\bdrone[ -]in[ -]a[ -]box\b)"), "drone"},
@@ -86,15 +92,12 @@ const std::vector<Rule>& Phrases() {
                   R"((on|in|into|onto|aboard) (an?|the) (aero|air)?planes?\b)"),
        " "},
       // "Without the GoPro", "minus camera and gimbal"
-      {std::regex(
-           R"(\b(without|w/o|minus|excluding|excl\.?|not counting|not including|less)( the| any| a| its)? )"
-           R"((camera|cam|gopro|go pro|gimbal|sensor|lidar|cargo|parcel|package|box|liquid|water|bait|scanner|action cam)s?)"
-           R"(( (and|or|&) (the )?(camera|gimbal|lens|mount|sensor))?\b)"),
+      {std::regex(R"(\b(without|w/o|minus|excluding|excl\.?|not counting|not including|less)( the| any| a| its)? )"
+                  R"((camera|cam|gopro|go pro|gimbal|sensor|lidar|cargo|parcel|package|box|liquid|water|bait|scanner|action cam)s?)"
+                  R"(( (and|or|&) (the )?(camera|gimbal|lens|mount|sensor))?\b)"),
        " without payload "},
       // Still air is no wind to withstand.
-      {std::regex(
-           R"(\b(in |with |at |under )?(no|zero|without( any)?|w/o|next to no) (wind|gusts|breeze)\b)"),
-       " "},
+      {std::regex(R"(\b(in |with |at |under )?(no|zero|without( any)?|w/o|next to no) (wind|gusts|breeze)\b)"), " "},
       {std::regex(R"(\b(in |at |during )?(straight and )?level flight\b)"), " "},
       {std::regex(R"(\bw/(?!\s*o\b)\s*(?=[a-z0-9]))"), "with "},
       // "6 minutes per charge": a charge that is flown takes no time at the plug.
@@ -104,17 +107,18 @@ const std::vector<Rule>& Phrases() {
       {std::regex(R"(\b(fl(y|ies|ying|ys)|hover(s|ing)?|stays? (up|airborne|in the air|aloft)|lasts?|runs?|keeps? (going|flying)))"
                   R"(( on)? (for ?ever|indefinitely|endlessly|eternally|without ever landing|till the end of time))"),
        " endless flight "},
-      {std::regex(R"((\d ?(kg|g|grams|lbs?|oz)( (payload|load|cargo|camera|battery|lipo|empty|dry))?)\s*=\s*(?=\d))"), "$1 , total "},  // a sum
+      {std::regex(R"((\d ?(kg|g|grams|lbs?|oz)( (payload|load|cargo|camera|battery|lipo|empty|dry))?)\s*=\s*(?=\d))"),
+       "$1 , total "},  // a sum
       {std::regex(R"(\)\s*=\s*(?=\d))"), ") , total "},
       {std::regex(R"(\s=\s?(?=~?\d))"), " is "},
       {std::regex(R"((\d)\s*\[(kg|g|lb|in|inch|mm|cm|m|min|s|h|ah|mah|wh|v|m/s|km/h)\])"), "$1 $2"},  // "1.4 [kg]"
       // "8 to 1": no range, which would rise.
-      {std::regex(R"(\b([2-9]|1\d)(\.\d+)? ?(to|zu|sur|su) (1|one|eins|un)\b(?!\s*-?\.?(\d|kg|g|h|hour|min|m|inch|in|lb|kilo|pound|hundred|thousand|l|v|s|ah|stunde)\b))"),
+      {std::regex(
+           R"(\b([2-9]|1\d)(\.\d+)? ?(to|zu|sur|su) (1|one|eins|un)\b(?!\s*-?\.?(\d|kg|g|h|hour|min|m|inch|in|lb|kilo|pound|hundred|thousand|l|v|s|ah|stunde)\b))"),
        "$1$2:1"},
       // "Hover? 20 min"
-      {std::regex(
-           R"(\b(propellers?|props?|battery|hover|time|weight|mass|auw|payload|wheelbase|diagonal|)"
-           R"(speed|cells|rotors|motors|thrust|twr)\s*\?\s+(?=(about|around|roughly|only|just|maybe)?\s*~?\d))"),
+      {std::regex(R"(\b(propellers?|props?|battery|hover|time|weight|mass|auw|payload|wheelbase|diagonal|)"
+                  R"(speed|cells|rotors|motors|thrust|twr)\s*\?\s+(?=(about|around|roughly|only|just|maybe)?\s*~?\d))"),
        "$1 "},
   };
   return kRules;
@@ -132,7 +136,8 @@ double InSi(const std::string& unit) {
 
 /// "2 inch props (51 mm)", "20 lbs (9.1 kg)": the same again in another unit says nothing new.
 std::string WithoutConversions(const std::string& text) {
-  static const std::regex kTwice(R"((\d{1,7}(?:\.\d{1,6})?) ?(inch(?:es)?|in|"|lbs?|oz|ft|pounds?|ounces?|mm|cm|m|g|kg)(?: [a-z]+)? ?\((?:=|~|or|about)? ?(\d{1,7}(?:\.\d{1,6})?) ?(inch(?:es)?|in|"|lbs?|oz|ft|pounds?|ounces?|mm|cm|m|g|kg)\))");
+  static const std::regex kTwice(
+      R"((\d{1,7}(?:\.\d{1,6})?) ?(inch(?:es)?|in|"|lbs?|oz|ft|pounds?|ounces?|mm|cm|m|g|kg)(?: [a-z]+)? ?\((?:=|~|or|about)? ?(\d{1,7}(?:\.\d{1,6})?) ?(inch(?:es)?|in|"|lbs?|oz|ft|pounds?|ounces?|mm|cm|m|g|kg)\))");
   constexpr double kRounding = 0.04;
   std::string out;
   size_t at = 0;

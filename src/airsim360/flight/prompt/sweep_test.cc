@@ -23,8 +23,7 @@ TEST_P(Sweep, EveryPromptFliesTheLemniscateUntuned) {
     EXPECT_NEAR(design.parts.Sum(), design.model.mass, 0.02 * design.model.mass) << kSamplePrompts[i];
     EXPECT_GT(design.endurance, 60) << kSamplePrompts[i];
     const FlightCheck check = CheckFlight(design.model);
-    EXPECT_TRUE(check.passed) << kSamplePrompts[i] << ": rms " << check.tracking.rms << " m of "
-                              << check.lemniscate.amplitude;
+    EXPECT_TRUE(check.passed) << kSamplePrompts[i] << ": rms " << check.tracking.rms << " m of " << check.lemniscate.amplitude;
   }
 }
 INSTANTIATE_TEST_SUITE_P(Prompts, Sweep, testing::Range(0, kShares));
@@ -38,8 +37,7 @@ TEST(Catalog, LawsMeetRealDronesDescribedByMassSizeAndKind) {
   int thrusts = 0, inertias = 0;
   for (const CatalogDrone& drone : DroneCatalog()) {
     if (drone.prompt.empty()) continue;
-    const DroneModel real = CatalogModel(std::string(drone.name)),
-                     words = DroneFromPrompt(drone.prompt).model;
+    const DroneModel real = CatalogModel(std::string(drone.name)), words = DroneFromPrompt(drone.prompt).model;
     if (drone.measured_thrust) {
       EXPECT_NEAR(words.rotors[0].thrust_factor / real.rotors[0].thrust_factor, 1, 0.2) << drone.name;
       ++thrusts;
@@ -56,8 +54,7 @@ TEST(Catalog, LawsMeetRealDronesDescribedByMassSizeAndKind) {
 TEST(Catalog, EveryRealDroneFliesUntuned) {
   for (const CatalogDrone& drone : DroneCatalog()) {
     const FlightCheck check = CheckFlight(CatalogModel(std::string(drone.name)));
-    EXPECT_TRUE(check.passed) << drone.name << ": rms " << check.tracking.rms << " m of "
-                              << check.lemniscate.amplitude;
+    EXPECT_TRUE(check.passed) << drone.name << ": rms " << check.tracking.rms << " m of " << check.lemniscate.amplitude;
   }
 }
 

@@ -134,15 +134,15 @@ bool IsPartWord(std::string_view word) {
 }
 
 bool NamesWhole(std::string_view word) {
-  static const Words kWords = Split(
-      "kit kits unit units system systems device setup assembly apparatus gadget thing model prototype rig robot lot shell");
+  static const Words kWords =
+      Split("kit kits unit units system systems device setup assembly apparatus gadget thing model prototype rig robot lot shell");
   return IsOneOf(word, kWords);
 }
 
 bool IsCarryVerb(std::string_view word) {
   static const Words kWords = Split(kCarryVerbs);
-  return IsOneOf(word, kWords) || word == "pick up" || word == "picks up" || word == "picking up" ||
-         word == "lifts up" || word == "loaded with";
+  return IsOneOf(word, kWords) || word == "pick up" || word == "picks up" || word == "picking up" || word == "lifts up" ||
+         word == "loaded with";
 }
 
 bool IsArticle(std::string_view word) {
@@ -162,8 +162,8 @@ bool CanBeThing(std::string_view word) {
     return words;
   }();
   const bool letters = std::all_of(word.begin(), word.end(), [](char c) { return c >= 'a' && c <= 'z'; });
-  return letters && word.size() >= 3 && !IsOneOf(word, kNone) && !MeansDrone(word) && !IsCarryVerb(word) &&
-         !IsArticle(word) && !JoinsThing(word) && !EndsLikeNoThing(word);
+  return letters && word.size() >= 3 && !IsOneOf(word, kNone) && !MeansDrone(word) && !IsCarryVerb(word) && !IsArticle(word) &&
+         !JoinsThing(word) && !EndsLikeNoThing(word);
 }
 
 }  // namespace airsim360::internal

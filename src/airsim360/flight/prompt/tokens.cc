@@ -82,8 +82,7 @@ class Cutter {
       return c == '-' || joins ? AddKind(Token::Kind::kDash, 1) : AddKind(Token::Kind::kComma, 1);
     }
     if (c == ':' && EndsHeading()) return AddKind(Token::Kind::kComma, 1);
-    const bool ends = c == ',' || c == ';' || c == '.' || c == '!' || c == '?' || c == '(' || c == ')' ||
-                      c == '[' || c == ']' || c == '|';
+    const bool ends = c == ',' || c == ';' || c == '.' || c == '!' || c == '?' || c == '(' || c == ')' || c == '[' || c == ']' || c == '|';
     if (c == '.' && FollowsAbbreviation()) return void(++at_);
     if (ends) return AddKind(Token::Kind::kComma, 1);
     ++at_;
@@ -94,7 +93,8 @@ class Cutter {
     constexpr size_t kLabel = 3;
     size_t words = 0;
     for (size_t k = tokens_.size(); k-- > 0 && tokens_[k].kind != Token::Kind::kComma && tokens_[k].kind != Token::Kind::kNumber;) {
-      if (tokens_[k].kind == Token::Kind::kWord && tokens_[k].word->kind >= WordKind::kRotorNoun && tokens_[k].word->kind <= WordKind::kElse)
+      if (tokens_[k].kind == Token::Kind::kWord && tokens_[k].word->kind >= WordKind::kRotorNoun &&
+          tokens_[k].word->kind <= WordKind::kElse)
         return false;
       words += tokens_[k].kind != Token::Kind::kDash;
     }
@@ -119,8 +119,7 @@ class Cutter {
   }
 
   size_t EndOfChunk(size_t begin) const {
-    if (static_cast<unsigned char>(text_[begin]) >= 0xe0)
-      return begin + CharacterLength(std::string_view(text_).substr(begin));
+    if (static_cast<unsigned char>(text_[begin]) >= 0xe0) return begin + CharacterLength(std::string_view(text_).substr(begin));
     size_t end = begin;
     while (end < text_.size()) {
       const char c = text_[end];
@@ -151,8 +150,8 @@ class Cutter {
         }
       }
       Take(key, n > 0, end, best, best_length);
-      while (next < text_.size() && (text_[next] == ' ' || text_[next] == '-' || text_[next] == '/' ||
-                                     text_[next] == '.' || text_[next] == '\''))
+      while (next < text_.size() &&
+             (text_[next] == ' ' || text_[next] == '-' || text_[next] == '/' || text_[next] == '.' || text_[next] == '\''))
         ++next;
       if (next >= text_.size() || !(IsDigit(text_[next]) || IsLetter(text_[next]))) break;
       begin = next;
@@ -187,8 +186,7 @@ class Cutter {
     const Word* next = FindWord(text_.substr(end, EndOfChunk(end) - end), false);
     if (next == nullptr) return false;
     return (next->kind >= WordKind::kMassUnit && next->kind <= WordKind::kPercent && next->aliases[0] != 's') ||
-           next->kind == WordKind::kRotorNoun || next->kind == WordKind::kMotor ||
-           next->kind == WordKind::kPropeller;
+           next->kind == WordKind::kRotorNoun || next->kind == WordKind::kMotor || next->kind == WordKind::kPropeller;
   }
 
   void CutPiece() {

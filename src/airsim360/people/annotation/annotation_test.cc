@@ -19,8 +19,8 @@ std::string NameAt(const KeypointOrder& order, size_t i) {
 }
 
 TEST(KeypointOrders, HaveThePublishedLengthsAndPlaces) {
-  const std::pair<const char*, size_t> sizes[] = {{"coco17", 17},  {"coco133", 133}, {"openpose25", 25},
-                                                  {"h36m17", 17},  {"smpl24", 24},   {"jta22", 22}};
+  const std::pair<const char*, size_t> sizes[] = {{"coco17", 17}, {"coco133", 133}, {"openpose25", 25},
+                                                  {"h36m17", 17}, {"smpl24", 24},   {"jta22", 22}};
   for (const auto& [name, size] : sizes) EXPECT_EQ(OrderByName(name).sockets.size(), size) << name;
   EXPECT_EQ(NameAt(OrderByName("coco17"), 0), "nose");
   EXPECT_EQ(NameAt(OrderByName("coco17"), 9), "left_wrist");
@@ -48,8 +48,7 @@ TEST(KeypointOrders, NoSocketIsNamedTwiceInOneOrder) {
 
 TEST(Sockets, AreReadWithJointOffsetAndRadius) {
   const auto sockets = ParseSockets(
-      R"({"sockets": [{"name": "phone_screen", "joint": "right_wrist", "offset": {"x": 0.1, "z": -0.02}, "radius": 0.01}]})",
-      "mine.json");
+      R"({"sockets": [{"name": "phone_screen", "joint": "right_wrist", "offset": {"x": 0.1, "z": -0.02}, "radius": 0.01}]})", "mine.json");
   ASSERT_EQ(sockets.size(), 1u);
   EXPECT_EQ(sockets[0].joint, Joint::kRightWrist);
   EXPECT_EQ(sockets[0].p_J, (Vec3d{0.1, 0, -0.02}));

@@ -29,8 +29,7 @@ constexpr std::array<int8_t, 133> MakeCoco133() {
   std::array<int8_t, 133> order{};
   order.fill(-1);
   for (size_t i = 0; i < kCoco17.size(); ++i) order[i] = kCoco17[i];
-  const int8_t feet[] = {S("left_big_toe"),  S("left_small_toe"),  S("left_heel"),
-                         S("right_big_toe"), S("right_small_toe"), S("right_heel")};
+  const int8_t feet[] = {S("left_big_toe"), S("left_small_toe"), S("left_heel"), S("right_big_toe"), S("right_small_toe"), S("right_heel")};
   for (size_t i = 0; i < 6; ++i) order[17 + i] = feet[i];
   order[23 + 30] = S("nose");
   const int8_t hands[2][4] = {{S("left_wrist"), S("left_thumb_tip"), S("left_hand"), S("left_finger_tip")},
@@ -90,39 +89,77 @@ constexpr Entry kOpenPoseEntries[] = {{"Nose", S("nose")},
                                       {"RHeel", S("right_heel")}};
 constexpr auto kOpenPose25 = Split(kOpenPoseEntries);
 
-constexpr Entry kH36mEntries[] = {
-    {"root", S("pelvis")},          {"right_hip", S("right_hip")},     {"right_knee", S("right_knee")},
-    {"right_foot", S("right_ankle")}, {"left_hip", S("left_hip")},     {"left_knee", S("left_knee")},
-    {"left_foot", S("left_ankle")}, {"spine", S("spine2")},            {"thorax", S("spine3")},
-    {"neck_base", S("neck")},       {"head", S("head_top")},           {"left_shoulder", S("left_shoulder")},
-    {"left_elbow", S("left_elbow")}, {"left_wrist", S("left_wrist")},  {"right_shoulder", S("right_shoulder")},
-    {"right_elbow", S("right_elbow")}, {"right_wrist", S("right_wrist")}};
+constexpr Entry kH36mEntries[] = {{"root", S("pelvis")},
+                                  {"right_hip", S("right_hip")},
+                                  {"right_knee", S("right_knee")},
+                                  {"right_foot", S("right_ankle")},
+                                  {"left_hip", S("left_hip")},
+                                  {"left_knee", S("left_knee")},
+                                  {"left_foot", S("left_ankle")},
+                                  {"spine", S("spine2")},
+                                  {"thorax", S("spine3")},
+                                  {"neck_base", S("neck")},
+                                  {"head", S("head_top")},
+                                  {"left_shoulder", S("left_shoulder")},
+                                  {"left_elbow", S("left_elbow")},
+                                  {"left_wrist", S("left_wrist")},
+                                  {"right_shoulder", S("right_shoulder")},
+                                  {"right_elbow", S("right_elbow")},
+                                  {"right_wrist", S("right_wrist")}};
 constexpr auto kH36m17 = Split(kH36mEntries);
 
-constexpr Entry kSmplEntries[] = {
-    {"pelvis", S("pelvis")},           {"left_hip", S("left_hip")},     {"right_hip", S("right_hip")},
-    {"spine1", S("spine1")},           {"left_knee", S("left_knee")},   {"right_knee", S("right_knee")},
-    {"spine2", S("spine2")},           {"left_ankle", S("left_ankle")}, {"right_ankle", S("right_ankle")},
-    {"spine3", S("spine3")},           {"left_foot", S("left_foot")},   {"right_foot", S("right_foot")},
-    {"neck", S("neck")},               {"left_collar", S("left_clavicle")}, {"right_collar", S("right_clavicle")},
-    {"head", S("head_center")},        {"left_shoulder", S("left_shoulder")}, {"right_shoulder", S("right_shoulder")},
-    {"left_elbow", S("left_elbow")},   {"right_elbow", S("right_elbow")}, {"left_wrist", S("left_wrist")},
-    {"right_wrist", S("right_wrist")}, {"left_hand", S("left_hand")},   {"right_hand", S("right_hand")}};
+constexpr Entry kSmplEntries[] = {{"pelvis", S("pelvis")},
+                                  {"left_hip", S("left_hip")},
+                                  {"right_hip", S("right_hip")},
+                                  {"spine1", S("spine1")},
+                                  {"left_knee", S("left_knee")},
+                                  {"right_knee", S("right_knee")},
+                                  {"spine2", S("spine2")},
+                                  {"left_ankle", S("left_ankle")},
+                                  {"right_ankle", S("right_ankle")},
+                                  {"spine3", S("spine3")},
+                                  {"left_foot", S("left_foot")},
+                                  {"right_foot", S("right_foot")},
+                                  {"neck", S("neck")},
+                                  {"left_collar", S("left_clavicle")},
+                                  {"right_collar", S("right_clavicle")},
+                                  {"head", S("head_center")},
+                                  {"left_shoulder", S("left_shoulder")},
+                                  {"right_shoulder", S("right_shoulder")},
+                                  {"left_elbow", S("left_elbow")},
+                                  {"right_elbow", S("right_elbow")},
+                                  {"left_wrist", S("left_wrist")},
+                                  {"right_wrist", S("right_wrist")},
+                                  {"left_hand", S("left_hand")},
+                                  {"right_hand", S("right_hand")}};
 constexpr auto kSmpl24 = Split(kSmplEntries);
 
-constexpr Entry kJtaEntries[] = {
-    {"head_top", S("head_top")},       {"head_center", S("head_center")}, {"neck", S("neck")},
-    {"right_clavicle", S("right_clavicle")}, {"right_shoulder", S("right_shoulder")}, {"right_elbow", S("right_elbow")},
-    {"right_wrist", S("right_wrist")}, {"left_clavicle", S("left_clavicle")}, {"left_shoulder", S("left_shoulder")},
-    {"left_elbow", S("left_elbow")},   {"left_wrist", S("left_wrist")},  {"spine0", -1},
-    {"spine1", S("spine3")},           {"spine2", S("spine2")},          {"spine3", S("spine1")},
-    {"spine4", S("pelvis")},           {"right_hip", S("right_hip")},    {"right_knee", S("right_knee")},
-    {"right_ankle", S("right_ankle")}, {"left_hip", S("left_hip")},      {"left_knee", S("left_knee")},
-    {"left_ankle", S("left_ankle")}};
+constexpr Entry kJtaEntries[] = {{"head_top", S("head_top")},
+                                 {"head_center", S("head_center")},
+                                 {"neck", S("neck")},
+                                 {"right_clavicle", S("right_clavicle")},
+                                 {"right_shoulder", S("right_shoulder")},
+                                 {"right_elbow", S("right_elbow")},
+                                 {"right_wrist", S("right_wrist")},
+                                 {"left_clavicle", S("left_clavicle")},
+                                 {"left_shoulder", S("left_shoulder")},
+                                 {"left_elbow", S("left_elbow")},
+                                 {"left_wrist", S("left_wrist")},
+                                 {"spine0", -1},
+                                 {"spine1", S("spine3")},
+                                 {"spine2", S("spine2")},
+                                 {"spine3", S("spine1")},
+                                 {"spine4", S("pelvis")},
+                                 {"right_hip", S("right_hip")},
+                                 {"right_knee", S("right_knee")},
+                                 {"right_ankle", S("right_ankle")},
+                                 {"left_hip", S("left_hip")},
+                                 {"left_knee", S("left_knee")},
+                                 {"left_ankle", S("left_ankle")}};
 constexpr auto kJta22 = Split(kJtaEntries);
 
-static_assert(std::size(kOpenPoseEntries) == 25 && std::size(kH36mEntries) == 17 &&
-              std::size(kSmplEntries) == 24 && std::size(kJtaEntries) == 22);
+static_assert(std::size(kOpenPoseEntries) == 25 && std::size(kH36mEntries) == 17 && std::size(kSmplEntries) == 24 &&
+              std::size(kJtaEntries) == 22);
 
 const KeypointOrder kOrders[] = {{"coco17", kCoco17, {}},
                                  {"coco133", kCoco133, {}},
@@ -131,26 +168,25 @@ const KeypointOrder kOrders[] = {{"coco17", kCoco17, {}},
                                  {"smpl24", kSmpl24.sockets, kSmpl24.names},
                                  {"jta22", kJta22.sockets, kJta22.names}};
 
-constexpr std::pair<int8_t, int8_t> kEdges[] = {
-    {S("nose"), S("left_eye")},
-    {S("nose"), S("right_eye")},
-    {S("left_eye"), S("left_ear")},
-    {S("right_eye"), S("right_ear")},
-    {S("neck"), S("head_top")},
-    {S("left_shoulder"), S("right_shoulder")},
-    {S("left_shoulder"), S("left_elbow")},
-    {S("left_elbow"), S("left_wrist")},
-    {S("right_shoulder"), S("right_elbow")},
-    {S("right_elbow"), S("right_wrist")},
-    {S("left_shoulder"), S("left_hip")},
-    {S("right_shoulder"), S("right_hip")},
-    {S("left_hip"), S("right_hip")},
-    {S("left_hip"), S("left_knee")},
-    {S("left_knee"), S("left_ankle")},
-    {S("right_hip"), S("right_knee")},
-    {S("right_knee"), S("right_ankle")},
-    {S("left_heel"), S("left_big_toe")},
-    {S("right_heel"), S("right_big_toe")}};
+constexpr std::pair<int8_t, int8_t> kEdges[] = {{S("nose"), S("left_eye")},
+                                                {S("nose"), S("right_eye")},
+                                                {S("left_eye"), S("left_ear")},
+                                                {S("right_eye"), S("right_ear")},
+                                                {S("neck"), S("head_top")},
+                                                {S("left_shoulder"), S("right_shoulder")},
+                                                {S("left_shoulder"), S("left_elbow")},
+                                                {S("left_elbow"), S("left_wrist")},
+                                                {S("right_shoulder"), S("right_elbow")},
+                                                {S("right_elbow"), S("right_wrist")},
+                                                {S("left_shoulder"), S("left_hip")},
+                                                {S("right_shoulder"), S("right_hip")},
+                                                {S("left_hip"), S("right_hip")},
+                                                {S("left_hip"), S("left_knee")},
+                                                {S("left_knee"), S("left_ankle")},
+                                                {S("right_hip"), S("right_knee")},
+                                                {S("right_knee"), S("right_ankle")},
+                                                {S("left_heel"), S("left_big_toe")},
+                                                {S("right_heel"), S("right_big_toe")}};
 
 }  // namespace
 

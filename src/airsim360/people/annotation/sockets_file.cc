@@ -23,8 +23,7 @@ Socket MakeSocket(const Entry& entry, std::string_view file, std::span<const Soc
   const std::string where = std::string(file) + ": socket '" + entry.name.substr(0, 100) + "': ";
   if (entry.name.empty() || entry.name.size() > 64) throw InputError(where + "a name has 1 to 64 letters");
   const auto same = [&](const Socket& socket) { return socket.name == entry.name; };
-  if (std::ranges::count(kSocketNames, entry.name) > 0 || std::ranges::any_of(before, same))
-    throw InputError(where + "the name is taken");
+  if (std::ranges::count(kSocketNames, entry.name) > 0 || std::ranges::any_of(before, same)) throw InputError(where + "the name is taken");
   const Joint joint = JointByName(entry.joint);
   if (joint == Joint::kCount) {
     std::vector<std::string> names;
@@ -42,26 +41,22 @@ std::vector<Socket> ParseSockets(std::string_view text, std::string_view name) {
     v.List("sockets", "points fixed to joints", entries, [](ConfigVisitor& entry, Entry& e) {
       entry.Field("name", "of the keypoint", e.name);
       entry.Field("joint", "that it is fixed to, as left_wrist", e.joint);
-      entry.Group("offset", "from the joint, in its frame: x forward, y left, z up in the rest pose",
-                  [&](ConfigVisitor& offset) {
-                    offset.Field("x", "metres", e.offset.x, -kFarthest, kFarthest);
-                    offset.Field("y", "metres", e.offset.y, -kFarthest, kFarthest);
-                    offset.Field("z", "metres", e.offset.z, -kFarthest, kFarthest);
-                  });
+      entry.Group("offset", "from the joint, in its frame: x forward, y left, z up in the rest pose", [&](ConfigVisitor& offset) {
+        offset.Field("x", "metres", e.offset.x, -kFarthest, kFarthest);
+        offset.Field("y", "metres", e.offset.y, -kFarthest, kFarthest);
+        offset.Field("z", "metres", e.offset.z, -kFarthest, kFarthest);
+      });
       entry.Field("radius", "how deep below the skin it may lie, metres", e.radius, 0, 1);
     });
   });
   if (entries.size() > kMostSockets) {
-    throw InputError(std::string(name) + ": " + std::to_string(entries.size()) + " sockets, at most " +
-                     std::to_string(kMostSockets));
+    throw InputError(std::string(name) + ": " + std::to_string(entries.size()) + " sockets, at most " + std::to_string(kMostSockets));
   }
   std::vector<Socket> sockets;
   for (const Entry& entry : entries) sockets.push_back(MakeSocket(entry, name, sockets));
   return sockets;
 }
 
-std::vector<Socket> ReadSockets(const std::string& file) {
-  return ParseSockets(ReadTextFile(file, kLargestFile), file);
-}
+std::vector<Socket> ReadSockets(const std::string& file) { return ParseSockets(ReadTextFile(file, kLargestFile), file); }
 
 }  // namespace airsim360

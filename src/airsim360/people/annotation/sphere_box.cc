@@ -63,8 +63,7 @@ std::vector<Vec2d> Hull(std::vector<Vec2d> points) {
   for (int side = 0; side < 2; ++side) {
     const size_t begin = hull.size();
     for (const Vec2d& p : points) {
-      while (hull.size() >= begin + 2 && Cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
-        hull.pop_back();
+      while (hull.size() >= begin + 2 && Cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
       hull.push_back(p);
     }
     hull.pop_back();
@@ -81,9 +80,7 @@ Vec2d LonLat(Vec3d d) {
   return {lon, std::atan2(-d.y, std::hypot(d.x, d.z))};
 }
 
-Vec3d DirectionOf(double lon, double lat) {
-  return {std::cos(lat) * std::sin(lon), -std::sin(lat), std::cos(lat) * std::cos(lon)};
-}
+Vec3d DirectionOf(double lon, double lat) { return {std::cos(lat) * std::sin(lon), -std::sin(lat), std::cos(lat) * std::cos(lon)}; }
 
 ViewAxes AxesOf(const FieldOfView& view) {
   const Vec3d forward = DirectionOf(view.lon, view.lat);
@@ -124,8 +121,6 @@ FieldOfView FitRotatedFieldOfView(std::span<const Vec3d> directions) {
   return best;
 }
 
-double SolidAngleOf(const FieldOfView& view) {
-  return 4 * std::asin(std::sin(view.width / 2) * std::sin(view.height / 2));
-}
+double SolidAngleOf(const FieldOfView& view) { return 4 * std::asin(std::sin(view.width / 2) * std::sin(view.height / 2)); }
 
 }  // namespace airsim360

@@ -2,9 +2,9 @@
 
 namespace airsim360::internal {
 
-const char* const kBehaviourNames[] = {"idle",  "walk",  "jog",   "run",           "talk",   "listen",  "phone_call",
-                                       "texting", "take_photo", "wave", "sit",      "carry",  "push_stroller", "crouch",
-                                       "stretch", "point", "wait", "look_up", "walk_dog", "umbrella"};
+const char* const kBehaviourNames[] = {"idle",    "walk",       "jog",  "run",     "talk",     "listen",        "phone_call",
+                                       "texting", "take_photo", "wave", "sit",     "carry",    "push_stroller", "crouch",
+                                       "stretch", "point",      "wait", "look_up", "walk_dog", "umbrella"};
 static_assert(std::size(kBehaviourNames) == static_cast<size_t>(Behaviour::kCount));
 
 std::vector<StateDef> DefaultStates() {
@@ -15,7 +15,8 @@ std::vector<StateDef> DefaultStates() {
   set(kStanding, {.name = "standing", .lower = {}, .upper = {}, .stop = true, .min_s = 2, .max_s = 15});
   set(kChatting, {.name = "chatting", .lower = {}, .upper = kTalk, .stop = true});
   set(kOnPhoneCall, {.name = "on_phone_call", .lower = {}, .upper = kPhoneCall, .speed = 0.85, .min_s = 10, .max_s = 60, .cooldown_s = 40});
-  set(internal::kTexting, {.name = "texting", .lower = {}, .upper = Behaviour::kTexting, .speed = 0.75, .min_s = 8, .max_s = 30, .cooldown_s = 20});
+  set(internal::kTexting,
+      {.name = "texting", .lower = {}, .upper = Behaviour::kTexting, .speed = 0.75, .min_s = 8, .max_s = 30, .cooldown_s = 20});
   set(kTakingPhoto, {.name = "taking_photo", .lower = {}, .upper = kTakePhoto, .stop = true, .min_s = 3, .max_s = 7});
   set(kWaving, {.name = "waving", .lower = {}, .upper = kWave, .min_s = 2, .max_s = 3.5, .cooldown_s = 10});
   set(kSitting, {.name = "sitting", .lower = kSit, .upper = {}, .stop = true, .min_s = 20, .max_s = 90});
@@ -28,13 +29,12 @@ std::vector<StateDef> DefaultStates() {
   set(kLookingUp, {.name = "looking_up", .lower = {}, .upper = kLookUp, .stop = true, .min_s = 3, .max_s = 8});
   set(kWithUmbrella, {.name = "with_umbrella", .lower = {}, .upper = kUmbrella});
   set(kWithDog, {.name = "with_dog", .lower = {}, .upper = kWalkDog, .speed = 0.9});
-  set(kSittingWithPhone, {.name = "sitting_with_phone", .lower = kSit, .upper = Behaviour::kTexting, .stop = true, .min_s = 20, .max_s = 90});
+  set(kSittingWithPhone,
+      {.name = "sitting_with_phone", .lower = kSit, .upper = Behaviour::kTexting, .stop = true, .min_s = 20, .max_s = 90});
   return states;
 }
 
-std::vector<std::string> DefaultMessages() {
-  return {"greet", "accept", "decline", "turn", "bye", "call", "alarm", "drone_near", "hello"};
-}
+std::vector<std::string> DefaultMessages() { return {"greet", "accept", "decline", "turn", "bye", "call", "alarm", "drone_near", "hello"}; }
 
 std::vector<TransitionDef> DefaultTransitions() {
   return {{.from = kWalking, .to = kOnPhoneCall, .message = kCall},
@@ -44,8 +44,8 @@ std::vector<TransitionDef> DefaultTransitions() {
 }
 
 const std::vector<std::pair<std::string, double>>& DefaultMix() {
-  static const std::vector<std::pair<std::string, double>> mix = {
-      {"walker", 10}, {"shopper", 3}, {"sitter", 3}, {"jogger", 1}, {"parent", 1}, {"tourist", 2}, {"athlete", 0.5}, {"caller", 1}};
+  static const std::vector<std::pair<std::string, double>> mix = {{"walker", 10}, {"shopper", 3}, {"sitter", 3},    {"jogger", 1},
+                                                                  {"parent", 1},  {"tourist", 2}, {"athlete", 0.5}, {"caller", 1}};
   return mix;
 }
 

@@ -11,9 +11,25 @@ namespace airsim360::internal {
 enum class PersonNode : uint8_t {
   // Actions
   kWanderTo = static_cast<uint8_t>(behaviour::Node::kFirstLeaf),
-  kGoTo, kGoToPlace, kSetState, kEndState, kMeet, kAnswerGreeting, kChat, kSend, kWaitMessage, kFacePerson, kLookAtDrone, kStepAway,
+  kGoTo,
+  kGoToPlace,
+  kSetState,
+  kEndState,
+  kMeet,
+  kAnswerGreeting,
+  kChat,
+  kSend,
+  kWaitMessage,
+  kFacePerson,
+  kLookAtDrone,
+  kStepAway,
   // Conditions
-  kChance, kStateIs, kDroneWithin, kPersonWithin, kMessageWaiting, kEvery,
+  kChance,
+  kStateIs,
+  kDroneWithin,
+  kPersonWithin,
+  kMessageWaiting,
+  kEvery,
 };
 
 /// Nodes of people's trees. Kinds of their ports: p point or person, s a state, m a message, k kind of place, a area.

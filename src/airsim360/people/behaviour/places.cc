@@ -13,7 +13,8 @@ constexpr double kReach = 0.7, kReachOfChairs = 1.4;  // metres from the ground 
 
 // In buildings that are furnished chairs are sat on too: at desks, at tables, in waiting rooms.
 bool IsChair(std::string_view path) {
-  for (const std::string_view prefix : {"furniture/seating/chair", "furniture/seating/office_chair", "furniture/seating/armchair", "furniture/sofa"})
+  for (const std::string_view prefix :
+       {"furniture/seating/chair", "furniture/seating/office_chair", "furniture/seating/armchair", "furniture/sofa"})
     if (path.starts_with(prefix)) return true;
   return false;
 }
@@ -24,11 +25,14 @@ bool IsFurnished(const Scene& scene) {
 
 std::optional<PlaceKind> KindOfPlace(std::string_view path, bool furnished) {
   if (furnished && IsChair(path)) return PlaceKind::kBench;
-  static const std::vector<std::pair<std::string_view, PlaceKind>> kinds = {
-      {"furniture/seating/bench", PlaceKind::kBench},    {"signage/shop_sign", PlaceKind::kShop},
-      {"construction/door", PlaceKind::kShop},           {"furniture/vending", PlaceKind::kFood},
-      {"construction/fountain", PlaceKind::kSight},      {"construction/statue", PlaceKind::kSight},
-      {"water", PlaceKind::kSight},                      {"furniture/transit/bus_stop", PlaceKind::kStop}};
+  static const std::vector<std::pair<std::string_view, PlaceKind>> kinds = {{"furniture/seating/bench", PlaceKind::kBench},
+                                                                            {"signage/shop_sign", PlaceKind::kShop},
+                                                                            {"construction/door", PlaceKind::kShop},
+                                                                            {"furniture/vending", PlaceKind::kFood},
+                                                                            {"construction/fountain", PlaceKind::kSight},
+                                                                            {"construction/statue", PlaceKind::kSight},
+                                                                            {"water", PlaceKind::kSight},
+                                                                            {"furniture/transit/bus_stop", PlaceKind::kStop}};
   for (const auto& [prefix, kind] : kinds)
     if (path.starts_with(prefix)) return kind;
   return std::nullopt;

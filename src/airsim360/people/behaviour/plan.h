@@ -40,8 +40,25 @@ struct TransitionDef {
 
 // States and messages that the code refers to; the first of their lists, in this order.
 enum BuiltInState : uint8_t {
-  kWalking, kStanding, kChatting, kOnPhoneCall, kTexting, kTakingPhoto, kWaving, kSitting, kCarrying, kPushingStroller,
-  kCrouching, kStretching, kPointing, kWaiting, kLookingUp, kWithUmbrella, kWithDog, kSittingWithPhone, kBuiltInStates
+  kWalking,
+  kStanding,
+  kChatting,
+  kOnPhoneCall,
+  kTexting,
+  kTakingPhoto,
+  kWaving,
+  kSitting,
+  kCarrying,
+  kPushingStroller,
+  kCrouching,
+  kStretching,
+  kPointing,
+  kWaiting,
+  kLookingUp,
+  kWithUmbrella,
+  kWithDog,
+  kSittingWithPhone,
+  kBuiltInStates
 };
 enum BuiltInMessage : uint8_t { kGreet, kAccept, kDecline, kTurn, kBye, kCall, kAlarm, kDroneNear, kHello, kBuiltInMessages };
 

@@ -47,11 +47,16 @@ ParsePort PersonPorts(TreeVocabulary words) {
   return [words = std::move(words)](char what, const std::string& text) {
     static const std::vector<std::string> kinds(kPlaceKindNames, std::end(kPlaceKindNames));
     switch (what) {
-      case 's': return Choice("state", text, words.states);
-      case 'm': return Choice("message", text, words.messages);
-      case 'k': return Choice("kind of place", text, kinds);
-      case 'a': return words.any_area ? Value{} : Choice("area", text, words.areas);
-      default: return ParsePoint(text);
+      case 's':
+        return Choice("state", text, words.states);
+      case 'm':
+        return Choice("message", text, words.messages);
+      case 'k':
+        return Choice("kind of place", text, kinds);
+      case 'a':
+        return words.any_area ? Value{} : Choice("area", text, words.areas);
+      default:
+        return ParsePoint(text);
     }
   };
 }

@@ -18,7 +18,8 @@ class Script : public Leaves {
  public:
   Status Tick(const Tree& tree, const TreeNode& node, NodeMemory&, TreeRun& run) override {
     log += node.label + " ";
-    if (static_cast<PersonNode>(node.node) == PersonNode::kChance) return NumberOf(tree, node, run, 0) > 0.5 ? Status::kSuccess : Status::kFailure;
+    if (static_cast<PersonNode>(node.node) == PersonNode::kChance)
+      return NumberOf(tree, node, run, 0) > 0.5 ? Status::kSuccess : Status::kFailure;
     const auto found = answers.find(node.label);
     return found == answers.end() ? Status::kRunning : found->second;
   }
@@ -36,7 +37,8 @@ Value Parse(char kind, const std::string& text) {
 
 TreeSet Read(const std::string& body, const std::string& more = "") {
   TreeSet set;
-  ReadTrees("<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"main\">\n" + body + "\n</BehaviorTree>\n" + more + "</root>", "test.xml", PersonPalette(), Parse, set);
+  ReadTrees("<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"main\">\n" + body + "\n</BehaviorTree>\n" + more + "</root>", "test.xml",
+            PersonPalette(), Parse, set);
   return set;
 }
 
@@ -160,7 +162,8 @@ std::string ErrorOf(const std::string& body, const std::string& more = "") {
 }
 
 TEST(Tree, ErrorsNameTheLineAndTheNearestChoice) {
-  EXPECT_NE(ErrorOf("<Sequense>" + kYes + "</Sequense>").find("test.xml:3: unknown node 'Sequense'; did you mean 'Sequence'?"), std::string::npos);
+  EXPECT_NE(ErrorOf("<Sequense>" + kYes + "</Sequense>").find("test.xml:3: unknown node 'Sequense'; did you mean 'Sequence'?"),
+            std::string::npos);
   EXPECT_NE(ErrorOf("<Chance q=\"1\"/>").find("test.xml:3: Chance: unknown attribute 'q' (choices: "), std::string::npos);
   EXPECT_NE(ErrorOf("<Chance/>").find("needs the attribute 'p'"), std::string::npos);
   EXPECT_NE(ErrorOf("<Chance p=\"often\"/>").find("expected a number, found 'often'"), std::string::npos);
@@ -208,7 +211,9 @@ TEST(Tree, FilesOfTreesAreCheckedWithTheWordsOfTheCrowd) {
   EXPECT_EQ(error("<SetState state=\"cheering\"/>", {.states = {"cheering"}, .messages = {}, .areas = {}}), "");
   EXPECT_NE(error("<GoTo point=\"1;2;3;4\"/>").find("expected 'x;y'"), std::string::npos);
   EXPECT_EQ(error("<GoTo point=\"1;2\"/>"), "");
-  EXPECT_NE(error("<WanderTo area=\"plasa\"/>", {.states = {}, .messages = {}, .areas = {"plaza"}, .any_area = false}).find("did you mean 'plaza'"), std::string::npos);
+  EXPECT_NE(error("<WanderTo area=\"plasa\"/>", {.states = {}, .messages = {}, .areas = {"plaza"}, .any_area = false})
+                .find("did you mean 'plaza'"),
+            std::string::npos);
 }
 
 TEST(Tree, IfAndRetryAreOtherNamesOfWhatTheyStandFor) {
@@ -221,10 +226,15 @@ TEST(Tree, IfAndRetryAreOtherNamesOfWhatTheyStandFor) {
 }
 
 TEST(Tree, WrittenXmlReadsBackAndIsWrittenTheSameWay) {
-  const std::string text = "<root BTCPP_format=\"4\">\n  <BehaviorTree ID=\"a &amp; b\">\n    <WanderTo area=\"x &lt; &quot;y&quot;&#10;z\"/>\n  </BehaviorTree>\n</root>\n";
+  const std::string text =
+      "<root BTCPP_format=\"4\">\n  <BehaviorTree ID=\"a &amp; b\">\n    <WanderTo area=\"x &lt; &quot;y&quot;&#10;z\"/>\n  </BehaviorTree>\n</root>\n";
   EXPECT_EQ(WriteXml(ReadXml(text, "x")), text);
   // However it was laid out.
-  EXPECT_EQ(WriteXml(ReadXml("<root BTCPP_format='4'><BehaviorTree\n ID='a &amp; b'><WanderTo area='x &lt; &quot;y&quot;&#10;z'></WanderTo></BehaviorTree></root>", "x")), text);
+  EXPECT_EQ(
+      WriteXml(ReadXml(
+          "<root BTCPP_format='4'><BehaviorTree\n ID='a &amp; b'><WanderTo area='x &lt; &quot;y&quot;&#10;z'></WanderTo></BehaviorTree></root>",
+          "x")),
+      text);
 }
 
 }  // namespace

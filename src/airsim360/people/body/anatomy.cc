@@ -69,8 +69,7 @@ std::array<Vec3d, kJointCount> RestJoints(const Proportions& p) {
   set(Joint::kLeftToes, {0.068, p.hip_half + 0.004, 0.013});
   for (int j = 0; j < kJointCount; ++j) {
     const Joint left = static_cast<Joint>(j), right = MirrorOf(left);
-    if (right != left && JointName(left).starts_with("left"))
-      q[At(right)] = {q[At(left)].x, -q[At(left)].y, q[At(left)].z};
+    if (right != left && JointName(left).starts_with("left")) q[At(right)] = {q[At(left)].x, -q[At(left)].y, q[At(left)].z};
   }
   return q;
 }
@@ -94,8 +93,10 @@ void FinishSkeleton(Body& body) {
   body.R_zero.fill(Mat3d{});
 
   // Limbs from where they are at rest to straight down.
-  const Joint chains[][2] = {{Joint::kLeftShoulder, Joint::kLeftElbow}, {Joint::kLeftElbow, Joint::kLeftWrist},
-                             {Joint::kLeftWrist, Joint::kLeftFingers1}, {Joint::kLeftHip, Joint::kLeftKnee},
+  const Joint chains[][2] = {{Joint::kLeftShoulder, Joint::kLeftElbow},
+                             {Joint::kLeftElbow, Joint::kLeftWrist},
+                             {Joint::kLeftWrist, Joint::kLeftFingers1},
+                             {Joint::kLeftHip, Joint::kLeftKnee},
                              {Joint::kLeftKnee, Joint::kLeftAnkle}};
   for (const auto& link : chains) {
     for (const bool mirror : {false, true}) {

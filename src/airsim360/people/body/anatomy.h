@@ -13,14 +13,14 @@ Joint MirrorOf(Joint joint);
 /// Shares of stature that change with age: children have larger heads and shorter legs.
 struct Proportions {
   double stature = 1.75;
-  double head = 0.130;       ///< chin to top, share of stature
-  double hip = 0.530;        ///< height of the hip joint
-  double shoulder = 0.818;   ///< height of the shoulder joint
+  double head = 0.130;      ///< chin to top, share of stature
+  double hip = 0.530;       ///< height of the hip joint
+  double shoulder = 0.818;  ///< height of the shoulder joint
   double shoulder_half = 0.113, hip_half = 0.052;
-  double girth = 1;          ///< factor on breadths
-  double belly = 0;          ///< 0 flat, 1 stout
+  double girth = 1;  ///< factor on breadths
+  double belly = 0;  ///< 0 flat, 1 stout
   bool female = false;
-  double adult = 1;          ///< 0 at 5 years, 1 from 16
+  double adult = 1;  ///< 0 at 5 years, 1 from 16
 };
 
 /// Segment lengths of Drillis and Contini (in Winter, Biomechanics and Motor Control of Human Movement).

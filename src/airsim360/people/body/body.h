@@ -34,23 +34,20 @@ BodySpec DrawBodySpec(uint64_t seed, uint64_t person, double child_share = 0.12)
 struct Socket {
   std::string name;  ///< "nose", "left_eye", …; see kSocketNames
   Joint joint = Joint::kPelvis;
-  Vec3d p_J;           ///< in the joint's frame: p_W = X_WJ * p_J
-  double radius = 0;   ///< metres from the point to the skin around it: tolerance of the self-occlusion test
+  Vec3d p_J;          ///< in the joint's frame: p_W = X_WJ * p_J
+  double radius = 0;  ///< metres from the point to the skin around it: tolerance of the self-occlusion test
 };
 
 /// Every body has these, in this order: COCO's 17 (0 to 16), then those of OpenPose-25, JTA, SMPL and hands.
 inline constexpr std::string_view kSocketNames[] = {
-    "nose", "left_eye", "right_eye", "left_ear", "right_ear", "left_shoulder", "right_shoulder", "left_elbow",
-    "right_elbow", "left_wrist", "right_wrist", "left_hip", "right_hip", "left_knee", "right_knee",
-    "left_ankle", "right_ankle",
+    "nose", "left_eye", "right_eye", "left_ear", "right_ear", "left_shoulder", "right_shoulder", "left_elbow", "right_elbow", "left_wrist",
+    "right_wrist", "left_hip", "right_hip", "left_knee", "right_knee", "left_ankle", "right_ankle",
     // 17
-    "head_top", "head_center", "neck", "chin", "mid_hip", "pelvis", "spine1", "spine2", "spine3",
-    "left_clavicle", "right_clavicle",
+    "head_top", "head_center", "neck", "chin", "mid_hip", "pelvis", "spine1", "spine2", "spine3", "left_clavicle", "right_clavicle",
     // 28
     "left_big_toe", "left_small_toe", "left_heel", "right_big_toe", "right_small_toe", "right_heel",
     // 34
-    "left_hand", "right_hand", "left_thumb_tip", "left_finger_tip", "right_thumb_tip", "right_finger_tip",
-    "left_foot", "right_foot"};
+    "left_hand", "right_hand", "left_thumb_tip", "left_finger_tip", "right_thumb_tip", "right_finger_tip", "left_foot", "right_foot"};
 inline constexpr int kSocketCount = static_cast<int>(std::size(kSocketNames));
 inline constexpr int kCocoSocketCount = 17;
 
@@ -79,20 +76,20 @@ struct BodyLevel {
 
 /// Sizes that motion and collision need, metres.
 struct BodyDimensions {
-  double thigh = 0, shank = 0;      ///< hip to knee, knee to ankle
+  double thigh = 0, shank = 0;  ///< hip to knee, knee to ankle
   double upper_arm = 0, forearm = 0;
-  double ankle_height = 0;          ///< ankle over the sole when standing flat
-  double heel_length = 0;           ///< heel behind the ankle
-  double ball_length = 0;           ///< ball of the foot (toes joint) before the ankle
+  double ankle_height = 0;  ///< ankle over the sole when standing flat
+  double heel_length = 0;   ///< heel behind the ankle
+  double ball_length = 0;   ///< ball of the foot (toes joint) before the ankle
   double hip_half_width = 0;
-  double radius = 0;                ///< of the upright cylinder round torso and arms: for crowds
+  double radius = 0;  ///< of the upright cylinder round torso and arms: for crowds
 };
 
 /// Immutable after it is made. Material texture ids are indices into `textures`.
 struct Body {
   BodySpec spec;
-  std::string character;  ///< "procedural", or the name in the pack
-  std::string outfit;     ///< "shirt trousers", …
+  std::string character;                ///< "procedural", or the name in the pack
+  std::string outfit;                   ///< "shirt trousers", …
   std::array<Vec3d, kJointCount> p_PJ;  ///< joints at rest, in P
   /// Rotation from rest to the anatomical zero (arms straight down, palms inwards, legs straight), per joint.
   std::array<Mat3d, kJointCount> R_zero;
@@ -116,9 +113,7 @@ std::shared_ptr<const Body> MakeBody(const BodySpec& spec, int finest_level = 0)
 int FindSocket(const Body& body, std::string_view name);
 
 /// Where a socket is in the world.
-inline Vec3d SocketPosition(const Socket& socket, const SkeletonPose& pose) {
-  return pose[socket.joint] * socket.p_J;
-}
+inline Vec3d SocketPosition(const Socket& socket, const SkeletonPose& pose) { return pose[socket.joint] * socket.p_J; }
 
 /// The pose at rest of a person who stands at X_WP.
 SkeletonPose RestPose(const Body& body, const RigidTransform& X_WP);

@@ -45,20 +45,27 @@ void Check(bool good, const std::string& name, const std::string& what) {
 
 // Indices of a file are not trusted.
 void CheckCharacter(const PackCharacter& c, size_t textures, const std::string& name) {
-  Check(c.sockets.size() >= static_cast<size_t>(kSocketCount) && c.levels.size() == internal::kBodyLevels && c.cloths.size() == c.materials.size(), name, "character '" + c.name + "' is incomplete");
+  Check(c.sockets.size() >= static_cast<size_t>(kSocketCount) && c.levels.size() == internal::kBodyLevels &&
+            c.cloths.size() == c.materials.size(),
+        name, "character '" + c.name + "' is incomplete");
   for (const Socket& s : c.sockets) Check(s.joint < Joint::kCount, name, "a socket of '" + c.name + "' has no joint");
   for (const Material& m : c.materials)
-    Check(m.base_color_texture >= -1 && m.base_color_texture < static_cast<TextureId>(textures) && m.alpha_mode <= AlphaMode::kMask, name, "a material of '" + c.name + "' is out of range");
+    Check(m.base_color_texture >= -1 && m.base_color_texture < static_cast<TextureId>(textures) && m.alpha_mode <= AlphaMode::kMask, name,
+          "a material of '" + c.name + "' is out of range");
   for (const BodyLevel& l : c.levels) {
     const size_t vertices = l.mesh.positions.size();
-    Check(l.influences.size() == vertices && l.mesh.normals.size() == vertices && l.mesh.uvs.size() == vertices && l.body_vertices == vertices, name, "a level of '" + c.name + "' lacks data");
+    Check(l.influences.size() == vertices && l.mesh.normals.size() == vertices && l.mesh.uvs.size() == vertices &&
+              l.body_vertices == vertices,
+          name, "a level of '" + c.name + "' lacks data");
     for (const Influences& in : l.influences) {
       for (uint8_t j : in.joint) Check(j < kJointCount, name, "a bone of '" + c.name + "' is out of range");
     }
-    for (const Vec3u& t : l.mesh.triangles) Check(std::max({t.x, t.y, t.z}) < vertices, name, "a triangle of '" + c.name + "' is out of range");
+    for (const Vec3u& t : l.mesh.triangles)
+      Check(std::max({t.x, t.y, t.z}) < vertices, name, "a triangle of '" + c.name + "' is out of range");
     uint64_t next = 0;
     for (const MeshPart& p : l.mesh.parts) {
-      Check(p.first_triangle == next && p.material < c.materials.size() && p.entity == 0, name, "a part of '" + c.name + "' is out of range");
+      Check(p.first_triangle == next && p.material < c.materials.size() && p.entity == 0, name,
+            "a part of '" + c.name + "' is out of range");
       next += p.triangle_count;
     }
     Check(next == l.mesh.triangles.size(), name, "parts of '" + c.name + "' do not cover it");
@@ -126,7 +133,8 @@ std::shared_ptr<const Texture> DecodedTexture(const BodyPack& pack, size_t index
   const std::scoped_lock lock(mutex);
   std::weak_ptr<const Texture>& slot = known[{&pack, index}];
   if (auto texture = slot.lock()) return texture;
-  auto texture = std::make_shared<Texture>(Texture::FromImage(pack.texture_names[index], DecodeRgba8(pack.textures[index], pack.texture_names[index]), true));
+  auto texture = std::make_shared<Texture>(
+      Texture::FromImage(pack.texture_names[index], DecodeRgba8(pack.textures[index], pack.texture_names[index]), true));
   slot = texture;
   return texture;
 }
@@ -183,7 +191,8 @@ std::shared_ptr<const Body> MakePackBody(const BodyPack& pack, const BodySpec& s
   const auto first = static_cast<uint32_t>(body->materials.size());
   Body props;
   internal::PaintBody(painted, spec, props);
-  for (const auto index : {internal::kPropDark, internal::kPropLight, internal::kPropColor}) body->materials.push_back(props.materials[index]);
+  for (const auto index : {internal::kPropDark, internal::kPropLight, internal::kPropColor})
+    body->materials.push_back(props.materials[index]);
 
   for (const BodyLevel& level : c.levels) {
     if (static_cast<int>(body->levels.size()) < finest_level) {

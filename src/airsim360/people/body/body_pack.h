@@ -24,7 +24,7 @@ struct PackCharacter {
   double heel_length = 0.06, radius = 0.27;
   std::vector<Socket> sockets;
   std::vector<Material> materials;
-  std::vector<Cloth> cloths;  ///< by material
+  std::vector<Cloth> cloths;      ///< by material
   std::vector<BodyLevel> levels;  ///< without props
 };
 

@@ -87,8 +87,7 @@ TEST(Body, EveryBodyHasEverySocketInsideItself) {
       const Vec3d p = body->p_PJ[static_cast<size_t>(socket.joint)] + socket.p_J;
       double nearest = 9;
       const BodyLevel& level = body->levels[0];
-      for (uint32_t v = 0; v < level.body_vertices; ++v)
-        nearest = std::min(nearest, Norm(VecCast<double>(level.mesh.positions[v]) - p));
+      for (uint32_t v = 0; v < level.body_vertices; ++v) nearest = std::min(nearest, Norm(VecCast<double>(level.mesh.positions[v]) - p));
       EXPECT_LT(nearest, 1.6 * socket.radius + 0.02) << socket.name;
     }
   }
@@ -168,8 +167,7 @@ TEST(Skinning, TheRestPoseIsTheMeshMoved) {
     SkinBody(*body, level, pose, X_WP.p, positions);
     const auto& rest = body->levels[static_cast<size_t>(level)].mesh.positions;
     ASSERT_EQ(positions.size(), rest.size());
-    for (size_t v = 0; v < rest.size(); ++v)
-      EXPECT_LT(Norm(VecCast<double>(positions[v]) - X_WP.R * VecCast<double>(rest[v])), 1e-5);
+    for (size_t v = 0; v < rest.size(); ++v) EXPECT_LT(Norm(VecCast<double>(positions[v]) - X_WP.R * VecCast<double>(rest[v])), 1e-5);
   }
 }
 

@@ -10,18 +10,19 @@ namespace {
 struct Side {
   Joint clavicle, shoulder, elbow, wrist, thumb1, thumb2, fingers1, fingers2;
 };
-constexpr Side kLeft{Joint::kLeftClavicle, Joint::kLeftShoulder, Joint::kLeftElbow, Joint::kLeftWrist,
-                     Joint::kLeftThumb1, Joint::kLeftThumb2, Joint::kLeftFingers1, Joint::kLeftFingers2};
-constexpr Side kRight{Joint::kRightClavicle, Joint::kRightShoulder, Joint::kRightElbow, Joint::kRightWrist,
-                      Joint::kRightThumb1, Joint::kRightThumb2, Joint::kRightFingers1, Joint::kRightFingers2};
+constexpr Side kLeft{Joint::kLeftClavicle, Joint::kLeftShoulder, Joint::kLeftElbow,    Joint::kLeftWrist,
+                     Joint::kLeftThumb1,   Joint::kLeftThumb2,   Joint::kLeftFingers1, Joint::kLeftFingers2};
+constexpr Side kRight{Joint::kRightClavicle, Joint::kRightShoulder, Joint::kRightElbow,    Joint::kRightWrist,
+                      Joint::kRightThumb1,   Joint::kRightThumb2,   Joint::kRightFingers1, Joint::kRightFingers2};
 
 // One layer of an arm between two positions along shoulder (0), elbow (1), wrist (2).
 void AddArmLayer(const FigureContext& f, const Side& s, double from, double to, double cloth, uint32_t material, LoftMesh& mesh) {
   const double H = f.H(), g = 0.5 + 0.5 * f.p.girth, slim = f.p.female ? 0.90 : 1;
   const Vec3d a = f.joint(s.shoulder), b = f.joint(s.elbow), c = f.joint(s.wrist), d = Normalized(b - a);
   // Position, radius across (in the plane of the palm), radius before and behind.
-  const double rows[][3] = {{-0.36, 0.010, 0.016}, {-0.18, 0.019, 0.029}, {0.0, 0.026, 0.034}, {0.18, 0.029, 0.035}, {0.45, 0.0285, 0.032}, {0.75, 0.026, 0.028}, {1.0, 0.0235, 0.025},
-                            {1.22, 0.024, 0.026}, {1.5, 0.021, 0.0225}, {1.8, 0.0155, 0.018}, {2.03, 0.0125, 0.0165}};
+  const double rows[][3] = {{-0.36, 0.010, 0.016}, {-0.18, 0.019, 0.029}, {0.0, 0.026, 0.034},   {0.18, 0.029, 0.035},
+                            {0.45, 0.0285, 0.032}, {0.75, 0.026, 0.028},  {1.0, 0.0235, 0.025},  {1.22, 0.024, 0.026},
+                            {1.5, 0.021, 0.0225},  {1.8, 0.0155, 0.018},  {2.03, 0.0125, 0.0165}};
   std::vector<LoftRing> rings;
   for (const auto& row : rows) {
     const double t = row[0];
@@ -37,12 +38,21 @@ void AddArmLayer(const FigureContext& f, const Side& s, double from, double to, 
     rings.push_back({q, across * H, deep * H, deep * H, 2, bones, -1});
   }
   const Vec3d v{1, 0, 0};
-  mesh.Loft(Thinned(rings, f.level), {.material = material, .segments = f.Around(20), .steps = f.Steps(3), .u = Normalized(Cross(d, v)), .v = v, .cap_first = true, .cap_last = true, .uv_metres = 0.45});
+  mesh.Loft(Thinned(rings, f.level), {.material = material,
+                                      .segments = f.Around(20),
+                                      .steps = f.Steps(3),
+                                      .u = Normalized(Cross(d, v)),
+                                      .v = v,
+                                      .cap_first = true,
+                                      .cap_last = true,
+                                      .uv_metres = 0.45});
 }
 
-void AddFinger(const FigureContext& f, Vec3d base, Vec3d d, Vec3d n, double length, double radius, Joint first, Joint second, int segments, LoftMesh& mesh) {
+void AddFinger(const FigureContext& f, Vec3d base, Vec3d d, Vec3d n, double length, double radius, Joint first, Joint second, int segments,
+               LoftMesh& mesh) {
   std::vector<LoftRing> rings;
-  for (const auto& [t, r, w] : {std::tuple{-0.1, 1.0, 0.0}, {0.25, 1.0, 0.0}, {0.45, 1.0, 0.5}, {0.6, 0.95, 1.0}, {0.85, 0.85, 1.0}, {1.0, 0.4, 1.0}})
+  for (const auto& [t, r, w] :
+       {std::tuple{-0.1, 1.0, 0.0}, {0.25, 1.0, 0.0}, {0.45, 1.0, 0.5}, {0.6, 0.95, 1.0}, {0.85, 0.85, 1.0}, {1.0, 0.4, 1.0}})
     rings.push_back({base + d * (t * length), r * radius, r * radius, r * radius, 2, MixBones(Bone(first), Bone(second), w), -1});
   mesh.Loft(Thinned(rings, f.level), {.material = kSkinMaterial, .segments = segments, .steps = 1, .u = Normalized(Cross(d, n)), .v = n});
 }
@@ -59,9 +69,14 @@ void AddHand(const FigureContext& f, const Side& s, LoftMesh& mesh) {
   const Vec3d w = f.joint(s.wrist), d = Normalized(f.joint(s.fingers1) - w), v{1, 0, 0}, u = Normalized(Cross(d, v));
   // The palm: wide along +X (where the thumb is), thin across.
   std::vector<LoftRing> palm;
-  for (const auto& [t, wide, thin, bone] : {std::tuple{-0.008, 0.0150, 0.0115, 0.0}, {0.012, 0.0180, 0.0115, 0.0}, {0.034, 0.0225, 0.0105, 0.0}, {0.052, 0.0220, 0.0090, 0.5}, {0.058, 0.018, 0.006, 1.0}})
+  for (const auto& [t, wide, thin, bone] : {std::tuple{-0.008, 0.0150, 0.0115, 0.0},
+                                            {0.012, 0.0180, 0.0115, 0.0},
+                                            {0.034, 0.0225, 0.0105, 0.0},
+                                            {0.052, 0.0220, 0.0090, 0.5},
+                                            {0.058, 0.018, 0.006, 1.0}})
     palm.push_back({w + d * (t * H), thin * H, wide * H, wide * H, 2.4, MixBones(Bone(s.wrist), Bone(s.fingers1), bone), -1});
-  mesh.Loft(Thinned(palm, f.level), {.material = kSkinMaterial, .segments = f.Around(16), .steps = f.Steps(2), .u = u, .v = v, .cap_first = false});
+  mesh.Loft(Thinned(palm, f.level),
+            {.material = kSkinMaterial, .segments = f.Around(16), .steps = f.Steps(2), .u = u, .v = v, .cap_first = false});
   if (f.level >= 2) {
     std::vector<LoftRing> mitten;
     for (const auto& [t, wide, k] : {std::tuple{0.05, 0.021, 0.0}, {0.078, 0.019, 0.5}, {0.106, 0.010, 1.0}})

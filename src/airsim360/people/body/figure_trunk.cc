@@ -68,7 +68,10 @@ void AddShirt(const FigureContext& f, LoftMesh& mesh) {
   // A jacket is open over a light shirt: a wedge on the chest.
   if (f.wear.top == Top::kJacket && f.level < 2) {
     std::vector<LoftRing> wedge;
-    for (const auto& [share, half, front] : {std::tuple{0.50, 0.006, 0.079 + 0.5 * belly + 0.008 * k}, {0.75, 0.016, 0.078 + 0.012 * k}, {0.95, 0.026, 0.061}, {1.08, 0.030, 0.042}})
+    for (const auto& [share, half, front] : {std::tuple{0.50, 0.006, 0.079 + 0.5 * belly + 0.008 * k},
+                                             {0.75, 0.016, 0.078 + 0.012 * k},
+                                             {0.95, 0.026, 0.061},
+                                             {1.08, 0.030, 0.042}})
       wedge.push_back({{-0.004 * H, 0, hip + share * trunk}, half * H, front * H * p.girth, 0, 2, Spine(f, hip + share * trunk), -1});
     mesh.Loft(wedge, {.material = kSkinMaterial, .segments = 10, .steps = 2, .cap_last = false});
   }
@@ -78,9 +81,11 @@ void AddSkirt(const FigureContext& f, LoftMesh& mesh) {
   const Proportions& p = f.p;
   const double H = p.stature, hip = p.hip * H, hem = 0.30 * hip / 0.53 * (f.wear.bottom == Bottom::kDress ? 0.95 : 1.05);
   std::vector<LoftRing> rings;
-  for (const auto& [z, half, front, back] :
-       {std::tuple{hem, 0.135, 0.108, 0.112}, {0.42 * hip + 0.58 * hem, 0.122, 0.094, 0.098}, {0.75 * hip + 0.25 * hem, 0.112, 0.080, 0.086},
-        {hip, 0.104, 0.068, 0.074}, {hip + 0.06 * H, 0.092, 0.060, 0.060}})
+  for (const auto& [z, half, front, back] : {std::tuple{hem, 0.135, 0.108, 0.112},
+                                             {0.42 * hip + 0.58 * hem, 0.122, 0.094, 0.098},
+                                             {0.75 * hip + 0.25 * hem, 0.112, 0.080, 0.086},
+                                             {hip, 0.104, 0.068, 0.074},
+                                             {hip + 0.06 * H, 0.092, 0.060, 0.060}})
     rings.push_back(TrunkRing(f, z, half, front, back));
   LoftStyle style{.material = kBottomMaterial, .segments = f.Around(36), .steps = f.Steps(3), .cap_last = false, .uv_metres = 0.45};
   style.deform = [&](LoftVertex& v) {
@@ -98,8 +103,12 @@ void AddSkirt(const FigureContext& f, LoftMesh& mesh) {
 void AddSeat(const FigureContext& f, LoftMesh& mesh) {
   const double H = f.H(), hip = f.p.hip * H, k = f.p.female ? 0.004 : 0;
   std::vector<LoftRing> rings;
-  for (const auto& [z, half, front, back] :
-       {std::tuple{-0.062, 0.040, 0.026, 0.034}, {-0.045, 0.075, 0.048, 0.056}, {-0.015, 0.095 + k, 0.060, 0.070}, {0.02, 0.098 + k, 0.062, 0.070}, {0.05, 0.092, 0.061, 0.062}, {0.075, 0.086, 0.058, 0.056}})
+  for (const auto& [z, half, front, back] : {std::tuple{-0.062, 0.040, 0.026, 0.034},
+                                             {-0.045, 0.075, 0.048, 0.056},
+                                             {-0.015, 0.095 + k, 0.060, 0.070},
+                                             {0.02, 0.098 + k, 0.062, 0.070},
+                                             {0.05, 0.092, 0.061, 0.062},
+                                             {0.075, 0.086, 0.058, 0.056}})
     rings.push_back(TrunkRing(f, hip + z * H, half, front, back));
   LoftStyle style{.material = kBottomMaterial, .segments = f.Around(32), .steps = f.Steps(2), .cap_first = true, .uv_metres = 0.45};
   style.deform = [&](LoftVertex& v) { FollowThighs(f, v, std::clamp((hip - v.p.z) / (0.10 * H), 0.0, 0.5)); };
@@ -108,15 +117,17 @@ void AddSeat(const FigureContext& f, LoftMesh& mesh) {
 
 // One layer of a leg from position `from` (0 hip, 1 knee) to the height `bottom` (share of stature); radii grow by
 // `cloth`.
-void AddLegLayer(const FigureContext& f, bool left, double bottom, double cloth, double flare, uint32_t material, double from, LoftMesh& mesh) {
+void AddLegLayer(const FigureContext& f, bool left, double bottom, double cloth, double flare, uint32_t material, double from,
+                 LoftMesh& mesh) {
   const double H = f.H(), g = f.p.girth, k = f.p.female ? 0.002 : 0;
   const Joint hip = left ? Joint::kLeftHip : Joint::kRightHip, knee = left ? Joint::kLeftKnee : Joint::kRightKnee;
   const Joint ankle = left ? Joint::kLeftAnkle : Joint::kRightAnkle;
   const Vec3d a = f.joint(hip), b = f.joint(knee), c = f.joint(ankle);
   // Position along hip (0), knee (1), ankle (2); half width, front, back; shares of stature.
-  const double rows[][4] = {{-0.06, 0.046, 0.052, 0.054}, {0.10, 0.051, 0.056, 0.062}, {0.28, 0.050 + k, 0.055, 0.056}, {0.55, 0.043, 0.049, 0.046},
-                            {0.82, 0.036, 0.040, 0.036}, {1.0, 0.033, 0.036, 0.033}, {1.18, 0.031, 0.031, 0.037}, {1.38, 0.030, 0.027, 0.041},
-                            {1.62, 0.025, 0.023, 0.032}, {1.85, 0.019, 0.020, 0.024}, {2.02, 0.019, 0.021, 0.023}};
+  const double rows[][4] = {{-0.06, 0.046, 0.052, 0.054}, {0.10, 0.051, 0.056, 0.062}, {0.28, 0.050 + k, 0.055, 0.056},
+                            {0.55, 0.043, 0.049, 0.046},  {0.82, 0.036, 0.040, 0.036}, {1.0, 0.033, 0.036, 0.033},
+                            {1.18, 0.031, 0.031, 0.037},  {1.38, 0.030, 0.027, 0.041}, {1.62, 0.025, 0.023, 0.032},
+                            {1.85, 0.019, 0.020, 0.024},  {2.02, 0.019, 0.021, 0.023}};
   std::vector<LoftRing> rings;
   for (const auto& row : rows) {
     const double t = row[0];
@@ -138,17 +149,29 @@ void AddShoe(const FigureContext& f, bool left, LoftMesh& mesh) {
   const double H = f.H(), y = f.joint(left ? Joint::kLeftAnkle : Joint::kRightAnkle).y, side = left ? 1 : -1;
   const Joint ankle = left ? Joint::kLeftAnkle : Joint::kRightAnkle, toes = left ? Joint::kLeftToes : Joint::kRightToes;
   // x, half width, height, shift outwards.
-  const double rows[][4] = {{-0.044, 0.010, 0.022, 0}, {-0.038, 0.018, 0.042, 0}, {-0.015, 0.0215, 0.052, 0}, {0.012, 0.0220, 0.050, 0}, {0.040, 0.0245, 0.039, 0.001},
-                            {0.068, 0.0275, 0.030, 0.002}, {0.092, 0.0255, 0.024, 0.001}, {0.108, 0.0180, 0.019, -0.001}, {0.115, 0.006, 0.012, -0.002}};
+  const double rows[][4] = {{-0.044, 0.010, 0.022, 0},     {-0.038, 0.018, 0.042, 0},      {-0.015, 0.0215, 0.052, 0},
+                            {0.012, 0.0220, 0.050, 0},     {0.040, 0.0245, 0.039, 0.001},  {0.068, 0.0275, 0.030, 0.002},
+                            {0.092, 0.0255, 0.024, 0.001}, {0.108, 0.0180, 0.019, -0.001}, {0.115, 0.006, 0.012, -0.002}};
   for (const bool sole : {false, true}) {
     if (sole && f.level > 1) continue;
     std::vector<LoftRing> rings;
     for (const auto& row : rows) {
       const Influences bones = MixBones(Bone(ankle), Bone(toes), std::clamp((row[0] - 0.052) / 0.03, 0.0, 1.0));
       const double height = sole ? 0.010 : row[2], grow = sole ? 0.0015 : 0;
-      rings.push_back({{row[0] * H, y + side * row[3] * H, 0.5 * height * H}, (row[1] + grow) * H, 0.5 * height * H, 0.5 * height * H, sole ? 4.0 : 2.8, bones, -1});
+      rings.push_back({{row[0] * H, y + side * row[3] * H, 0.5 * height * H},
+                       (row[1] + grow) * H,
+                       0.5 * height * H,
+                       0.5 * height * H,
+                       sole ? 4.0 : 2.8,
+                       bones,
+                       -1});
     }
-    mesh.Loft(Thinned(rings, f.level), {.material = sole ? kSoleMaterial : kShoeMaterial, .segments = f.Around(20), .steps = f.Steps(2), .u = {0, 1, 0}, .v = {0, 0, 1}, .cap_first = true});
+    mesh.Loft(Thinned(rings, f.level), {.material = sole ? kSoleMaterial : kShoeMaterial,
+                                        .segments = f.Around(20),
+                                        .steps = f.Steps(2),
+                                        .u = {0, 1, 0},
+                                        .v = {0, 0, 1},
+                                        .cap_first = true});
   }
 }
 

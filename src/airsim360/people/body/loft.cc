@@ -90,8 +90,7 @@ void LoftMesh::Loft(std::span<const LoftRing> rings, const LoftStyle& style) {
   Vec3d previous = rings.front().center;
   uint32_t first = 0, last = 0;
   for (int k = 0; k <= total; ++k) {
-    const LoftRing ring =
-        Between(rings, static_cast<size_t>(k / style.steps), static_cast<double>(k % style.steps) / style.steps);
+    const LoftRing ring = Between(rings, static_cast<size_t>(k / style.steps), static_cast<double>(k % style.steps) / style.steps);
     along += Norm(ring.center - previous);
     previous = ring.center;
     const auto start = static_cast<uint32_t>(level_.mesh.positions.size());
@@ -99,14 +98,13 @@ void LoftMesh::Loft(std::span<const LoftRing> rings, const LoftStyle& style) {
     for (int i = 0; i <= n; ++i) {
       const double theta = kTurn * (static_cast<double>(i % n) / n - 0.5);
       const double c = SignedPower(std::cos(theta), 2 / ring.power), s = SignedPower(std::sin(theta), 2 / ring.power);
-      LoftVertex vertex{ring.center + style.u * (ring.half * s) + style.v * (c > 0 ? ring.front * c : ring.back * c),
-                        theta, ring.bones};
+      LoftVertex vertex{ring.center + style.u * (ring.half * s) + style.v * (c > 0 ? ring.front * c : ring.back * c), theta, ring.bones};
       if (style.deform) style.deform(vertex);
       const double around = static_cast<double>(i) / n;
       const double girth = kTurn * (rings[rings.size() / 2].half + rings[rings.size() / 2].front) / 2;
-      const Vec2f uv = style.uv_metres > 0 ? Vec2f{static_cast<float>(around * girth / style.uv_metres),
-                                                   static_cast<float>(along / style.uv_metres)}
-                                           : Vec2f{static_cast<float>(around), static_cast<float>(ring.v >= 0 ? ring.v : k / static_cast<double>(total))};
+      const Vec2f uv = style.uv_metres > 0
+                           ? Vec2f{static_cast<float>(around * girth / style.uv_metres), static_cast<float>(along / style.uv_metres)}
+                           : Vec2f{static_cast<float>(around), static_cast<float>(ring.v >= 0 ? ring.v : k / static_cast<double>(total))};
       const uint32_t index = Add(vertex.p, uv, vertex.bones);
       if (i == n) same_[index] = start;
     }
@@ -188,9 +186,8 @@ BodyLevel LoftMesh::Finish(std::string name) {
   }
 
   // Parts: one for each (prop, material).
-  std::stable_sort(triangles_.begin(), triangles_.end(), [](const Triangle& a, const Triangle& b) {
-    return a.prop != b.prop ? a.prop < b.prop : a.material < b.material;
-  });
+  std::stable_sort(triangles_.begin(), triangles_.end(),
+                   [](const Triangle& a, const Triangle& b) { return a.prop != b.prop ? a.prop < b.prop : a.material < b.material; });
   for (const Triangle& t : triangles_) {
     const auto index = static_cast<uint32_t>(mesh.triangles.size());
     if (mesh.parts.empty() || mesh.parts.back().material != t.material || mesh.parts.back().entity != t.prop)

@@ -31,8 +31,8 @@ struct LoftVertex {
 
 struct LoftStyle {
   uint32_t material = 0;
-  int segments = 24;    ///< around
-  int steps = 2;        ///< rings per given ring (Catmull-Rom between)
+  int segments = 24;  ///< around
+  int steps = 2;      ///< rings per given ring (Catmull-Rom between)
   Vec3d u{0, 1, 0}, v{1, 0, 0};
   bool cap_first = false, cap_last = true;
   double uv_metres = 0;  ///< 0: uv runs over [0, 1] around (0.5 = front) and along; else metres per tile

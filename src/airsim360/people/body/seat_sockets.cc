@@ -57,8 +57,8 @@ double WindingNumber(const BodyLevel& level, Vec3d p_P) {
   return sum / (2 * std::numbers::pi);
 }
 
-void SeatSockets(std::span<const BodyLevel> levels, const std::array<Vec3d, kJointCount>& p_PJ, double margin,
-                 double farthest, std::vector<Socket>& sockets) {
+void SeatSockets(std::span<const BodyLevel> levels, const std::array<Vec3d, kJointCount>& p_PJ, double margin, double farthest,
+                 std::vector<Socket>& sockets) {
   const std::vector<Socket> given = sockets;
   ParallelFor(static_cast<int64_t>(sockets.size()), [&](int64_t i) {
     Socket& socket = sockets[static_cast<size_t>(i)];

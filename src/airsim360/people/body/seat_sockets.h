@@ -19,7 +19,7 @@ inline bool IsInside(const BodyLevel& level, Vec3d p_P) { return WindingNumber(l
 
 /// Moves sockets that lie outside, or less than `margin` metres inside, of a level towards the middle of their limb,
 /// by at most `farthest` metres. Coarser levels yield where all cannot be satisfied. Empty levels count for nothing.
-void SeatSockets(std::span<const BodyLevel> levels, const std::array<Vec3d, kJointCount>& p_PJ, double margin,
-                 double farthest, std::vector<Socket>& sockets);
+void SeatSockets(std::span<const BodyLevel> levels, const std::array<Vec3d, kJointCount>& p_PJ, double margin, double farthest,
+                 std::vector<Socket>& sockets);
 
 }  // namespace airsim360

@@ -28,15 +28,13 @@ BoneMatrix MakeBone(const RigidTransform& X_WJ, Vec3d p_PJ, Vec3d origin) {
 
 Vec3f Apply(const BoneMatrix& b, Vec3f p) {
   float out[4];
-  for (int i = 0; i < 4; ++i)
-    out[i] = b.column[0][i] * p.x + b.column[1][i] * p.y + b.column[2][i] * p.z + b.column[3][i];
+  for (int i = 0; i < 4; ++i) out[i] = b.column[0][i] * p.x + b.column[1][i] * p.y + b.column[2][i] * p.z + b.column[3][i];
   return {out[0], out[1], out[2]};
 }
 
 }  // namespace
 
-void SkinBody(const Body& body, int level, const SkeletonPose& pose, Vec3d p_W_origin,
-              std::vector<Vec3f>& positions) {
+void SkinBody(const Body& body, int level, const SkeletonPose& pose, Vec3d p_W_origin, std::vector<Vec3f>& positions) {
   const BodyLevel& shape = body.levels[static_cast<size_t>(level)];
   BoneMatrix bones[kJointCount + 1];
   for (size_t j = 0; j < kJointCount; ++j) bones[j] = MakeBone(pose.X_WJ[j], body.p_PJ[j], p_W_origin);
@@ -132,8 +130,8 @@ PersonRef AddPerson(const PersonInScene& person, Scene& scene, TextureIds& known
                 .level_count = person.coarser ? coarsest - level + 1 : 1};
   const auto first_material = static_cast<MaterialId>(scene.materials.size());
   for (Material material : body.materials) {
-    for (TextureId* id : {&material.base_color_texture, &material.metallic_roughness_texture,
-                          &material.normal_texture, &material.emission_texture})
+    for (TextureId* id :
+         {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture, &material.emission_texture})
       *id = SceneTexture(body, *id, scene, known);
     scene.materials.push_back(std::move(material));
   }
@@ -163,8 +161,8 @@ void HidePeople(std::span<const PersonRef> refs, SceneState& state) {
   }
 }
 
-void AppendPeople(std::span<const PersonInScene> people, std::span<const PersonRef> refs,
-                  std::span<const SkeletonPose* const> poses, std::span<const uint8_t> levels, SceneState& state) {
+void AppendPeople(std::span<const PersonInScene> people, std::span<const PersonRef> refs, std::span<const SkeletonPose* const> poses,
+                  std::span<const uint8_t> levels, SceneState& state) {
   const size_t moved = state.moved.size(), deformed = state.deformed.size();
   HidePeople(refs, state);
   std::vector<std::shared_ptr<std::vector<Vec3f>>> positions(refs.size());

@@ -29,9 +29,7 @@ uint8_t Encode(float c) {
   c = std::clamp(c, 0.0f, 1.0f);
   return static_cast<uint8_t>(std::lround(255 * (c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f)));
 }
-Vec3f FromHex(uint32_t hex) {
-  return {Linear(hex >> 16 & 255), Linear(hex >> 8 & 255), Linear(hex & 255)};
-}
+Vec3f FromHex(uint32_t hex) { return {Linear(hex >> 16 & 255), Linear(hex >> 8 & 255), Linear(hex & 255)}; }
 template <size_t N>
 Vec3f Pick(const uint32_t (&list)[N], RngStream& rng) {
   const Vec3f color = FromHex(list[rng.Index(N)]);
@@ -50,8 +48,8 @@ std::shared_ptr<const Texture> Paint(std::string name, int size, const Painter& 
   Image<Rgba8> image(size, size);
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
-      const Vec3f c = color((static_cast<float>(x) + 0.5f) / static_cast<float>(size),
-                            (static_cast<float>(y) + 0.5f) / static_cast<float>(size), x, y);
+      const Vec3f c =
+          color((static_cast<float>(x) + 0.5f) / static_cast<float>(size), (static_cast<float>(y) + 0.5f) / static_cast<float>(size), x, y);
       image(x, y) = {Encode(c.x), Encode(c.y), Encode(c.z), 255};
     }
   }
@@ -122,18 +120,26 @@ constexpr std::string_view kBottomNames[] = {"trousers", "jeans", "shorts", "ski
 Wardrobe DrawWardrobe(const BodySpec& spec) {
   RngStream rng(spec.look, "wardrobe");
   Wardrobe w;
-  const bool female = spec.sex == Sex::kFemale, child = spec.age < 16, old = spec.age > 58;
+  const bool female = spec.sex == Sex::kFemale, child = spec.age<16, old = spec.age> 58;
   w.skin = FromHex(kSkins[rng.Index(std::size(kSkins))]);
   w.hair_color = Pick(kHairs, rng);
   if (rng.Chance(std::clamp((spec.age - 40) / 35, 0.0, 1.0))) w.hair_color = Vec3f{0.42f, 0.41f, 0.40f};
 
   // Cut.
   const double t = rng.Uniform();
-  w.top = child ? (t < 0.6 ? Top::kTShirt : Top::kPullover)
-                : t < 0.30 ? Top::kTShirt : t < 0.55 ? Top::kShirt : t < 0.75 ? Top::kPullover : t < 0.95 ? Top::kJacket : Top::kVest;
+  w.top = child      ? (t < 0.6 ? Top::kTShirt : Top::kPullover)
+          : t < 0.30 ? Top::kTShirt
+          : t < 0.55 ? Top::kShirt
+          : t < 0.75 ? Top::kPullover
+          : t < 0.95 ? Top::kJacket
+                     : Top::kVest;
   const double b = rng.Uniform();
   if (female)
-    w.bottom = b < 0.22 ? Bottom::kTrousers : b < 0.55 ? Bottom::kJeans : b < 0.65 ? Bottom::kShorts : b < 0.85 ? Bottom::kSkirt : Bottom::kDress;
+    w.bottom = b < 0.22   ? Bottom::kTrousers
+               : b < 0.55 ? Bottom::kJeans
+               : b < 0.65 ? Bottom::kShorts
+               : b < 0.85 ? Bottom::kSkirt
+                          : Bottom::kDress;
   else
     w.bottom = b < 0.40 ? Bottom::kTrousers : b < 0.80 || old ? Bottom::kJeans : Bottom::kShorts;
   if (child && rng.Chance(0.3)) w.bottom = Bottom::kShorts;
@@ -142,7 +148,11 @@ Wardrobe DrawWardrobe(const BodySpec& spec) {
   if (female)
     w.hair = h < 0.42 ? Hair::kLong : h < 0.72 ? Hair::kBob : h < 0.9 ? Hair::kBun : Hair::kShort;
   else
-    w.hair = h < 0.55 ? Hair::kShort : h < 0.82 ? Hair::kCropped : h < 0.92 ? Hair::kCap : old || (h > 0.96 && !child) ? Hair::kBald : Hair::kShort;
+    w.hair = h < 0.55                      ? Hair::kShort
+             : h < 0.82                    ? Hair::kCropped
+             : h < 0.92                    ? Hair::kCap
+             : old || (h > 0.96 && !child) ? Hair::kBald
+                                           : Hair::kShort;
   w.beard = !female && !child && rng.Chance(0.22);
 
   // Colours.
@@ -150,8 +160,7 @@ Wardrobe DrawWardrobe(const BodySpec& spec) {
   w.second_color = Pick(kTops, rng);
   w.pattern = w.top == Top::kJacket ? 0 : static_cast<int>(rng.Index(8));
   if (w.pattern > 4) w.pattern = 0;
-  w.bottom_color = w.bottom == Bottom::kJeans ? Pick(kJeans, rng)
-                   : w.bottom == Bottom::kSkirt ? Pick(kSkirts, rng) : Pick(kTrousers, rng);
+  w.bottom_color = w.bottom == Bottom::kJeans ? Pick(kJeans, rng) : w.bottom == Bottom::kSkirt ? Pick(kSkirts, rng) : Pick(kTrousers, rng);
   if (w.bottom == Bottom::kDress) {
     w.top = Top::kTShirt;
     w.bottom_color = w.top_color;

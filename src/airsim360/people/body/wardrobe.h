@@ -16,7 +16,7 @@ struct Wardrobe {
   Top top = Top::kTShirt;
   Bottom bottom = Bottom::kTrousers;
   Hair hair = Hair::kShort;
-  bool coat = false;  ///< the jacket reaches to mid-thigh
+  bool coat = false;                                                          ///< the jacket reaches to mid-thigh
   Vec3f skin, hair_color, top_color, second_color, bottom_color, shoe_color;  ///< linear
   int pattern = 0;  ///< of the top: 0 plain, 1 stripes across, 2 checks, 3 stripes along, 4 block
   bool beard = false;
@@ -27,8 +27,17 @@ Wardrobe DrawWardrobe(const BodySpec& spec);
 
 /// Materials of a procedural body, by index.
 enum BodyMaterial : uint32_t {
-  kFaceMaterial, kSkinMaterial, kHairMaterial, kTopMaterial, kBottomMaterial, kShoeMaterial, kSoleMaterial,
-  kPropDark, kPropLight, kPropColor, kBodyMaterialCount
+  kFaceMaterial,
+  kSkinMaterial,
+  kHairMaterial,
+  kTopMaterial,
+  kBottomMaterial,
+  kShoeMaterial,
+  kSoleMaterial,
+  kPropDark,
+  kPropLight,
+  kPropColor,
+  kBodyMaterialCount
 };
 
 /// Fills materials and textures of a body.

@@ -34,7 +34,7 @@ struct Group {
   uint32_t id = 0;
   std::vector<PersonIndex> members;
   Vec2d centre;
-  double angle = 0;   ///< of the first member as seen from the centre
+  double angle = 0;  ///< of the first member as seen from the centre
   int64_t ends_ns = 0, since_ns = 0, silent_since_ns = 0;
   int64_t changed_ns = 0;  ///< when somebody came or went: all take their places anew
 };
@@ -52,23 +52,23 @@ struct Agent {
   uint32_t gate = 0;        ///< the next one
   Vec3d progress_p;         ///< place of the last progress
   int64_t progress_ns = 0;
-  Vec3d stuck_p;            ///< the same, whatever the goals
+  Vec3d stuck_p;  ///< the same, whatever the goals
   int64_t stuck_ns = 0;
-  int64_t way_ns = 0;       ///< when they last had somewhere to go
-  NavPoint errand;          ///< of WanderTo, until it is reached
+  int64_t way_ns = 0;  ///< when they last had somewhere to go
+  NavPoint errand;     ///< of WanderTo, until it is reached
   bool has_errand = false;
-  bool hold = false;        ///< red light ahead
-  double pace = 1;          ///< share of the speed on the plain that stairs and slopes leave
-  int32_t place = -1;       ///< index into CrowdPlan::places that is theirs
-  bool at_place = false;    ///< stands or sits there, perhaps beside the mesh
-  Vec3d offset;             ///< of the feet from where they belong, dying out
+  bool hold = false;      ///< red light ahead
+  double pace = 1;        ///< share of the speed on the plain that stairs and slopes leave
+  int32_t place = -1;     ///< index into CrowdPlan::places that is theirs
+  bool at_place = false;  ///< stands or sits there, perhaps beside the mesh
+  Vec3d offset;           ///< of the feet from where they belong, dying out
   int64_t offset_ns = -1'000'000'000'000;
   // State machine
   uint8_t state = kWalking;
   int64_t state_since_ns = 0, state_until_ns = 0;  ///< until 0 = open
   std::vector<int64_t> left_ns;                    ///< when each state was left last
   uint8_t state_before = kWalking;
-  std::string cause = "start";                     ///< why the state was entered
+  std::string cause = "start";  ///< why the state was entered
   // Tree
   uint16_t tree = 0;
   TreeRun run;
@@ -93,15 +93,15 @@ struct CrowdInternals {
   std::vector<internal::Walker> walkers;  // as at the end of the current tick
   std::vector<internal::Agent> agents;
   std::vector<internal::Group> groups;
-  std::vector<internal::Message> post;    // sent in this tick, delivered in the next
-  std::vector<PersonIndex> place_taken;   // by place; kNoPerson = free
-  std::vector<PersonIndex> path_queue;    // who waits for a way, first come first served
-  std::vector<Vec3d> from;                // where the tick began
+  std::vector<internal::Message> post;   // sent in this tick, delivered in the next
+  std::vector<PersonIndex> place_taken;  // by place; kNoPerson = free
+  std::vector<PersonIndex> path_queue;   // who waits for a way, first come first served
+  std::vector<Vec3d> from;               // where the tick began
   std::vector<double> from_yaw, to_yaw;
-  int64_t tick = 0;                       // ticks done
+  int64_t tick = 0;  // ticks done
   uint32_t next_group = 1;
   uint64_t lost_messages = 0;
-  internal::Steering steering;            // scratch: copies start empty
+  internal::Steering steering;  // scratch: copies start empty
 };
 
 namespace internal {

@@ -6,7 +6,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kTurnRate = 2.4;      // rad/s
+constexpr double kTurnRate = 2.4;        // rad/s
 constexpr double kHeadsByMotion = 0.25;  // m/s: above that people face where they go
 
 Behaviour ByMotion(const Agent& agent, double speed, Behaviour now) {

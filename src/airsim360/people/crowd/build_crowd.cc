@@ -90,7 +90,8 @@ class Builder {
     for (const Placed<std::string>& message : file_.messages)
       if (IndexOf(plan_.messages, message.value) == plan_.messages.size()) plan_.messages.push_back(message.value);
     for (const StateEntry& entry : file_.states) {
-      if (IndexOf(StateNames(), entry.name.value) == plan_.states.size()) plan_.states.push_back({.name = entry.name.value, .lower = {}, .upper = {}});
+      if (IndexOf(StateNames(), entry.name.value) == plan_.states.size())
+        plan_.states.push_back({.name = entry.name.value, .lower = {}, .upper = {}});
       if (plan_.states.size() > kMaxStates) throw InputError(entry.name.where + ": more than 48 states");
     }
     const std::vector<std::string> names = StateNames();
@@ -126,7 +127,8 @@ class Builder {
         if (other.name == name) throw InputError(entry.where + ": two areas are called '" + name + "'");
       NavArea ground = mesh_->AreaOf(entry.polygon, kNoRoads);
       if (ground.square_metres < 1) ground = mesh_->AreaOf(entry.polygon, kEverything);
-      if (ground.square_metres < 1) throw InputError((entry.polygon_where.empty() ? entry.where : entry.polygon_where) + ": " + WhyEmpty(entry, name));
+      if (ground.square_metres < 1)
+        throw InputError((entry.polygon_where.empty() ? entry.where : entry.polygon_where) + ": " + WhyEmpty(entry, name));
       plan_.ground.push_back(std::move(ground));
       model_.areas.push_back({name, entry.polygon});
     }
@@ -141,8 +143,8 @@ class Builder {
     }
     char text[300];
     if (high.x < box.min.x || low.x > box.max.x || high.y < box.min.y || low.y > box.max.y) {
-      std::snprintf(text, sizeof(text), "area '%.80s' lies outside the world; people can walk within x %.1f … %.1f, y %.1f … %.1f", name.c_str(),
-                    box.min.x, box.max.x, box.min.y, box.max.y);
+      std::snprintf(text, sizeof(text), "area '%.80s' lies outside the world; people can walk within x %.1f … %.1f, y %.1f … %.1f",
+                    name.c_str(), box.min.x, box.max.x, box.min.y, box.max.y);
       return text;
     }
     const NavPoint near = mesh_->Nearest({(low.x + high.x) / 2, (low.y + high.y) / 2, 0}, 60);
@@ -266,16 +268,19 @@ class Builder {
     }
     Add(area, start, trees, weights, false);
     PersonTraits& traits = model_.people.back();
-    if (entry.age || !entry.sex.value.empty()) traits = DrawTraits(model_.seed, i, entry.age, entry.sex.value.empty() ? std::optional<bool>() : entry.sex.value == "female");
+    if (entry.age || !entry.sex.value.empty())
+      traits = DrawTraits(model_.seed, i, entry.age, entry.sex.value.empty() ? std::optional<bool>() : entry.sex.value == "female");
     traits.area = area;
     traits.stature = entry.stature.value_or(traits.stature);
     traits.free_speed = entry.speed.value_or(traits.free_speed);
     if (!entry.name.value.empty()) {
       for (const PersonTraits& other : model_.people)
-        if (&other != &traits && other.name == entry.name.value) throw InputError(entry.name.where + ": two people are called '" + entry.name.value + "'");
+        if (&other != &traits && other.name == entry.name.value)
+          throw InputError(entry.name.where + ": two people are called '" + entry.name.value + "'");
       traits.name = entry.name.value;
     }
-    if (!entry.behaviour.value.empty()) plan_.tree_of_person.back() = static_cast<uint16_t>(Look(tree_names_, entry.behaviour, "behaviour"));
+    if (!entry.behaviour.value.empty())
+      plan_.tree_of_person.back() = static_cast<uint16_t>(Look(tree_names_, entry.behaviour, "behaviour"));
   }
 
   const Scene& scene_;

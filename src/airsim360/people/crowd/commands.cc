@@ -52,11 +52,9 @@ class PersonCheck {
   NavPoint operator()(const SendPerson& send) const {
     MustBePresent();
     const NavPoint goal = OnMesh(send.p_W);
-    if (!(send.speed >= 0 && send.speed <= 6))
-      throw InputError("speed " + std::to_string(send.speed) + " is not in 0 … 6 m/s");
+    if (!(send.speed >= 0 && send.speed <= 6)) throw InputError("speed " + std::to_string(send.speed) + " is not in 0 … 6 m/s");
     if (!model_.navmesh->FindPath(walker_.at, goal).complete)
-      throw InputError(Name() + " cannot reach " + Text(send.p_W) + ": there is no way from " +
-                       Text(walker_.at.p_W));
+      throw InputError(Name() + " cannot reach " + Text(send.p_W) + ": there is no way from " + Text(walker_.at.p_W));
     return goal;
   }
   NavPoint operator()(const SetPersonState& set) const {
@@ -67,8 +65,7 @@ class PersonCheck {
       for (const StateDef& state : states) names.push_back(state.name);
       throw InputError(UnknownChoiceMessage("state", set.state, names));
     }
-    if (!(set.seconds >= 0 && set.seconds <= 86400))
-      throw InputError("seconds " + std::to_string(set.seconds) + " is not in 0 … 86400");
+    if (!(set.seconds >= 0 && set.seconds <= 86400)) throw InputError("seconds " + std::to_string(set.seconds) + " is not in 0 … 86400");
     return {};
   }
   NavPoint operator()(const MessagePerson& message) const {
@@ -93,8 +90,7 @@ class PersonCheck {
     const NavPoint point = model_.navmesh->Nearest(p, 1);
     if (point.valid()) return point;
     const NavPoint near = NearestAtAll(*model_.navmesh, p);
-    throw InputError("nobody can stand at " + Text(p) +
-                     (near.valid() ? "; the nearest place is " + Text(near.p_W) : ""));
+    throw InputError("nobody can stand at " + Text(p) + (near.valid() ? "; the nearest place is " + Text(near.p_W) : ""));
   }
   // On the mesh, and nobody else is there.
   NavPoint FreePlace(Vec3d p) const {
@@ -117,11 +113,7 @@ class PersonCheck {
 class Commander {
  public:
   Commander(CrowdTick& tick, PersonIndex person, const NavPoint& point)
-      : tick_(tick),
-        i_(person),
-        point_(point),
-        agent_(tick.in.agents[person]),
-        walker_(tick.in.walkers[person]) {}
+      : tick_(tick), i_(person), point_(point), agent_(tick.in.agents[person]), walker_(tick.in.walkers[person]) {}
 
   void operator()(const SpawnPerson& spawn) {
     Place(spawn.yaw);
@@ -177,18 +169,15 @@ class Commander {
   Walker& walker_;
 };
 
-NavPoint Checked(const CrowdModel& model, const CrowdState& state, PersonIndex person,
-                 const PersonAction& action) {
+NavPoint Checked(const CrowdModel& model, const CrowdState& state, PersonIndex person, const PersonAction& action) {
   if (person >= model.people.size())
-    throw InputError("no person " + std::to_string(person) + ": there are " +
-                     std::to_string(model.people.size()));
+    throw InputError("no person " + std::to_string(person) + ": there are " + std::to_string(model.people.size()));
   return std::visit(PersonCheck(model, state, person), action);
 }
 
 }  // namespace
 
-void CheckPersonCommand(const CrowdModel& model, const CrowdState& state, PersonIndex person,
-                        const PersonAction& action) {
+void CheckPersonCommand(const CrowdModel& model, const CrowdState& state, PersonIndex person, const PersonAction& action) {
   Checked(model, state, person, action);
 }
 

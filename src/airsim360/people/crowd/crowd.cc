@@ -62,8 +62,14 @@ void WatchDrones(CrowdTick& tick) {
       const double distance = std::max(0.0, std::sqrt(dx * dx + dy * dy + up * up) - internal::kBodyRadius - drone.radius);
       if (!was && distance < kNearPass) {
         agent.near_drones |= bit;
-        internal::AddEvent(tick, {.kind = CrowdEvent::Kind::kNearPass, .t_ns = tick.t_ns, .person = i, .from = {}, .to = {},
-                                  .text = "drone " + std::to_string(d), .drone = d, .value = distance});
+        internal::AddEvent(tick, {.kind = CrowdEvent::Kind::kNearPass,
+                                  .t_ns = tick.t_ns,
+                                  .person = i,
+                                  .from = {},
+                                  .to = {},
+                                  .text = "drone " + std::to_string(d),
+                                  .drone = d,
+                                  .value = distance});
       } else if (was && distance > 2) {
         agent.near_drones &= ~bit;
       }
@@ -71,8 +77,7 @@ void WatchDrones(CrowdTick& tick) {
   }
 }
 
-void RunTick(const CrowdModel& model, CrowdState& state, std::span<const CrowdDrone> drones,
-             std::vector<CrowdEvent>* events) {
+void RunTick(const CrowdModel& model, CrowdState& state, std::span<const CrowdDrone> drones, std::vector<CrowdEvent>* events) {
   CrowdInternals& in = *state.internals;
   CrowdTick tick{model, *model.plan, state, in, drones, events, in.tick * kCrowdTickNs};
   const size_t first_event = events ? events->size() : 0;
@@ -199,7 +204,8 @@ uint64_t HashCrowd(const CrowdState& state) {
     hasher.Add(static_cast<uint64_t>(agent.inbox.size()));
     for (const internal::Message& message : agent.inbox) hasher.Add(static_cast<uint64_t>(message.type) << 32 | message.from);
     for (const internal::NodeMemory& memory : agent.run.nodes)
-      hasher.Add(static_cast<uint64_t>(memory.status) << 48 | static_cast<uint64_t>(memory.child) << 32 | static_cast<uint32_t>(memory.count));
+      hasher.Add(static_cast<uint64_t>(memory.status) << 48 | static_cast<uint64_t>(memory.child) << 32 |
+                 static_cast<uint32_t>(memory.count));
   }
   return hasher.hash();
 }

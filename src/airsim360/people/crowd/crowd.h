@@ -28,14 +28,14 @@ struct CrowdArea {
 
 /// Who a person is. Drawn from (seed, index) alone.
 struct PersonTraits {
-  std::string name;       ///< "person 17"; unique
-  double age = 35;        ///< years
+  std::string name;  ///< "person 17"; unique
+  double age = 35;   ///< years
   bool female = false;
-  double stature = 1.72;  ///< metres
+  double stature = 1.72;     ///< metres
   double free_speed = 1.34;  ///< m/s they like to walk at
-  uint64_t look = 0;      ///< uniform 64 bits: which of the bodies that fit, which clothes
-  uint32_t area = 0;      ///< CrowdModel::areas
-  bool reserve = false;   ///< not in the world until a SpawnPerson names them
+  uint64_t look = 0;         ///< uniform 64 bits: which of the bodies that fit, which clothes
+  uint32_t area = 0;         ///< CrowdModel::areas
+  bool reserve = false;      ///< not in the world until a SpawnPerson names them
 };
 
 /// What never changes. Shared, read-only.
@@ -126,16 +126,14 @@ struct MessagePerson {  ///< of a type of the plan, from nobody
   std::string type;
 };
 struct ReleasePerson {};  ///< back to their own tree
-using PersonAction =
-    std::variant<SpawnPerson, MovePerson, RemovePerson, SendPerson, SetPersonState, MessagePerson, ReleasePerson>;
+using PersonAction = std::variant<SpawnPerson, MovePerson, RemovePerson, SendPerson, SetPersonState, MessagePerson, ReleasePerson>;
 /// InputError naming the nearest valid choice: no such person, place off the mesh or taken, goal that cannot
 /// be reached, unknown state or message. The state is then as it was.
 void CommandPerson(const CrowdModel& model, CrowdState& state, PersonIndex person, const PersonAction& action,
                    std::vector<CrowdEvent>* events = nullptr);
 
 /// The InputError of CommandPerson if it would give one; changes and copies nothing.
-void CheckPersonCommand(const CrowdModel& model, const CrowdState& state, PersonIndex person,
-                        const PersonAction& action);
+void CheckPersonCommand(const CrowdModel& model, const CrowdState& state, PersonIndex person, const PersonAction& action);
 
 /// Index of a person by name; InputError naming the nearest.
 PersonIndex PersonByName(const CrowdModel& model, std::string_view name);
@@ -159,7 +157,6 @@ struct CrowdRequest {
 /// The people of a world: from a file, or `count` people over everything that can be reached from the world's
 /// spawn, mostly on pavements. InputError file:line for what is wrong: an area outside the world or without a
 /// place to walk, more people than fit, an unknown behaviour, tree, state or message, malformed XML.
-std::shared_ptr<const CrowdModel> BuildCrowd(const Scene& scene, std::shared_ptr<const NavMesh> navmesh,
-                                             const CrowdRequest& request);
+std::shared_ptr<const CrowdModel> BuildCrowd(const Scene& scene, std::shared_ptr<const NavMesh> navmesh, const CrowdRequest& request);
 
 }  // namespace airsim360

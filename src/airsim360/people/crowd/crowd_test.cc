@@ -26,9 +26,19 @@ void AddSeat(TestGround& ground, float x, float y, float width, const char* cate
   Mesh seat;
   const auto box = [&](Vec3f low, Vec3f high) {
     const auto first = static_cast<uint32_t>(seat.positions.size());
-    for (int i = 0; i < 8; ++i)
-      seat.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
-    for (const Vec3u t : {Vec3u{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}})
+    for (int i = 0; i < 8; ++i) seat.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+    for (const Vec3u t : {Vec3u{0, 2, 1},
+                          {1, 2, 3},
+                          {4, 5, 6},
+                          {5, 7, 6},
+                          {0, 1, 4},
+                          {1, 5, 4},
+                          {2, 6, 3},
+                          {3, 6, 7},
+                          {0, 4, 2},
+                          {2, 4, 6},
+                          {1, 3, 5},
+                          {3, 7, 5}})
       seat.triangles.push_back({t.x + first, t.y + first, t.z + first});
   };
   box({x, y, 0}, {x + width, y + 0.45f, 0.45f});
@@ -119,8 +129,7 @@ TEST(Crowd, NobodyOverlapsOrIsStuckAndEverybodyIsOnTheGround) {
   EXPECT_GE(closest, 0.3);  // 0.4 on the mesh; feet of those who sit are a little off it
   EXPECT_EQ(crowd.Count(CrowdEvent::Kind::kStuck), 0u);
   for (const char* state : {"walking", "chatting", "sitting", "on_phone_call", "standing"}) EXPECT_TRUE(seen.contains(state)) << state;
-  for (const CrowdEvent& event : crowd.events)
-    EXPECT_TRUE(event.kind != CrowdEvent::Kind::kTransition || !event.text.empty());
+  for (const CrowdEvent& event : crowd.events) EXPECT_TRUE(event.kind != CrowdEvent::Kind::kTransition || !event.text.empty());
 }
 
 constexpr const char* kSocialTree = R"(<root BTCPP_format="4" main_tree_to_execute="friendly">
@@ -136,7 +145,10 @@ constexpr const char* kSocialTree = R"(<root BTCPP_format="4" main_tree_to_execu
 </root>)";
 
 TEST_F(CrowdFiles, WalkersWhoMeetChatFacingEachOtherInTurnsAndWalkOn) {
-  TestCrowd crowd(Park(), File("trees: [trees.xml]\nareas:\n  - {name: yard, polygon: [[1, 1], [20, 1], [20, 12], [1, 12]], count: 8, mix: {friendly: 1}}\n", kSocialTree));
+  TestCrowd crowd(
+      Park(),
+      File("trees: [trees.xml]\nareas:\n  - {name: yard, polygon: [[1, 1], [20, 1], [20, 12], [1, 12]], count: 8, mix: {friendly: 1}}\n",
+           kSocialTree));
   std::map<uint32_t, std::set<PersonIndex>> groups;
   int facing = 0, pairs = 0, speakers_of_one = 0, talks = 0;
   crowd.Run(120, [&] {
@@ -160,7 +172,8 @@ TEST_F(CrowdFiles, WalkersWhoMeetChatFacingEachOtherInTurnsAndWalkOn) {
       if (crowd.state.t_ns - crowd[members[0]].upper_since_ns < 4'000'000'000) continue;
       ++pairs;
       const double yaw = std::atan2(d.y, d.x);
-      facing += std::cos(yaw - crowd[members[0]].yaw) > 0.94 && std::cos(yaw - crowd[members[1]].yaw) < -0.94 && Norm(d) > 0.75 && Norm(d) < 1.25;
+      facing +=
+          std::cos(yaw - crowd[members[0]].yaw) > 0.94 && std::cos(yaw - crowd[members[1]].yaw) < -0.94 && Norm(d) > 0.75 && Norm(d) < 1.25;
     }
     return false;
   });
@@ -170,14 +183,17 @@ TEST_F(CrowdFiles, WalkersWhoMeetChatFacingEachOtherInTurnsAndWalkOn) {
   EXPECT_GT(speakers_of_one, 0.6 * talks);
   EXPECT_GE(crowd.Count(CrowdEvent::Kind::kTransition, "chatting", "tree: Chat with person"), 6u);
   // They walk on: as many ends as chats (less those that go on).
-  EXPECT_GE(crowd.Count(CrowdEvent::Kind::kTransition, "walking", "message: bye") + 8, crowd.Count(CrowdEvent::Kind::kTransition, "chatting"));
+  EXPECT_GE(crowd.Count(CrowdEvent::Kind::kTransition, "walking", "message: bye") + 8,
+            crowd.Count(CrowdEvent::Kind::kTransition, "chatting"));
   EXPECT_GE(crowd.Count(CrowdEvent::Kind::kTransition, "walking", "message: bye"), 4u);
 }
 
 TEST_F(CrowdFiles, AWalkerTakesACallAndKeepsWalking) {
-  const char* tree = R"(<root BTCPP_format="4"><BehaviorTree ID="there"><Sequence><GoTo point="45;5"/><GoTo point="5;5"/></Sequence></BehaviorTree></root>)";
+  const char* tree =
+      R"(<root BTCPP_format="4"><BehaviorTree ID="there"><Sequence><GoTo point="45;5"/><GoTo point="5;5"/></Sequence></BehaviorTree></root>)";
   TestCrowd crowd(Park(), File("trees: [trees.xml]\npeople:\n  - {name: ann, at: [5, 5], behaviour: there, age: 30}\n"
-                               "transitions:\n  - {from: walking, to: on_phone_call, message: call}\n", tree));
+                               "transitions:\n  - {from: walking, to: on_phone_call, message: call}\n",
+                               tree));
   const PersonIndex ann = PersonByName(*crowd.model, "ann");
   EXPECT_THROW(PersonByName(*crowd.model, "anne"), InputError);
   crowd.Run(5);
@@ -210,7 +226,9 @@ TEST(Crowd, PeopleNoticeALowDroneAndStepAwayFromAVeryLowOne) {
   });
   EXPECT_GT(gazes, 100);
   EXPECT_GT(crowd.Count(CrowdEvent::Kind::kTransition, "looking_up", "LookAtDrone"), 2u);
-  EXPECT_GT(crowd.Count(CrowdEvent::Kind::kTransition, "pointing") + crowd.Count(CrowdEvent::Kind::kTransition, "taking_photo", "LookAtDrone"), 0u);
+  EXPECT_GT(
+      crowd.Count(CrowdEvent::Kind::kTransition, "pointing") + crowd.Count(CrowdEvent::Kind::kTransition, "taking_photo", "LookAtDrone"),
+      0u);
   EXPECT_EQ(crowd.Count(CrowdEvent::Kind::kNearPass), 0u);
 
   // At head height beside somebody: one event, and they go away.
@@ -226,7 +244,8 @@ TEST(Crowd, PeopleNoticeALowDroneAndStepAwayFromAVeryLowOne) {
 }
 
 TEST_F(CrowdFiles, ASitterFindsABenchAndSitsWithTheBackToIt) {
-  const char* tree = R"(<root BTCPP_format="4"><BehaviorTree ID="rest"><Sequence><GoToPlace kind="bench"/><SetState state="sitting" min_s="20" max_s="20"/><GoTo point="5;5"/></Sequence></BehaviorTree></root>)";
+  const char* tree =
+      R"(<root BTCPP_format="4"><BehaviorTree ID="rest"><Sequence><GoToPlace kind="bench"/><SetState state="sitting" min_s="20" max_s="20"/><GoTo point="5;5"/></Sequence></BehaviorTree></root>)";
   TestCrowd crowd(Park(), File("trees: [trees.xml]\nseed: 4\npeople:\n  - {at: [12, 20], behaviour: rest, age: 40}\n", tree));
   crowd.Run(20);
   ASSERT_EQ(crowd[0].lower, Behaviour::kSit);
@@ -242,7 +261,8 @@ TEST_F(CrowdFiles, ASitterFindsABenchAndSitsWithTheBackToIt) {
 
 // In the open chairs belong to somebody; in rooms people sit at desks and tables.
 TEST_F(CrowdFiles, ChairsAtTablesAreSatOnInBuildingsAndNotInTheOpen) {
-  const char* tree = R"(<root BTCPP_format="4"><BehaviorTree ID="rest"><Sequence><GoToPlace kind="bench"/><SetState state="sitting" min_s="20" max_s="20"/></Sequence></BehaviorTree></root>)";
+  const char* tree =
+      R"(<root BTCPP_format="4"><BehaviorTree ID="rest"><Sequence><GoToPlace kind="bench"/><SetState state="sitting" min_s="20" max_s="20"/></Sequence></BehaviorTree></root>)";
   for (const bool building : {true, false}) {
     TestGround ground;
     ground.Floor("ground/floor", 0, 0, 12, 10);
@@ -262,7 +282,8 @@ TEST_F(CrowdFiles, ChairsAtTablesAreSatOnInBuildingsAndNotInTheOpen) {
 
 // A branch that is tried and fails gives up the bench that another one is on its way to.
 TEST_F(CrowdFiles, WhoLosesTheirPlaceOnTheWayGoesNowhereInOneLeap) {
-  const char* tree = R"(<root BTCPP_format="4"><BehaviorTree ID="rest"><ReactiveFallback><Sequence><DroneWithin distance="8"/><GoTo point="900;900"/></Sequence><Sequence><GoToPlace kind="bench"/><SetState state="sitting"/></Sequence></ReactiveFallback></BehaviorTree></root>)";
+  const char* tree =
+      R"(<root BTCPP_format="4"><BehaviorTree ID="rest"><ReactiveFallback><Sequence><DroneWithin distance="8"/><GoTo point="900;900"/></Sequence><Sequence><GoToPlace kind="bench"/><SetState state="sitting"/></Sequence></ReactiveFallback></BehaviorTree></root>)";
   TestCrowd crowd(Park(), File("trees: [trees.xml]\nseed: 4\npeople:\n  - {at: [12, 20], behaviour: rest, age: 40}\n", tree));
   Vec3d before = crowd[0].p_WP;
   for (int step = 0; step < 200; ++step) {
@@ -302,7 +323,8 @@ TEST_F(CrowdFiles, AShopperStopsBeforeADoorAndLooksAtIt) {
   ground.Floor("ground/sidewalk", 0, 0, 20, 6);
   ground.Box("construction/building", {0, 6, 0}, {20, 12, 6});
   ground.Box("construction/door", {14, 5.9f, 0}, {15, 6, 2.2f});
-  const char* tree = R"(<root BTCPP_format="4"><BehaviorTree ID="buys"><Sequence><GoToPlace kind="shop"/><SetState state="standing" min_s="20" max_s="20"/></Sequence></BehaviorTree></root>)";
+  const char* tree =
+      R"(<root BTCPP_format="4"><BehaviorTree ID="buys"><Sequence><GoToPlace kind="shop"/><SetState state="standing" min_s="20" max_s="20"/></Sequence></BehaviorTree></root>)";
   TestCrowd crowd(ground.Build(), File("trees: [trees.xml]\npeople:\n  - {at: [3, 2], behaviour: buys, age: 40}\n", tree));
   crowd.Run(18);
   EXPECT_NEAR(crowd[0].p_WP.x, 14.5, 0.3);
@@ -402,8 +424,8 @@ TEST(Crowd, SinglePeopleAreSpawnedSentSetAndRemoved) {
   EXPECT_THROW(crowd.Do(0, MovePerson{{5, 5, 0}, 0}), InputError);
   crowd.Do(0, SpawnPerson{{5, 5, 0}, 1});
   EXPECT_TRUE(crowd[0].visible);
-  EXPECT_THROW(crowd.Do(1, SpawnPerson{{5.1, 5, 0}, 1}), InputError);   // taken
-  EXPECT_THROW(crowd.Do(1, SpawnPerson{{-20, 5, 0}, 1}), InputError);   // outside
+  EXPECT_THROW(crowd.Do(1, SpawnPerson{{5.1, 5, 0}, 1}), InputError);  // taken
+  EXPECT_THROW(crowd.Do(1, SpawnPerson{{-20, 5, 0}, 1}), InputError);  // outside
   EXPECT_THROW(crowd.Do(0, SetPersonState{"dancing", 3}), InputError);
   EXPECT_THROW(crowd.Do(0, SetPersonState{"waving", -3}), InputError);
   EXPECT_THROW(crowd.Do(1, ReleasePerson{}), InputError);
@@ -436,13 +458,15 @@ TEST(Crowd, SinglePeopleAreSpawnedSentSetAndRemoved) {
 }
 
 TEST_F(CrowdFiles, AuthorsAddStatesMessagesAndTransitions) {
-  const char* tree = R"(<root BTCPP_format="4"><BehaviorTree ID="crier"><Sequence><Sleep msec="2000"/><Send message="cheer_up" to="radius" distance="30"/><Sleep msec="100000"/></Sequence></BehaviorTree>
+  const char* tree =
+      R"(<root BTCPP_format="4"><BehaviorTree ID="crier"><Sequence><Sleep msec="2000"/><Send message="cheer_up" to="radius" distance="30"/><Sleep msec="100000"/></Sequence></BehaviorTree>
    <BehaviorTree ID="idler"><Sleep msec="1000"/></BehaviorTree></root>)";
   TestCrowd crowd(Park(), File("trees: [trees.xml]\nmessages: [cheer_up]\n"
                                "states:\n  - {name: happy, upper: wave, min_s: 3, max_s: 3, next: walking}\n"
                                "transitions:\n  - {from: any, to: happy, message: cheer_up}\n"
                                "areas:\n  - {name: a, count: 5, mix: {idler: 1}}\n"
-                               "people:\n  - {at: [20, 5], behaviour: crier}\n", tree));
+                               "people:\n  - {at: [20, 5], behaviour: crier}\n",
+                               tree));
   crowd.Run(3);
   EXPECT_EQ(crowd.Count(CrowdEvent::Kind::kTransition, "happy", "message: cheer_up from person 1"), 5u);
   crowd.Run(4);
@@ -452,18 +476,30 @@ TEST_F(CrowdFiles, AuthorsAddStatesMessagesAndTransitions) {
 TEST_F(CrowdFiles, BadInputNamesFileLineAndTheNearestChoice) {
   EXPECT_EQ(ErrorOf("areas:\n  - name: far\n    polygon: [[100, 100], [120, 100], [120, 120]]\n    count: 3\n").substr(0, 66),
             "people.yaml:3: area 'far' lies outside the world; people can walk ");
-  EXPECT_NE(ErrorOf("areas:\n  - {name: pot, polygon: [[8.4, 14.2], [9.6, 14.2], [9.6, 14.8], [8.4, 14.8]], count: 1}\n").find("people.yaml:2: nobody can walk in area 'pot'; the nearest walkable ground is at"), std::string::npos);
-  EXPECT_NE(ErrorOf("areas:\n  - name: small\n    polygon: [[1, 1], [4, 1], [4, 4], [1, 4]]\n    count: 500\n").find("people.yaml:4: 500 people do not fit area 'small' (9 m2); at most"), std::string::npos);
-  EXPECT_NE(ErrorOf("areas:\n  - count: 3\n    mix: {walkr: 1}\n").find("people.yaml:3: unknown behaviour 'walkr'; did you mean 'walker'?"), std::string::npos);
+  EXPECT_NE(ErrorOf("areas:\n  - {name: pot, polygon: [[8.4, 14.2], [9.6, 14.2], [9.6, 14.8], [8.4, 14.8]], count: 1}\n")
+                .find("people.yaml:2: nobody can walk in area 'pot'; the nearest walkable ground is at"),
+            std::string::npos);
+  EXPECT_NE(ErrorOf("areas:\n  - name: small\n    polygon: [[1, 1], [4, 1], [4, 4], [1, 4]]\n    count: 500\n")
+                .find("people.yaml:4: 500 people do not fit area 'small' (9 m2); at most"),
+            std::string::npos);
+  EXPECT_NE(ErrorOf("areas:\n  - count: 3\n    mix: {walkr: 1}\n").find("people.yaml:3: unknown behaviour 'walkr'; did you mean 'walker'?"),
+            std::string::npos);
   EXPECT_NE(ErrorOf("areas:\n  - {count: 2.5}\n").find("people.yaml:2: count: expected a whole number, found '2.5'"), std::string::npos);
   EXPECT_NE(ErrorOf("area: 3\n").find("people.yaml:1: people file: unknown key 'area'; did you mean 'areas'?"), std::string::npos);
-  EXPECT_NE(ErrorOf("states:\n  - {name: x, upper: wawe}\n").find("people.yaml:2: unknown behaviour 'wawe'; did you mean 'wave'?"), std::string::npos);
+  EXPECT_NE(ErrorOf("states:\n  - {name: x, upper: wawe}\n").find("people.yaml:2: unknown behaviour 'wawe'; did you mean 'wave'?"),
+            std::string::npos);
   EXPECT_NE(ErrorOf("transitions:\n  - {to: walkin, message: call}\n").find("did you mean 'walking'?"), std::string::npos);
-  EXPECT_NE(ErrorOf("people:\n  - {at: [-5, 3]}\n").find("people.yaml:2: nobody can stand there; the nearest place is ["), std::string::npos);
+  EXPECT_NE(ErrorOf("people:\n  - {at: [-5, 3]}\n").find("people.yaml:2: nobody can stand there; the nearest place is ["),
+            std::string::npos);
   EXPECT_NE(ErrorOf("trees: [none.xml]\n").find("people.yaml:1:"), std::string::npos);
-  EXPECT_NE(ErrorOf("trees: [trees.xml]\n", "<root BTCPP_format=\"4\"><BehaviorTree ID=\"a\"><SetState state=\"waiving\"/></BehaviorTree></root>").find("trees.xml:1: SetState state: unknown state 'waiving'; did you mean 'waving'?"), std::string::npos);
-  const std::string pass = "<root BTCPP_format=\"4\"><BehaviorTree ID=\"a\">\n<SubTree ID=\"b\" what=\"WAVE\"/></BehaviorTree><BehaviorTree ID=\"b\">\n<SetState state=\"{what}\"/></BehaviorTree></root>";
-  EXPECT_NE(ErrorOf("trees: [trees.xml]\n", pass).find("trees.xml:3: SetState state: unknown state 'WAVE'; did you mean"), std::string::npos);
+  EXPECT_NE(
+      ErrorOf("trees: [trees.xml]\n", "<root BTCPP_format=\"4\"><BehaviorTree ID=\"a\"><SetState state=\"waiving\"/></BehaviorTree></root>")
+          .find("trees.xml:1: SetState state: unknown state 'waiving'; did you mean 'waving'?"),
+      std::string::npos);
+  const std::string pass =
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"a\">\n<SubTree ID=\"b\" what=\"WAVE\"/></BehaviorTree><BehaviorTree ID=\"b\">\n<SetState state=\"{what}\"/></BehaviorTree></root>";
+  EXPECT_NE(ErrorOf("trees: [trees.xml]\n", pass).find("trees.xml:3: SetState state: unknown state 'WAVE'; did you mean"),
+            std::string::npos);
   EXPECT_EQ(ErrorOf("trees: [trees.xml]\n", std::string(pass).replace(pass.find("WAVE"), 4, "waving")), "none");
   EXPECT_NE(ErrorOf("trees: [trees.xml]\n", "<root BTCPP_format=\"4\">\n<Behavior").find("trees.xml:2:"), std::string::npos);
   EXPECT_NE(ErrorOf("areas:\n  - {count: [1}\n").find("people.yaml:"), std::string::npos);

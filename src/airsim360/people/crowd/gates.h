@@ -13,8 +13,8 @@ namespace airsim360::internal {
 /// The goal has no room.
 struct Gate {
   Vec3d p;
-  Vec2d side;   ///< metres, away from what the way turns around
-  Vec2d ahead;  ///< unit vector through the gate
+  Vec2d side;         ///< metres, away from what the way turns around
+  Vec2d ahead;        ///< unit vector through the gate
   double onward = 0;  ///< metres from here to the goal
 };
 

@@ -7,8 +7,8 @@ namespace airsim360::internal {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int64_t kAlone = 4 * kSecond;    // that long a founder waits for the other
-constexpr int64_t kSilence = kSecond;      // after that somebody starts to speak
+constexpr int64_t kAlone = 4 * kSecond;  // that long a founder waits for the other
+constexpr int64_t kSilence = kSecond;    // after that somebody starts to speak
 
 Vec2d PlaceOf(const CrowdTick& tick, PersonIndex i) {
   const Vec3d& p = tick.in.walkers[i].at.p_W;

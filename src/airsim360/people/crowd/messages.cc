@@ -25,8 +25,13 @@ void Deliver(CrowdTick& tick) {
       continue;
     }
     ++tick.in.lost_messages;
-    AddEvent(tick, {.kind = CrowdEvent::Kind::kMessageLost, .t_ns = tick.t_ns, .person = message.to, .from = {}, .to = {},
-                    .text = tick.plan.messages[message.type], .other = message.from});
+    AddEvent(tick, {.kind = CrowdEvent::Kind::kMessageLost,
+                    .t_ns = tick.t_ns,
+                    .person = message.to,
+                    .from = {},
+                    .to = {},
+                    .text = tick.plan.messages[message.type],
+                    .other = message.from});
   }
 }
 

@@ -23,7 +23,8 @@ int Mind::Choice(const Tree& tree, const TreeNode& node, const TreeRun& run, siz
                        : kind == 'm' ? tick_.plan.messages.size()
                        : kind == 'k' ? static_cast<size_t>(PlaceKind::kCount)
                                      : tick_.plan.ground.size();
-  if (value.kind == Value::Kind::kNumber) return value.number >= 0 && value.number < static_cast<double>(count) ? static_cast<int>(value.number) : -1;
+  if (value.kind == Value::Kind::kNumber)
+    return value.number >= 0 && value.number < static_cast<double>(count) ? static_cast<int>(value.number) : -1;
   if (value.kind != Value::Kind::kText) return -1;
   // A name that came over the blackboard.
   const std::string& name = tick_.plan.trees.texts[value.index];
@@ -89,9 +90,12 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
   switch (static_cast<PersonNode>(node.node)) {
     case PersonNode::kWanderTo:
       return WanderTo(fresh, choice(0) < 0 ? tick_.model.people[self_].area : static_cast<uint32_t>(choice(0)), number(1));
-    case PersonNode::kGoTo: return GoTo(fresh, PortOf(tree, node, run, 0), number(1));
-    case PersonNode::kGoToPlace: return choice(0) < 0 ? Status::kFailure : GoToPlace(fresh, static_cast<PlaceKind>(choice(0)), number(1));
-    case PersonNode::kSetState: return SetState(fresh, tree, node, run);
+    case PersonNode::kGoTo:
+      return GoTo(fresh, PortOf(tree, node, run, 0), number(1));
+    case PersonNode::kGoToPlace:
+      return choice(0) < 0 ? Status::kFailure : GoToPlace(fresh, static_cast<PlaceKind>(choice(0)), number(1));
+    case PersonNode::kSetState:
+      return SetState(fresh, tree, node, run);
     case PersonNode::kEndState:
       EnterState(tick_, self_, tick_.plan.states[agent_.state].next, -1, 0, Cause(node));
       return Status::kSuccess;
@@ -105,14 +109,22 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
       if (status == Status::kSuccess) SetPort(tree, node, run, 1, Person(agent_.last_met));
       return status;
     }
-    case PersonNode::kChat: return Chat(fresh, memory, number(0), number(1), Cause(node));
-    case PersonNode::kSend: return choice(0) < 0 ? Status::kFailure : Send(static_cast<uint8_t>(choice(0)), PortOf(tree, node, run, 1), person(2), number(3));
-    case PersonNode::kWaitMessage: return WaitMessage(fresh, tree, node, memory, run);
-    case PersonNode::kFacePerson: return FacePerson(person(0));
-    case PersonNode::kLookAtDrone: return LookAtDrone(fresh, number(0), number(1), number(2), Cause(node));
-    case PersonNode::kStepAway: return StepAway(fresh, number(0));
-    case PersonNode::kChance: return Yes(agent_.rng.Chance(number(0)));
-    case PersonNode::kStateIs: return Yes(agent_.state == choice(0));
+    case PersonNode::kChat:
+      return Chat(fresh, memory, number(0), number(1), Cause(node));
+    case PersonNode::kSend:
+      return choice(0) < 0 ? Status::kFailure : Send(static_cast<uint8_t>(choice(0)), PortOf(tree, node, run, 1), person(2), number(3));
+    case PersonNode::kWaitMessage:
+      return WaitMessage(fresh, tree, node, memory, run);
+    case PersonNode::kFacePerson:
+      return FacePerson(person(0));
+    case PersonNode::kLookAtDrone:
+      return LookAtDrone(fresh, number(0), number(1), number(2), Cause(node));
+    case PersonNode::kStepAway:
+      return StepAway(fresh, number(0));
+    case PersonNode::kChance:
+      return Yes(agent_.rng.Chance(number(0)));
+    case PersonNode::kStateIs:
+      return Yes(agent_.state == choice(0));
     case PersonNode::kDroneWithin: {
       double distance = 0;
       return Yes(NearestDrone(tick_, self_, &distance) >= 0 && distance <= number(0));
@@ -124,8 +136,10 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
     }
     case PersonNode::kMessageWaiting:
       return Yes(std::any_of(agent_.inbox.begin(), agent_.inbox.end(), [&](const Message& m) { return m.type == choice(0); }));
-    case PersonNode::kEvery: return Every(memory, number(0), number(1));
-    default: return Status::kFailure;
+    case PersonNode::kEvery:
+      return Every(memory, number(0), number(1));
+    default:
+      return Status::kFailure;
   }
 }
 
@@ -147,12 +161,16 @@ void Mind::Halt(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tree
       break;
     case PersonNode::kChat:
       LeaveGroup(tick_, self_);
-      if (agent_.state == kChatting)
-        EnterState(tick_, self_, static_cast<uint8_t>(memory.count), -1, 0, "tree: interrupted");
+      if (agent_.state == kChatting) EnterState(tick_, self_, static_cast<uint8_t>(memory.count), -1, 0, "tree: interrupted");
       break;
-    case PersonNode::kMeet: agent_.greeted = kNoPerson; break;
-    case PersonNode::kLookAtDrone: agent_.gaze_drone = -1; break;
-    default: break;
+    case PersonNode::kMeet:
+      agent_.greeted = kNoPerson;
+      break;
+    case PersonNode::kLookAtDrone:
+      agent_.gaze_drone = -1;
+      break;
+    default:
+      break;
   }
 }
 

@@ -13,7 +13,8 @@ bool Mind::Free(PersonIndex i) const {
     const Group* group = FindGroup(tick_.in, other.group);
     return group && group->members.size() >= 2 && group->members.size() < kMaxGroup;
   }
-  return !tick_.plan.states[other.state].stop && other.social_after_ns <= tick_.t_ns && std::hypot(tick_.in.walkers[i].v.x, tick_.in.walkers[i].v.y) < 2;
+  return !tick_.plan.states[other.state].stop && other.social_after_ns <= tick_.t_ns &&
+         std::hypot(tick_.in.walkers[i].v.x, tick_.in.walkers[i].v.y) < 2;
 }
 
 Status Mind::Meet(bool fresh, NodeMemory& memory, double distance, double chance, double cooldown) {

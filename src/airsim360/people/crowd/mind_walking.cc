@@ -60,7 +60,8 @@ Status Mind::GoToPlace(bool fresh, PlaceKind kind, double reach) {
       const Place& place = tick_.plan.places[k];
       if (place.kind != kind || tick_.in.place_taken[k] != kNoPerson) continue;
       const double d = FlatDistance(place.p_W, walker_.at.p_W);
-      if (d < reach && d > 2 && mesh.Component(place.approach) == mesh.Component(walker_.at)) found.emplace_back(d, static_cast<int32_t>(k));
+      if (d < reach && d > 2 && mesh.Component(place.approach) == mesh.Component(walker_.at))
+        found.emplace_back(d, static_cast<int32_t>(k));
     }
     if (found.empty()) return Status::kFailure;
     const size_t n = std::min<size_t>(3, found.size());
@@ -88,9 +89,7 @@ void Mind::Face(Vec3d p) {
   agent_.has_face = true;
   agent_.face_yaw = std::atan2(p.y - walker_.at.p_W.y, p.x - walker_.at.p_W.x);
 }
-bool Mind::Turned() const {
-  return std::cos(tick_.in.to_yaw[self_] - agent_.face_yaw) > 0.95;
-}
+bool Mind::Turned() const { return std::cos(tick_.in.to_yaw[self_] - agent_.face_yaw) > 0.95; }
 
 Status Mind::LookAtDrone(bool fresh, double distance, double min_s, double max_s, const std::string& cause) {
   double d = 0;

@@ -15,8 +15,7 @@ constexpr double kTiny = 1e-9;
 
 /// Best point of the border of planes[i] within the disc and planes[0, i): nearest to `wanted`, or farthest
 /// along it if `is_direction`. False if there is none.
-bool BestOnBorder(std::span<const HalfPlane> planes, size_t i, Vec2d wanted, bool is_direction, double radius,
-                  Vec2d& best) {
+bool BestOnBorder(std::span<const HalfPlane> planes, size_t i, Vec2d wanted, bool is_direction, double radius, Vec2d& best) {
   // The border is point + t d; the disc leaves an interval of t.
   const Vec2d o = planes[i].point, d = Along(planes[i].normal);
   const double middle = -Dot2(o, d), reach2 = middle * middle + radius * radius - Dot2(o, o);

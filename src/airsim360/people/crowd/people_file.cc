@@ -42,7 +42,8 @@ class Reader {
   }
   void List(const YAML::Node& node, const std::string& what, size_t most, const std::function<void(const YAML::Node&)>& read) const {
     if (!node.IsSequence()) Fail(node, what + ": expected a list, found " + Shown(node));
-    if (node.size() > most) Fail(node, what + ": " + std::to_string(node.size()) + " entries, at most " + std::to_string(most) + " are allowed");
+    if (node.size() > most)
+      Fail(node, what + ": " + std::to_string(node.size()) + " entries, at most " + std::to_string(most) + " are allowed");
     for (const auto& entry : node) read(entry);
   }
 
@@ -70,7 +71,8 @@ class Reader {
     Fail(node, what + ": expected true or false, found " + Shown(node));
   }
   Placed<std::string> Word(const YAML::Node& node, const std::string& what) const {
-    if (!node.IsScalar() || node.Scalar().empty() || node.Scalar().size() > 200) Fail(node, what + ": expected a name, found " + Shown(node));
+    if (!node.IsScalar() || node.Scalar().empty() || node.Scalar().size() > 200)
+      Fail(node, what + ": expected a name, found " + Shown(node));
     return {node.Scalar(), Where(node)};
   }
   /// [x, y] or [x, y, z]; the number of coordinates.
@@ -100,12 +102,19 @@ AreaEntry ReadArea(const Reader& r, const YAML::Node& node) {
             });
             if (area.polygon.size() < 3) r.Fail(v, "polygon: needs at least three corners");
           }},
-         {"count", [&](const YAML::Node& v) { area.count = r.Whole(v, "count", 0, 100000); area.count_where = r.Where(v); }},
-         {"density", [&](const YAML::Node& v) { area.density = r.Number(v, "density", 0, 5); area.count_where = r.Where(v); }},
+         {"count",
+          [&](const YAML::Node& v) {
+            area.count = r.Whole(v, "count", 0, 100000);
+            area.count_where = r.Where(v);
+          }},
+         {"density",
+          [&](const YAML::Node& v) {
+            area.density = r.Number(v, "density", 0, 5);
+            area.count_where = r.Where(v);
+          }},
          {"mix", [&](const YAML::Node& v) {
             if (!v.IsMap()) r.Fail(v, "mix: expected 'behaviour: weight' lines, found " + Reader::Shown(v));
-            for (const auto& entry : v)
-              area.mix.emplace_back(r.Word(entry.first, "mix"), r.Number(entry.second, "mix", 0, 1e6));
+            for (const auto& entry : v) area.mix.emplace_back(r.Word(entry.first, "mix"), r.Number(entry.second, "mix", 0, 1e6));
           }}});
   if (area.count && area.density) r.Fail(node, "area: count and density exclude each other");
   return area;
@@ -140,7 +149,8 @@ TransitionEntry ReadTransition(const Reader& r, const YAML::Node& node) {
          {"chance", [&](const YAML::Node& v) { transition.chance = r.Number(v, "chance", 0, 1); }},
          {"rate_per_min", [&](const YAML::Node& v) { transition.rate_per_min = r.Number(v, "rate_per_min", 0, 300); }}});
   if (transition.to.value.empty()) r.Fail(node, "transition: needs 'to'");
-  if (transition.message.value.empty() == (transition.rate_per_min == 0)) r.Fail(node, "transition: needs either 'message' or 'rate_per_min'");
+  if (transition.message.value.empty() == (transition.rate_per_min == 0))
+    r.Fail(node, "transition: needs either 'message' or 'rate_per_min'");
   return transition;
 }
 
@@ -179,12 +189,23 @@ PeopleFile ParsePeople(std::string_view text, std::string_view name) {
     const YAML::Node root = YAML::Load(std::string(text));
     r.Map(root, "people file",
           {{"seed", [&](const YAML::Node& v) { file.seed = static_cast<uint64_t>(r.Number(v, "seed", 0, 9e15)); }},
-           {"trees", [&](const YAML::Node& v) { r.List(v, "trees", 50, [&](const YAML::Node& e) { file.trees.push_back(r.Word(e, "trees")); }); }},
-           {"areas", [&](const YAML::Node& v) { r.List(v, "areas", 200, [&](const YAML::Node& e) { file.areas.push_back(ReadArea(r, e)); }); }},
-           {"states", [&](const YAML::Node& v) { r.List(v, "states", 48, [&](const YAML::Node& e) { file.states.push_back(ReadState(r, e)); }); }},
-           {"messages", [&](const YAML::Node& v) { r.List(v, "messages", 48, [&](const YAML::Node& e) { file.messages.push_back(r.Word(e, "messages")); }); }},
-           {"transitions", [&](const YAML::Node& v) { r.List(v, "transitions", 500, [&](const YAML::Node& e) { file.transitions.push_back(ReadTransition(r, e)); }); }},
-           {"people", [&](const YAML::Node& v) { r.List(v, "people", 20000, [&](const YAML::Node& e) { file.people.push_back(ReadPerson(r, e)); }); }}});
+           {"trees",
+            [&](const YAML::Node& v) { r.List(v, "trees", 50, [&](const YAML::Node& e) { file.trees.push_back(r.Word(e, "trees")); }); }},
+           {"areas",
+            [&](const YAML::Node& v) { r.List(v, "areas", 200, [&](const YAML::Node& e) { file.areas.push_back(ReadArea(r, e)); }); }},
+           {"states",
+            [&](const YAML::Node& v) { r.List(v, "states", 48, [&](const YAML::Node& e) { file.states.push_back(ReadState(r, e)); }); }},
+           {"messages",
+            [&](const YAML::Node& v) {
+              r.List(v, "messages", 48, [&](const YAML::Node& e) { file.messages.push_back(r.Word(e, "messages")); });
+            }},
+           {"transitions",
+            [&](const YAML::Node& v) {
+              r.List(v, "transitions", 500, [&](const YAML::Node& e) { file.transitions.push_back(ReadTransition(r, e)); });
+            }},
+           {"people", [&](const YAML::Node& v) {
+              r.List(v, "people", 20000, [&](const YAML::Node& e) { file.people.push_back(ReadPerson(r, e)); });
+            }}});
   } catch (const YAML::Exception& error) {
     const std::string line = error.mark.is_null() ? "" : ":" + std::to_string(error.mark.line + 1);
     throw InputError(std::string(name) + line + ": " + error.msg);

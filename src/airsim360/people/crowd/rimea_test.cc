@@ -107,15 +107,14 @@ TEST(Rimea, Test7WalkingSpeedsFollowTheDistributionByAge) {
   std::vector<double> x;
   for (PersonIndex i = 0; i < 12; ++i) x.push_back(crowd[i].p_WP.x);
   crowd.Run(10);
-  for (PersonIndex i = 0; i < 12; ++i)
-    EXPECT_NEAR((crowd[i].p_WP.x - x[i]) / 10, crowd.model->people[i].free_speed, 0.05) << i;
+  for (PersonIndex i = 0; i < 12; ++i) EXPECT_NEAR((crowd[i].p_WP.x - x[i]) / 10, crowd.model->people[i].free_speed, 0.05) << i;
 }
 
 // 1,000 people in 30 x 20 m in the guideline; here half of both, as dense.
 TEST(Rimea, Test9ClosingTwoOfFourExitsAboutDoublesTheTime) {
   const DoorRun four = EmptyRoom(21, 14, 500, false), two = EmptyRoom(21, 14, 500, true);
-  std::printf("500 people: %.1f s through four exits, %.1f s through two; %.2f and %.2f people a second and door\n", four.seconds, two.seconds,
-              four.flow, two.flow);
+  std::printf("500 people: %.1f s through four exits, %.1f s through two; %.2f and %.2f people a second and door\n", four.seconds,
+              two.seconds, four.flow, two.flow);
   EXPECT_EQ(four.left + two.left, 0u);
   EXPECT_GT(two.seconds / four.seconds, 1.7);
   EXPECT_LT(two.seconds / four.seconds, 2.3);
@@ -129,8 +128,8 @@ TEST(Rimea, Test9ClosingTwoOfFourExitsAboutDoublesTheTime) {
 
 TEST(Rimea, Test12TheQueueFormsAtTheFirstBottleneckAndNotAtTheSecond) {
   const CorridorRun run = RunCorridors(150);
-  std::printf("people who stand before the bottlenecks: %.1f and %.1f; %.2f people a second; all out after %.0f s\n", run.first, run.second, run.flow,
-              run.seconds);
+  std::printf("people who stand before the bottlenecks: %.1f and %.1f; %.2f people a second; all out after %.0f s\n", run.first, run.second,
+              run.flow, run.seconds);
   EXPECT_EQ(run.left, 0u);
   EXPECT_GT(run.first, 20);
   EXPECT_LT(run.second, 0.2 * run.first);

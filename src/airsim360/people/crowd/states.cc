@@ -39,8 +39,7 @@ bool EnterState(CrowdTick& tick, PersonIndex i, uint8_t to, double min_s, double
 void RunStateMachine(CrowdTick& tick, PersonIndex i) {
   Agent& agent = tick.in.agents[i];
   // Its time is over.
-  if (agent.state_until_ns > 0 && tick.t_ns >= agent.state_until_ns)
-    EnterState(tick, i, tick.plan.states[agent.state].next, -1, 0, "time");
+  if (agent.state_until_ns > 0 && tick.t_ns >= agent.state_until_ns) EnterState(tick, i, tick.plan.states[agent.state].next, -1, 0, "time");
 
   // Messages first, then chance; only of the state they were in at the start.
   const uint8_t state = agent.state;

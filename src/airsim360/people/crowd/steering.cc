@@ -11,23 +11,23 @@ namespace airsim360::internal {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kHorizon = 2.0;       // seconds ahead for people
-constexpr double kThrongHorizon = 0.5; // the same in a dense crowd
-constexpr double kWallHorizon = 0.3;   // and for walls, which do not move
-constexpr double kSight = 3.0;         // metres; two cells
-constexpr double kDensityRadius = 1.5; // metres, as NavMesh::OpenShare
+constexpr double kHorizon = 2.0;        // seconds ahead for people
+constexpr double kThrongHorizon = 0.5;  // the same in a dense crowd
+constexpr double kWallHorizon = 0.3;    // and for walls, which do not move
+constexpr double kSight = 3.0;          // metres; two cells
+constexpr double kDensityRadius = 1.5;  // metres, as NavMesh::OpenShare
 constexpr int kMaxNeighbours = 9, kMaxClose = 12, kMaxWalls = 6;
 constexpr double kCloseRange = 2 * kBodyRadius + 0.35;
-constexpr double kShareSlope = 0.6;    // how fast the work of avoiding goes over to who has the other in front
-constexpr double kNoShare = 0.05;      // of avoiding: not worth a thought
-constexpr double kArm = 2 * kBodyRadius + 0.036;       // metres: between the middles of people who touch or nearly do
-constexpr double kYieldAfter = 0.4, kYieldSpeed = 0.3; // seconds, m/s: who is stuck beside somebody nearer to a door
+constexpr double kShareSlope = 0.6;                     // how fast the work of avoiding goes over to who has the other in front
+constexpr double kNoShare = 0.05;                       // of avoiding: not worth a thought
+constexpr double kArm = 2 * kBodyRadius + 0.036;        // metres: between the middles of people who touch or nearly do
+constexpr double kYieldAfter = 0.4, kYieldSpeed = 0.3;  // seconds, m/s: who is stuck beside somebody nearer to a door
 constexpr double kLoosenAfter = 4, kLoosenUntil = 4.6;  // seconds
-constexpr double kSidestepAfter = 1;    // seconds that someone who stands is in the way
-constexpr double kCorner = 0.02;         // metres
-constexpr double kAcceleration = 4;    // m/s^2
-constexpr double kLevel = 1.6;         // metres of height beyond which people are on different floors
-constexpr int64_t kChunk = 128;        // people a task
+constexpr double kSidestepAfter = 1;                    // seconds that someone who stands is in the way
+constexpr double kCorner = 0.02;                        // metres
+constexpr double kAcceleration = 4;                     // m/s^2
+constexpr double kLevel = 1.6;                          // metres of height beyond which people are on different floors
+constexpr int64_t kChunk = 128;                         // people a task
 
 // People stand apart and away from walls, so a disc around one of them holds more people than one anywhere; both
 // numbers come from the ring of steering_test.cc.
@@ -64,9 +64,7 @@ struct SpeedTable {
   SpeedTable() {
     for (size_t i = 0; i < speed.size(); ++i) speed[i] = WeidmannSpeed(static_cast<double>(i) / 64);
   }
-  double operator()(double density) const {
-    return speed[std::min(speed.size() - 1, static_cast<size_t>(density * 64 + 0.5))];
-  }
+  double operator()(double density) const { return speed[std::min(speed.size() - 1, static_cast<size_t>(density * 64 + 0.5))]; }
 };
 const SpeedTable kSpeed;
 
@@ -96,8 +94,7 @@ struct Steering::Company {
   void Add(double rank, const Seen* other) {
     if (count == kMaxNeighbours && rank >= near[kMaxNeighbours - 1].rank) return;
     int at = count < kMaxNeighbours ? count++ : kMaxNeighbours - 1;
-    for (; at > 0 && near[static_cast<size_t>(at - 1)].rank > rank; --at)
-      near[static_cast<size_t>(at)] = near[static_cast<size_t>(at - 1)];
+    for (; at > 0 && near[static_cast<size_t>(at - 1)].rank > rank; --at) near[static_cast<size_t>(at)] = near[static_cast<size_t>(at - 1)];
     near[static_cast<size_t>(at)] = {rank, other};
   }
 };
@@ -108,7 +105,7 @@ struct Steering::Limits {
   size_t hard = 0, used = 0;  // planes of walls come first
   double right = 0;           // share of the wanted velocity that goes to the right
   bool yields = false;
-  Vec2d in_the_way;           // towards somebody who stands there; zero: nobody
+  Vec2d in_the_way;  // towards somebody who stands there; zero: nobody
 
   void AddWalls(const NavMesh& mesh, Vec2d p, double z, double range);
   void AddPeople(const Seen& self, const Company& company, Vec2d wanted, double throng, double dt);
@@ -120,8 +117,7 @@ Steering::~Steering() = default;
 Steering::Steering(const Steering&) {}
 Steering& Steering::operator=(const Steering&) { return *this; }
 
-void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<const SteeringObstacle> obstacles,
-                    double dt) {
+void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<const SteeringObstacle> obstacles, double dt) {
   // Where everybody wants to go is known only now.
   for (Seen& seen : seen_) {
     const Walker& walker = walkers[seen.index];
@@ -220,8 +216,7 @@ Steering::Company Steering::LookAround(uint32_t k, bool only_close, Plan& plan) 
         ++company.in_disc;
         company.ahead += std::max(0.0, kPi * Dot2(d, self.forward) / std::sqrt(d2 + 1e-12));
       }
-      if (d2 < kCloseRange * kCloseRange && plan.close_count < kMaxClose)
-        plan.close[static_cast<size_t>(plan.close_count++)] = other.index;
+      if (d2 < kCloseRange * kCloseRange && plan.close_count < kMaxClose) plan.close[static_cast<size_t>(plan.close_count++)] = other.index;
       // Those behind matter less.
       company.Add(Dot2(d, self.v) < 0 ? 4 * d2 : d2, &other);
     }
@@ -281,8 +276,8 @@ void Steering::Limits::AddObstacles(const Seen& self, std::span<const SteeringOb
   }
 }
 
-void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
-                      std::span<const SteeringObstacle> obstacles, uint32_t k, double dt) {
+void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers, std::span<const SteeringObstacle> obstacles, uint32_t k,
+                      double dt) {
   const Seen& self = seen_[k];
   const Walker& walker = walkers[self.index];
   Plan& plan = plans_[self.index];

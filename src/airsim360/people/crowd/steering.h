@@ -17,8 +17,8 @@ inline constexpr double kSpaceRadius = 0.24;
 
 struct Walker {
   NavPoint at;
-  Vec2d v;              ///< m/s over the ground
-  Vec2d wanted;         ///< velocity they would like
+  Vec2d v;       ///< m/s over the ground
+  Vec2d wanted;  ///< velocity they would like
   double free_speed = 1.34;
   double pressed = 0;   ///< 0 … 1: how much they want through, after standing for a while; they squeeze past others
   double rest = 0;      ///< metres to where they go: who is nearer goes first at doors; 0 = unknown
@@ -80,8 +80,7 @@ class Steering {
   /// Who is near number k of seen_; notes in the plan whom the next step may touch.
   Company LookAround(uint32_t k, bool only_close, Plan& plan) const;
   static bool YieldsTo(const Seen& self, const Seen& other, double d2);
-  void Choose(const NavMesh& mesh, std::span<const Walker> walkers, std::span<const SteeringObstacle> obstacles,
-              uint32_t self, double dt);
+  void Choose(const NavMesh& mesh, std::span<const Walker> walkers, std::span<const SteeringObstacle> obstacles, uint32_t self, double dt);
   void Advance(const NavMesh& mesh, std::span<Walker> walkers, uint32_t self, double dt);
 
   Vec2d min_;

@@ -20,7 +20,8 @@ std::shared_ptr<const Scene> Square() {
 }
 
 std::string Waving(const std::string& tree) {
-  return "<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"" + tree + "\"><Sequence><SetState state=\"waving\" min_s=\"5\" max_s=\"5\"/><Sleep msec=\"100000\" name=\"rest\"/></Sequence></BehaviorTree></root>";
+  return "<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"" + tree +
+         "\"><Sequence><SetState state=\"waving\" min_s=\"5\" max_s=\"5\"/><Sleep msec=\"100000\" name=\"rest\"/></Sequence></BehaviorTree></root>";
 }
 
 CrowdRequest Six() {
@@ -55,7 +56,9 @@ TEST(TreeEditing, AMindTellsItsMessagesAndWhatItsKeysHold) {
   TestCrowd crowd(Square(), Six());
   crowd.Run(1);
   const std::string tree = MindOf(*crowd.model, crowd.state, 0).tree;
-  const std::string xml = "<root BTCPP_format=\"4\"><BehaviorTree ID=\"" + tree + R"("><Sequence><SetBlackboard value="7.5" output_key="{count}"/><SubTree ID="rest" mood="waving" point="3;4"/></Sequence></BehaviorTree>
+  const std::string xml =
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"" + tree +
+      R"("><Sequence><SetBlackboard value="7.5" output_key="{count}"/><SubTree ID="rest" mood="waving" point="3;4"/></Sequence></BehaviorTree>
     <BehaviorTree ID="rest"><Sequence><SetBlackboard value="{point}" output_key="{copy}"/><SetState state="{mood}" min_s="30" max_s="30"/><SetBlackboard value="1" output_key="{later}"/></Sequence></BehaviorTree></root>)";
   const auto edited = WithTrees(*crowd.model, xml, "page");
   AdoptTrees(*crowd.model, *edited, crowd.state);
@@ -82,7 +85,8 @@ TEST(TreeEditing, WhatIsWrongChangesNothing) {
     WithTrees(*crowd.model, "<root BTCPP_format=\"4\"><BehaviorTree ID=\"a\">\n<SetState state=\"wavin\"/></BehaviorTree></root>", "page");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("page:2: SetState state: unknown state 'wavin'; did you mean 'waving'"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("page:2: SetState state: unknown state 'wavin'; did you mean 'waving'"), std::string::npos)
+        << error.what();
   }
   EXPECT_THROW(TreeSource(*crowd.model, "walkr"), InputError);
   EXPECT_NE(TreeSource(*crowd.model, "walker").find("walker"), std::string::npos);

@@ -7,9 +7,9 @@ namespace airsim360::internal {
 namespace {
 
 constexpr double kNearGate = 0.3, kSeesGate = 2;  // metres
-constexpr double kAheadOfRoad = 2.2;       // metres to a crossing where people stop at a red light: ways cut its corners
-constexpr int64_t kCycle = 44 * kSecond;   // of traffic lights
-constexpr int64_t kShift = 800'000'000;    // of feet from the mesh to a seat beside it and back
+constexpr double kAheadOfRoad = 2.2;              // metres to a crossing where people stop at a red light: ways cut its corners
+constexpr int64_t kCycle = 44 * kSecond;          // of traffic lights
+constexpr int64_t kShift = 800'000'000;           // of feet from the mesh to a seat beside it and back
 constexpr int64_t kNoProgress = 4 * kSecond, kStuck = 30 * kSecond;
 
 double Length(Vec2d a) { return std::sqrt(a.x * a.x + a.y * a.y); }
@@ -75,9 +75,8 @@ double PressedBy(const Agent& agent, int64_t t_ns) {
 /// People who talk or stand let someone pass who cannot get on because of them.
 bool SomebodyWantsThrough(const CrowdTick& tick, Vec2d p) {
   bool found = false;
-  tick.in.steering.Near(p, 1, [&](PersonIndex other, Vec2d q, double) {
-    found |= Length(q - p) < 1 && PressedBy(tick.in.agents[other], tick.t_ns) >= 1;
-  });
+  tick.in.steering.Near(
+      p, 1, [&](PersonIndex other, Vec2d q, double) { found |= Length(q - p) < 1 && PressedBy(tick.in.agents[other], tick.t_ns) >= 1; });
   return found;
 }
 
@@ -203,13 +202,14 @@ void WatchStuck(CrowdTick& tick, PersonIndex i) {
   const Vec3d& p = tick.in.walkers[i].at.p_W;
   // Whoever stands on purpose is not stuck; goals may have changed meanwhile.
   if (agent.walk == Walk::kOnTheWay || agent.walk == Walk::kWaitsForPath) agent.way_ns = tick.t_ns;
-  const bool stands = tick.t_ns - agent.way_ns > kSecond || agent.hold || agent.group || tick.plan.states[agent.state].stop || agent.at_place ||
-                      (agent.commanded && agent.walk != Walk::kOnTheWay);
+  const bool stands = tick.t_ns - agent.way_ns > kSecond || agent.hold || agent.group || tick.plan.states[agent.state].stop ||
+                      agent.at_place || (agent.commanded && agent.walk != Walk::kOnTheWay);
   if (stands || Norm(p - agent.stuck_p) > 0.5) {
     agent.stuck_p = p;
     agent.stuck_ns = tick.t_ns;
   } else if (tick.t_ns - agent.stuck_ns > kStuck) {
-    AddEvent(tick, {.kind = CrowdEvent::Kind::kStuck, .t_ns = tick.t_ns, .person = i, .from = {}, .to = {}, .text = "no progress for 30 s"});
+    AddEvent(tick,
+             {.kind = CrowdEvent::Kind::kStuck, .t_ns = tick.t_ns, .person = i, .from = {}, .to = {}, .text = "no progress for 30 s"});
     agent.stuck_ns = tick.t_ns;
   }
 }

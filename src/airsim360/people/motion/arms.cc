@@ -20,13 +20,15 @@ void Hang(bool left, const ArmAngles& a, Posture& posture) {
   const double s = left ? 1 : -1;
   const size_t arm = left ? kTLeftArm : kTRightArm;
   posture.turn[arm + kClavicle] = RotationX(s * a.raise * kDegree);
-  posture.turn[arm + kShoulder] = RotationX(s * (a.abduct - a.raise) * kDegree) * RotationY(-a.flex * kDegree) * RotationZ(-s * a.rotate * kDegree);
+  posture.turn[arm + kShoulder] =
+      RotationX(s * (a.abduct - a.raise) * kDegree) * RotationY(-a.flex * kDegree) * RotationZ(-s * a.rotate * kDegree);
   posture.turn[arm + kElbow] = RotationY(-a.elbow * kDegree);
   posture.turn[arm + kWrist] = RotationZ(s * a.supinate * kDegree);
 }
 
 void TurnHand(bool left, double supinate, double bend, Posture& posture) {
-  posture.turn[(left ? kTLeftArm : kTRightArm) + kWrist] = RotationZ((left ? 1 : -1) * supinate * kDegree) * RotationX((left ? -1 : 1) * bend * kDegree);
+  posture.turn[(left ? kTLeftArm : kTRightArm) + kWrist] =
+      RotationZ((left ? 1 : -1) * supinate * kDegree) * RotationX((left ? -1 : 1) * bend * kDegree);
 }
 
 // Places a wrist at a point given against the middle between the shoulders, in shares of arm length: forward,
@@ -206,25 +208,39 @@ void Hold(const PostureInput& in, Vec3d share, double curl, Posture& posture) {
 void SetArms(const PostureInput& in, Posture& posture) {
   SwingArms(in, 1, posture);
   switch (in.upper) {
-    case Behaviour::kTalk: return Gesture(in, posture);
-    case Behaviour::kPhoneCall: return PhoneCall(in, posture);
-    case Behaviour::kTexting: return HoldPhone(in, {0.46, 0.055, -0.36}, {-0.2, 0.8, -1}, 55, -10, posture);
+    case Behaviour::kTalk:
+      return Gesture(in, posture);
+    case Behaviour::kPhoneCall:
+      return PhoneCall(in, posture);
+    case Behaviour::kTexting:
+      return HoldPhone(in, {0.46, 0.055, -0.36}, {-0.2, 0.8, -1}, 55, -10, posture);
     case Behaviour::kTakePhoto:
       return HoldPhone(in, AtHead(in, {0, 0, -0.05}) + Vec3d{0.62, 0.05, 0}, {-0.1, 0.6, -1}, 5, -8, posture);
-    case Behaviour::kWave: return Wave(in, posture);
-    case Behaviour::kSit: return RestOnThighs(in, posture);
-    case Behaviour::kCarry: return Carry(in, posture);
-    case Behaviour::kPushStroller: return PushStroller(in, posture);
-    case Behaviour::kCrouch: return Crouch(in, posture);
-    case Behaviour::kStretch: return Stretch(in, posture);
-    case Behaviour::kPoint: return Reach(in, posture);
-    case Behaviour::kLookUp: return LookUp(in, posture);
+    case Behaviour::kWave:
+      return Wave(in, posture);
+    case Behaviour::kSit:
+      return RestOnThighs(in, posture);
+    case Behaviour::kCarry:
+      return Carry(in, posture);
+    case Behaviour::kPushStroller:
+      return PushStroller(in, posture);
+    case Behaviour::kCrouch:
+      return Crouch(in, posture);
+    case Behaviour::kStretch:
+      return Stretch(in, posture);
+    case Behaviour::kPoint:
+      return Reach(in, posture);
+    case Behaviour::kLookUp:
+      return LookUp(in, posture);
     case Behaviour::kUmbrella:
       Show(Prop::kUmbrella, posture);
       return Hold(in, {0.40, 0.24, -0.25}, 0.9, posture);
-    case Behaviour::kWalkDog: return Hold(in, {0.42, 0.30, -0.62}, 0.8, posture);
-    case Behaviour::kWait: return Wait(in, posture);
-    default: return;
+    case Behaviour::kWalkDog:
+      return Hold(in, {0.42, 0.30, -0.62}, 0.8, posture);
+    case Behaviour::kWait:
+      return Wait(in, posture);
+    default:
+      return;
   }
 }
 

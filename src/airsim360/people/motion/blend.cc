@@ -51,8 +51,7 @@ Vec3d AddOffsets(const MotionState& m, Posture& posture) {
 
 bool NeedsSwitch(const MotionState& m, const PersonState& state) {
   return m.lower != state.lower || m.upper != state.upper || m.speaking != uint32_t{state.speaking} ||
-         m.has_gaze != uint32_t{state.has_gaze} || m.upper_since_ns != state.upper_since_ns ||
-         m.lower_since_ns != state.lower_since_ns;
+         m.has_gaze != uint32_t{state.has_gaze} || m.upper_since_ns != state.upper_since_ns || m.lower_since_ns != state.lower_since_ns;
 }
 
 void SwitchMotion(const Body& body, const PersonState& state, MotionState& motion) {
@@ -71,7 +70,8 @@ void SwitchMotion(const Body& body, const PersonState& state, MotionState& motio
   const Vec3d pelvis = PelvisOf(body, motion, before, shown, shift);
   std::array<Vec3d, kBlendedJoints> rate;
   for (size_t k = 0; k < rate.size(); ++k) {
-    rate[k] = ToRotationVector(old_now.turn[k] * old_then.turn[k].transpose()) / kDelta + Mixed(d.da, motion.turn[k], d.db, motion.turn_rate[k]);
+    rate[k] =
+        ToRotationVector(old_now.turn[k] * old_then.turn[k].transpose()) / kDelta + Mixed(d.da, motion.turn[k], d.db, motion.turn_rate[k]);
   }
   const Vec3d shift_rate = Mixed(d.da, motion.shift, d.db, motion.shift_rate);
 

@@ -7,8 +7,7 @@
 namespace airsim360::internal {
 
 PostureInput InputOf(const Body& body, const MotionState& motion, const PersonState& state);
-LegInput LegInputOf(const Body& body, const MotionState& motion, const PersonState& state, const Posture& posture,
-                    Vec3d shift);
+LegInput LegInputOf(const Body& body, const MotionState& motion, const PersonState& state, const Posture& posture, Vec3d shift);
 
 /// Adds what is left of a transition to a posture; returns the shift of the pelvis in P.
 Vec3d AddOffsets(const MotionState& motion, Posture& posture);

@@ -45,7 +45,8 @@ class Words {
   }
   int Count(int64_t limit, const char* what) {
     const double value = Number();
-    if (!(value >= 0 && value <= static_cast<double>(limit)) || value != std::floor(value)) Fail(std::string(what) + " must be 0 to " + std::to_string(limit));
+    if (!(value >= 0 && value <= static_cast<double>(limit)) || value != std::floor(value))
+      Fail(std::string(what) + " must be 0 to " + std::to_string(limit));
     return static_cast<int>(value);
   }
 
@@ -64,7 +65,8 @@ BvhJoint::Channel ChannelOf(std::string_view word, const Words& words) {
   if (word == "Xrotation") return Channel::kTurnX;
   if (word == "Yrotation") return Channel::kTurnY;
   if (word == "Zrotation") return Channel::kTurnZ;
-  words.Fail("unknown channel '" + std::string(word.substr(0, 40)) + "'; one of Xposition, Yposition, Zposition, Xrotation, Yrotation, Zrotation");
+  words.Fail("unknown channel '" + std::string(word.substr(0, 40)) +
+             "'; one of Xposition, Yposition, Zposition, Xrotation, Yrotation, Zrotation");
 }
 
 // One joint with its children, braces included.

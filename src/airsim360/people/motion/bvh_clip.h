@@ -24,8 +24,8 @@ struct BvhJoint {
 struct BvhClip {
   std::vector<BvhJoint> joints;
   int frames = 0, channels = 0;
-  double frame_time = 0;       ///< seconds
-  std::vector<float> values;   ///< frame by frame; degrees and the file's units
+  double frame_time = 0;      ///< seconds
+  std::vector<float> values;  ///< frame by frame; degrees and the file's units
   /// Our joints by index of the clip's, -1 where it has none (names of CMU, Mixamo and MakeHuman exports).
   std::array<int, kJointCount> match{};
 

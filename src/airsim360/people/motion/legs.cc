@@ -65,18 +65,17 @@ struct Foot {
   const FootMotion* motion = nullptr;
   double phase = 0;
   LegAngles curve;
-  Mat3d frame;         // of the ground under it
-  Vec3d ankle;         // in W
+  Mat3d frame;  // of the ground under it
+  Vec3d ankle;  // in W
   double pitch = 0;
-  double toes = 0;     // 1: toes stay on the ground
+  double toes = 0;  // 1: toes stay on the ground
   bool planted = false;
   double carries = 0;  // 1: the pelvis is over it as it must be; 0: in the air
 };
 
 class Solver {
  public:
-  explicit Solver(const LegInput& in)
-      : in_(in), gait_(GaitOf(in.body, in.motion)), shapes_{FootShape(in.body, 0), FootShape(in.body, 1)} {
+  explicit Solver(const LegInput& in) : in_(in), gait_(GaitOf(in.body, in.motion)), shapes_{FootShape(in.body, 0), FootShape(in.body, 1)} {
     for (size_t k = 0; k < 2; ++k) {
       Foot& foot = feet_[k];
       foot.motion = &in.motion.feet[k];
@@ -142,8 +141,7 @@ class Solver {
       if (feet_[k].planted) stand = std::min(stand, HeightOver(k, feet_[k].curve.knee));
     }
     for (size_t k = 0; k < 2; ++k) {
-      if (!feet_[k].planted && feet_[k].carries > 0)
-        stand += std::min(0.0, HeightOver(k, feet_[k].curve.knee) - stand) * feet_[k].carries;
+      if (!feet_[k].planted && feet_[k].carries > 0) stand += std::min(0.0, HeightOver(k, feet_[k].curve.knee) - stand) * feet_[k].carries;
     }
     const double g = gait_.weight;
     if (g <= 0) return stand;

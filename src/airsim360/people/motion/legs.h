@@ -14,10 +14,10 @@ struct LegInput {
   const MotionState& motion;
   const PersonState& state;
   RigidTransform X_WP;
-  Mat3d A_WPelvis;  ///< pelvis against its rest, in W
-  Vec3d p_W_pelvis; ///< where x and y are meant, z is to be found
-  double sink = 0;  ///< Posture::sink; then p_W_pelvis.z counts
-  Vec3d shift;      ///< added to the pelvis once its height is found
+  Mat3d A_WPelvis;   ///< pelvis against its rest, in W
+  Vec3d p_W_pelvis;  ///< where x and y are meant, z is to be found
+  double sink = 0;   ///< Posture::sink; then p_W_pelvis.z counts
+  Vec3d shift;       ///< added to the pelvis once its height is found
 };
 
 /// What came out for one leg; rotations are from the anatomical zero (thigh, shank) and from rest (foot).

@@ -29,15 +29,15 @@ class Ground {
 struct FootMotion {
   enum class Mode : uint32_t { kPlanted, kSwing, kStep };  // swing: by the gait's phase; step: by time
   Mode mode = Mode::kPlanted;
-  double u = 0;            ///< of a step: 0 at lift-off, 1 at landing; planted: 1 = came down flat, 0 = on its heel
-  Vec3d p_W;               ///< planted: ball of the foot on the ground; else where it left the ground
-  Vec3d p_W_to;            ///< where it is going to land
+  double u = 0;  ///< of a step: 0 at lift-off, 1 at landing; planted: 1 = came down flat, 0 = on its heel
+  Vec3d p_W;     ///< planted: ball of the foot on the ground; else where it left the ground
+  Vec3d p_W_to;  ///< where it is going to land
   double yaw = 0, yaw_to = 0;
-  Vec3d offset;            ///< swing: ankle less the gait's own at lift-off, axes of P
-  double pitch = 0;        ///< at lift-off, radians, toe down positive
-  double toes = 1;         ///< of a step: 1 if its toes were on the ground at lift-off
-  double phase = 0;        ///< of its stride at lift-off
-  Vec3d normal{0, 0, 1};   ///< of the ground it stands on
+  Vec3d offset;           ///< swing: ankle less the gait's own at lift-off, axes of P
+  double pitch = 0;       ///< at lift-off, radians, toe down positive
+  double toes = 1;        ///< of a step: 1 if its toes were on the ground at lift-off
+  double phase = 0;       ///< of its stride at lift-off
+  Vec3d normal{0, 0, 1};  ///< of the ground it stands on
 };
 
 inline constexpr int kBlendedJoints = 14;  ///< pelvis, spine, neck, head, clavicles, arms
@@ -46,14 +46,14 @@ inline constexpr int kBlendedJoints = 14;  ///< pelvis, spine, neck, head, clavi
 struct MotionState {
   int64_t t_ns = 0;
   uint64_t seed = 0;
-  double phase = 0;         ///< of the left leg: 0 at heel strike, 1 one stride later
-  double speed = 0;         ///< smoothed, m/s, along the heading
-  double side_speed = 0;    ///< smoothed, m/s, to the left
-  double gait = 0;          ///< 0 stands, 1 walks or runs
-  double run = 0;           ///< 0 walks, 1 runs
-  double yaw_rate = 0;      ///< smoothed, rad/s
+  double phase = 0;       ///< of the left leg: 0 at heel strike, 1 one stride later
+  double speed = 0;       ///< smoothed, m/s, along the heading
+  double side_speed = 0;  ///< smoothed, m/s, to the left
+  double gait = 0;        ///< 0 stands, 1 walks or runs
+  double run = 0;         ///< 0 walks, 1 runs
+  double yaw_rate = 0;    ///< smoothed, rad/s
   double last_yaw = 0;
-  Vec3d last_p_WP, gaze;    ///< of the step before
+  Vec3d last_p_WP, gaze;  ///< of the step before
   uint32_t speaking = 0, has_gaze = 0;
   Behaviour lower = Behaviour::kIdle, upper = Behaviour::kIdle;
   int64_t lower_since_ns = 0, upper_since_ns = 0;
@@ -61,20 +61,18 @@ struct MotionState {
   // Inertialised transitions: offsets from the new motion and their rates at blend_since_ns, decaying as a
   // critically damped spring.
   int64_t blend_since_ns = 0;
-  float blend_rate = 0;  ///< 1/s; 0 = no transition under way
+  float blend_rate = 0;                               ///< 1/s; 0 = no transition under way
   std::array<Vec3f, kBlendedJoints> turn, turn_rate;  ///< rotation vectors
   Vec3f shift, shift_rate;                            ///< of the pelvis in P, metres
   std::array<float, 2> curl{};                        ///< of the fingers, left and right
 };
 
 /// A person who has just come into the world and stands at state.p_WP.
-MotionState StartMotion(const Body& body, const PersonState& state, uint64_t seed, int64_t t_ns,
-                        const Ground* ground = nullptr);
+MotionState StartMotion(const Body& body, const PersonState& state, uint64_t seed, int64_t t_ns, const Ground* ground = nullptr);
 
 /// Advances to t_ns (a step of at most 0.2 s at a time). `ground` null: a plane at state.p_WP.z. Jumps of more
 /// than 1 m set the feet anew.
-void StepMotion(const Body& body, const PersonState& state, int64_t t_ns, const Ground* ground,
-                MotionState& motion);
+void StepMotion(const Body& body, const PersonState& state, int64_t t_ns, const Ground* ground, MotionState& motion);
 
 /// The joints at motion.t_ns. A pure function.
 SkeletonPose PoseOf(const Body& body, const MotionState& motion, const PersonState& state);

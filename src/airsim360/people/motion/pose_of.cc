@@ -10,8 +10,15 @@ namespace internal {
 
 PostureInput InputOf(const Body& body, const MotionState& motion, const PersonState& state) {
   const double t = static_cast<double>(motion.t_ns) * 1e-9;
-  return {body, motion, state, motion.lower, motion.upper, motion.phase, t,
-          t - static_cast<double>(motion.lower_since_ns) * 1e-9, t - static_cast<double>(motion.upper_since_ns) * 1e-9};
+  return {body,
+          motion,
+          state,
+          motion.lower,
+          motion.upper,
+          motion.phase,
+          t,
+          t - static_cast<double>(motion.lower_since_ns) * 1e-9,
+          t - static_cast<double>(motion.upper_since_ns) * 1e-9};
 }
 
 LegInput LegInputOf(const Body& body, const MotionState& motion, const PersonState& state, const Posture& posture, Vec3d shift) {
@@ -56,8 +63,9 @@ SkeletonPose PoseOf(const Body& body, const MotionState& motion, const PersonSta
   }
 
   // Fingers curl towards the palm, which faces the thigh at zero.
-  constexpr Joint kHands[2][5] = {{Joint::kLeftWrist, Joint::kLeftFingers1, Joint::kLeftFingers2, Joint::kLeftThumb1, Joint::kLeftThumb2},
-                                  {Joint::kRightWrist, Joint::kRightFingers1, Joint::kRightFingers2, Joint::kRightThumb1, Joint::kRightThumb2}};
+  constexpr Joint kHands[2][5] = {
+      {Joint::kLeftWrist, Joint::kLeftFingers1, Joint::kLeftFingers2, Joint::kLeftThumb1, Joint::kLeftThumb2},
+      {Joint::kRightWrist, Joint::kRightFingers1, Joint::kRightFingers2, Joint::kRightThumb1, Joint::kRightThumb2}};
   for (size_t side = 0; side < 2; ++side) {
     const double sign = side == 0 ? -1 : 1, curl = posture.curl[side];
     const Mat3d finger = RotationX(sign * 1.25 * curl), thumb = RotationX(sign * 0.35 * curl);

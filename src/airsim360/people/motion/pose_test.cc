@@ -89,7 +89,9 @@ TEST(Gait, HipAndKneeAreWithinOneDeviationOfTheBoys) {
     const double h = hip[i] / count[i] + internal::kPelvicTiltDeg - internal::kBoysHip[i], k = knee[i] / count[i] - internal::kBoysKnee[i];
     hip_good += std::abs(h) <= internal::kBoysHipDeviation[i];
     knee_good += std::abs(k) <= internal::kBoysKneeDeviation[i];
-    if (std::getenv("AIRSIM360_PRINT")) std::printf("%2d hip %6.1f (%+5.1f of %.1f) knee %6.1f (%+5.1f of %.1f)\n", i, hip[i] / count[i], h, internal::kBoysHipDeviation[i], knee[i] / count[i], k, internal::kBoysKneeDeviation[i]);
+    if (std::getenv("AIRSIM360_PRINT"))
+      std::printf("%2d hip %6.1f (%+5.1f of %.1f) knee %6.1f (%+5.1f of %.1f)\n", i, hip[i] / count[i], h, internal::kBoysHipDeviation[i],
+                  knee[i] / count[i], k, internal::kBoysKneeDeviation[i]);
   }
   EXPECT_GE(hip_good, 18);
   EXPECT_GE(knee_good, 18);
@@ -143,8 +145,9 @@ struct SlideCheck {
   static void Worse(double value, const Walker& walker, double phase, double& worst, std::string& where) {
     if (value <= worst) return;
     worst = value;
-    where = "at " + std::to_string(walker.t_ns / 10'000'000) + " phase " + std::to_string(phase) + " gait " + std::to_string(walker.motion.gait) + " run " +
-            std::to_string(walker.motion.run) + " speed " + std::to_string(walker.motion.speed);
+    where = "at " + std::to_string(walker.t_ns / 10'000'000) + " phase " + std::to_string(phase) + " gait " +
+            std::to_string(walker.motion.gait) + " run " + std::to_string(walker.motion.run) + " speed " +
+            std::to_string(walker.motion.speed);
   }
 };
 
@@ -164,9 +167,11 @@ TEST(FootLock, FeetDoNotSlideInMixedMotion) {
     const struct {
       Behaviour lower, upper;
       double speed, turn;
-    } orders[] = {{Behaviour::kWalk, Behaviour::kWalk, 1.3, 0}, {Behaviour::kWalk, Behaviour::kPhoneCall, 1.0, 0.5}, {Behaviour::kIdle, Behaviour::kTalk, 0, 0},
-                  {Behaviour::kIdle, Behaviour::kIdle, 0, 0.7}, {Behaviour::kJog, Behaviour::kJog, 2.4, 0.2}, {Behaviour::kWalk, Behaviour::kTexting, 0.6, -0.6},
-                  {Behaviour::kRun, Behaviour::kRun, 3.5, 0}, {Behaviour::kIdle, Behaviour::kWave, 0, 0}, {Behaviour::kWalk, Behaviour::kCarry, 1.6, 0.1}};
+    } orders[] = {{Behaviour::kWalk, Behaviour::kWalk, 1.3, 0},   {Behaviour::kWalk, Behaviour::kPhoneCall, 1.0, 0.5},
+                  {Behaviour::kIdle, Behaviour::kTalk, 0, 0},     {Behaviour::kIdle, Behaviour::kIdle, 0, 0.7},
+                  {Behaviour::kJog, Behaviour::kJog, 2.4, 0.2},   {Behaviour::kWalk, Behaviour::kTexting, 0.6, -0.6},
+                  {Behaviour::kRun, Behaviour::kRun, 3.5, 0},     {Behaviour::kIdle, Behaviour::kWave, 0, 0},
+                  {Behaviour::kWalk, Behaviour::kCarry, 1.6, 0.1}};
     for (int round = 0; round < 3; ++round) {
       double speed = 0;
       for (const auto& order : orders) {
@@ -256,14 +261,17 @@ TEST(Pose, EveryBehaviourKeepsBonesTheirLength) {
 // The fastest that a joint turns in W of somebody who walks, stops dead and does something else every 0.4 s, rad/s.
 double FastestTurn(double stature, double speed, std::string& where) {
   Walker walker(Adult(Sex::kMale, stature));
-  const Behaviour uppers[] = {Behaviour::kIdle, Behaviour::kTalk, Behaviour::kWave, Behaviour::kPhoneCall, Behaviour::kTexting, Behaviour::kPoint,
-                              Behaviour::kTakePhoto, Behaviour::kListen, Behaviour::kUmbrella, Behaviour::kCarry};
+  const Behaviour uppers[] = {Behaviour::kIdle,  Behaviour::kTalk,      Behaviour::kWave,   Behaviour::kPhoneCall, Behaviour::kTexting,
+                              Behaviour::kPoint, Behaviour::kTakePhoto, Behaviour::kListen, Behaviour::kUmbrella,  Behaviour::kCarry};
   SkeletonPose before = walker.Pose();
   double worst = 0;
   for (int i = 0; i < 4000; ++i) {
     // Also in the middle of a transition.
     if (i % 40 == 0) {
-      walker.Do(i % 400 < 200 ? Behaviour::kWalk : i % 800 < 600 ? Behaviour::kIdle : Behaviour::kSit, uppers[static_cast<size_t>(i / 40) % std::size(uppers)]);
+      walker.Do(i % 400 < 200   ? Behaviour::kWalk
+                : i % 800 < 600 ? Behaviour::kIdle
+                                : Behaviour::kSit,
+                uppers[static_cast<size_t>(i / 40) % std::size(uppers)]);
       walker.state.speaking = i % 80 == 0;
     }
     walker.Step(walker.state.lower == Behaviour::kWalk ? speed : 0);

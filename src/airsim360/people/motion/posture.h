@@ -10,9 +10,9 @@ namespace airsim360::internal {
 
 /// Joints that transitions blend, in the order of Posture::turn.
 inline constexpr std::array<Joint, kBlendedJoints> kTurned{
-    Joint::kPelvis, Joint::kSpine1, Joint::kSpine2, Joint::kSpine3, Joint::kNeck,
-    Joint::kHead, Joint::kLeftClavicle, Joint::kLeftShoulder, Joint::kLeftElbow, Joint::kLeftWrist,
-    Joint::kRightClavicle, Joint::kRightShoulder, Joint::kRightElbow, Joint::kRightWrist};
+    Joint::kPelvis,        Joint::kSpine1,        Joint::kSpine2,       Joint::kSpine3,    Joint::kNeck,
+    Joint::kHead,          Joint::kLeftClavicle,  Joint::kLeftShoulder, Joint::kLeftElbow, Joint::kLeftWrist,
+    Joint::kRightClavicle, Joint::kRightShoulder, Joint::kRightElbow,   Joint::kRightWrist};
 enum Turned : size_t { kTPelvis, kTSpine1, kTSpine2, kTSpine3, kTNeck, kTHead, kTLeftArm, kTRightArm = kTLeftArm + 4 };
 // Within an arm.
 inline constexpr size_t kClavicle = 0, kShoulder = 1, kElbow = 2, kWrist = 3;
@@ -20,8 +20,8 @@ inline constexpr size_t kClavicle = 0, kShoulder = 1, kElbow = 2, kWrist = 3;
 /// Rotations against the parent, from the anatomical zero (arms hang, palms in); axes as in P.
 struct Posture {
   std::array<Mat3d, kBlendedJoints> turn;
-  Vec3d pelvis;         ///< of the pelvis joint against its place when standing, in P, metres
-  double sink = 0;      ///< 0: height follows from the legs; 1: from pelvis.z alone (sitting, crouching)
+  Vec3d pelvis;                   ///< of the pelvis joint against its place when standing, in P, metres
+  double sink = 0;                ///< 0: height follows from the legs; 1: from pelvis.z alone (sitting, crouching)
   double curl[2] = {0.25, 0.25};  ///< of the fingers, 0 straight, 1 fist
   uint32_t props = 0;
 };
@@ -32,8 +32,8 @@ struct PostureInput {
   const MotionState& motion;
   const PersonState& state;
   Behaviour lower, upper;
-  double phase, t;                ///< of the left leg; seconds
-  double t_lower, t_upper;        ///< seconds since the behaviour began
+  double phase, t;          ///< of the left leg; seconds
+  double t_lower, t_upper;  ///< seconds since the behaviour began
 };
 
 Posture PostureOf(const PostureInput& in);

@@ -31,9 +31,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 double WrapTurn(double a) { return a - kTurn * std::round(a / kTurn); }
 
-GroundPoint GroundAt(const Ground* ground, Vec3d p) {
-  return ground == nullptr ? GroundPoint{p.z, {0, 0, 1}} : ground->At(p);
-}
+GroundPoint GroundAt(const Ground* ground, Vec3d p) { return ground == nullptr ? GroundPoint{p.z, {0, 0, 1}} : ground->At(p); }
 
 class Stepper {
  public:
@@ -105,8 +103,7 @@ class Stepper {
     const double phase = PhaseOf(m_, k), cadence = std::max(rate_, 0.2);
     if (foot.mode == Mode::kStep) return Step(k);
     // A foot comes off when its stance is over, or when the leg is too short to hold it.
-    if (foot.mode == Mode::kPlanted && phase < 0.97 && (phase >= gait_.duty || (phase > 0.25 && Away(k) > 0.58 * leg_)))
-      LiftOff(k, phase);
+    if (foot.mode == Mode::kPlanted && phase < 0.97 && (phase >= gait_.duty || (phase > 0.25 && Away(k) > 0.58 * leg_))) LiftOff(k, phase);
     if (foot.mode == Mode::kSwing && phase < foot.phase) return Land(k, phase / cadence);
     if (foot.mode == Mode::kSwing) {
       // Where it is going to land, and the ground there.

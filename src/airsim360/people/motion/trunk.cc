@@ -13,8 +13,8 @@ constexpr double kDegree = std::numbers::pi / 180, kTurn = 2 * std::numbers::pi;
 
 // Trunk angles in degrees, spread over the spine at the end.
 struct Trunk {
-  double lean = 0, side = 0, twist = 0;          // forward, to the left, to the left
-  double nod = 0, tilt = 0, look = 0;            // head: down, to the left shoulder, to the left
+  double lean = 0, side = 0, twist = 0;  // forward, to the left, to the left
+  double nod = 0, tilt = 0, look = 0;    // head: down, to the left shoulder, to the left
   double pelvis_list = 0, pelvis_yaw = 0, pelvis_lean = 0;
 };
 
@@ -98,15 +98,40 @@ void AddUpper(const PostureInput& in, Trunk& trunk) {
       if (!in.state.speaking && beat < 1.0) trunk.nod += 6 * std::sin(std::numbers::pi * beat) * std::sin(kTurn * beat);
       break;
     }
-    case Behaviour::kPhoneCall: trunk.tilt -= 8; trunk.nod += 4; trunk.look *= 0.6; break;
-    case Behaviour::kTexting: trunk.nod += 33; trunk.look *= 0.1; trunk.lean += 3; break;
-    case Behaviour::kTakePhoto: trunk.look *= 0.1; trunk.lean -= 2; break;
-    case Behaviour::kCarry: trunk.side += 4; break;
-    case Behaviour::kPushStroller: trunk.lean += 5; trunk.nod += 4; break;
-    case Behaviour::kCrouch: trunk.nod += 15; trunk.look *= 0.2; break;
-    case Behaviour::kLookUp: trunk.nod -= in.state.has_gaze ? 0 : 35; trunk.lean -= 3; break;
-    case Behaviour::kWait: trunk.look *= 1.5; break;
-    default: break;
+    case Behaviour::kPhoneCall:
+      trunk.tilt -= 8;
+      trunk.nod += 4;
+      trunk.look *= 0.6;
+      break;
+    case Behaviour::kTexting:
+      trunk.nod += 33;
+      trunk.look *= 0.1;
+      trunk.lean += 3;
+      break;
+    case Behaviour::kTakePhoto:
+      trunk.look *= 0.1;
+      trunk.lean -= 2;
+      break;
+    case Behaviour::kCarry:
+      trunk.side += 4;
+      break;
+    case Behaviour::kPushStroller:
+      trunk.lean += 5;
+      trunk.nod += 4;
+      break;
+    case Behaviour::kCrouch:
+      trunk.nod += 15;
+      trunk.look *= 0.2;
+      break;
+    case Behaviour::kLookUp:
+      trunk.nod -= in.state.has_gaze ? 0 : 35;
+      trunk.lean -= 3;
+      break;
+    case Behaviour::kWait:
+      trunk.look *= 1.5;
+      break;
+    default:
+      break;
   }
 }
 

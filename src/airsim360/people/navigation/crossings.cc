@@ -62,8 +62,7 @@ std::vector<NavMesh::Crossing> FindCrossings(const Scene& scene) {
     if (crossing.outline.size() < 3) continue;
     if (crossing.outline.size() > 12) crossing.outline = Corners(scene.entity(entity).bounds);
     for (const Vec2d light : lights)
-      for (const Vec2d corner : crossing.outline)
-        crossing.signal |= std::hypot(light.x - corner.x, light.y - corner.y) < kLightReach;
+      for (const Vec2d corner : crossing.outline) crossing.signal |= std::hypot(light.x - corner.x, light.y - corner.y) < kLightReach;
     const double axis = LongAxis(crossing.outline);
     crossing.phase = axis > 0.785 && axis < 2.356 ? 1 : 0;
     crossings.push_back(std::move(crossing));

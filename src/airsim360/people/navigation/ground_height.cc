@@ -17,13 +17,11 @@ void GroundHeights::Add(std::span<const GroundTriangle> triangles) {
 
 void GroundHeights::Finish(Vec2d min, Vec2d max) {
   // Triangles on the border of tiles came more than once.
-  const auto key = [](const Triangle& t) {
-    return std::array<float, 9>{t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
-  };
+  const auto key = [](const Triangle& t) { return std::array<float, 9>{t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z}; };
   std::sort(triangles_.begin(), triangles_.end(), [&](const Triangle& s, const Triangle& t) { return key(s) < key(t); });
-  triangles_.erase(std::unique(triangles_.begin(), triangles_.end(),
-                               [&](const Triangle& s, const Triangle& t) { return key(s) == key(t); }),
-                   triangles_.end());
+  triangles_.erase(
+      std::unique(triangles_.begin(), triangles_.end(), [&](const Triangle& s, const Triangle& t) { return key(s) == key(t); }),
+      triangles_.end());
   triangles_.shrink_to_fit();
   grid_ = BucketGrid(min, max, 1);
   for (uint32_t i = 0; i < triangles_.size(); ++i) {

@@ -17,8 +17,7 @@ bool LeaveOut(std::string_view path) {
 Box3f Placed(const Box3f& box, const AffineTransform& X) {
   Box3f placed;
   for (int corner = 0; corner < 8; ++corner)
-    placed.Add(X * Vec3f{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                         corner & 4 ? box.max.z : box.min.z});
+    placed.Add(X * Vec3f{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z});
   return placed;
 }
 
@@ -73,8 +72,7 @@ void GroundSource::AddRun(const Run& run, const Box3f& box, bool split) {
       for (int c = c0; c <= c1; ++c) {
         std::vector<Run>& runs = tiles_[static_cast<size_t>(r * grid_.columns + c)].runs;
         Run* last = runs.empty() ? nullptr : &runs.back();
-        if (last && last->instance == piece.instance && last->kind == piece.kind &&
-            last->first + last->count == piece.first)
+        if (last && last->instance == piece.instance && last->kind == piece.kind && last->first + last->count == piece.first)
           last->count += piece.count;
         else
           runs.push_back(piece);
@@ -114,8 +112,7 @@ void GroundSource::Each(int tile, bool ground, const Visit& visit) const {
   }
 }
 
-void GroundSource::Gather(int tile, double headroom, std::vector<GroundTriangle>& ground,
-                          std::vector<GroundTriangle>& obstacles) const {
+void GroundSource::Gather(int tile, double headroom, std::vector<GroundTriangle>& ground, std::vector<GroundTriangle>& obstacles) const {
   ground.clear();
   obstacles.clear();
   float low = 1e9f, high = -1e9f;

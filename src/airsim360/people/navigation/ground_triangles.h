@@ -27,8 +27,7 @@ class GroundSource {
   GroundSource(const Scene& scene, const TileGrid& grid, double margin);
   /// Triangles whose boxes meet the tile widened by the margin: the ground, then what stands on it, up to
   /// `headroom` above the highest ground.
-  void Gather(int tile, double headroom, std::vector<GroundTriangle>& ground,
-              std::vector<GroundTriangle>& obstacles) const;
+  void Gather(int tile, double headroom, std::vector<GroundTriangle>& ground, std::vector<GroundTriangle>& obstacles) const;
   /// Nothing of the scene has a category of ground: everything may be walked on.
   bool no_ground() const { return no_ground_; }
 
@@ -50,7 +49,7 @@ class GroundSource {
   double margin_;
   bool no_ground_ = false;
   std::vector<Tile> tiles_;
-  std::vector<GroundKind> kinds_;    // by entity id; kCount: leave out altogether
+  std::vector<GroundKind> kinds_;  // by entity id; kCount: leave out altogether
   std::vector<Box3f> mesh_bounds_;
 };
 

@@ -35,17 +35,12 @@ BucketGrid::BucketGrid(Vec2d min, Vec2d max, double cell) : min_(min), cell_(cel
   rows_ = std::max(1, static_cast<int>(std::ceil((max.y - min.y) / cell)));
 }
 
-int BucketGrid::Column(double x) const {
-  return static_cast<int>(std::clamp(std::floor((x - min_.x) / cell_), 0.0, columns_ - 1.0));
-}
-int BucketGrid::Row(double y) const {
-  return static_cast<int>(std::clamp(std::floor((y - min_.y) / cell_), 0.0, rows_ - 1.0));
-}
+int BucketGrid::Column(double x) const { return static_cast<int>(std::clamp(std::floor((x - min_.x) / cell_), 0.0, columns_ - 1.0)); }
+int BucketGrid::Row(double y) const { return static_cast<int>(std::clamp(std::floor((y - min_.y) / cell_), 0.0, rows_ - 1.0)); }
 
 void BucketGrid::Add(uint32_t item, Vec2d min, Vec2d max) {
   for (int r = Row(min.y); r <= Row(max.y); ++r)
-    for (int c = Column(min.x); c <= Column(max.x); ++c)
-      entries_.push_back({static_cast<uint32_t>(Index(c, r)), item});
+    for (int c = Column(min.x); c <= Column(max.x); ++c) entries_.push_back({static_cast<uint32_t>(Index(c, r)), item});
 }
 
 void BucketGrid::Finish() {
@@ -74,8 +69,7 @@ void NavGraph::Finish() {
   wall_grid = BucketGrid(min, max, 2);
   for (uint32_t i = 0; i < walls.size(); ++i) {
     const NavWall& w = walls[i];
-    wall_grid.Add(i, {std::min(w.a.x, w.b.x) - 2, std::min(w.a.y, w.b.y) - 2},
-                  {std::max(w.a.x, w.b.x) + 2, std::max(w.a.y, w.b.y) + 2});
+    wall_grid.Add(i, {std::min(w.a.x, w.b.x) - 2, std::min(w.a.y, w.b.y) - 2}, {std::max(w.a.x, w.b.x) + 2, std::max(w.a.y, w.b.y) + 2});
   }
   wall_grid.Finish();
 }

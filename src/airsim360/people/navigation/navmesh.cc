@@ -69,8 +69,8 @@ internal::TileGrid GridOf(const Scene& scene, const NavMeshOptions& options) {
 CacheKey KeyOf(const Scene& scene, const NavMeshOptions& options) {
   CacheKey key("navmesh", 1);
   key.AddProgram().Add(scene.cache_key);
-  for (const double value : {options.cell, options.person_radius, options.person_height, options.step_height,
-                             options.steepest_deg, options.tile})
+  for (const double value :
+       {options.cell, options.person_radius, options.person_height, options.step_height, options.steepest_deg, options.tile})
     key.Add(value);
   const Box3f region = options.region.value_or(Box3f{});
   key.Add(options.region.has_value());
@@ -107,8 +107,7 @@ std::shared_ptr<const NavMesh> NavMesh::Build(const Scene& scene, const NavMeshO
 
 void NavMesh::Impl::Finish() {
   for (const NavPolygon& polygon : graph.polygons)
-    for (int i = 0; i < polygon.corners; ++i)
-      bounds.Add(VecCast<float>(Vec3d{polygon.corner[i].x, polygon.corner[i].y, polygon.z[i]}));
+    for (int i = 0; i < polygon.corners; ++i) bounds.Add(VecCast<float>(Vec3d{polygon.corner[i].x, polygon.corner[i].y, polygon.z[i]}));
   crossing_grid = internal::BucketGrid(graph.min, graph.max, 6);
   for (uint32_t i = 0; i < crossings.size(); ++i) {
     Vec2d low = crossings[i].outline[0], high = low;
@@ -121,8 +120,8 @@ void NavMesh::Impl::Finish() {
   crossing_grid.Finish();
 }
 
-std::unique_ptr<NavMesh::Impl> NavMesh::BuildAnew(const Scene& scene, const internal::TileGrid& grid,
-                                                  const NavMeshOptions& options, Bytes* archive) {
+std::unique_ptr<NavMesh::Impl> NavMesh::BuildAnew(const Scene& scene, const internal::TileGrid& grid, const NavMeshOptions& options,
+                                                  Bytes* archive) {
   auto impl = std::make_unique<Impl>();
   const double margin = (std::ceil(options.person_radius / options.cell) + 6) * options.cell;
   const internal::GroundSource source(scene, grid, margin);
@@ -140,8 +139,7 @@ std::unique_ptr<NavMesh::Impl> NavMesh::BuildAnew(const Scene& scene, const inte
   ArchiveWriter writer;
   for (int tile = 0; archive && tile < grid.count(); ++tile) writer(impl->recast->TileBytes(tile));
   impl->graph = impl->recast->Join();
-  if (impl->graph.polygons.empty())
-    throw InputError("people need ground to walk on: the world '" + scene.name + "' has none");
+  if (impl->graph.polygons.empty()) throw InputError("people need ground to walk on: the world '" + scene.name + "' has none");
 
   // Heights and open space over what came out.
   for (std::vector<internal::GroundTriangle>& triangles : ground) {
@@ -157,8 +155,8 @@ std::unique_ptr<NavMesh::Impl> NavMesh::BuildAnew(const Scene& scene, const inte
   return impl;
 }
 
-std::unique_ptr<NavMesh::Impl> NavMesh::FromArchive(const Scene& scene, const internal::TileGrid& grid,
-                                                    const NavMeshOptions& options, std::span<const std::byte> bytes) {
+std::unique_ptr<NavMesh::Impl> NavMesh::FromArchive(const Scene& scene, const internal::TileGrid& grid, const NavMeshOptions& options,
+                                                    std::span<const std::byte> bytes) {
   try {
     auto impl = std::make_unique<Impl>();
     ArchiveReader reader(bytes);
@@ -203,8 +201,8 @@ bool NavMesh::Straight(const NavPoint& start, Vec2d target) const {
 }
 
 NavPath NavMesh::FindPath(const NavPoint& start, const NavPoint& goal) const {
-  return impl_->recast->FindPath(impl_->graph.polygons[start.polygon].reference, start.p_W,
-                                 impl_->graph.polygons[goal.polygon].reference, goal.p_W);
+  return impl_->recast->FindPath(impl_->graph.polygons[start.polygon].reference, start.p_W, impl_->graph.polygons[goal.polygon].reference,
+                                 goal.p_W);
 }
 
 uint32_t NavMesh::Component(const NavPoint& point) const { return impl_->graph.polygons[point.polygon].component; }
@@ -228,8 +226,7 @@ NavArea NavMesh::AreaOf(std::span<const Vec2d> outline, uint32_t kinds) const {
   for (uint32_t i = 0; i < impl_->graph.polygons.size(); ++i) {
     const NavPolygon& polygon = impl_->graph.polygons[i];
     if (!(kinds >> static_cast<int>(polygon.kind) & 1)) continue;
-    share[i] = outline.empty() ? polygon.area
-                               : internal::ClippedArea(outline, std::span(polygon.corner, polygon.corners));
+    share[i] = outline.empty() ? polygon.area : internal::ClippedArea(outline, std::span(polygon.corner, polygon.corners));
     inside[polygon.component] += share[i];
   }
   area.component = static_cast<uint32_t>(std::max_element(inside.begin(), inside.end()) - inside.begin());

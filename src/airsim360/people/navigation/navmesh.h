@@ -29,14 +29,14 @@ double GroundCost(GroundKind kind);
 GroundKind GroundKindOf(const SemanticTree& tree, CategoryId category);
 
 struct NavMeshOptions {
-  double cell = 0.1;             ///< metres: raster of the ground
-  double person_radius = 0.2;    ///< the mesh keeps that far from everything solid
-  double person_height = 1.9;    ///< of free space that is needed
-  double step_height = 0.28;     ///< highest step
-  double steepest_deg = 38;      ///< slope
-  double tile = 24;              ///< metres: edge of what is rastered at a time, which bounds memory
-  std::optional<Box3f> region;   ///< only this part of the world (x and y count); default: up to 400 m around
-                                 ///< its spawn or its middle
+  double cell = 0.1;            ///< metres: raster of the ground
+  double person_radius = 0.2;   ///< the mesh keeps that far from everything solid
+  double person_height = 1.9;   ///< of free space that is needed
+  double step_height = 0.28;    ///< highest step
+  double steepest_deg = 38;     ///< slope
+  double tile = 24;             ///< metres: edge of what is rastered at a time, which bounds memory
+  std::optional<Box3f> region;  ///< only this part of the world (x and y count); default: up to 400 m around
+                                ///< its spawn or its middle
 };
 
 /// A place on the mesh.

@@ -50,8 +50,7 @@ std::vector<Vec2d> ConvexHull(std::vector<Vec2d> points) {
   for (int side = 0; side < 2; ++side) {
     const size_t first = hull.size();
     for (const Vec2d p : points) {
-      while (hull.size() >= first + 2 && Cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
-        hull.pop_back();
+      while (hull.size() >= first + 2 && Cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
       hull.push_back(p);
     }
     if (!hull.empty()) hull.pop_back();

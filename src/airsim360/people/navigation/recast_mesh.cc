@@ -1,9 +1,9 @@
 #include "airsim360/people/navigation/recast_mesh.h"
 
+#include <recastnavigation/DetourAlloc.h>
 #include <recastnavigation/DetourNavMesh.h>
 #include <recastnavigation/DetourNavMeshBuilder.h>
 #include <recastnavigation/DetourNavMeshQuery.h>
-#include <recastnavigation/DetourAlloc.h>
 #include <recastnavigation/Recast.h>
 
 #include <algorithm>
@@ -22,9 +22,7 @@ namespace {
 struct Point3 {
   float v[3];
 };
-Point3 ToRecast(Vec3d p) {
-  return {{static_cast<float>(p.x), static_cast<float>(p.z), static_cast<float>(-p.y)}};
-}
+Point3 ToRecast(Vec3d p) { return {{static_cast<float>(p.x), static_cast<float>(p.z), static_cast<float>(-p.y)}}; }
 Vec3d FromRecast(const float* v) { return {v[0], -v[2], v[1]}; }
 
 constexpr float kCellHeight = 0.05f;
@@ -98,9 +96,7 @@ class TileBuilder {
   }
 
   /// False: nothing to walk on.
-  bool Run(const TileInput& input) {
-    return Raster(input) && Shape(input) && Polygons();
-  }
+  bool Run(const TileInput& input) { return Raster(input) && Shape(input) && Polygons(); }
   const rcPolyMesh& mesh() const { return *mesh_; }
   float cell() const { return cell_; }
 
@@ -128,8 +124,8 @@ class TileBuilder {
       for (int k = 0; k < 3; ++k) p[k] = ToRecast(VecCast<double>(triangle.p[k]));
       const Vec3f normal = Normalized(airsim360::Cross(triangle.p[1] - triangle.p[0], triangle.p[2] - triangle.p[0]));
       const bool flat = std::abs(normal.z) >= flattest;
-      rcRasterizeTriangle(&context_, p[0].v, p[1].v, p[2].v,
-                          flat ? static_cast<unsigned char>(triangle.kind) : RC_NULL_AREA, *solid_, merge);
+      rcRasterizeTriangle(&context_, p[0].v, p[1].v, p[2].v, flat ? static_cast<unsigned char>(triangle.kind) : RC_NULL_AREA, *solid_,
+                          merge);
     };
     for (const GroundTriangle& triangle : input.ground) raster(triangle, climb_);
     for (const GroundTriangle& triangle : input.obstacles) raster(triangle, 1);
@@ -267,9 +263,8 @@ void AddPortals(const dtMeshTile& tile, const dtPoly& poly, const PolygonNumbers
     of_edge[edge].push_back({found->second, t0, t1});
   }
   for (int i = 0; i < n; ++i) {
-    std::sort(of_edge[i].begin(), of_edge[i].end(), [](const NavPortal& a, const NavPortal& b) {
-      return a.t0 != b.t0 ? a.t0 < b.t0 : a.neighbour < b.neighbour;
-    });
+    std::sort(of_edge[i].begin(), of_edge[i].end(),
+              [](const NavPortal& a, const NavPortal& b) { return a.t0 != b.t0 ? a.t0 < b.t0 : a.neighbour < b.neighbour; });
     polygon.first_portal[i] = static_cast<uint32_t>(portals.size());
     portals.insert(portals.end(), of_edge[i].begin(), of_edge[i].end());
   }
@@ -350,8 +345,7 @@ NavGraph RecastMesh::Join() {
     for (int t = 0; t < mesh.getMaxTiles(); ++t) {
       const dtMeshTile* tile = mesh.getTile(t);
       if (!tile->header) continue;
-      for (int p = 0; p < tile->header->polyCount; ++p)
-        visit(*tile, tile->polys[p], mesh.getPolyRefBase(tile) | static_cast<dtPolyRef>(p));
+      for (int p = 0; p < tile->header->polyCount; ++p) visit(*tile, tile->polys[p], mesh.getPolyRefBase(tile) | static_cast<dtPolyRef>(p));
     }
   };
   // Number the polygons in the order of the tiles.
@@ -395,8 +389,7 @@ NavPath RecastMesh::FindPath(uint32_t from, Vec3d start, uint32_t to, Vec3d goal
   const dtPolyRef start_ref = impl_->references[from], goal_ref = impl_->references[to];
   std::vector<dtPolyRef> corridor(kMaxPathPolygons);
   int count = 0;
-  const dtStatus status =
-      query->findPath(start_ref, goal_ref, a.v, b.v, &impl_->filter, corridor.data(), &count, kMaxPathPolygons);
+  const dtStatus status = query->findPath(start_ref, goal_ref, a.v, b.v, &impl_->filter, corridor.data(), &count, kMaxPathPolygons);
   if (!dtStatusFailed(status) && count > 0) {
     path.complete = corridor[static_cast<size_t>(count) - 1] == goal_ref;
     Point3 end = b;

@@ -13,9 +13,7 @@ namespace airsim360::internal {
 /// Collects axis-aligned boxes, ramps and free quads.
 class TestGround {
  public:
-  explicit TestGround(std::string name = "test ground") : builder_(std::move(name)) {
-    builder_.AddMaterial({});
-  }
+  explicit TestGround(std::string name = "test ground") : builder_(std::move(name)) { builder_.AddMaterial({}); }
   SceneBuilder& builder() { return builder_; }
 
   /// A flat or sloping sheet: corners counter-clockwise seen from above.
@@ -30,8 +28,7 @@ class TestGround {
   }
   EntityId Box(const char* category, Vec3f low, Vec3f high) {
     Mesh mesh;
-    for (int i = 0; i < 8; ++i)
-      mesh.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+    for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
     mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                       {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
     return Add(category, std::move(mesh));

@@ -15,8 +15,7 @@ std::atomic<int64_t> allocations = 0;
 
 void* Count(size_t size, size_t alignment) {
   ++allocations;
-  void* p = alignment > 0 ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)
-                          : std::malloc(size);
+  void* p = alignment > 0 ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment) : std::malloc(size);
   if (p == nullptr) throw std::bad_alloc();
   return p;
 }

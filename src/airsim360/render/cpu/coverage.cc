@@ -86,12 +86,10 @@ bool OnSilhouette(const Image<EntityId>& entity, int x, int y, bool wraps) {
 int64_t CoveragePass::Run(const CoverageTask& task, Image<CoveragePixel>& out) {
   MakeSampleOffsets(*task.rays, task.samples, offsets_);
   const RayField& field = task.rays->field();
-  const int across = (field.width + kTileSize - 1) / kTileSize,
-            down = (field.height + kTileSize - 1) / kTileSize;
+  const int across = (field.width + kTileSize - 1) / kTileSize, down = (field.height + kTileSize - 1) / kTileSize;
   std::atomic<int64_t> ray_count = 0;
   ParallelFor(int64_t{across} * down, [&](int64_t tile) {
-    ray_count += RunTile(task, static_cast<int>(tile % across) * kTileSize,
-                         static_cast<int>(tile / across) * kTileSize, out);
+    ray_count += RunTile(task, static_cast<int>(tile % across) * kTileSize, static_cast<int>(tile / across) * kTileSize, out);
   });
   return ray_count;
 }
@@ -110,8 +108,7 @@ int CoveragePass::RunTile(const CoverageTask& task, int column, int row, Image<C
     const int x = c - task.rays->column_shift() + (c < task.rays->column_shift() ? field.width : 0);
     const EntityId center = (*task.entity)(x, y);
     out(x, y) = {{center}, {center != kNoEntity ? 1.0f : 0.0f}};
-    if (center == kNoEntity || task.samples < 2 || !OnSilhouette(*task.entity, x, y, field.separable))
-      continue;
+    if (center == kNoEntity || task.samples < 2 || !OnSilhouette(*task.entity, x, y, field.separable)) continue;
 
     const int pixel = edge_count++;
     edges[pixel] = {x, y};

@@ -77,9 +77,7 @@ class CpuRenderer : public Renderer, public Relightable {
 
  private:
   // The scene lives as long as its tracer.
-  static std::shared_ptr<const Scene> SceneOf(const std::shared_ptr<const RayTracer>& tracer) {
-    return {tracer, &tracer->scene()};
-  }
+  static std::shared_ptr<const Scene> SceneOf(const std::shared_ptr<const RayTracer>& tracer) { return {tracer, &tracer->scene()}; }
   void SetState(const std::shared_ptr<const SceneState>& state);
   void ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame);
   void PrepareLight(RenderRequest& request);
@@ -92,9 +90,7 @@ class CpuRenderer : public Renderer, public Relightable {
   void ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target, Frame& frame);
   void KeepRadiance(const RadianceBatch& radiance, const TileTarget& target, Image<Rgb32f>& image) const;
   void Develop(ToneCurve tone, const Image<Rgb32f>& radiance, Frame& frame);
-  float ExposureOf(const RenderRequest& request) const {
-    return shader_->Exposure() * static_cast<float>(std::exp2(request.exposure_ev));
-  }
+  float ExposureOf(const RenderRequest& request) const { return shader_->Exposure() * static_cast<float>(std::exp2(request.exposure_ev)); }
   Image<Rgb32f>& RadianceOf(Frame& frame) {
     return !frame.radiance.empty() ? frame.radiance : !frame.light.empty() ? frame.light : radiance_;
   }
@@ -147,8 +143,7 @@ void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edg
   Resize(sun_, width, height, edges);
   Resize(frame.radiance, width, height, color && products.radiance);
   Resize(frame.light, width, height, color && request.light);
-  const bool linear =
-      request.auto_exposure || request.tier == Tier::kHigh || request.tier == Tier::kReference;
+  const bool linear = request.auto_exposure || request.tier == Tier::kHigh || request.tier == Tier::kReference;
   Resize(radiance_, width, height, color && linear && !products.radiance && !request.light);
 }
 
@@ -196,8 +191,7 @@ uint64_t CpuRenderer::RenderProducts(const RenderRequest& request, bool color, F
   const bool surface = SurfaceProducts::Wanted(request.products);
   if (surface) {
     const bool moves_on = request.products.flow && request.next_state != nullptr;
-    products_.Update(request, rays_, shader_.get(), applied_,
-                     moves_on ? dynamic_.At(request.next_state) : applied_);
+    products_.Update(request, rays_, shader_.get(), applied_, moves_on ? dynamic_.At(request.next_state) : applied_);
   }
   // Tier high fills the labels alone: what else comes from the centre rays is traced as in tier labels.
   uint64_t rays = 0;
@@ -205,9 +199,9 @@ uint64_t CpuRenderer::RenderProducts(const RenderRequest& request, bool color, F
   if (!high || surface || request.products.coverage) rays += RenderTiles(request, color && !paths && !high, frame);
   if (paths) rays += RenderPaths(request, RadianceOf(frame));
   if (request.products.coverage) {
-    rays += static_cast<uint64_t>(coverage_.Run(
-        {applied_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p), EdgeSamples(request), &EntityOf(request, frame)},
-        frame.coverage));
+    rays += static_cast<uint64_t>(
+        coverage_.Run({applied_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p), EdgeSamples(request), &EntityOf(request, frame)},
+                      frame.coverage));
   }
   return rays;
 }
@@ -230,9 +224,8 @@ void CpuRenderer::FinishColor(RenderRequest& request, Frame& frame) {
 uint64_t CpuRenderer::Antialias(const RenderRequest& request, Frame& frame) {
   antialiaser_.FindEdges(EntityOf(request, frame), luma_, rays_.field().separable, edges_);
   return static_cast<uint64_t>(
-      antialiaser_.Run({applied_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
-                        request.exposure_ev, EdgeSamples(request), &edges_, &frame.rgb, &sun_, request.tone,
-                        request.light ? &frame.light : nullptr}));
+      antialiaser_.Run({applied_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p), request.exposure_ev,
+                        EdgeSamples(request), &edges_, &frame.rgb, &sun_, request.tone, request.light ? &frame.light : nullptr}));
 }
 
 RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
@@ -253,22 +246,19 @@ RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
   if (color) FinishColor(request, frame);
   if (antialias) stats.rays += Antialias(request, frame);
   if (!request.products.rgb) frame.rgb = {};
-  stats.render_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  stats.render_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return stats;
 }
 
 // Centre rays: labels and, with `color`, colours of every pixel. Returns their number.
 uint64_t CpuRenderer::RenderTiles(const RenderRequest& request, bool color, Frame& frame) {
   const RayField& field = rays_.field();
-  const int across = (field.width + kTileSize - 1) / kTileSize,
-            down = (field.height + kTileSize - 1) / kTileSize;
+  const int across = (field.width + kTileSize - 1) / kTileSize, down = (field.height + kTileSize - 1) / kTileSize;
   const int tiles = across * down;
   ParallelFor((tiles + kTilesPerTask - 1) / kTilesPerTask, [&](int64_t task) {
     const FlushDenormals flush_denormals;
     const int first = static_cast<int>(task) * kTilesPerTask;
-    for (int tile = first; tile < std::min(first + kTilesPerTask, tiles); ++tile)
-      RenderTile(request, color, tile, frame);
+    for (int tile = first; tile < std::min(first + kTilesPerTask, tiles); ++tile) RenderTile(request, color, tile, frame);
   });
   return static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
 }
@@ -284,8 +274,7 @@ uint64_t CpuRenderer::RenderPaths(const RenderRequest& request, Image<Rgb32f>& r
   for (int y = 0; y < field.height && !field.separable; ++y)
     for (int x = 0; x < field.width; ++x)
       if (field.has_ray[static_cast<int64_t>(y) * field.stride + x] == 0) radiance(x, y) = {};
-  return static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height) *
-         static_cast<uint64_t>(samples);
+  return static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height) * static_cast<uint64_t>(samples);
 }
 
 void CpuRenderer::RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame) {
@@ -329,8 +318,7 @@ void CpuRenderer::RenderTile(const RenderRequest& request, bool color, int tile,
   if (color) ShadeTile(request, hits, target, frame);
 }
 
-void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target,
-                            Frame& frame) {
+void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target, Frame& frame) {
   RadianceBatch radiance;
   Rgb8 colors[kTilePixels];
   std::fill(std::begin(hits.sample_key), std::end(hits.sample_key), 0u);
@@ -352,8 +340,7 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
       }
     }
   }
-  shader_->ToneMap(radiance.r, radiance.g, radiance.b, kTilePixels, request.exposure_ev, colors,
-                   request.tone);
+  shader_->ToneMap(radiance.r, radiance.g, radiance.b, kTilePixels, request.exposure_ev, colors, request.tone);
   if (Image<Rgb32f>& kept = RadianceOf(frame); !kept.empty()) KeepRadiance(radiance, target, kept);
   if (!rays_.field().separable) {
     // Pixels without a ray are black.
@@ -369,8 +356,7 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
   kernels_.store_colors(colors, target, frame.rgb.pixels().data(), DataOrNull(luma_));
 }
 
-void CpuRenderer::KeepRadiance(const RadianceBatch& radiance, const TileTarget& target,
-                               Image<Rgb32f>& image) const {
+void CpuRenderer::KeepRadiance(const RadianceBatch& radiance, const TileTarget& target, Image<Rgb32f>& image) const {
   const RayField& field = rays_.field();
   for (int y = 0; y < std::min(kTileSize, field.height - target.row); ++y) {
     for (int x = 0; x < std::min(kTileSize, field.width - target.column); ++x) {
@@ -387,19 +373,16 @@ void CpuRenderer::KeepRadiance(const RadianceBatch& radiance, const TileTarget& 
 void CpuRenderer::Develop(ToneCurve tone, const Image<Rgb32f>& radiance, Frame& frame) {
   ToneMapImage(radiance, frame.exposure, tone, frame.rgb);
   if (luma_.empty()) return;
-  std::transform(frame.rgb.pixels().begin(), frame.rgb.pixels().end(), luma_.pixels().begin(),
-                 [](Rgb8 c) { return Luma(c.r, c.g, c.b); });
+  std::transform(frame.rgb.pixels().begin(), frame.rgb.pixels().end(), luma_.pixels().begin(), [](Rgb8 c) { return Luma(c.r, c.g, c.b); });
 }
 
 }  // namespace
 
-std::unique_ptr<Renderer> MakeCpuRenderer(std::shared_ptr<const RayTracer> tracer,
-                                          const RendererOptions& options) {
+std::unique_ptr<Renderer> MakeCpuRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options) {
   return std::make_unique<CpuRenderer>(std::move(tracer), options, true);
 }
 
-std::unique_ptr<Renderer> MakeCpuRendererWithoutRooms(std::shared_ptr<const RayTracer> tracer,
-                                                      const RendererOptions& options) {
+std::unique_ptr<Renderer> MakeCpuRendererWithoutRooms(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options) {
   return std::make_unique<CpuRenderer>(std::move(tracer), options, false);
 }
 

@@ -9,7 +9,6 @@ namespace airsim360 {
 
 /// As MakeCpuRenderer, but rooms have the light of probes and rays, as everything has outdoors, and the exposure of the
 /// day: what the GPU renderer draws.
-std::unique_ptr<Renderer> MakeCpuRendererWithoutRooms(std::shared_ptr<const RayTracer> tracer,
-                                                      const RendererOptions& options = {});
+std::unique_ptr<Renderer> MakeCpuRendererWithoutRooms(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options = {});
 
 }  // namespace airsim360

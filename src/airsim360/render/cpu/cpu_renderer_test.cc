@@ -95,8 +95,8 @@ TEST(CpuRenderer, OtherCamerasSeeTheSameRoom) {
   const RigidTransform X_WC = RandomPose(rng);
   Fisheye lens = Fisheye::Equidistant(150, 130, 2.6);
   lens.k = {0.01, -0.002, 0, 0};
-  const Camera cameras[] = {Pinhole{101, 77, 60, 61, 50, 39}, CubeFace{CubeFaceName::kNegX, 64},
-                            CubeFace{CubeFaceName::kPosY, 50}, Fisheye::Equidistant(160, 160, 3.5), lens};
+  const Camera cameras[] = {Pinhole{101, 77, 60, 61, 50, 39}, CubeFace{CubeFaceName::kNegX, 64}, CubeFace{CubeFaceName::kPosY, 50},
+                            Fisheye::Equidistant(160, 160, 3.5), lens};
   for (const Camera& camera : cameras) ExpectTruth(Labels(*renderer, camera, X_WC), camera, X_WC);
 }
 
@@ -124,9 +124,8 @@ TEST(CpuRenderer, TurningTheRigByColumnsRollsEveryProductByteForByte) {
   for (Renderer* renderer : {room.get(), open.get()}) {
     for (int width : {256, 250, 101}) {
       const Equirectangular camera{width, width / 2};
-      const RigidTransform poses[] = {
-          BodyPose({0.3, -0.2, 2}, 0, 0, 0) * CameraInBody(), RandomPose(rng),
-          BodyPose({0.3, -0.2, 2}, 2 * std::numbers::pi / width * 0.5, 0.3, 0) * CameraInBody()};
+      const RigidTransform poses[] = {BodyPose({0.3, -0.2, 2}, 0, 0, 0) * CameraInBody(), RandomPose(rng),
+                                      BodyPose({0.3, -0.2, 2}, 2 * std::numbers::pi / width * 0.5, 0.3, 0) * CameraInBody()};
       for (const RigidTransform& X_WC : poses) {
         Frame still, turned;
         renderer->Render(MakeRequest(camera, X_WC, Tier::kFast, kEverything), still);
@@ -149,8 +148,7 @@ TEST(CpuRenderer, TurningTheRigByColumnsRollsEveryProductByteForByte) {
 
 TEST(CpuRenderer, OneAndManyThreadsGiveTheSameBytes) {
   const RenderRequest request =
-      MakeRequest(Equirectangular{320, 160}, BodyPose({0, 0, 2}, 0.4, 0.1, 0.2) * CameraInBody(), Tier::kFast,
-                  kEverything);
+      MakeRequest(Equirectangular{320, 160}, BodyPose({0, 0, 2}, 0.4, 0.1, 0.2) * CameraInBody(), Tier::kFast, kEverything);
   Frame one, many;
   {
     const ThreadLimit limit(1);
@@ -210,8 +208,7 @@ TEST(CpuRenderer, PinholeAndPanoramaAgreeThroughTheProjection) {
       // Inside a region of the panorama the picture shows the same entity at about the same range.
       bool edge = v < 1 || v > 510;
       for (int dy = -1; dy <= 1 && !edge; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx)
-          edge |= panorama.entity((u + dx + 1024) % 1024, v + dy) != panorama.entity(u, v);
+        for (int dx = -1; dx <= 1; ++dx) edge |= panorama.entity((u + dx + 1024) % 1024, v + dy) != panorama.entity(u, v);
       }
       if (edge) continue;
       ++inner;
@@ -273,8 +270,7 @@ TEST(CpuRenderer, NormalsAreUnitAndFaceTheCameraAlsoOnMirroredInstances) {
 TEST(CpuRenderer, WhereNothingIsHitThereIsSkyWithRangeZeroAndNoNormal) {
   const auto scene = MakeOpenSquare();
   const auto renderer = RendererOf(scene);
-  const Frame frame =
-      Labels(*renderer, Equirectangular{128, 64}, BodyPose({0, 0, 30}, 0, 0, 0) * CameraInBody());
+  const Frame frame = Labels(*renderer, Equirectangular{128, 64}, BodyPose({0, 0, 30}, 0, 0, 0) * CameraInBody());
   for (int x = 0; x < 128; ++x) {
     EXPECT_EQ(frame.entity(x, 0), scene->sky_entity);
     EXPECT_EQ(frame.semantic(x, 0), scene->tree.At("sky"));
@@ -287,8 +283,7 @@ TEST(CpuRenderer, WhereNothingIsHitThereIsSkyWithRangeZeroAndNoNormal) {
 TEST(CpuRenderer, MoreSamplesChangeColoursOnlyNearEdgesAndLeaveLabelsAlone) {
   const auto renderer = Square();
   RenderRequest request =
-      MakeRequest(Equirectangular{256, 128}, BodyPose({0, 0, 2.5}, 0.7, -0.2, 0.1) * CameraInBody(),
-                  Tier::kFast, kEverything);
+      MakeRequest(Equirectangular{256, 128}, BodyPose({0, 0, 2.5}, 0.7, -0.2, 0.1) * CameraInBody(), Tier::kFast, kEverything);
   request.edge_samples = 1;
   Frame rough, smooth;
   renderer->Render(request, rough);
@@ -308,10 +303,7 @@ TEST(CpuRenderer, MoreSamplesChangeColoursOnlyNearEdgesAndLeaveLabelsAlone) {
       if (rough.rgb(x, y) == smooth.rgb(x, y)) continue;
       ++changed;
       bool on_edge = false;
-      for (const auto& [nx, ny] : {std::pair((x + 1) % 256, y),
-                                   {(x + 255) % 256, y},
-                                   {x, std::min(y + 1, 127)},
-                                   {x, std::max(y - 1, 0)}}) {
+      for (const auto& [nx, ny] : {std::pair((x + 1) % 256, y), {(x + 255) % 256, y}, {x, std::min(y + 1, 127)}, {x, std::max(y - 1, 0)}}) {
         on_edge |= rough.entity(x, y) != rough.entity(nx, ny) || std::abs(luma(x, y) - luma(nx, ny)) > 15;
       }
       EXPECT_TRUE(on_edge) << x << " " << y;
@@ -322,8 +314,8 @@ TEST(CpuRenderer, MoreSamplesChangeColoursOnlyNearEdgesAndLeaveLabelsAlone) {
 
 TEST(CpuRenderer, ProductsNotAskedForAreEmptyAndDoNotChangeTheOthers) {
   const auto renderer = Square();
-  RenderRequest request = MakeRequest(
-      Equirectangular{128, 64}, BodyPose({0, 0, 2.5}, 0.7, 0, 0) * CameraInBody(), Tier::kFast, kEverything);
+  RenderRequest request =
+      MakeRequest(Equirectangular{128, 64}, BodyPose({0, 0, 2.5}, 0.7, 0, 0) * CameraInBody(), Tier::kFast, kEverything);
   Frame all, color;
   renderer->Render(request, all);
   request.products = {.rgb = true, .range = false, .semantic = false, .entity = false, .normal = false};
@@ -342,9 +334,7 @@ TEST(CpuRenderer, ImagesKeepTheirMemoryBetweenCaptures) {
   const auto renderer = Room();
   Frame frame = Labels(*renderer, Equirectangular{128, 64}, BodyPose({0, 0, 5}, 0, 0, 0) * CameraInBody());
   const float* before = frame.range.pixels().data();
-  renderer->Render(MakeRequest(Equirectangular{128, 64}, BodyPose({0, 0, 4}, 1, 0, 0) * CameraInBody(),
-                               Tier::kLabels, kAllLabels),
-                   frame);
+  renderer->Render(MakeRequest(Equirectangular{128, 64}, BodyPose({0, 0, 4}, 1, 0, 0) * CameraInBody(), Tier::kLabels, kAllLabels), frame);
   EXPECT_EQ(frame.range.pixels().data(), before);
 }
 
@@ -352,16 +342,13 @@ TEST(CpuRenderer, ACameraWithoutPixelsOrPlaceIsAnInputError) {
   const auto renderer = Room();
   Frame frame;
   EXPECT_THROW(renderer->Render(MakeRequest(Equirectangular{0, 0}, {}, Tier::kLabels), frame), InputError);
-  EXPECT_THROW(renderer->Render(
-                   MakeRequest(Equirectangular{64, 32}, {{}, {0, std::nan(""), 0}}, Tier::kLabels), frame),
-               InputError);
+  EXPECT_THROW(renderer->Render(MakeRequest(Equirectangular{64, 32}, {{}, {0, std::nan(""), 0}}, Tier::kLabels), frame), InputError);
 }
 
 TEST(NullRenderer, GivesSkyEverywhere) {
   const auto scene = MakeOpenSquare();
   Frame frame;
-  const RenderStats stats =
-      MakeNullRenderer(scene)->Render(MakeRequest(Equirectangular{64, 32}, {}, Tier::kFast), frame);
+  const RenderStats stats = MakeNullRenderer(scene)->Render(MakeRequest(Equirectangular{64, 32}, {}, Tier::kFast), frame);
   EXPECT_EQ(stats.rays, 0u);
   EXPECT_EQ(frame.rgb.size(), 64u * 32);
   for (EntityId id : frame.entity.pixels()) EXPECT_EQ(id, scene->sky_entity);

@@ -28,8 +28,8 @@ Vec3d Carry(const AffineTransform& X, Vec3d p) {
 
 }  // namespace
 
-void FlowTracer::Update(const RenderRequest& request, const CameraRays& rays,
-                        std::shared_ptr<const RayTracer> now, std::shared_ptr<const RayTracer> next) {
+void FlowTracer::Update(const RenderRequest& request, const CameraRays& rays, std::shared_ptr<const RayTracer> now,
+                        std::shared_ptr<const RayTracer> next) {
   if (!request.X_WC_next) throw InputError("flow needs the pose of the next frame (X_WC_next)");
   const RigidTransform& X = *request.X_WC_next;
   if (!std::isfinite(X.p.x + X.p.y + X.p.z)) throw InputError("next camera pose is not finite");
@@ -69,23 +69,19 @@ Vec3d FlowTracer::Motion(uint32_t instance, uint32_t triangle, float u, float v)
   const auto point = [&](const RayTracer& tracer) {
     const std::span<const Vec3f> p = tracer.Positions(mesh);
     const double a = u, b = v;
-    return Carry(tracer.Place(instance), VecCast<double>(p[t.x]) * (1 - a - b) + VecCast<double>(p[t.y]) * a +
-                                             VecCast<double>(p[t.z]) * b);
+    return Carry(tracer.Place(instance), VecCast<double>(p[t.x]) * (1 - a - b) + VecCast<double>(p[t.y]) * a + VecCast<double>(p[t.z]) * b);
   };
   return point(*next_) - point(*now_);
 }
 
-FlowTracer::Lane FlowTracer::Follow(const HitBatch& hits, int i, TilePixel pixel,
-                                    const TileTarget& target) const {
+FlowTracer::Lane FlowTracer::Follow(const HitBatch& hits, int i, TilePixel pixel, const TileTarget& target) const {
   Lane lane{};
   const Vec3d direction{hits.direction_x[i], hits.direction_y[i], hits.direction_z[i]};
   lane.to_point = direction;
   if (hits.instance[i] != kMiss) {
     const uint8_t kind = moves_[hits.instance[i]];
-    const Vec3d motion =
-        kind == kMoves ? Motion(hits.instance[i], hits.triangle[i], hits.u[i], hits.v[i]) : Vec3d{};
-    lane.to_point =
-        VecCast<double>(hits.origin) + direction * static_cast<double>(hits.distance[i]) + motion - eye_;
+    const Vec3d motion = kind == kMoves ? Motion(hits.instance[i], hits.triangle[i], hits.u[i], hits.v[i]) : Vec3d{};
+    lane.to_point = VecCast<double>(hits.origin) + direction * static_cast<double>(hits.distance[i]) + motion - eye_;
     lane.flow.range = static_cast<float>(Norm(lane.to_point));
     lane.flow.motion = VecCast<float>(motion);
     if (kind == kVanishes) lane.flow.occluded = 1;
@@ -94,8 +90,7 @@ FlowTracer::Lane FlowTracer::Follow(const HitBatch& hits, int i, TilePixel pixel
   // Through the canonical columns of both cameras, so that turning both rolls the result exactly.
   const double* R = next_rays_.field().R;
   const Vec3d& d = lane.to_point;
-  const Vec3d to_point_C{R[0] * d.x + R[3] * d.y + R[6] * d.z, R[1] * d.x + R[4] * d.y + R[7] * d.z,
-                         R[2] * d.x + R[5] * d.y + R[8] * d.z};
+  const Vec3d to_point_C{R[0] * d.x + R[3] * d.y + R[6] * d.z, R[1] * d.x + R[4] * d.y + R[7] * d.z, R[2] * d.x + R[5] * d.y + R[8] * d.z};
   const std::optional<Vec2d> there = RayToPixel(camera_, to_point_C);
   lane.in_picture = there.has_value();
   if (!there) {
@@ -138,14 +133,12 @@ void FlowTracer::Occlude(const HitBatch& hits, int first, const int* valid, Lane
       continue;
     }
     const SurfaceRef seen = next_->Resolve(rays.geometry[k], rays.instance[k], rays.primitive[k]);
-    const bool itself =
-        seen.instance == hits.instance[first + k] && seen.triangle == hits.triangle[first + k];
+    const bool itself = seen.instance == hits.instance[first + k] && seen.triangle == hits.triangle[first + k];
     if (!itself && rays.t_far[k] < flow.range * (1 - kRelativeTolerance) - kTolerance) flow.occluded = 1;
   }
 }
 
-void FlowTracer::Fill(const HitBatch& hits, const LabelTile& labels, const TileTarget& target,
-                      Image<FlowPixel>& out) const {
+void FlowTracer::Fill(const HitBatch& hits, const LabelTile& labels, const TileTarget& target, Image<FlowPixel>& out) const {
   for (int first = 0; first < kTilePixels; first += 16) {
     alignas(64) int valid[16];
     Lane lanes[16];

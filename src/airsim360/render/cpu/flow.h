@@ -20,8 +20,7 @@ class FlowTracer {
   void Update(const RenderRequest& request, const CameraRays& rays, std::shared_ptr<const RayTracer> now,
               std::shared_ptr<const RayTracer> next);
   /// Flow of the pixels of one tile. May run concurrently.
-  void Fill(const HitBatch& hits, const LabelTile& labels, const TileTarget& target,
-            Image<FlowPixel>& out) const;
+  void Fill(const HitBatch& hits, const LabelTile& labels, const TileTarget& target, Image<FlowPixel>& out) const;
 
  private:
   struct Lane {

@@ -43,16 +43,13 @@ Frame Rendered(Renderer& renderer, const RenderRequest& request) {
   return frame;
 }
 
-RigidTransform Pose(Vec3d p, double yaw, double pitch = 0, double roll = 0) {
-  return BodyPose(p, yaw, pitch, roll) * CameraInBody();
-}
+RigidTransform Pose(Vec3d p, double yaw, double pitch = 0, double roll = 0) { return BodyPose(p, yaw, pitch, roll) * CameraInBody(); }
 
 // Whether the 3 x 3 pixels around show one entity; the panorama wraps.
 bool OffEdge(const Image<EntityId>& entity, int x, int y) {
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
-      const int u = (x + dx + entity.width()) % entity.width(),
-                v = std::clamp(y + dy, 0, entity.height() - 1);
+      const int u = (x + dx + entity.width()) % entity.width(), v = std::clamp(y + dy, 0, entity.height() - 1);
       if (entity(u, v) != entity(x, y)) return false;
     }
   }
@@ -154,8 +151,7 @@ TEST(Coverage, IsWhatAFinerPictureOfTheSamePlaceCounts) {
       if (pixel.share[0] == 1) continue;
       ++edges;
       int count = 0;
-      for (int i = 0; i < kFine * kFine; ++i)
-        count += fine.entity(kFine * x + i % kFine, kFine * y + i / kFine) == pixel.entity[0];
+      for (int i = 0; i < kFine * kFine; ++i) count += fine.entity(kFine * x + i % kFine, kFine * y + i / kFine) == pixel.entity[0];
       sum += std::abs(pixel.share[0] - static_cast<float>(count) / (kFine * kFine));
     }
   }
@@ -166,8 +162,8 @@ TEST(Coverage, IsWhatAFinerPictureOfTheSamePlaceCounts) {
 TEST(Flow, OfACameraThatStaysIsNothing) {
   const auto renderer = RendererOf(MakeOpenSquare());
   const RigidTransform X = Pose({0.2, 0.1, 1.5}, 0.3, 0.2, -0.1);
-  for (const Camera& camera : {Camera(Equirectangular{128, 64}), Camera(Pinhole{80, 60, 50, 50, 40, 30}),
-                               Camera(Fisheye::Equidistant(80, 80, 3.2))}) {
+  for (const Camera& camera :
+       {Camera(Equirectangular{128, 64}), Camera(Pinhole{80, 60, 50, 50, 40, 30}), Camera(Fisheye::Equidistant(80, 80, 3.2))}) {
     const Frame frame = Rendered(*renderer, Request(camera, X, X));
     for (size_t i = 0; i < frame.flow.size(); ++i) {
       const FlowPixel& flow = frame.flow.pixels()[i];
@@ -188,8 +184,8 @@ TEST(Flow, TurningThePanoramaShiftsEveryPixelTheShortWay) {
   constexpr int kWidth = 128;
   for (int k : {-40, -3, 5, 63}) {
     const double angle = 2 * std::numbers::pi * k / kWidth;
-    const Frame frame = Rendered(*renderer, Request(Equirectangular{kWidth, kWidth / 2},
-                                                    Pose({0, 0, 1.5}, 0.3), Pose({0, 0, 1.5}, 0.3 + angle)));
+    const Frame frame =
+        Rendered(*renderer, Request(Equirectangular{kWidth, kWidth / 2}, Pose({0, 0, 1.5}, 0.3), Pose({0, 0, 1.5}, 0.3 + angle)));
     for (const FlowPixel& flow : frame.flow.pixels()) {
       EXPECT_NEAR(flow.dx, k, 1e-3);  // yaw to the left moves things to the right
       EXPECT_NEAR(flow.dy, 0, 1e-3);
@@ -249,9 +245,8 @@ std::shared_ptr<const SceneState> MovedSquare(const Scene& scene, double t, bool
   for (uint32_t i = 1; i < 20; ++i) {
     AffineTransform X = PlaceUpright({}, static_cast<float>(0.2 * t * (i % 3)));
     X = X * AffineTransform{scene.instances[i].X_WM.A, {}};
-    X.p = scene.instances[i].X_WM.p + Vec3f{static_cast<float>(0.3 * t * std::sin(i)),
-                                            static_cast<float>(0.3 * t * std::cos(i)),
-                                            static_cast<float>(0.05 * t)};
+    X.p = scene.instances[i].X_WM.p +
+          Vec3f{static_cast<float>(0.3 * t * std::sin(i)), static_cast<float>(0.3 * t * std::cos(i)), static_cast<float>(0.05 * t)};
     state->moved.push_back({i, X, with_hidden && i % 7 == 0});
   }
   return state;
@@ -261,8 +256,7 @@ TEST(Flow, LeadsToTheSameEntityAndRangeInTheNextFrame) {
   const auto scene = MakeOpenSquare();
   const auto renderer = RendererOf(scene);
   constexpr int kWidth = 1024, kHeight = 512;
-  RenderRequest now = Request(Equirectangular{kWidth, kHeight}, Pose({0, 0, 1.5}, 0.3),
-                              Pose({0.3, -0.2, 1.6}, 0.45, 0.1, 0.05));
+  RenderRequest now = Request(Equirectangular{kWidth, kHeight}, Pose({0, 0, 1.5}, 0.3), Pose({0.3, -0.2, 1.6}, 0.45, 0.1, 0.05));
   now.state = MovedSquare(*scene, 0);
   now.next_state = MovedSquare(*scene, 1);
   RenderRequest then = Request(now.camera, *now.X_WC_next, *now.X_WC_next);
@@ -281,8 +275,7 @@ TEST(Flow, LeadsToTheSameEntityAndRangeInTheNextFrame) {
       // The range at the exact place lies between those of the pixels around, but where faces meet.
       float low = 1e30f, high = 0;
       for (int k = 0; k < 9; ++k) {
-        const float range =
-            b.range((u + k % 3 - 1 + kWidth) % kWidth, std::clamp(v + k / 3 - 1, 0, kHeight - 1));
+        const float range = b.range((u + k % 3 - 1 + kWidth) % kWidth, std::clamp(v + k / 3 - 1, 0, kHeight - 1));
         low = std::min(low, range), high = std::max(high, range);
       }
       ++checked;
@@ -305,8 +298,8 @@ TEST(Flow, SceneFlowIsTheDifferenceOfThePlacesOfASurfacePoint) {
   for (size_t i = 0; i < frame.flow.size(); ++i) {
     const Vec3f p = frame.position.pixels()[i], motion = frame.flow.pixels()[i].motion;
     const EntityId entity = frame.entity.pixels()[i];
-    const auto instance = std::find_if(scene->instances.begin(), scene->instances.end(),
-                                       [&](const Instance& x) { return x.entity == entity; });
+    const auto instance =
+        std::find_if(scene->instances.begin(), scene->instances.end(), [&](const Instance& x) { return x.entity == entity; });
     const auto index = static_cast<uint32_t>(instance - scene->instances.begin());
     if (index < 1 || index >= 20) {
       EXPECT_EQ(motion, Vec3f{});
@@ -314,8 +307,7 @@ TEST(Flow, SceneFlowIsTheDifferenceOfThePlacesOfASurfacePoint) {
     }
     ++moving;
     // Turn by the difference of the angles about the instance's own place, then shift.
-    const AffineTransform &A = request.state->moved[index - 1].X_WM,
-                          &B = request.next_state->moved[index - 1].X_WM;
+    const AffineTransform &A = request.state->moved[index - 1].X_WM, &B = request.next_state->moved[index - 1].X_WM;
     const AffineTransform turn = PlaceUpright({}, static_cast<float>(0.2 * 0.6 * (index % 3)));
     const Vec3f expected = turn.A * (p - A.p) + B.p - p;
     EXPECT_LT(Norm(motion - expected), 2e-5f);
@@ -401,8 +393,8 @@ TEST(Products, RollWithThePanoramaByteForByteAndDoNotDependOnThreads) {
   constexpr int kWidth = 200;
   const auto request = [&](int k) {
     const RigidTransform turn{RotationY(2 * std::numbers::pi * k / kWidth), {}};
-    RenderRequest r = Request(Equirectangular{kWidth, kWidth / 2}, Pose({0, 0, 1.5}, 0.3, 0.2, 0.1) * turn,
-                              Pose({0.4, 0.1, 1.6}, 0.5, 0.1, 0.2) * turn);
+    RenderRequest r =
+        Request(Equirectangular{kWidth, kWidth / 2}, Pose({0, 0, 1.5}, 0.3, 0.2, 0.1) * turn, Pose({0.4, 0.1, 1.6}, 0.5, 0.1, 0.2) * turn);
     r.state = MovedSquare(*scene, 0.5);
     r.next_state = MovedSquare(*scene, 1);
     return r;
@@ -410,8 +402,7 @@ TEST(Products, RollWithThePanoramaByteForByteAndDoNotDependOnThreads) {
   const Frame base = Rendered(*renderer, request(0));
   const auto expect_rolled = [&](const auto& a, const auto& b, int k) {
     for (int y = 0; y < a.height(); ++y) {
-      for (int x = 0; x < kWidth; ++x)
-        ASSERT_TRUE(b(x, y) == a((x + k) % kWidth, y)) << k << ' ' << x << ' ' << y;
+      for (int x = 0; x < kWidth; ++x) ASSERT_TRUE(b(x, y) == a((x + k) % kWidth, y)) << k << ' ' << x << ' ' << y;
     }
   };
   for (int k : {1, 57, 199}) {

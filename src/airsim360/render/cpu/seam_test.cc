@@ -26,8 +26,7 @@ TEST_P(Seam, HasTheContrastOfAnyOtherColumn) {
   Frame frame;
   for (int k = 0; k < kFrames; ++k) {
     const double yaw = 2 * std::numbers::pi * (k + static_cast<double>(k) / kFrames) / kWidth;
-    renderer->Render(MakeRequest(Equirectangular{kWidth, kWidth / 2},
-                                 BodyPose({0.3, 0.2, 1.7}, yaw, 0, 0) * CameraInBody(), GetParam()),
+    renderer->Render(MakeRequest(Equirectangular{kWidth, kWidth / 2}, BodyPose({0.3, 0.2, 1.7}, yaw, 0, 0) * CameraInBody(), GetParam()),
                      frame);
     for (int y = 0; y < frame.rgb.height(); ++y) {
       for (int x = 0; x < kWidth; ++x) {

@@ -33,8 +33,7 @@ void FillPosition(const HitBatch& hits, const TileTarget& target, Image<Vec3f>& 
 void SurfaceProducts::Update(const RenderRequest& request, const CameraRays& rays, const Shader* shader,
                              std::shared_ptr<const RayTracer> now, std::shared_ptr<const RayTracer> next) {
   if (request.products.material && scene_->materials.size() > kMaxMaterials) {
-    throw InputError("material ids have 16 bits, the scene has " + std::to_string(scene_->materials.size()) +
-                     " materials");
+    throw InputError("material ids have 16 bits, the scene has " + std::to_string(scene_->materials.size()) + " materials");
   }
   if (request.products.albedo) {
     if (shader == nullptr && tables_ == nullptr) {
@@ -47,8 +46,7 @@ void SurfaceProducts::Update(const RenderRequest& request, const CameraRays& ray
   if (request.products.flow) flow_.Update(request, rays, std::move(now), std::move(next));
 }
 
-void SurfaceProducts::Fill(const HitBatch& hits, const LabelTile& labels, const TileTarget& target,
-                           Frame& frame) const {
+void SurfaceProducts::Fill(const HitBatch& hits, const LabelTile& labels, const TileTarget& target, Frame& frame) const {
   if (!frame.position.empty()) FillPosition(hits, target, frame.position);
   if (!frame.albedo.empty()) FillAlbedo(hits, target, frame.albedo);
   if (!frame.material.empty()) FillMaterial(hits, target, frame.material);
@@ -75,14 +73,12 @@ void SurfaceProducts::FillAlbedo(const HitBatch& hits, const TileTarget& target,
     SurfaceSet surfaces;
     Pad(rays);
     prepare(*view_, rays, surfaces);
-    for (int k = 0; k < rays.count; ++k)
-      colors[rays.slot[k]] = {surfaces.ar[k], surfaces.ag[k], surfaces.ab[k]};
+    for (int k = 0; k < rays.count; ++k) colors[rays.slot[k]] = {surfaces.ar[k], surfaces.ag[k], surfaces.ab[k]};
   }
   ForEachPixel(target, [&](int i, size_t index) { out.pixels()[index] = colors[i]; });
 }
 
-void SurfaceProducts::FillMaterial(const HitBatch& hits, const TileTarget& target,
-                                   Image<uint16_t>& out) const {
+void SurfaceProducts::FillMaterial(const HitBatch& hits, const TileTarget& target, Image<uint16_t>& out) const {
   // Neighbours mostly meet the same part of the same mesh.
   const Mesh* mesh = nullptr;
   const MeshPart* part = nullptr;

@@ -14,14 +14,12 @@ class SurfaceProducts {
  public:
   explicit SurfaceProducts(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {}
   /// Whether any of them is asked for, so that hits must be kept.
-  static bool Wanted(const Products& products) {
-    return products.position || products.albedo || products.material || products.flow;
-  }
+  static bool Wanted(const Products& products) { return products.position || products.albedo || products.material || products.flow; }
   /// Gets ready for one frame. `shader` lends its tables where there is one; tables of their own are made
   /// when first needed. `next` is used for flow alone. InputError for flow without X_WC_next, and for
   /// material ids of a scene with more than 65534 materials.
-  void Update(const RenderRequest& request, const CameraRays& rays, const Shader* shader,
-              std::shared_ptr<const RayTracer> now, std::shared_ptr<const RayTracer> next);
+  void Update(const RenderRequest& request, const CameraRays& rays, const Shader* shader, std::shared_ptr<const RayTracer> now,
+              std::shared_ptr<const RayTracer> next);
   /// Fills the pixels of one tile in the images that are not empty. May run concurrently.
   void Fill(const HitBatch& hits, const LabelTile& labels, const TileTarget& target, Frame& frame) const;
 

@@ -19,11 +19,7 @@ Frame Rendered(const std::shared_ptr<const Scene>& scene, Tier tier, int width, 
   request.camera = Equirectangular{width, width / 2};
   request.X_WC = BodyPose({0.1, 0.2, 2.1}, 0.4, -0.1, 0.05) * CameraInBody();
   request.tier = tier;
-  request.products = {.rgb = tier != Tier::kLabels,
-                      .entity = true,
-                      .position = true,
-                      .albedo = true,
-                      .radiance = tier != Tier::kLabels};
+  request.products = {.rgb = tier != Tier::kLabels, .entity = true, .position = true, .albedo = true, .radiance = tier != Tier::kLabels};
   request.samples = samples;
   Frame frame;
   renderer->Render(request, frame);

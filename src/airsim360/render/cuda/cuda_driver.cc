@@ -11,8 +11,8 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr int kOpaqueFd = 1;               // CU_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD
-constexpr unsigned kDedicated = 1;         // CUDA_EXTERNAL_MEMORY_DEDICATED
+constexpr int kOpaqueFd = 1;        // CU_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD
+constexpr unsigned kDedicated = 1;  // CUDA_EXTERNAL_MEMORY_DEDICATED
 
 // CUDA_EXTERNAL_MEMORY_HANDLE_DESC and CUDA_EXTERNAL_MEMORY_BUFFER_DESC.
 struct MemoryHandle {
@@ -66,7 +66,8 @@ struct CudaDevice::Api {
       return function != nullptr;
     };
     const auto need = [&](auto& function, const char* name) {
-      if (!load(function, name)) throw RuntimeError("CUDA: " + path + " has no " + name + ": the driver is older than CUDA 10.2; update it");
+      if (!load(function, name))
+        throw RuntimeError("CUDA: " + path + " has no " + name + ": the driver is older than CUDA 10.2; update it");
     };
     need(init, "cuInit");
     need(device_count, "cuDeviceGetCount");

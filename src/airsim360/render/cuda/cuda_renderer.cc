@@ -23,7 +23,9 @@ CudaAddress Address(const void* pointer) { return reinterpret_cast<CudaAddress>(
 // Memory that both know. Opened once and used again and again.
 struct CudaRenderer::Room {
   Room(const CudaDevice& device, std::unique_ptr<GpuSharedMemory> memory)
-      : cuda(device), vulkan(std::move(memory)), import(cuda.Open(vulkan->Open(), vulkan->allocated(), vulkan->size(), vulkan->dedicated())) {}
+      : cuda(device),
+        vulkan(std::move(memory)),
+        import(cuda.Open(vulkan->Open(), vulkan->allocated(), vulkan->size(), vulkan->dedicated())) {}
   // CUDA lets go first.
   ~Room() { cuda.Close(import); }
   Room(const Room&) = delete;

@@ -38,8 +38,8 @@ void CheckSize(const char* name, const Image<Pixel>* image, const Camera& camera
   if (image == nullptr) throw InputError(std::string("denoiser: no image ") + name);
   if (image->width() == Width(camera) && image->height() == Height(camera)) return;
   throw InputError(std::string("denoiser: image ") + name + " has " + std::to_string(image->width()) + "x" +
-                   std::to_string(image->height()) + " pixels, the camera " + std::to_string(Width(camera)) +
-                   "x" + std::to_string(Height(camera)));
+                   std::to_string(image->height()) + " pixels, the camera " + std::to_string(Width(camera)) + "x" +
+                   std::to_string(Height(camera)));
 }
 
 void Check(const FilterGuides& guides, const LightSignal& signal) {
@@ -48,8 +48,7 @@ void Check(const FilterGuides& guides, const LightSignal& signal) {
   CheckSize("entity", guides.entity, *guides.camera);
   CheckSize("normal", guides.normal, *guides.camera);
   CheckSize("light", signal.light, *guides.camera);
-  if (guides.geometric_normal != nullptr)
-    CheckSize("geometric_normal", guides.geometric_normal, *guides.camera);
+  if (guides.geometric_normal != nullptr) CheckSize("geometric_normal", guides.geometric_normal, *guides.camera);
   if (signal.samples != nullptr) CheckSize("samples", signal.samples, *guides.camera);
 }
 

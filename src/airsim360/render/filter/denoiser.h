@@ -25,11 +25,11 @@ struct FilterGuides {
 
 /// Light of a pixel without its albedo, so that textures are not blurred. Finite and not negative.
 struct LightSignal {
-  Image<Rgb32f>* light = nullptr;  ///< in: mean of the samples; out: filtered. Unchanged where no surface is
+  Image<Rgb32f>* light = nullptr;           ///< in: mean of the samples; out: filtered. Unchanged where no surface is
   const Image<uint8_t>* samples = nullptr;  ///< how many; 0 = none yet, to be filled from neighbours;
                                             ///< nullptr = one each
-  float radius_px = 12;  ///< about how far samples may travel at the equator: the step of the last level, at
-                         ///< most 12
+  float radius_px = 12;                     ///< about how far samples may travel at the equator: the step of the last level, at
+                                            ///< most 12
 };
 
 /// Edge-avoiding a-trous wavelet (Dammertz et al. 2010) with variance guidance (after SVGF, Schied et al.

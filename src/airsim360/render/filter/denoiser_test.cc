@@ -143,8 +143,7 @@ TEST(DenoiserTest, WithoutNoiseAShadowEdgeStaysWhereItIs) {
   // Beyond 48 degrees pixels that are narrower than high are averaged first.
   const int h = view.height();
   for (int y = h / 4 + 1; y < h - h / 4 - 1; ++y) {
-    for (int x = 0; x < view.width(); ++x)
-      ASSERT_NEAR(filtered(x, y).g, light(x, y).g, 1e-4f) << x << " " << y;
+    for (int x = 0; x < view.width(); ++x) ASSERT_NEAR(filtered(x, y).g, light(x, y).g, 1e-4f) << x << " " << y;
   }
 }
 
@@ -165,8 +164,7 @@ TEST(DenoiserTest, PolesAndSeamKeepNoMoreNoiseThanTheEquator) {
   light = Filter(view, light, &samples);
   const double equator = Variance(view, light, 1, [&](int, int y) { return std::abs(2 * y - h) < h / 2; });
   const double poles = Variance(view, light, 1, [&](int, int y) { return y < h / 16 || y >= h - h / 16; });
-  const double seam = Variance(
-      view, light, 1, [&](int x, int y) { return (x < 8 || x >= w - 8) && std::abs(2 * y - h) < h / 2; });
+  const double seam = Variance(view, light, 1, [&](int x, int y) { return (x < 8 || x >= w - 8) && std::abs(2 * y - h) < h / 2; });
   // Near the poles samples are where chance put them, some pixels have several: a third less good.
   EXPECT_LT(poles, 1.6 * equator);
   EXPECT_LT(seam, 1.3 * equator);
@@ -249,19 +247,15 @@ TEST(DenoiserTest, InstructionSetsAgreeBitForBit) {
     Image<Rgb32f> out(view.width(), view.height());
     buffers.Store(1, out);
     for (const Rgb32f& c : out.pixels()) values.insert(values.end(), {c.r, c.g, c.b});
-    for (int y = 0; y < f.height; ++y)
-      values.insert(values.end(), f.variance + y * f.stride, f.variance + y * f.stride + f.width);
+    for (int y = 0; y < f.height; ++y) values.insert(values.end(), f.variance + y * f.stride, f.variance + y * f.stride + f.width);
     return values;
   };
-  const auto sse =
-      run(isa_sse42::GatherRow, isa_sse42::WindowRow, isa_sse42::VarianceRow, isa_sse42::AtrousRow);
+  const auto sse = run(isa_sse42::GatherRow, isa_sse42::WindowRow, isa_sse42::VarianceRow, isa_sse42::AtrousRow);
   if (CurrentKernelIsa() >= KernelIsa::kAvx2) {
-    EXPECT_TRUE(run(isa_avx2::GatherRow, isa_avx2::WindowRow, isa_avx2::VarianceRow, isa_avx2::AtrousRow) ==
-                sse);
+    EXPECT_TRUE(run(isa_avx2::GatherRow, isa_avx2::WindowRow, isa_avx2::VarianceRow, isa_avx2::AtrousRow) == sse);
   }
   if (CurrentKernelIsa() >= KernelIsa::kAvx512) {
-    EXPECT_TRUE(run(isa_avx512::GatherRow, isa_avx512::WindowRow, isa_avx512::VarianceRow,
-                    isa_avx512::AtrousRow) == sse);
+    EXPECT_TRUE(run(isa_avx512::GatherRow, isa_avx512::WindowRow, isa_avx512::VarianceRow, isa_avx512::AtrousRow) == sse);
   }
 }
 
@@ -276,8 +270,7 @@ TEST(DenoiserTest, InstructionSetsLoadTheSamePlanes) {
     std::vector<float> values;
     for (int y = 0; y < f.height; ++y) {
       const int64_t row = int64_t{y} * f.stride;
-      for (float* plane : {f.p[0], f.p[1], f.p[2], f.g[2], f.light[0][1]})
-        std::fill_n(plane + row, f.width, 0.0f);
+      for (float* plane : {f.p[0], f.p[1], f.p[2], f.g[2], f.light[0][1]}) std::fill_n(plane + row, f.width, 0.0f);
       const FilterSource source{view.range.row(y).data(),
                                 view.entity.row(y).data(),
                                 &view.normal.row(y).data()->x,
@@ -327,8 +320,7 @@ TEST(DenoiserTest, PixelsWithoutSamplesTakeTheLightOfTheirSurface) {
   }
   light = Filter(view, light, &samples);
   for (int y = 0; y < view.height(); ++y) {
-    for (int x = 0; x < view.width(); ++x)
-      ASSERT_NEAR(light(x, y).g, view.entity(x, y), 1e-5 * view.entity(x, y)) << x << " " << y;
+    for (int x = 0; x < view.width(); ++x) ASSERT_NEAR(light(x, y).g, view.entity(x, y), 1e-5 * view.entity(x, y)) << x << " " << y;
   }
 }
 
@@ -382,8 +374,7 @@ TEST(DenoiserTest, SkyIsLeftAlone) {
 TEST(DenoiserTest, APinholePictureDoesNotWrap) {
   // A plane ahead, dark in the left half of the picture's first columns.
   const Pinhole pinhole{128, 64, 100, 100, 64, 32};
-  View view{pinhole, CameraInBody(), Image<float>(128, 64), Image<uint32_t>(128, 64, 1),
-            Image<Vec3f>(128, 64, {-1, 0, 0})};
+  View view{pinhole, CameraInBody(), Image<float>(128, 64), Image<uint32_t>(128, 64, 1), Image<Vec3f>(128, 64, {-1, 0, 0})};
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 128; ++x) {
       const Vec3d d = view.X_WC.R * *PixelToRay(pinhole, {x + 0.5, y + 0.5});

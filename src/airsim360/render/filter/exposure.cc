@@ -48,8 +48,7 @@ double TrimmedMean(const Histogram& histogram, double total) {
 double AutoExposureEv(const Image<Rgb32f>& radiance, const Camera& camera, float exposure, double most) {
   const int height = radiance.height();
   std::vector<Counts> rows(static_cast<size_t>(height));
-  ParallelFor(height,
-              [&](int64_t y) { rows[static_cast<size_t>(y)] = CountRow(radiance.row(static_cast<int>(y))); });
+  ParallelFor(height, [&](int64_t y) { rows[static_cast<size_t>(y)] = CountRow(radiance.row(static_cast<int>(y))); });
 
   // Whole numbers within a row, so that its pixels' order does not matter.
   const bool panorama = std::holds_alternative<Equirectangular>(camera);

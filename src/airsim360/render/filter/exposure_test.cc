@@ -78,9 +78,7 @@ TEST(AutoExposureTest, RollingThePanoramaChangesNothing) {
   EXPECT_EQ(AutoExposureEv(picture, kPanorama, 1, kNoLimit), AutoExposureEv(rolled, kPanorama, 1, kNoLimit));
 }
 
-TEST(AutoExposureTest, DarknessStaysDark) {
-  EXPECT_EQ(AutoExposureEv(Image<Rgb32f>(256, 128), kPanorama, 1, kNoLimit), 0);
-}
+TEST(AutoExposureTest, DarknessStaysDark) { EXPECT_EQ(AutoExposureEv(Image<Rgb32f>(256, 128), kPanorama, 1, kNoLimit), 0); }
 
 }  // namespace
 }  // namespace airsim360::internal

@@ -48,12 +48,10 @@ void FilterBuffers::Resize(bool own_planes) {
   floats_.resize((own_planes ? 20 : 17) * plane);
   uint32_t** ids[] = {&f.id, &f.data_id[0], &f.data_id[1]};
   for (size_t k = 0; k < 3; ++k) *ids[k] = ids_.data() + k * plane;
-  float** floats[] = {&f.p[0],        &f.p[1],        &f.p[2],        &f.n[0],        &f.n[1],
-                      &f.n[2],        &f.light[0][0], &f.light[0][1], &f.light[0][2], &f.light[1][0],
-                      &f.light[1][1], &f.light[1][2], &f.samples,     &f.window,      &f.own,
-                      &f.loose,       &f.variance,    &f.g[0],        &f.g[1],        &f.g[2]};
-  for (size_t k = 0; k < 20; ++k)
-    *floats[k] = k >= 17 && !own_planes ? f.n[k - 17] : floats_.data() + k * plane;
+  float** floats[] = {&f.p[0],        &f.p[1],        &f.p[2],        &f.n[0],        &f.n[1],        &f.n[2],    &f.light[0][0],
+                      &f.light[0][1], &f.light[0][2], &f.light[1][0], &f.light[1][1], &f.light[1][2], &f.samples, &f.window,
+                      &f.own,         &f.loose,       &f.variance,    &f.g[0],        &f.g[1],        &f.g[2]};
+  for (size_t k = 0; k < 20; ++k) *floats[k] = k >= 17 && !own_planes ? f.n[k - 17] : floats_.data() + k * plane;
 }
 
 void FilterBuffers::Load(const FilterGuides& guides, const LightSignal& signal, int max_step) {
@@ -70,8 +68,7 @@ void FilterBuffers::Load(const FilterGuides& guides, const LightSignal& signal, 
   Resize(guides.geometric_normal != nullptr);
   across_.resize(f.height);
   for (int y = 0; y < f.height; ++y) {
-    across_[y] =
-        f.sphere ? static_cast<float>(1 / std::cos(std::numbers::pi * (0.5 - (y + 0.5) / f.height))) : 1.0f;
+    across_[y] = f.sphere ? static_cast<float>(1 / std::cos(std::numbers::pi * (0.5 - (y + 0.5) / f.height))) : 1.0f;
   }
   ParallelFor(f.height, [&](int64_t y) { LoadRow(guides, signal, static_cast<int>(y)); });
 }
@@ -89,8 +86,7 @@ void FilterBuffers::LoadPositions(const Image<float>& range, int y) {
   for (int c = 0; c < f.width; ++c) {
     const size_t i = static_cast<size_t>(y) * f.stride + c, j = static_cast<size_t>(y) * field.stride + c;
     const double t = range(c, y), x = field.ray_x[j] * t, v = field.ray_y[j] * t, z = field.ray_z[j] * t;
-    for (int k = 0; k < 3; ++k)
-      f.p[k][i] = static_cast<float>(R[3 * k] * x + R[3 * k + 1] * v + R[3 * k + 2] * z);
+    for (int k = 0; k < 3; ++k) f.p[k][i] = static_cast<float>(R[3 * k] * x + R[3 * k + 1] * v + R[3 * k + 2] * z);
   }
 }
 
@@ -143,9 +139,7 @@ void FilterBuffers::RepeatLight(int y, int set) {
   for (int k = 0; k < 3; ++k) Repeat(f.light[set][k] + row, f.wrap);
 }
 
-void FilterBuffers::RepeatSamples(int y) {
-  Repeat(planes_.samples + static_cast<size_t>(y) * planes_.stride, planes_.wrap);
-}
+void FilterBuffers::RepeatSamples(int y) { Repeat(planes_.samples + static_cast<size_t>(y) * planes_.stride, planes_.wrap); }
 
 void FilterBuffers::RepeatStatistics(int y) {
   const FilterPlanes& f = planes_;

@@ -22,13 +22,11 @@ struct Place {
 /// Where points of a panorama were in the last frame's picture.
 KERNEL Place Reproject(const FilterPlanes& f, const FilterPast& past, real3 v) {
   const float* R = past.R;
-  const real3 c = make3(v.x * R[0] + v.y * R[1] + v.z * R[2], v.x * R[3] + v.y * R[4] + v.z * R[5],
-                        v.x * R[6] + v.y * R[7] + v.z * R[8]);
+  const real3 c = make3(v.x * R[0] + v.y * R[1] + v.z * R[2], v.x * R[3] + v.y * R[4] + v.z * R[5], v.x * R[6] + v.y * R[7] + v.z * R[8]);
   const real theta = atan2_approx(c.x, c.z);
   const real phi = atan2_approx(real(0.0f) - c.y, rroot(c.x * c.x + c.z * c.z));
   const float per_radian = 0.5f * SHADE_INV_PI * static_cast<float>(f.width);
-  return {theta * per_radian + 0.5f * static_cast<float>(f.width),
-          0.5f * static_cast<float>(f.height) - phi * per_radian};
+  return {theta * per_radian + 0.5f * static_cast<float>(f.width), 0.5f * static_cast<float>(f.height) - phi * per_radian};
 }
 
 /// What the points are compared with.
@@ -41,8 +39,7 @@ struct Recall {
 };
 
 /// One of the four pixels around: adds what it has seen of the same points.
-KERNEL void AddTap(const FilterPlanes& f, const FilterPast& past, ireal x, ireal y, mask_t wanted, real w,
-                   Recall& sum) {
+KERNEL void AddTap(const FilterPlanes& f, const FilterPast& past, ireal x, ireal y, mask_t wanted, real w, Recall& sum) {
   if (f.sphere) {
     const ireal::mask_type below = y < 0, above = y >= f.height;
     stdx::where(below, y) = -1 - y;
@@ -58,15 +55,13 @@ KERNEL void AddTap(const FilterPlanes& f, const FilterPast& past, ireal x, ireal
   index.copy_to(at, stdx::vector_aligned);
   KeepInMemory(at);
   const auto quad = [&](int k) __attribute__((always_inline)) {
-    return GatherQuads([&](int lane) __attribute__((always_inline)) {
-      return past.pixels + int64_t{FilterPast::kFloats} * at[lane] + 4 * k;
-    });
+    return GatherQuads([&](int lane)
+                           __attribute__((always_inline)) { return past.pixels + int64_t{FilterPast::kFloats} * at[lane] + 4 * k; });
   };
   const real4 place = quad(0);
   const float* o = past.offset;
   const real3 away = make3(place.x - o[0], place.y - o[1], place.z - o[2]) - sum.p;
-  mask_t same = inside && SameId(stdx::__proposed::simd_bit_cast<ureal>(place.w), sum.id) &&
-                rabs(dot3(sum.g, away)) <= sum.thickness;
+  mask_t same = inside && SameId(stdx::__proposed::simd_bit_cast<ureal>(place.w), sum.id) && rabs(dot3(sum.g, away)) <= sum.thickness;
   if (stdx::none_of(same)) return;
   const real4 normal = quad(1), light = quad(2);
   same = same && dot3(Rgb(normal), sum.n) >= kMinCosine;
@@ -103,12 +98,10 @@ KERNEL void RecallVector(const FilterPlanes& f, const FilterPast& past, int64_t 
   sum.id = Ids(f.id, i), sum.p = At3(f.p, i), sum.g = At3(f.g, i), sum.n = At3(f.n, i);
   sum.thickness = kThickness * f.cone_angle * rroot(dot3(sum.p, sum.p));
   const float* o = past.offset;
-  const Place at = past.x == nullptr
-                       ? Reproject(f, past, make3(sum.p.x + o[0], sum.p.y + o[1], sum.p.z + o[2]))
-                       : Place{At(past.x, x), At(past.y, x)};
+  const Place at =
+      past.x == nullptr ? Reproject(f, past, make3(sum.p.x + o[0], sum.p.y + o[1], sum.p.z + o[2])) : Place{At(past.x, x), At(past.y, x)};
   const mask_t wanted = !SameId(sum.id, uids(kNoSurface)) && !SameId(sum.id, uids(0u)) && at.x > -1.0f &&
-                        at.x < static_cast<float>(f.width + 1) && at.y > -1.0f &&
-                        at.y < static_cast<float>(f.height + 1);
+                        at.x < static_cast<float>(f.width + 1) && at.y > -1.0f && at.y < static_cast<float>(f.height + 1);
   if (stdx::none_of(wanted)) return;
   const real left = rfloor(at.x - 0.5f), top = rfloor(at.y - 0.5f);
   const real fx = at.x - 0.5f - left, fy = at.y - 0.5f - top;
@@ -122,8 +115,7 @@ KERNEL void RecallVector(const FilterPlanes& f, const FilterPast& past, int64_t 
 
 /// Four numbers of every lane as four rows: lane l has those at rows[l % 4] + l - l % 4.
 KERNEL void PutQuads(float (&rows)[4][kLanes], real a, real b, real c, real d) {
-  const real4 q = TurnQuads(static_cast<LaneVector>(a), static_cast<LaneVector>(b),
-                            static_cast<LaneVector>(c), static_cast<LaneVector>(d));
+  const real4 q = TurnQuads(static_cast<LaneVector>(a), static_cast<LaneVector>(b), static_cast<LaneVector>(c), static_cast<LaneVector>(d));
   store(rows[0], q.x), store(rows[1], q.y), store(rows[2], q.z), store(rows[3], q.w);
 }
 
@@ -142,8 +134,7 @@ KERNEL void KeepVector(const FilterPlanes& f, int64_t i, float* to) {
   PutQuads(rows[2], light.x, light.y, light.z, real(0.0f));
   KeepInMemory(rows);
   for (int lane = 0; lane < kLanes; ++lane) {
-    for (int k = 0; k < kQuads; ++k)
-      _mm_stream_ps(to + FilterPast::kFloats * lane + 4 * k, _mm_load_ps(rows[k][lane & 3] + (lane & ~3)));
+    for (int k = 0; k < kQuads; ++k) _mm_stream_ps(to + FilterPast::kFloats * lane + 4 * k, _mm_load_ps(rows[k][lane & 3] + (lane & ~3)));
   }
 }
 

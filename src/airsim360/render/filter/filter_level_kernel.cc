@@ -11,8 +11,7 @@ constexpr float kSigmas = 3.1f;
 // firefly.
 constexpr float kOwnWeight = 0.22f;
 
-KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step,
-                         int step_x, int in) {
+KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step, int step_x, int in) {
   if (NoSurface(f, i)) return uids(0u).copy_to(f.data_id[1 - in] + i, stdx::element_aligned);
   FetchAhead(f, rows[2], x, {f.data_id[in], f.light[in][0], f.light[in][1], f.light[in][2]});
   const uids own_id = Ids(f.data_id[in], i);

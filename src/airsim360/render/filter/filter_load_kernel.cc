@@ -6,8 +6,7 @@ namespace {
 
 #define KERNEL static inline __attribute__((always_inline, unused))
 
-KERNEL void Split(const float* __restrict from, int n, float* __restrict x, float* __restrict y,
-                  float* __restrict z) {
+KERNEL void Split(const float* __restrict from, int n, float* __restrict x, float* __restrict y, float* __restrict z) {
   for (int i = 0; i < n; ++i) {
     x[i] = from[3 * i];
     y[i] = from[3 * i + 1];
@@ -15,14 +14,12 @@ KERNEL void Split(const float* __restrict from, int n, float* __restrict x, floa
   }
 }
 
-KERNEL void Position(const float* __restrict range, const double* __restrict column, double scale, double row,
-                     int n, float* __restrict p) {
+KERNEL void Position(const float* __restrict range, const double* __restrict column, double scale, double row, int n, float* __restrict p) {
   for (int i = 0; i < n; ++i) p[i] = static_cast<float>((column[i] * scale + row) * range[i]);
 }
 
-KERNEL void Ids(const float* __restrict range, const uint32_t* __restrict entity,
-                const float* __restrict samples, int n, uint32_t* __restrict id,
-                uint32_t* __restrict data_id) {
+KERNEL void Ids(const float* __restrict range, const uint32_t* __restrict entity, const float* __restrict samples, int n,
+                uint32_t* __restrict id, uint32_t* __restrict data_id) {
   for (int i = 0; i < n; ++i) {
     const uint32_t surface = range[i] > 0 ? entity[i] : kNoSurface;
     id[i] = surface;

@@ -47,9 +47,9 @@ struct FilterSource {
 struct FilterPast {
   static constexpr int kFloats = 12;
   const float* pixels;  ///< kFloats each: position, bits of the surface (0 = no light), normal, samples, light, 0
-  int stride;       ///< pixels from row to row
-  float R[9];       ///< row-major, W to the last frame's canonical axes
-  float offset[3];  ///< camera now minus camera then, in W
+  int stride;           ///< pixels from row to row
+  float R[9];           ///< row-major, W to the last frame's canonical axes
+  float offset[3];      ///< camera now minus camera then, in W
   /// Pixel positions then of this row's points; null = a panorama, where the kernel finds them itself.
   const float *x, *y;
 };

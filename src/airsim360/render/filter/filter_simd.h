@@ -22,9 +22,7 @@ constexpr float kLooseThickness = 16;
 using uids = stdx::rebind_simd_t<uint32_t, real>;
 
 KERNEL real At(const float* plane, int64_t i) { return real(plane + i, stdx::element_aligned); }
-KERNEL real3 At3(float* const* planes, int64_t i) {
-  return {At(planes[0], i), At(planes[1], i), At(planes[2], i)};
-}
+KERNEL real3 At3(float* const* planes, int64_t i) { return {At(planes[0], i), At(planes[1], i), At(planes[2], i)}; }
 KERNEL void Put(float* plane, int64_t i, real v) { v.copy_to(plane + i, stdx::element_aligned); }
 KERNEL mask_t SameId(uids a, uids b) { return stdx::__proposed::static_simd_cast<mask_t>(a == b); }
 /// The surface of lanes that have light, else 0.
@@ -36,9 +34,7 @@ KERNEL uids DataIds(mask_t found, uids surface, uids before) {
 KERNEL uids Ids(const uint32_t* plane, int64_t i) { return uids(plane + i, stdx::element_aligned); }
 
 /// Whether a vector of pixels shows nothing but sky: no pass has anything to do there.
-KERNEL bool NoSurface(const FilterPlanes& f, int64_t i) {
-  return stdx::all_of(Ids(f.id, i) == kNoSurface);
-}
+KERNEL bool NoSurface(const FilterPlanes& f, int64_t i) { return stdx::all_of(Ids(f.id, i) == kNoSurface); }
 
 /// Column `x` counted beyond the borders of a row.
 KERNEL int Wrapped(int x, int wrap) { return x < 0 ? x + wrap : x >= wrap ? x - wrap : x; }
@@ -57,8 +53,7 @@ KERNEL RowPlace FindRow(const FilterPlanes& f, int y) {
 
 /// Asks for what the taps of the lowest row will meet, of positions, normals and the planes given: they are too
 /// many for the processor to foresee by itself.
-KERNEL void FetchAhead(const FilterPlanes& f, const RowPlace& row, int x,
-                       std::initializer_list<const void*> planes) {
+KERNEL void FetchAhead(const FilterPlanes& f, const RowPlace& row, int x, std::initializer_list<const void*> planes) {
   constexpr int kAhead = 128;
   if (row.first < 0) return;
   const int64_t i = row.first + x + kAhead;
@@ -86,8 +81,7 @@ KERNEL Center MakeCenter(const FilterPlanes& f, int64_t i, real loose, float ste
   c.normal = At3(f.n, i) * sharpness;
   c.base = 1.0f - sharpness;
   // Over the distance.
-  const real thickness =
-      (1.0f + (kLooseThickness - 1.0f) * loose) * (f.cone_angle * (1.0f + f.plane_slope * step));
+  const real thickness = (1.0f + (kLooseThickness - 1.0f) * loose) * (f.cone_angle * (1.0f + f.plane_slope * step));
   c.inverse_thickness = (1.0f / 16) / rmax(dot3(p, p) * (thickness * thickness), real(1e-12f));
   return c;
 }
@@ -109,8 +103,7 @@ KERNEL real If(mask_t m, real a) { return sel(m, a, real(0.0f)); }
 
 /// Calls visit(index, corner) for the eight neighbours of the vector of columns at x.
 template <class Visit>
-KERNEL void ForNeighbours(const FilterPlanes& f, const RowPlace (&rows)[3], int x, int step_x,
-                          Visit&& visit) {
+KERNEL void ForNeighbours(const FilterPlanes& f, const RowPlace (&rows)[3], int x, int step_x, Visit&& visit) {
   for (int dy = 0; dy < 3; ++dy) {
     if (rows[dy].first < 0) continue;
     for (int dx = -1; dx <= 1; ++dx) {

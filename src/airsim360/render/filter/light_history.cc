@@ -44,8 +44,7 @@ void LightHistory::Keep(const FilterGuides& guides, const FilterBuffers& buffers
 }
 
 // Of a camera that is no panorama.
-void LightHistory::FindRow(const FilterPlanes& f, int y, const float* offset, float* x_px,
-                           float* y_px) const {
+void LightHistory::FindRow(const FilterPlanes& f, int y, const float* offset, float* x_px, float* y_px) const {
   const size_t row = static_cast<size_t>(y) * f.stride;
   const Mat3d R = R0_.transpose();
   for (int c = 0; c < f.width; ++c) {

@@ -177,8 +177,7 @@ TEST(TemporalTest, APinholeCameraThatMovesFindsItsPoints) {
   Denoiser denoiser;
   Image<Rgb32f> light;
   for (int frame = 0; frame < 2; ++frame) {
-    View view{pinhole, CameraInBody(), Image<float>(130, 64), Image<uint32_t>(130, 64, 1),
-              Image<Vec3f>(130, 64, {-1, 0, 0})};
+    View view{pinhole, CameraInBody(), Image<float>(130, 64), Image<uint32_t>(130, 64, 1), Image<Vec3f>(130, 64, {-1, 0, 0})};
     view.X_WC.p.y = 2.0 * frame;  // 20 pixels
     light = Image<Rgb32f>(130, 64);
     for (int y = 0; y < 64; ++y) {
@@ -194,8 +193,7 @@ TEST(TemporalTest, APinholeCameraThatMovesFindsItsPoints) {
     if (frame == 0) continue;
     for (int y = 8; y < 56; ++y) {
       for (int x = 4; x < 126; ++x) {
-        const double at =
-            view.X_WC.p.y + (view.X_WC.R * *PixelToRay(pinhole, {x + 0.5, y + 0.5})).y * view.range(x, y);
+        const double at = view.X_WC.p.y + (view.X_WC.R * *PixelToRay(pinhole, {x + 0.5, y + 0.5})).y * view.range(x, y);
         if (std::abs(at) < 0.5 || at < -6 || at > 6) continue;
         ASSERT_NEAR(light(x, y).g, at > 0 ? 0.5f : 0.0f, 1e-3f) << x << " " << y;
       }

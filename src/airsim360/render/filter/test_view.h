@@ -28,8 +28,7 @@ struct View {
 inline View MakeView(int width, Vec3d p, const std::function<test::Truth(Vec3d, Vec3d)>& look, Mat3d R = {}) {
   const RigidTransform X_WC{R * CameraInBody().R, p};
   const Equirectangular erp{width, width / 2};
-  View view{erp, X_WC, Image<float>(width, width / 2), Image<uint32_t>(width, width / 2),
-            Image<Vec3f>(width, width / 2)};
+  View view{erp, X_WC, Image<float>(width, width / 2), Image<uint32_t>(width, width / 2), Image<Vec3f>(width, width / 2)};
   for (int y = 0; y < width / 2; ++y) {
     for (int x = 0; x < width; ++x) {
       const test::Truth truth = look(p, X_WC.R * *PixelToRay(erp, {x + 0.5, y + 0.5}));
@@ -59,15 +58,13 @@ inline Image<Rgb32f> Noise(const View& view, float mean, float sigma, uint64_t s
   return light;
 }
 
-inline Image<Rgb32f> Filter(const View& view, Image<Rgb32f> light, const Image<uint8_t>* samples = nullptr,
-                            float radius_px = 16) {
+inline Image<Rgb32f> Filter(const View& view, Image<Rgb32f> light, const Image<uint8_t>* samples = nullptr, float radius_px = 16) {
   Denoiser().Run(view.guides(), {&light, samples, radius_px}, false);
   return light;
 }
 
 /// Mean squared difference from `mean` over pixels chosen, weighted by solid angle.
-inline double Variance(const View& view, const Image<Rgb32f>& light, float mean,
-                       const std::function<bool(int, int)>& use) {
+inline double Variance(const View& view, const Image<Rgb32f>& light, float mean, const std::function<bool(int, int)>& use) {
   double sum = 0, weight = 0;
   for (int y = 0; y < view.height(); ++y) {
     const double w = std::cos(std::numbers::pi * (0.5 - (y + 0.5) / view.height()));

@@ -33,8 +33,7 @@ class ExposedFrameTest : public testing::Test {
     renderer_->Render(request, frame);
     return frame;
   }
-  std::unique_ptr<Renderer> renderer_ =
-      MakeCpuRenderer(std::make_shared<const RayTracer>(test::MakeRoom()), {.tier = Tier::kFast});
+  std::unique_ptr<Renderer> renderer_ = MakeCpuRenderer(std::make_shared<const RayTracer>(test::MakeRoom()), {.tier = Tier::kFast});
 };
 
 TEST_F(ExposedFrameTest, PixelsAreTheToneCurveOfRadianceTimesExposure) {
@@ -63,8 +62,7 @@ TEST_F(ExposedFrameTest, AutoExposureUndoesAFixedOne) {
   brighter.exposure_ev = std::log2(automatic.exposure / fixed);
   const Frame same = Render(brighter);
   size_t off = 0;
-  for (size_t i = 0; i < same.rgb.size(); ++i)
-    off += std::abs(same.rgb.pixels()[i].g - automatic.rgb.pixels()[i].g) > 1;
+  for (size_t i = 0; i < same.rgb.size(); ++i) off += std::abs(same.rgb.pixels()[i].g - automatic.rgb.pixels()[i].g) > 1;
   EXPECT_EQ(off, 0u);
 }
 

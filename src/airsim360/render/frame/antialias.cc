@@ -122,14 +122,11 @@ class EdgeRun {
     int x[HitBatch::kCapacity], y[HitBatch::kCapacity];
     for (int i = 0; i < hits_.count; ++i) x[i] = image_x_[owner_[i]], y[i] = image_y_[owner_[i]];
     const Image<SunPixel>& sun = *task_.sun;
-    const SunNeighbours around{sun.pixels().data(),           sun.width(), sun.height(),
-                               task_.rays->field().separable, x,           y};
+    const SunNeighbours around{sun.pixels().data(), sun.width(), sun.height(), task_.rays->field().separable, x, y};
     task_.shader->Shade(hits_, radiance, &around);
-    task_.shader->ToneMap(radiance.r, radiance.g, radiance.b, hits_.count, task_.exposure_ev, colors,
-                          task_.tone);
+    task_.shader->ToneMap(radiance.r, radiance.g, radiance.b, hits_.count, task_.exposure_ev, colors, task_.tone);
     for (int i = 0; i < hits_.count; ++i) AddColor(owner_[i], colors[i]);
-    for (int i = 0; i < hits_.count && task_.light != nullptr; ++i)
-      AddLight(owner_[i], {radiance.r[i], radiance.g[i], radiance.b[i]});
+    for (int i = 0; i < hits_.count && task_.light != nullptr; ++i) AddLight(owner_[i], {radiance.r[i], radiance.g[i], radiance.b[i]});
     hits_.count = 0;
   }
 
@@ -149,12 +146,10 @@ class EdgeRun {
 
 }  // namespace
 
-void Antialiaser::FindEdges(const Image<EntityId>& entity, const Image<uint8_t>& luma, bool wraps,
-                            Image<uint8_t>& edges) const {
+void Antialiaser::FindEdges(const Image<EntityId>& entity, const Image<uint8_t>& luma, bool wraps, Image<uint8_t>& edges) const {
   const int width = entity.width(), height = entity.height();
   ParallelFor((height + kRowsPerTask - 1) / kRowsPerTask, [&](int64_t task) {
-    for (int y = static_cast<int>(task) * kRowsPerTask;
-         y < std::min(height, static_cast<int>(task + 1) * kRowsPerTask); ++y) {
+    for (int y = static_cast<int>(task) * kRowsPerTask; y < std::min(height, static_cast<int>(task + 1) * kRowsPerTask); ++y) {
       const int up = std::max(y - 1, 0), down = std::min(y + 1, height - 1);
       const uint32_t* entity_rows[3] = {entity.row(up).data(), entity.row(y).data(), entity.row(down).data()};
       const uint8_t* luma_rows[3] = {luma.row(up).data(), luma.row(y).data(), luma.row(down).data()};
@@ -188,12 +183,10 @@ void MakeSampleOffsets(const CameraRays& rays, int samples, std::vector<PixelOff
 int64_t Antialiaser::Run(const AntialiasTask& task) {
   MakeSampleOffsets(*task.rays, task.samples, offsets_);
   const RayField& field = task.rays->field();
-  const int across = (field.width + kRunWidth - 1) / kRunWidth,
-            down = (field.height + kTileSize - 1) / kTileSize;
+  const int across = (field.width + kRunWidth - 1) / kRunWidth, down = (field.height + kTileSize - 1) / kTileSize;
   std::atomic<int64_t> ray_count = 0;
   ParallelFor(int64_t{across} * down, [&](int64_t run) {
-    ray_count += RunTiles(task, static_cast<int>(run % across) * kRunWidth,
-                          static_cast<int>(run / across) * kTileSize);
+    ray_count += RunTiles(task, static_cast<int>(run % across) * kRunWidth, static_cast<int>(run / across) * kTileSize);
   });
   return ray_count;
 }
@@ -208,8 +201,7 @@ int Antialiaser::RunTiles(const AntialiasTask& task, int column, int row) const 
   // Edge pixels, block by block so that neighbours stay together.
   EdgeRun run(task, kernels_);
   for (int i = 0; i < kRunPixels; ++i) {
-    const int x = (i >> 8) * kTileSize + ((i >> 4) & 3) * 4 + (i & 3),
-              y = ((i >> 6) & 3) * 4 + ((i >> 2) & 3);
+    const int x = (i >> 8) * kTileSize + ((i >> 4) & 3) * 4 + (i & 3), y = ((i >> 6) & 3) * 4 + ((i >> 2) & 3);
     if (column + x >= field.width || row + y >= field.height) continue;
     const uint8_t edge = (*task.edges)(image_column(x), row + y);
     if (edge == 0) continue;

@@ -41,8 +41,7 @@ struct AntialiasTask {
 class Antialiaser {
  public:
   /// Marks the pixels that differ from a neighbour.
-  void FindEdges(const Image<EntityId>& entity, const Image<uint8_t>& luma, bool wraps,
-                 Image<uint8_t>& edges) const;
+  void FindEdges(const Image<EntityId>& entity, const Image<uint8_t>& luma, bool wraps, Image<uint8_t>& edges) const;
   /// Replaces the colours of marked pixels by the mean, in display-linear light, of `samples` rays spread
   /// over the pixel (box filter of one pixel). Tone mapping before the mean keeps edges of highlights smooth.
   /// A pixel that only contrasts with a neighbour of the same entity, or borders on another entity that looks

@@ -97,8 +97,7 @@ void CameraRays::MakeSeparable(const Equirectangular& camera) {
 void CameraRays::TurnSeparable(const Mat3d& R_WC) {
   // Whole columns of the turn about the camera's own vertical axis, and what is left of it.
   const Vec3d axis = R_WC.column(1);
-  const Mat3d canonical =
-      CanonicalFrame(Normalized(Vec3d{Rounded(axis.x), Rounded(axis.y), Rounded(axis.z)}));
+  const Mat3d canonical = CanonicalFrame(Normalized(Vec3d{Rounded(axis.x), Rounded(axis.y), Rounded(axis.z)}));
   const Vec3d forward = canonical.transpose() * R_WC.column(2);
   const double columns = std::atan2(forward.x, forward.z) / kTau * field_.width;
   const int64_t turn = int64_t{field_.width} * kStepsPerColumn;

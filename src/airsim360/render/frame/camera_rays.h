@@ -74,7 +74,7 @@ class CameraRays {
   double cone_angle_ = 0;
   Mat3d R0_;
   std::vector<double> sin_theta_, cos_theta_, sin_phi_, cos_phi_;
-  std::vector<double> columns_, rows_;  // x, y, z planes; rows: scale, x, y, z
+  std::vector<double> columns_, rows_;                // x, y, z planes; rows: scale, x, y, z
   std::vector<std::shared_ptr<const Table>> tables_;  // the one used last at the end
 };
 

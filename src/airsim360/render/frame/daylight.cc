@@ -13,8 +13,7 @@ namespace {
 constexpr int kSunRays = 64;
 
 // Mean of the radiance of rays spread evenly over the sun's disc (Vogel's spiral).
-Rgb32f SunDisc(const RayTracer& tracer, const Shader& shader, const LabelView& labels, Vec3f origin,
-               const SunLight& sun) {
+Rgb32f SunDisc(const RayTracer& tracer, const Shader& shader, const LabelView& labels, Vec3f origin, const SunLight& sun) {
   const TileKernels kernels;
   HitBatch hits;
   hits.origin = origin;
@@ -29,8 +28,8 @@ Rgb32f SunDisc(const RayTracer& tracer, const Shader& shader, const LabelView& l
   kernels.init(origin.x, origin.y, origin.z, packet);
   for (int i = 0; i < kSunRays; ++i) {
     const double radius = sun.angular_radius * std::sqrt((i + 0.5) / kSunRays), angle = golden * i;
-    const Vec3f d = Normalized(sun.direction + side * static_cast<float>(radius * std::cos(angle)) +
-                               up * static_cast<float>(radius * std::sin(angle)));
+    const Vec3f d =
+        Normalized(sun.direction + side * static_cast<float>(radius * std::cos(angle)) + up * static_cast<float>(radius * std::sin(angle)));
     packet.direction_x[i % 16] = d.x, packet.direction_y[i % 16] = d.y, packet.direction_z[i % 16] = d.z;
     if (i % 16 < 15) continue;
     TraceLanes(tracer, labels.sky_entity != kNoEntity, 16, valid, packet);

@@ -74,8 +74,7 @@ LabelTables::LabelTables(const RayTracer& tracer)
 void LabelTables::Place(uint32_t instance, const Mat3f& normal_frame) {
   // Slots are in the order of their instances.
   auto slot = std::ranges::lower_bound(slots_, instance, {}, &SlotLabels::instance);
-  for (; slot != slots_.end() && slot->instance == instance; ++slot)
-    SetNormalMatrix(normal_frame, slot->normal_matrix);
+  for (; slot != slots_.end() && slot->instance == instance; ++slot) SetNormalMatrix(normal_frame, slot->normal_matrix);
 }
 
 void LabelTables::Apply(const RayTracer& tracer) {
@@ -92,8 +91,7 @@ void LabelTables::Apply(const RayTracer& tracer) {
 }
 
 LabelView LabelTables::view() const {
-  return {first_slot_.data(), slots_.data(),    entities_.data(),
-          triangles_.data(),  category_.data(), sky_entity_};
+  return {first_slot_.data(), slots_.data(), entities_.data(), triangles_.data(), category_.data(), sky_entity_};
 }
 
 }  // namespace airsim360::internal

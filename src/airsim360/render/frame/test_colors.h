@@ -34,8 +34,8 @@ inline std::shared_ptr<const Scene> MakeColoredSquare() {
   Material pictured;
   pictured.base_color = {0.9f, 0.8f, 0.7f};
   pictured.roughness = 0.9f;
-  pictured.base_color_texture = builder.AddTexture(
-      Texture::FromImage("grey", Image<Rgba8>(4, 4, {kPictureGrey, kPictureGrey, kPictureGrey, 255}), true));
+  pictured.base_color_texture =
+      builder.AddTexture(Texture::FromImage("grey", Image<Rgba8>(4, 4, {kPictureGrey, kPictureGrey, kPictureGrey, 255}), true));
   Mesh ground = quad({-12, -12, 0}, {24, 0, 0}, {0, 24, 0}, pictured);
   ground.colors = {{65535, 0, 0}, {0, 65535, 0}, {0, 0, 65535}, {50000, 50000, 9000}};
   add(builder.AddMesh(ground));
@@ -94,8 +94,7 @@ inline std::optional<Vec3d> ColorAt(const Scene& scene, size_t instance, Vec3d p
     Vec3d color = VecCast<double>(material.base_color * placed.tint);
     if (material.base_color_texture != kNoTexture) color = color * static_cast<double>(SrgbToLinear(kPictureGrey));
     if (mesh.colors.empty()) return color;
-    return color * (VecCast<double>(LinearColor(mesh.colors[t.x])) * (1 - u - v) +
-                    VecCast<double>(LinearColor(mesh.colors[t.y])) * u +
+    return color * (VecCast<double>(LinearColor(mesh.colors[t.x])) * (1 - u - v) + VecCast<double>(LinearColor(mesh.colors[t.y])) * u +
                     VecCast<double>(LinearColor(mesh.colors[t.z])) * v);
   }
   return std::nullopt;

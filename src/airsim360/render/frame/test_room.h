@@ -20,8 +20,7 @@ struct Cube {
   Vec3d min, max;
 };
 inline constexpr Vec3d kRoomMin{-5, -5, 0}, kRoomMax{5, 5, 6};
-inline constexpr Cube kCubes[] = {
-    {{2.5, -0.5, 0}, {3.5, 0.5, 1}}, {{-3, 2, 1}, {-1, 3, 4}}, {{-4, -4, 0.25}, {-2, -3, 3.25}}};
+inline constexpr Cube kCubes[] = {{{2.5, -0.5, 0}, {3.5, 0.5, 1}}, {{-3, 2, 1}, {-1, 3, 4}}, {{-4, -4, 0.25}, {-2, -3, 3.25}}};
 
 /// Entities 1..6 are the walls (-x +x -y +y -z +z), 7..9 the cubes. `scale` multiplies everything.
 inline std::shared_ptr<const Scene> MakeRoom(float scale = 1) {
@@ -29,14 +28,12 @@ inline std::shared_ptr<const Scene> MakeRoom(float scale = 1) {
   const CategoryId wall = builder.tree().At("construction/building");
   Mesh room{"room", {}, {}, {}, {}, {}}, cube{"cube", {}, {}, {}, {}, {}};
   for (int i = 0; i < 8; ++i) {
-    cube.positions.push_back(
-        {static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1), static_cast<float>(i >> 2)});
+    cube.positions.push_back({static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1), static_cast<float>(i >> 2)});
     Vec3f p;
     for (int k = 0; k < 3; ++k) p[k] = scale * static_cast<float>(i >> k & 1 ? kRoomMax[k] : kRoomMin[k]);
     room.positions.push_back(p);
   }
-  const uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  const uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   for (uint32_t f = 0; f < 6; ++f) {
     for (Mesh* mesh : {&room, &cube}) {
       const auto& q = quads[f];
@@ -69,8 +66,7 @@ inline std::shared_ptr<const Scene> MakeRoom(float scale = 1) {
 inline std::shared_ptr<const Scene> MakeOpenSquare() {
   SceneBuilder builder("square");
   const CategoryId building = builder.tree().At("construction/building");
-  Mesh ground{
-      "ground", {{-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}}, {}, {}, {{0, 1, 2}, {0, 2, 3}}, {}};
+  Mesh ground{"ground", {{-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}}, {}, {}, {{0, 1, 2}, {0, 2, 3}}, {}};
   const auto room = MakeRoom();
   const MaterialId material = builder.AddMaterial({});
   builder.AddInstance({builder.AddMesh(ground), AffineTransform(), builder.AddEntity("ground", building)});
@@ -80,9 +76,8 @@ inline std::shared_ptr<const Scene> MakeOpenSquare() {
   RngStream rng(1, "square");
   for (int i = 0; i < 40; ++i) {
     const double angle = rng.Uniform(0, 6.28), r = rng.Uniform(4, 18);
-    AffineTransform X =
-        PlaceUpright({static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle)), 0},
-                     static_cast<float>(rng.Uniform(0, 6)), static_cast<float>(rng.Uniform(0.5, 3)));
+    AffineTransform X = PlaceUpright({static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle)), 0},
+                                     static_cast<float>(rng.Uniform(0, 6)), static_cast<float>(rng.Uniform(0.5, 3)));
     Instance instance{id, X, builder.AddEntity("cube", building)};
     instance.tint = {0.2f + 0.1f * (i % 8), 0.5f, 1 - 0.1f * (i % 8)};
     builder.AddInstance(instance);
@@ -117,8 +112,7 @@ inline Truth Look(Vec3d o, Vec3d d) {
 
 /// Whether the truth is the same everywhere within 1e-4 rad.
 inline bool FarFromEdges(Vec3d o, Vec3d d) {
-  const Vec3d a = Normalized(Cross(d, std::abs(d.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0})),
-              b = Cross(d, a);
+  const Vec3d a = Normalized(Cross(d, std::abs(d.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0})), b = Cross(d, a);
   const Truth center = Look(o, d);
   for (int i = 0; i < 8; ++i) {
     const double angle = i * 0.78539816339744831;
@@ -160,7 +154,8 @@ inline std::shared_ptr<const Scene> MakeNightStreet(bool lamps) {
   builder.AddInstance({builder.AddMesh(plane), {}, entity});
   const MeshId pane = builder.AddMesh(UprightQuad(0, 0.6f, 0, 1.6f, glass({0.3f, 0.2f, 0.1f}, {0.004f, 0.003f, 0.002f}, 0)));
   for (int i = 0; i < 24; ++i)
-    builder.AddInstance({pane, PlaceUpright({-8.0f + 1.5f * static_cast<float>(i % 8), 6, 1 + 2.2f * static_cast<float>(i / 8)}, 0), entity});
+    builder.AddInstance(
+        {pane, PlaceUpright({-8.0f + 1.5f * static_cast<float>(i % 8), 6, 1 + 2.2f * static_cast<float>(i / 8)}, 0), entity});
   const MeshId lens = builder.AddMesh(UprightQuad(0, 0.5f, -0.1f, 0.1f, glass({0.3f, 0.3f, 0.3f}, {3, 3, 3}, 30)));
   for (float x : {-3.0f, 3.0f})
     builder.AddInstance({lens, PlaceUpright({x, 0, 0.7f}, 3.14159f), entity, {1, 1, 1}, x < 0 && lamps ? Vec3f{} : Vec3f{1, 0.8f, 0.6f}});

@@ -55,8 +55,7 @@ struct PacketSlots {
   alignas(64) uint32_t slot[16];  // set if not uniform
 };
 
-AIRSIM360_INLINE void FindSlots(const LabelView& view, const RayHit16& rays, const int* valid,
-                                PacketSlots& out) {
+AIRSIM360_INLINE void FindSlots(const LabelView& view, const RayHit16& rays, const int* valid, PacketSlots& out) {
   uint32_t any = 0;
   for (int i = 0; i < 16; ++i) {
     out.hit[i] = rays.geometry[i] != kMiss ? valid[i] : 0;
@@ -89,8 +88,8 @@ AIRSIM360_INLINE void FindSlots(const LabelView& view, const RayHit16& rays, con
   }
 }
 
-AIRSIM360_INLINE void ResolveEntities(const LabelView& view, const RayHit16& rays, const int* valid,
-                                      const PacketSlots& slots, uint32_t* entity) {
+AIRSIM360_INLINE void ResolveEntities(const LabelView& view, const RayHit16& rays, const int* valid, const PacketSlots& slots,
+                                      uint32_t* entity) {
   if (!slots.any_hit) {
     for (int i = 0; i < 16; ++i) entity[i] = valid[i] != 0 ? view.sky_entity : 0;
   } else if (slots.uniform) {
@@ -98,8 +97,7 @@ AIRSIM360_INLINE void ResolveEntities(const LabelView& view, const RayHit16& ray
     const uint32_t* own = view.entities + labels.entity_base;
     const uint32_t mask = labels.entity_mask, shared = labels.entity, sky = view.sky_entity;
     alignas(64) uint32_t id[16], primitive[16];
-    for (int i = 0; i < 16; ++i)
-      primitive[i] = rays.primitive[i] & mask & static_cast<uint32_t>(slots.hit[i]);
+    for (int i = 0; i < 16; ++i) primitive[i] = rays.primitive[i] & mask & static_cast<uint32_t>(slots.hit[i]);
     if (mask == 0) {
       for (int i = 0; i < 16; ++i) id[i] = own[0];
     } else {
@@ -120,13 +118,12 @@ AIRSIM360_INLINE void ResolveEntities(const LabelView& view, const RayHit16& ray
 }
 
 // Unit normals in W towards the camera.
-AIRSIM360_INLINE void ResolveNormals(const LabelView& view, const RayHit16& rays, const PacketSlots& slots,
-                                     float* out_x, float* out_y, float* out_z) {
+AIRSIM360_INLINE void ResolveNormals(const LabelView& view, const RayHit16& rays, const PacketSlots& slots, float* out_x, float* out_y,
+                                     float* out_z) {
   alignas(64) float nx[16], ny[16], nz[16];
   if (slots.uniform) {
     const float* m = view.slots[slots.first].normal_matrix;
-    const float m0 = m[0], m1 = m[1], m2 = m[2], m3 = m[3], m4 = m[4], m5 = m[5], m6 = m[6], m7 = m[7],
-                m8 = m[8];
+    const float m0 = m[0], m1 = m[1], m2 = m[2], m3 = m[3], m4 = m[4], m5 = m[5], m6 = m[6], m7 = m[7], m8 = m[8];
     for (int i = 0; i < 16; ++i) {
       const float x = rays.normal_x[i], y = rays.normal_y[i], z = rays.normal_z[i];
       nx[i] = m0 * x + m1 * y + m2 * z;
@@ -144,8 +141,7 @@ AIRSIM360_INLINE void ResolveNormals(const LabelView& view, const RayHit16& rays
   }
   for (int i = 0; i < 16; ++i) {
     const float length2 = nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i];
-    const float towards =
-        nx[i] * rays.direction_x[i] + ny[i] * rays.direction_y[i] + nz[i] * rays.direction_z[i];
+    const float towards = nx[i] * rays.direction_x[i] + ny[i] * rays.direction_y[i] + nz[i] * rays.direction_z[i];
     const float length = __builtin_sqrtf(length2);
     const float scale = (towards > 0 ? -1.0f : 1.0f) / (length > 0 ? length : 1.0f);
     out_x[i] = slots.hit[i] != 0 ? nx[i] * scale : 0.0f;
@@ -172,17 +168,14 @@ void InitPacket(float x, float y, float z, RayHit16& rays) {
   }
 }
 
-void FillPacket(const RayField& field, int column, int row, int p, PacketShape shape, RayHit16& rays,
-                int* valid) {
+void FillPacket(const RayField& field, int column, int row, int p, PacketShape shape, RayHit16& rays, int* valid) {
   Corner(p, shape, column, row);
   const int columns = shape == PacketShape::kRow ? 16 : 4;
   const int shift = shape == PacketShape::kRow ? 4 : 2;
   const bool inside = column + columns <= field.width && row + 16 / columns <= field.height;
   for (int i = 0; i < 16; ++i) {
     rays.t_far[i] = __builtin_inff();
-    valid[i] = inside || ((column + (i & (columns - 1)) < field.width) & (row + (i >> shift) < field.height))
-                   ? -1
-                   : 0;
+    valid[i] = inside || ((column + (i & (columns - 1)) < field.width) & (row + (i >> shift) < field.height)) ? -1 : 0;
   }
   if (field.separable) {
     if (shape == PacketShape::kRow)
@@ -197,8 +190,7 @@ void FillPacket(const RayField& field, int column, int row, int p, PacketShape s
   }
 }
 
-void ResolvePacket(const LabelView& view, const RayHit16& rays, const int* valid, int p, bool normals,
-                   LabelTile& tile) {
+void ResolvePacket(const LabelView& view, const RayHit16& rays, const int* valid, int p, bool normals, LabelTile& tile) {
   PacketSlots slots;
   FindSlots(view, rays, valid, slots);
   float* range = tile.range + 16 * p;
@@ -247,8 +239,7 @@ void AppendHits(const LabelView& view, const RayHit16& rays, const int* valid, i
     const SlotLabels& labels = view.slots[slots.uniform ? slots.first : slots.slot[i]];
     const uint32_t primitive = hit ? rays.primitive[i] : 0;
     batch.instance[first + i] = hit ? labels.instance : kMiss;
-    batch.triangle[first + i] =
-        labels.triangle_base == kMiss ? primitive : view.triangles[labels.triangle_base + primitive];
+    batch.triangle[first + i] = labels.triangle_base == kMiss ? primitive : view.triangles[labels.triangle_base + primitive];
   }
 }
 
@@ -256,10 +247,8 @@ void AppendHits(const LabelView& view, const RayHit16& rays, const int* valid, i
 void PrefetchTile(const TileTarget& t) {
   for (int r = 0; r < Rows(t); ++r) {
     const int64_t first = RowRuns(t, r).first;
-    if (t.range != nullptr)
-      __builtin_prefetch(t.range + first, 1), __builtin_prefetch(t.range + first + 15, 1);
-    if (t.entity != nullptr)
-      __builtin_prefetch(t.entity + first, 1), __builtin_prefetch(t.entity + first + 15, 1);
+    if (t.range != nullptr) __builtin_prefetch(t.range + first, 1), __builtin_prefetch(t.range + first + 15, 1);
+    if (t.entity != nullptr) __builtin_prefetch(t.entity + first, 1), __builtin_prefetch(t.entity + first + 15, 1);
     if (t.category != nullptr) __builtin_prefetch(t.category + first, 1);
     if (t.normal != nullptr) {
       for (int i = 0; i < 16; i += 5) __builtin_prefetch(t.normal + first + i, 1);
@@ -312,8 +301,7 @@ void StoreColors(const Rgb8* colors, const TileTarget& t, Rgb8* image, uint8_t* 
   }
 }
 
-void MarkEdges(const uint32_t* const* entity_rows, const uint8_t* const* luma_rows, int width, bool wraps,
-               int contrast, uint8_t* out) {
+void MarkEdges(const uint32_t* const* entity_rows, const uint8_t* const* luma_rows, int width, bool wraps, int contrast, uint8_t* out) {
   const uint32_t *above = entity_rows[0], *here = entity_rows[1], *below = entity_rows[2];
   const uint8_t *luma_above = luma_rows[0], *luma = luma_rows[1], *luma_below = luma_rows[2];
   const auto differs = [&](int i, int j) __attribute__((always_inline)) {

@@ -57,24 +57,21 @@ inline constexpr int PacketIndex(PacketShape shape, int x, int y) {
 AIRSIM360_DECLARE_KERNEL(void InitPacket(float x, float y, float z, RayHit16& rays))
 /// Sets directions and t_far of packet `p` of the tile whose corner is (column, row), and which lanes are
 /// pixels with a ray.
-AIRSIM360_DECLARE_KERNEL(void FillPacket(const RayField& field, int column, int row, int p, PacketShape shape,
-                                         RayHit16& rays, int* valid))
+AIRSIM360_DECLARE_KERNEL(void FillPacket(const RayField& field, int column, int row, int p, PacketShape shape, RayHit16& rays, int* valid))
 /// Labels of packet `p` from its hits. Lanes that are not valid get range 0, entity 0, category void.
-AIRSIM360_DECLARE_KERNEL(void ResolvePacket(const LabelView& view, const RayHit16& rays, const int* valid,
-                                            int p, bool normals, LabelTile& tile))
+AIRSIM360_DECLARE_KERNEL(void ResolvePacket(const LabelView& view, const RayHit16& rays, const int* valid, int p, bool normals,
+                                            LabelTile& tile))
 /// Appends the hits of packet `p` as elements 16 p … 16 p + 15 of a batch for the shader; lanes not valid
 /// become sky.
-AIRSIM360_DECLARE_KERNEL(void AppendHits(const LabelView& view, const RayHit16& rays, const int* valid, int p,
-                                         HitBatch& batch))
+AIRSIM360_DECLARE_KERNEL(void AppendHits(const LabelView& view, const RayHit16& rays, const int* valid, int p, HitBatch& batch))
 /// Starts to load the image lines that a tile will be written to.
 AIRSIM360_DECLARE_KERNEL(void PrefetchTile(const TileTarget& target))
 /// Writes a tile into the images.
 AIRSIM360_DECLARE_KERNEL(void StoreLabels(const LabelTile& tile, const TileTarget& target))
 /// … and its colours; `luma` gets their Luma if it is not null.
-AIRSIM360_DECLARE_KERNEL(void StoreColors(const Rgb8* colors, const TileTarget& target, Rgb8* image,
-                                          uint8_t* luma))
+AIRSIM360_DECLARE_KERNEL(void StoreColors(const Rgb8* colors, const TileTarget& target, Rgb8* image, uint8_t* luma))
 /// Marks pixels of one row that differ from the one above, below, left or right: kSilhouette in entity, plus
 /// kContrastEdge by more than `contrast` in luma, else 0. Rows are those of the image; a missing neighbour
 /// row is the row itself. Columns wrap if `wraps`.
-AIRSIM360_DECLARE_KERNEL(void MarkEdges(const uint32_t* const* entity_rows, const uint8_t* const* luma_rows,
-                                        int width, bool wraps, int contrast, uint8_t* out))
+AIRSIM360_DECLARE_KERNEL(void MarkEdges(const uint32_t* const* entity_rows, const uint8_t* const* luma_rows, int width, bool wraps,
+                                        int contrast, uint8_t* out))

@@ -20,55 +20,52 @@ struct Picture {
   friend bool operator==(const Picture&, const Picture&) = default;
 };
 
-#define AIRSIM360_DRAW(isa)                                                                              \
-  [](const RayTracer& tracer, const CameraRays& rays, Vec3f eye) {                                       \
-    const LabelTables tables(tracer);                                                                    \
-    const LabelView view = tables.view();                                                                \
-    const RayField& field = rays.field();                                                                \
-    const size_t n = static_cast<size_t>(field.width) * field.height;                                    \
-    Picture out{std::vector<float>(n),    {},                                                            \
-                std::vector<uint32_t>(n), std::vector<uint16_t>(n),                                      \
-                std::vector<Vec3f>(n),    std::vector<uint8_t>(n)};                                      \
-    for (int row = 0; row < field.height; row += kTileSize) {                                            \
-      for (int column = 0; column < field.width; column += kTileSize) {                                  \
-        const PacketShape shape = row == 0 ? PacketShape::kRow : PacketShape::kBlock;                    \
-        LabelTile tile;                                                                                  \
-        RayHit16 packet;                                                                                 \
-        alignas(64) int valid[16];                                                                       \
-        isa::InitPacket(eye.x, eye.y, eye.z, packet);                                                    \
-        for (int p = 0; p < kPackets; ++p) {                                                             \
-          isa::FillPacket(field, column, row, p, shape, packet, valid);                                  \
-          for (const auto& d : {packet.direction_x, packet.direction_y, packet.direction_z}) {           \
-            out.directions.insert(out.directions.end(), d, d + 16);                                      \
-          }                                                                                              \
-          tracer.Intersect16(valid, packet, true);                                                       \
-          isa::ResolvePacket(view, packet, valid, p, true, tile);                                        \
-        }                                                                                                \
-        isa::StoreLabels(                                                                                \
-            tile, {column, row, rays.column_shift(), field.width, field.height, shape, out.range.data(), \
-                   out.category.data(), out.entity.data(), out.normal.data()});                          \
-      }                                                                                                  \
-    }                                                                                                    \
-    std::vector<uint8_t> luma(n);                                                                        \
-    for (size_t i = 0; i < n; ++i) luma[i] = static_cast<uint8_t>(out.range[i] * 20);                    \
-    for (int y = 1; y + 1 < field.height; ++y) {                                                         \
-      const uint32_t* ids[3];                                                                            \
-      const uint8_t* lumas[3];                                                                           \
-      for (int k = 0; k < 3; ++k) {                                                                      \
-        ids[k] = out.entity.data() + (y + k - 1) * field.width;                                          \
-        lumas[k] = luma.data() + (y + k - 1) * field.width;                                              \
-      }                                                                                                  \
-      isa::MarkEdges(ids, lumas, field.width, true, 15, out.edges.data() + y * field.width);             \
-    }                                                                                                    \
-    return out;                                                                                          \
+#define AIRSIM360_DRAW(isa)                                                                                                                \
+  [](const RayTracer& tracer, const CameraRays& rays, Vec3f eye) {                                                                         \
+    const LabelTables tables(tracer);                                                                                                      \
+    const LabelView view = tables.view();                                                                                                  \
+    const RayField& field = rays.field();                                                                                                  \
+    const size_t n = static_cast<size_t>(field.width) * field.height;                                                                      \
+    Picture out{std::vector<float>(n),  {}, std::vector<uint32_t>(n), std::vector<uint16_t>(n), std::vector<Vec3f>(n),                     \
+                std::vector<uint8_t>(n)};                                                                                                  \
+    for (int row = 0; row < field.height; row += kTileSize) {                                                                              \
+      for (int column = 0; column < field.width; column += kTileSize) {                                                                    \
+        const PacketShape shape = row == 0 ? PacketShape::kRow : PacketShape::kBlock;                                                      \
+        LabelTile tile;                                                                                                                    \
+        RayHit16 packet;                                                                                                                   \
+        alignas(64) int valid[16];                                                                                                         \
+        isa::InitPacket(eye.x, eye.y, eye.z, packet);                                                                                      \
+        for (int p = 0; p < kPackets; ++p) {                                                                                               \
+          isa::FillPacket(field, column, row, p, shape, packet, valid);                                                                    \
+          for (const auto& d : {packet.direction_x, packet.direction_y, packet.direction_z}) {                                             \
+            out.directions.insert(out.directions.end(), d, d + 16);                                                                        \
+          }                                                                                                                                \
+          tracer.Intersect16(valid, packet, true);                                                                                         \
+          isa::ResolvePacket(view, packet, valid, p, true, tile);                                                                          \
+        }                                                                                                                                  \
+        isa::StoreLabels(tile, {column, row, rays.column_shift(), field.width, field.height, shape, out.range.data(), out.category.data(), \
+                                out.entity.data(), out.normal.data()});                                                                    \
+      }                                                                                                                                    \
+    }                                                                                                                                      \
+    std::vector<uint8_t> luma(n);                                                                                                          \
+    for (size_t i = 0; i < n; ++i) luma[i] = static_cast<uint8_t>(out.range[i] * 20);                                                      \
+    for (int y = 1; y + 1 < field.height; ++y) {                                                                                           \
+      const uint32_t* ids[3];                                                                                                              \
+      const uint8_t* lumas[3];                                                                                                             \
+      for (int k = 0; k < 3; ++k) {                                                                                                        \
+        ids[k] = out.entity.data() + (y + k - 1) * field.width;                                                                            \
+        lumas[k] = luma.data() + (y + k - 1) * field.width;                                                                                \
+      }                                                                                                                                    \
+      isa::MarkEdges(ids, lumas, field.width, true, 15, out.edges.data() + y * field.width);                                               \
+    }                                                                                                                                      \
+    return out;                                                                                                                            \
   }
 
 TEST(TileKernel, InstructionSetsAgreeBitForBit) {
   RngStream rng(1, "kernel");
   for (const auto& scene : {test::MakeRoom(), test::MakeOpenSquare()}) {
     const RayTracer tracer(scene);
-    for (const Camera& camera :
-         {Camera(Equirectangular{150, 75}), Camera(Fisheye::Equidistant(90, 70, 3.3))}) {
+    for (const Camera& camera : {Camera(Equirectangular{150, 75}), Camera(Fisheye::Equidistant(90, 70, 3.3))}) {
       const RigidTransform X_WC = test::RandomPose(rng);
       CameraRays rays;
       rays.Update(camera, X_WC.R);

@@ -31,16 +31,14 @@ AIRSIM360_INLINE void GatherRow(const Number* tile, PacketShape shape, int r, Si
     return;
   }
   Words4 part[4];
-  for (int b = 0; b < 4; ++b)
-    std::memcpy(&part[b], tile + ((r >> 2) * 4 + b) * 16 + (r & 3) * 4, sizeof part[b]);
+  for (int b = 0; b < 4; ++b) std::memcpy(&part[b], tile + ((r >> 2) * 4 + b) * 16 + (r & 3) * 4, sizeof part[b]);
   Join(part, row);
 }
 
 // Four points of three coordinates each, side by side at `out`.
 AIRSIM360_INLINE void Interleave(const float* x, const float* y, const float* z, float* out) {
   typedef float Quad __attribute__((vector_size(16), may_alias));
-  const Quad X = *reinterpret_cast<const Quad*>(x), Y = *reinterpret_cast<const Quad*>(y),
-             Z = *reinterpret_cast<const Quad*>(z);
+  const Quad X = *reinterpret_cast<const Quad*>(x), Y = *reinterpret_cast<const Quad*>(y), Z = *reinterpret_cast<const Quad*>(z);
   const Quad first = __builtin_shufflevector(__builtin_shufflevector(X, Y, 0, 4, 1, 1), Z, 0, 1, 4, 2);
   const Quad second = __builtin_shufflevector(__builtin_shufflevector(Y, Z, 1, 5, 2, 2), X, 0, 1, 6, 2);
   const Quad third = __builtin_shufflevector(__builtin_shufflevector(Z, X, 2, 7, 3, 3), Y, 0, 1, 7, 2);
@@ -49,12 +47,8 @@ AIRSIM360_INLINE void Interleave(const float* x, const float* y, const float* z,
   std::memcpy(out + 8, &third, sizeof third);
 }
 
-AIRSIM360_INLINE int Rows(const TileTarget& t) {
-  return t.height - t.row < kTileSize ? t.height - t.row : kTileSize;
-}
-AIRSIM360_INLINE int Columns(const TileTarget& t) {
-  return t.width - t.column < kTileSize ? t.width - t.column : kTileSize;
-}
+AIRSIM360_INLINE int Rows(const TileTarget& t) { return t.height - t.row < kTileSize ? t.height - t.row : kTileSize; }
+AIRSIM360_INLINE int Columns(const TileTarget& t) { return t.width - t.column < kTileSize ? t.width - t.column : kTileSize; }
 
 // Image pixels of a tile row: one run, or two where it crosses the seam.
 struct Runs {
@@ -92,8 +86,8 @@ struct Packed {
 
 // Tile row r of three planes as pixels of three numbers.
 template <class Pixel>
-AIRSIM360_INLINE void StorePoints(const float* x, const float* y, const float* z, PacketShape shape, int r,
-                                  const Runs& runs, Pixel* image) {
+AIRSIM360_INLINE void StorePoints(const float* x, const float* y, const float* z, PacketShape shape, int r, const Runs& runs,
+                                  Pixel* image) {
   static_assert(sizeof(Pixel) == sizeof(Packed));
   auto* to = reinterpret_cast<Packed*>(image);
   alignas(64) Packed points[kTileSize];

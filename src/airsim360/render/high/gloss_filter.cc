@@ -121,8 +121,7 @@ void GlossPlanes::AddTo(LightTerms& terms, const TileLayout& layout, int column,
   });
 }
 
-void FilterGloss(const Image<float>& range, const Image<EntityId>& entity, const Image<Vec3f>& normal, bool panorama,
-                 GlossPlanes& gloss) {
+void FilterGloss(const Image<float>& range, const Image<EntityId>& entity, const Image<Vec3f>& normal, bool panorama, GlossPlanes& gloss) {
   for (const bool first : {true, false}) {
     const Pass pass(range, entity, normal, panorama, first, gloss);
     ParallelFor(range.height(), [&](int64_t row) {

@@ -8,9 +8,9 @@ namespace airsim360::internal {
 
 /// What the surfaces of a frame mirror, in canonical columns. Empty where there are no rooms.
 struct GlossPlanes {
-  Image<Rgb32f> light;           ///< radiance mirrored: of the rays, then filtered
-  Image<Rgb32f> skin;            ///< radiance seen per radiance mirrored
-  Image<float> blur_x, blur_y;   ///< standard deviations of the lobe, pixels; 0: no gloss
+  Image<Rgb32f> light;          ///< radiance mirrored: of the rays, then filtered
+  Image<Rgb32f> skin;           ///< radiance seen per radiance mirrored
+  Image<float> blur_x, blur_y;  ///< standard deviations of the lobe, pixels; 0: no gloss
   Image<Rgb32f> scratch;
 
   void Resize(int width, int height);
@@ -21,7 +21,6 @@ struct GlossPlanes {
 };
 
 /// `panorama`: columns close up towards the poles and go round.
-void FilterGloss(const Image<float>& range, const Image<EntityId>& entity, const Image<Vec3f>& normal, bool panorama,
-                 GlossPlanes& gloss);
+void FilterGloss(const Image<float>& range, const Image<EntityId>& entity, const Image<Vec3f>& normal, bool panorama, GlossPlanes& gloss);
 
 }  // namespace airsim360::internal

@@ -16,8 +16,8 @@ constexpr int kAtOnce = 4;     // rays of a pixel that are traced before their l
 // The ambient rays of one tile.
 class AmbientTile {
  public:
-  AmbientTile(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling,
-              const RaySet& rays, const SurfaceSet& s, HighTile& tile)
+  AmbientTile(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling, const RaySet& rays, const SurfaceSet& s,
+              HighTile& tile)
       : shader_(shader),
         sun_map_(sun_map),
         sampling_(sampling),
@@ -70,8 +70,7 @@ class AmbientTile {
     for (int i = 0; i < count; ++i) {
       const uint32_t slot = rays_.slot[index_[i]];
       tile_.light_samples[slot] = static_cast<uint8_t>(std::min(samples, 255));
-      tile_.light_r[slot] = sum_r_[i] * scale, tile_.light_g[slot] = sum_g_[i] * scale,
-      tile_.light_b[slot] = sum_b_[i] * scale;
+      tile_.light_r[slot] = sum_r_[i] * scale, tile_.light_g[slot] = sum_g_[i] * scale, tile_.light_b[slot] = sum_b_[i] * scale;
     }
   }
 
@@ -117,16 +116,14 @@ class AmbientTile {
 
   // Whether the two normals disagree about the side of a ray: leaves scatter nothing there, as in `reference`.
   bool OnOtherSide(int i, Vec3f sphere) const {
-    const Vec3f n{origins_.nx[i], origins_.ny[i], origins_.nz[i]},
-        g{origins_.gx[i], origins_.gy[i], origins_.gz[i]};
+    const Vec3f n{origins_.nx[i], origins_.ny[i], origins_.nz[i]}, g{origins_.gx[i], origins_.gy[i], origins_.gz[i]};
     return Dot(n * side_[i] + sphere, g) * side_[i] < 0;
   }
 
   // RayTracer::Resolve without a call.
   SurfaceRef Resolve(const RayHit16& packet, int i) const {
     const uint32_t geometry = packet.geometry[i], instance = packet.instance[i], primitive = packet.primitive[i];
-    const HitSlot& slot =
-        slots_[instance == kMiss ? first_slots_[geometry] : first_slots_[instance] + geometry];
+    const HitSlot& slot = slots_[instance == kMiss ? first_slots_[geometry] : first_slots_[instance] + geometry];
     return {slot.instance, slot.triangles == nullptr ? primitive : slot.triangles[primitive]};
   }
 
@@ -136,8 +133,7 @@ class AmbientTile {
     const uint32_t lamp = shader_.lights.LampOf(ref.instance, ref.triangle);
     way.hits.shines[i] = lamp != LightTable::kNoLamp && shader_.lamps->Holds(lamp) ? 0.0f : 1.0f;
     const Vec3f d{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]};
-    const Vec3f p =
-        Vec3f{packet.origin_x[i], packet.origin_y[i], packet.origin_z[i]} + d * packet.t_far[i];
+    const Vec3f p = Vec3f{packet.origin_x[i], packet.origin_y[i], packet.origin_z[i]} + d * packet.t_far[i];
     // By the side that the ray came from: the grid's means are too coarse for normals to matter more.
     const Vec3f light = shader_.lamps->NearIrradiance(p, -d);
     way.hits.lamp_r[i] = light.x, way.hits.lamp_g[i] = light.y, way.hits.lamp_b[i] = light.z;
@@ -151,8 +147,8 @@ class AmbientTile {
       const InstanceRecord& instance = shader_.view.instances[way.hits.instance[i]];
       const Vec3f n = UnpackDirection(shader_.view.triangles[instance.first_triangle + way.hits.triangle[i]].geometric_normal);
       const float* m = instance.normal_matrix;
-      Vec3f normal = Normalized(Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z,
-                                      m[6] * n.x + m[7] * n.y + m[8] * n.z});
+      Vec3f normal = Normalized(
+          Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z, m[6] * n.x + m[7] * n.y + m[8] * n.z});
       const Vec3f d{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]};
       if (Dot(normal, d) > 0) normal = -normal;
       const Vec3f p = Vec3f{packet.origin_x[i], packet.origin_y[i], packet.origin_z[i]} + d * packet.t_far[i];
@@ -195,9 +191,8 @@ class AmbientTile {
 
 }  // namespace
 
-void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling,
-                   const RaySet& rays, const SurfaceSet& s, const LightTerms& terms, const IndoorLight* room,
-                   HighTile& tile) {
+void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling, const RaySet& rays,
+                   const SurfaceSet& s, const LightTerms& terms, const IndoorLight* room, HighTile& tile) {
   constexpr float kVisible = 1e-3f;  // radiance per irradiance that matters
   constexpr float kKnown = 0.999f;   // share of surfels from which no ray is sent
   int16_t of_slot[256];

@@ -95,10 +95,8 @@ class EdgeTile {
         if (!wraps && (u < 0 || u >= width)) continue;
         u = u < 0 ? u + width : u >= width ? u - width : u;
         if (buffers_.range(u, v) == 0) continue;
-        const float cost = (buffers_.entity(u, v) == labels_.entity[i] ? 0.0f : 1.0f) + 1 -
-                           Dot(n, buffers_.normal(u, v)) +
-                           std::fabs(buffers_.range(u, v) - range) / (range + 1e-6f) +
-                           (buffers_.light_samples(u, v) == 0 ? 0.5f : 0.0f) +
+        const float cost = (buffers_.entity(u, v) == labels_.entity[i] ? 0.0f : 1.0f) + 1 - Dot(n, buffers_.normal(u, v)) +
+                           std::fabs(buffers_.range(u, v) - range) / (range + 1e-6f) + (buffers_.light_samples(u, v) == 0 ? 0.5f : 0.0f) +
                            1e-3f * static_cast<float>(dx * dx + (v - cy) * (v - cy));
         if (cost < best_cost) best_cost = cost, best = int64_t{v} * width + u;
       }
@@ -167,12 +165,11 @@ class EdgeTile {
   int owner_[HitBatch::kCapacity];  // pixel of each ray
 };
 
-int RefineTile(const HighEdgeTask& task, const TileKernels& kernels, const std::vector<PixelOffset>& offsets,
-               HighBuffers& buffers, int column, int row) {
+int RefineTile(const HighEdgeTask& task, const TileKernels& kernels, const std::vector<PixelOffset>& offsets, HighBuffers& buffers,
+               int column, int row) {
   const RayField& field = task.rays->field();
   bool any = false;
-  const int columns = std::min(kTileSize, field.width - column),
-            rows = std::min(kTileSize, field.height - row);
+  const int columns = std::min(kTileSize, field.width - column), rows = std::min(kTileSize, field.height - row);
   for (int y = 0; y < rows; ++y) {
     const uint8_t* edges = &buffers.edges(column, row + y);
     for (int x = 0; x < columns; ++x) any |= edges[x] != 0;
@@ -190,8 +187,8 @@ int RefineTile(const HighEdgeTask& task, const TileKernels& kernels, const std::
 
   // Everything random depends on the canonical pixel alone.
   for (int i = 0; i < tile.pixel_count(); ++i) {
-    const uint64_t key = MixBits(static_cast<uint64_t>(tile.y(i)) * static_cast<uint64_t>(field.width) +
-                                 static_cast<uint64_t>(tile.x(i)) + (task.seed << 40));
+    const uint64_t key = MixBits(static_cast<uint64_t>(tile.y(i)) * static_cast<uint64_t>(field.width) + static_cast<uint64_t>(tile.x(i)) +
+                                 (task.seed << 40));
     const PixelOffset* of_pixel = &offsets[(key & (kSymmetries - 1)) * static_cast<size_t>(task.samples - 1)];
     for (int s = 1; s < task.samples; ++s) {
       Vec3d direction;

@@ -32,9 +32,7 @@ Pixel* DataOrNull(Image<Pixel>& image) {
 }
 
 // Number 0 … 15 of the place (x, y) in its 4 x 4 block: any aligned 2 x 2 are four in a row.
-uint32_t Morton(int x, int y) {
-  return static_cast<uint32_t>((x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2);
-}
+uint32_t Morton(int x, int y) { return static_cast<uint32_t>((x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2); }
 
 // Pixels of a tile by phase (see TileLayout) for either shape of packets.
 TileLayout MakeLayout(PacketShape shape) {
@@ -103,9 +101,8 @@ HighFrame::HighFrame() : impl_(std::make_unique<Impl>()) {}
 HighFrame::~HighFrame() = default;
 void HighFrame::ShuffleTiles(uint64_t order) { impl_->tile_order = order; }
 
-uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const CameraRays& rays,
-                           const LabelView& labels, const RenderRequest& request, Image<Rgb32f>& radiance,
-                           Frame& frame) {
+uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const CameraRays& rays, const LabelView& labels,
+                           const RenderRequest& request, Image<Rgb32f>& radiance, Frame& frame) {
   Impl& impl = *impl_;
   const RayField& field = rays.field();
   impl.tracer = &tracer, impl.shader = &shader, impl.rays = &rays, impl.labels = labels;
@@ -121,22 +118,31 @@ uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const 
   if (request.denoise && impl.Noisy()) impl.Denoise();
   if (shader.impl().indoor) impl.MixGloss();
   HighBuffers& buffers = impl.buffers;
-  if (radiance.width() != field.width || radiance.height() != field.height)
-    radiance = Image<Rgb32f>(field.width, field.height);
+  if (radiance.width() != field.width || radiance.height() != field.height) radiance = Image<Rgb32f>(field.width, field.height);
   const int samples = EdgeSamples(request);
-  impl.Combine({buffers.light.pixels().data(), buffers.sun_seen.pixels().data(), impl.exposure,
-                radiance.pixels().data(), samples > 1 ? buffers.luma.pixels().data() : nullptr});
+  impl.Combine({buffers.light.pixels().data(), buffers.sun_seen.pixels().data(), impl.exposure, radiance.pixels().data(),
+                samples > 1 ? buffers.luma.pixels().data() : nullptr});
 
   uint64_t count = static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
   if (samples > 1) {
     // Where edges are white depends on the exposure that the picture will have: rooms by night are far brighter than the night.
     if (shader.impl().indoor && request.auto_exposure) {
       impl.exposure *= static_cast<float>(std::exp2(AutoExposureEv(radiance, request.camera, shader.Exposure(), shader.MostExposure())));
-      impl.Combine({buffers.light.pixels().data(), buffers.sun_seen.pixels().data(), impl.exposure, radiance.pixels().data(), buffers.luma.pixels().data()});
+      impl.Combine({buffers.light.pixels().data(), buffers.sun_seen.pixels().data(), impl.exposure, radiance.pixels().data(),
+                    buffers.luma.pixels().data()});
     }
     Antialiaser().FindEdges(buffers.entity, buffers.luma, field.separable, buffers.edges);
-    const HighEdgeTask task{&tracer,     &shader,       &rays,   labels,       impl.SunView(),
-                            impl.origin, impl.exposure, samples, request.seed, &radiance, shader.impl().indoor != nullptr};
+    const HighEdgeTask task{&tracer,
+                            &shader,
+                            &rays,
+                            labels,
+                            impl.SunView(),
+                            impl.origin,
+                            impl.exposure,
+                            samples,
+                            request.seed,
+                            &radiance,
+                            shader.impl().indoor != nullptr};
     count += static_cast<uint64_t>(RefineEdges(task, MakeEdgeOffsets(rays, samples), buffers));
   }
   return count;
@@ -147,8 +153,7 @@ void HighFrame::Prepare(const RayTracer& tracer, const Shader& shader) {
   impl_->sun_map_of = &shader;
   impl_->sun_map.reset();
   const auto& sky = shader.impl().sky;
-  if (sky && sky->to_sun().z > 0 && !tracer.scene().instances.empty())
-    impl_->sun_map.emplace(tracer, sky->to_sun());
+  if (sky && sky->to_sun().z > 0 && !tracer.scene().instances.empty()) impl_->sun_map.emplace(tracer, sky->to_sun());
 }
 
 float AmbientRays(const RenderRequest& request, const RayField& field, int row) {
@@ -202,13 +207,15 @@ void HighFrame::Impl::TraceTile(int tile) {
   hits.cone_angle = static_cast<float>(rays->cone_angle());
   std::fill(std::begin(hits.sample_key), std::end(hits.sample_key), 0u);
   const int across = column / kTileSize, down = row / kTileSize;
-  const uint64_t key = MixBits(MixBits(request->seed + frames * 0x9e3779b97f4a7c15ull) +
-                               static_cast<uint64_t>(down / 4 * buffers.across() + across / 4));
-  const TileSampling sampling{&layouts[shape == PacketShape::kRow], static_cast<uint32_t>(key),
-                              Morton(across, down), AmbientRays(*request, field, row), hits.cone_angle,
+  const uint64_t key =
+      MixBits(MixBits(request->seed + frames * 0x9e3779b97f4a7c15ull) + static_cast<uint64_t>(down / 4 * buffers.across() + across / 4));
+  const TileSampling sampling{&layouts[shape == PacketShape::kRow],
+                              static_cast<uint32_t>(key),
+                              Morton(across, down),
+                              AmbientRays(*request, field, row),
+                              hits.cone_angle,
                               field.separable,
-                              {static_cast<float>(field.R[1]), static_cast<float>(field.R[4]),
-                               static_cast<float>(field.R[7])}};
+                              {static_cast<float>(field.R[1]), static_cast<float>(field.R[4]), static_cast<float>(field.R[7])}};
   HighTile shaded;
   std::optional<GlossPixels> gloss;
   if (shader->impl().indoor) gloss.emplace();
@@ -218,9 +225,8 @@ void HighFrame::Impl::TraceTile(int tile) {
 }
 
 HighPlanes HighFrame::Impl::Planes() {
-  return {buffers.range.pixels().data(),         buffers.entity.pixels().data(),
-          buffers.normal.pixels().data(),        buffers.light.pixels().data(),
-          buffers.light_samples.pixels().data(), buffers.sun_seen.pixels().data(),
+  return {buffers.range.pixels().data(),   buffers.entity.pixels().data(),        buffers.normal.pixels().data(),
+          buffers.light.pixels().data(),   buffers.light_samples.pixels().data(), buffers.sun_seen.pixels().data(),
           buffers.penumbra.pixels().data()};
 }
 
@@ -260,8 +266,7 @@ void HighFrame::Impl::CombineTile(int tile, CombinedPlanes planes) {
                field, static_cast<float>(rays->cone_angle()), column, row);
     planes.sun = smooth;
   }
-  const TileTarget target{column,      row,     rays->column_shift(), field.width, field.height, Shape(row),
-                          nullptr,     nullptr, nullptr,              nullptr};
+  const TileTarget target{column, row, rays->column_shift(), field.width, field.height, Shape(row), nullptr, nullptr, nullptr, nullptr};
   combine(buffers.terms[static_cast<size_t>(tile)], target, planes);
   if (field.separable) return;
   // Pixels without a ray are black; such pictures have the columns of the image.

@@ -22,9 +22,8 @@ class HighFrame {
   /// Makes what depends on the scene and its sun alone; Render does it otherwise.
   void Prepare(const RayTracer& tracer, const Shader& shader);
   /// Fills `radiance` (linear, edges antialiased) and the labels asked for. Returns the number of rays.
-  uint64_t Render(const RayTracer& tracer, const Shader& shader, const CameraRays& rays,
-                  const LabelView& labels, const RenderRequest& request, Image<Rgb32f>& radiance,
-                  Frame& frame);
+  uint64_t Render(const RayTracer& tracer, const Shader& shader, const CameraRays& rays, const LabelView& labels,
+                  const RenderRequest& request, Image<Rgb32f>& radiance, Frame& frame);
   /// For tests: takes the tiles of the next frames in another order, which must not change a byte.
   void ShuffleTiles(uint64_t order);
 

@@ -13,8 +13,7 @@ namespace {
 
 using namespace test;
 
-constexpr Products kAll{
-    .rgb = true, .range = true, .semantic = true, .entity = true, .normal = true, .radiance = true};
+constexpr Products kAll{.rgb = true, .range = true, .semantic = true, .entity = true, .normal = true, .radiance = true};
 
 std::shared_ptr<const RayTracer> SquareTracer() {
   static const auto tracer = std::make_shared<const RayTracer>(MakeOpenSquare());
@@ -26,8 +25,7 @@ Renderer& Square() {
 }
 
 RenderRequest Request(int width, double yaw = 0.3) {
-  return MakeRequest(Equirectangular{width, width / 2},
-                     BodyPose({0.3, 0.2, 1.7}, yaw, 0.2, -0.1) * CameraInBody(), Tier::kHigh, kAll);
+  return MakeRequest(Equirectangular{width, width / 2}, BodyPose({0.3, 0.2, 1.7}, yaw, 0.2, -0.1) * CameraInBody(), Tier::kHigh, kAll);
 }
 
 Frame Render(const RenderRequest& request) {
@@ -106,8 +104,8 @@ TEST(HighFrame, FramesAreIndependentUnlessAskedOtherwiseAndSeedsDiffer) {
 }
 
 TEST(HighFrame, EveryPixelIsANumberForAllCamerasAndSampleCounts) {
-  const std::vector<Camera> cameras = {Equirectangular{34, 17}, Equirectangular{64, 32},
-                                       Pinhole{50, 40, 30, 30, 25, 20}, CubeFace{CubeFaceName::kPosZ, 33}};
+  const std::vector<Camera> cameras = {Equirectangular{34, 17}, Equirectangular{64, 32}, Pinhole{50, 40, 30, 30, 25, 20},
+                                       CubeFace{CubeFaceName::kPosZ, 33}};
   for (const Camera& camera : cameras) {
     for (const int samples : {0, 1, 3}) {
       for (const bool denoise : {false, true}) {

@@ -14,16 +14,16 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kBroad = 0.25f;      // roughness from which lamps are left to the highlights of the lamp grid
-constexpr float kMostRough = 0.6f;   // above, skins see all sides alike
+constexpr float kBroad = 0.25f;                            // roughness from which lamps are left to the highlights of the lamp grid
+constexpr float kMostRough = 0.6f;                         // above, skins see all sides alike
 constexpr float kLeastSkin = 0.045f, kWholeSkin = 0.075f;  // reflectance from which rays count, and count alone
-constexpr float kLobe = 0.7f;        // standard deviation of mirrored directions, radians per alpha
-constexpr float kWidest = 0.05f;     // radians of a blur on the picture
-constexpr float kOnePixel = 0.5f;    // pixels: a narrower lobe is one ray
-constexpr float kNear = 1.5f;        // m
-constexpr float kLeastBlur = 0.01f;  // pixels
-constexpr float kManyPixels = 4;     // a wider one is averaged over so many that few rays each will do
-constexpr uint32_t kRays = 4, kFewRays = 2;  // of a pixel
+constexpr float kLobe = 0.7f;                              // standard deviation of mirrored directions, radians per alpha
+constexpr float kWidest = 0.05f;                           // radians of a blur on the picture
+constexpr float kOnePixel = 0.5f;                          // pixels: a narrower lobe is one ray
+constexpr float kNear = 1.5f;                              // m
+constexpr float kLeastBlur = 0.01f;                        // pixels
+constexpr float kManyPixels = 4;                           // a wider one is averaged over so many that few rays each will do
+constexpr uint32_t kRays = 4, kFewRays = 2;                // of a pixel
 
 scalar::Bsdf BsdfOf(const SurfaceSet& s, int i) {
   return scalar::bsdf_make(0.0f, {s.ar[i], s.ag[i], s.ab[i]}, s.metallic[i], s.roughness[i], 0.0f, 0.0f, 0.0f);
@@ -123,8 +123,8 @@ class GlossTile {
     const InstanceRecord& instance = shader_.view.instances[ref.instance];
     const Vec3f n = UnpackDirection(shader_.view.triangles[instance.first_triangle + ref.triangle].geometric_normal);
     const float* m = instance.normal_matrix;
-    const Vec3f normal = Normalized(Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z,
-                                          m[6] * n.x + m[7] * n.y + m[8] * n.z});
+    const Vec3f normal =
+        Normalized(Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z, m[6] * n.x + m[7] * n.y + m[8] * n.z});
     const auto light = shader_.indoor->RadianceAt(p, Dot(normal, d) > 0 ? -normal : normal);
     return light || !held ? light : Vec3f{};
   }
@@ -180,7 +180,8 @@ void FindGloss(const Shader::Impl& shader, const RaySet& rays, const IndoorLight
     gloss.share[i] = std::clamp((Luminance(gloss.skin[i]) - kLeastSkin) / (kWholeSkin - kLeastSkin), 0.0f, 1.0f);
     if (gloss.share[i] <= 0) continue;
     gloss.any = gloss.is[i] = true;
-    if (shader.view.has_sky > 0.5f) gloss.skin[i] = gloss.skin[i] * scalar::air_to_surface(shader.view.air, rays.oz[i], d, rays.distance[i]).kept;
+    if (shader.view.has_sky > 0.5f)
+      gloss.skin[i] = gloss.skin[i] * scalar::air_to_surface(shader.view.air, rays.oz[i], d, rays.distance[i]).kept;
     // As if a ray had brought nothing: GatherGloss adds what the skin mirrors.
     s.mirror[i] = 0, s.traced[i] = 1;
     s.reflected_r[i] = s.reflected_g[i] = s.reflected_b[i] = 0;
@@ -190,8 +191,8 @@ void FindGloss(const Shader::Impl& shader, const RaySet& rays, const IndoorLight
   }
 }
 
-void GatherGloss(const Shader::Impl& shader, const TileSampling* sampling, const RaySet& rays, const SurfaceSet& s,
-                 const IndoorLight& room, const GlossSet& gloss, GlossPixels& pixels) {
+void GatherGloss(const Shader::Impl& shader, const TileSampling* sampling, const RaySet& rays, const SurfaceSet& s, const IndoorLight& room,
+                 const GlossSet& gloss, GlossPixels& pixels) {
   constexpr float kInvPi = 0.318309886f;
   std::unique_ptr<GlossTile> mirrored;
   if (sampling != nullptr) {

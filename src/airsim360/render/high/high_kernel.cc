@@ -17,8 +17,7 @@ AIRSIM360_INLINE Bytes16 GatherBytes(const uint8_t* tile, PacketShape shape, int
     return row;
   }
   uint32_t part[4];
-  for (int b = 0; b < 4; ++b)
-    std::memcpy(&part[b], tile + ((r >> 2) * 4 + b) * 16 + (r & 3) * 4, sizeof part[b]);
+  for (int b = 0; b < 4; ++b) std::memcpy(&part[b], tile + ((r >> 2) * 4 + b) * 16 + (r & 3) * 4, sizeof part[b]);
   const Words4 all = {part[0], part[1], part[2], part[3]};
   std::memcpy(&row, &all, sizeof row);
   return row;
@@ -40,14 +39,11 @@ AIRSIM360_INLINE void Deinterleave(const float* from, float (*to)[16]) {
   Join(x, to[0]), Join(y, to[1]), Join(z, to[2]);
 }
 
-AIRSIM360_INLINE int64_t FirstPixel(const TileTarget& t, int r) {
-  return static_cast<int64_t>(t.row + r) * t.width + t.column;
-}
+AIRSIM360_INLINE int64_t FirstPixel(const TileTarget& t, int r) { return static_cast<int64_t>(t.row + r) * t.width + t.column; }
 
 }  // namespace
 
-uint8_t StoreHigh(const LabelTile& labels, const HighTile& shaded, const TileTarget& t,
-                  const HighPlanes& planes) {
+uint8_t StoreHigh(const LabelTile& labels, const HighTile& shaded, const TileTarget& t, const HighPlanes& planes) {
   for (int r = 0; r < Rows(t); ++r) {
     const Runs runs{FirstPixel(t, r), Columns(t), 0, 0};
     Floats16 numbers;
@@ -83,8 +79,8 @@ void CombineTile(const LightTerms& terms, const TileTarget& t, const CombinedPla
         sun[i] = planes.sun[at];
       }
     }
-    const float* planes_of[9] = {terms.ambient_r, terms.sun_r, terms.rest_r, terms.ambient_g, terms.sun_g,
-                                 terms.rest_g,    terms.ambient_b, terms.sun_b, terms.rest_b};
+    const float* planes_of[9] = {terms.ambient_r, terms.sun_r,     terms.rest_r, terms.ambient_g, terms.sun_g,
+                                 terms.rest_g,    terms.ambient_b, terms.sun_b,  terms.rest_b};
     for (int c = 0; c < 3; ++c) {
       alignas(64) Floats16 k[3];
       for (int j = 0; j < 3; ++j) GatherRow(planes_of[3 * c + j], t.shape, r, k[j]);
@@ -95,8 +91,7 @@ void CombineTile(const LightTerms& terms, const TileTarget& t, const CombinedPla
     if (planes.luma == nullptr) continue;
     alignas(64) uint8_t luma[16];
     for (int i = 0; i < 16; ++i) {
-      const float exposed =
-          planes.exposure * (0.2126f * rgb[0][i] + 0.7152f * rgb[1][i] + 0.0722f * rgb[2][i]);
+      const float exposed = planes.exposure * (0.2126f * rgb[0][i] + 0.7152f * rgb[1][i] + 0.0722f * rgb[2][i]);
       luma[i] = static_cast<uint8_t>(255 * __builtin_sqrtf(exposed / (1 + exposed)));
     }
     StoreRow(luma, {first, columns, 0, 0}, planes.luma);

@@ -29,8 +29,7 @@ struct CombinedPlanes {
 }  // namespace airsim360::internal
 
 /// Writes a tile; returns other than 0 if it has penumbrae. Of `target` only the place counts.
-AIRSIM360_DECLARE_KERNEL(uint8_t StoreHigh(const LabelTile& labels, const HighTile& shaded,
-                                           const TileTarget& target, const HighPlanes& planes))
+AIRSIM360_DECLARE_KERNEL(uint8_t StoreHigh(const LabelTile& labels, const HighTile& shaded, const TileTarget& target,
+                                           const HighPlanes& planes))
 /// Radiance of the centres of a tile's pixels once their light is known. Of `target` only the place counts.
-AIRSIM360_DECLARE_KERNEL(void CombineTile(const LightTerms& terms, const TileTarget& target,
-                                          const CombinedPlanes& planes))
+AIRSIM360_DECLARE_KERNEL(void CombineTile(const LightTerms& terms, const TileTarget& target, const CombinedPlanes& planes))

@@ -16,14 +16,12 @@ namespace {
 constexpr int kTermCount = sizeof(LightTerms) / sizeof(float) / kBatch;
 
 // Random numbers of each surface for its reflection; rough ones need none.
-void ReflectionPoints(const RaySet& rays, const SurfaceSet& s, const TileSampling* sampling, float* u,
-                      float* v) {
+void ReflectionPoints(const RaySet& rays, const SurfaceSet& s, const TileSampling* sampling, float* u, float* v) {
   for (int i = 0; i < rays.count; ++i) {
     const uint32_t slot = rays.slot[i];
     Vec2f point{};
     if (s.roughness[i] < 0.5f || s.metallic[i] > 0.2f) {
-      point = sampling != nullptr ? SobolPoint(16 * sampling->tile + sampling->layout->phase[slot],
-                                               sampling->seed ^ 0x51ed270bu)
+      point = sampling != nullptr ? SobolPoint(16 * sampling->tile + sampling->layout->phase[slot], sampling->seed ^ 0x51ed270bu)
                                   : SobolPoint(0, rays.key[i]);
     }
     u[i] = point.x, v[i] = point.y;
@@ -45,9 +43,8 @@ constexpr float kZeros[kBatch] = {};
 constexpr uint8_t kZeroBytes[kBatch] = {};
 
 void PutSky(const RaySet& sky, bool all, const LightSet& light, LightTerms& terms, HighTile& tile) {
-  for (float* plane : {terms.ambient_r, terms.ambient_g, terms.ambient_b, terms.sun_r, terms.sun_g, terms.sun_b,
-                       tile.sun_seen, tile.normal_x, tile.normal_y, tile.normal_z, tile.light_r, tile.light_g,
-                       tile.light_b})
+  for (float* plane : {terms.ambient_r, terms.ambient_g, terms.ambient_b, terms.sun_r, terms.sun_g, terms.sun_b, tile.sun_seen,
+                       tile.normal_x, tile.normal_y, tile.normal_z, tile.light_r, tile.light_g, tile.light_b})
     Put(sky, all, kZeros, plane);
   Put(sky, all, light.r, terms.rest_r), Put(sky, all, light.g, terms.rest_g);
   Put(sky, all, light.b, terms.rest_b);
@@ -60,8 +57,7 @@ void PutSurfaces(const RaySet& rays, bool all, const SurfaceSet& s, HighTile& ti
 }
 
 void PutTerms(const RaySet& rays, const LightTerms& from, LightTerms& to) {
-  for (int t = 0; t < kTermCount; ++t)
-    Put(rays, false, &from.ambient_r[0] + t * kBatch, &to.ambient_r[0] + t * kBatch);
+  for (int t = 0; t < kTermCount; ++t) Put(rays, false, &from.ambient_r[0] + t * kBatch, &to.ambient_r[0] + t * kBatch);
 }
 
 // Sun on scattered surfaces: where it can matter and is not known.
@@ -102,9 +98,8 @@ void DrawPrecipitation(const Shader::Impl& impl, const RaySet& rays, float cone_
 
 }  // namespace
 
-void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& hits,
-               const TileSampling* sampling, const float* sun_known, LightTerms& terms, HighTile& tile,
-               GlossPixels* gloss) {
+void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& hits, const TileSampling* sampling, const float* sun_known,
+               LightTerms& terms, HighTile& tile, GlossPixels* gloss) {
   const Shader::Impl& impl = shader.impl();
   const bool falling = impl.view.air.rain + impl.view.air.snow > 0;
   RaySet rays, sky;

@@ -51,8 +51,8 @@ struct alignas(64) HighTile {
 /// What surfaces of middling gloss in rooms mirror, in the order of a HitBatch.
 struct GlossPixels {
   bool any = false;
-  Vec3f light[kBatch];           ///< radiance mirrored, mean of some rays of the lobe
-  Vec3f skin[kBatch];            ///< radiance seen per radiance mirrored
+  Vec3f light[kBatch];                             ///< radiance mirrored, mean of some rays of the lobe
+  Vec3f skin[kBatch];                              ///< radiance seen per radiance mirrored
   float blur_x[kBatch] = {}, blur_y[kBatch] = {};  ///< width of the lobe on the picture, pixels (standard deviation); 0: no gloss
 };
 
@@ -60,8 +60,7 @@ struct GlossPixels {
 /// looked for by one ray, or is as `sun_known` says for each hit where that is not negative. `terms`, in the order of
 /// the hits: what met nothing has its radiance in `rest` and zeros elsewhere. `gloss`, if not nullptr: new, gets what surfaces of
 /// middling gloss mirror, which is then missing in `terms`.
-void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& hits,
-               const TileSampling* sampling, const float* sun_known, LightTerms& terms, HighTile& tile,
-               GlossPixels* gloss = nullptr);
+void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& hits, const TileSampling* sampling, const float* sun_known,
+               LightTerms& terms, HighTile& tile, GlossPixels* gloss = nullptr);
 
 }  // namespace airsim360::internal

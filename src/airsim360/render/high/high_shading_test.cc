@@ -57,16 +57,14 @@ struct World {
     sun_map = std::make_unique<const SunMap>(*tracer, shader->impl().sky->to_sun(), 256);
   }
   // The tile of 16 x 16 rays from `eye` to points `step` apart on the ground around `target`.
-  void Shade(Vec3f eye, Vec3f target, float step, float ambient_rays, uint32_t seed, HighTile& tile,
-             uint32_t place = 0) const {
+  void Shade(Vec3f eye, Vec3f target, float step, float ambient_rays, uint32_t seed, HighTile& tile, uint32_t place = 0) const {
     static const TileLayout layout = Layout();
     HitBatch hits{};
     hits.origin = eye;
     hits.count = 256;
     hits.cone_angle = step / Norm(target - eye);
     for (int k = 0; k < 256; ++k) {
-      const Vec3f p = target + Vec3f{(static_cast<float>(k % 16) - 7.5f) * step,
-                                     (static_cast<float>(k / 16) - 7.5f) * step, 0};
+      const Vec3f p = target + Vec3f{(static_cast<float>(k % 16) - 7.5f) * step, (static_cast<float>(k / 16) - 7.5f) * step, 0};
       const Vec3f d = Normalized(p - eye);
       hits.direction_x[k] = d.x, hits.direction_y[k] = d.y, hits.direction_z[k] = d.z;
       const auto hit = tracer->Intersect(eye, d);
@@ -88,8 +86,7 @@ struct World {
         // Even in the square of the cosine: every cell brings the same share of pi.
         const double z = std::sqrt((i + 0.5) / kRows), a = 2 * std::numbers::pi * (k + 0.5) / kColumns;
         const double s = std::sqrt(1 - z * z);
-        const Vec3f d{static_cast<float>(s * std::cos(a)), static_cast<float>(s * std::sin(a)),
-                      static_cast<float>(z)};
+        const Vec3f d{static_cast<float>(s * std::cos(a)), static_cast<float>(s * std::sin(a)), static_cast<float>(z)};
         if (open(d)) sum += shader->impl().sky->blurred(0).At(d).y;
       }
     }

@@ -45,9 +45,8 @@ std::shared_ptr<const RayTracer> UnderTheCrown() {
 
 Image<Rgb32f> Render(Renderer& renderer, Tier tier, int samples, uint64_t seed) {
   Frame frame;
-  RenderRequest request =
-      MakeRequest(Equirectangular{kWidth, kHeight}, BodyPose({0.2, -0.3, 3}, 0.4, 0, 0) * CameraInBody(),
-                  tier, {.rgb = false, .range = false, .semantic = false, .entity = false, .radiance = true});
+  RenderRequest request = MakeRequest(Equirectangular{kWidth, kHeight}, BodyPose({0.2, -0.3, 3}, 0.4, 0, 0) * CameraInBody(), tier,
+                                      {.rgb = false, .range = false, .semantic = false, .entity = false, .radiance = true});
   request.samples = samples, request.seed = seed;
   renderer.Render(request, frame);
   return frame.radiance;
@@ -78,11 +77,9 @@ TEST(HighShadow, SpotsOfSunUnderATreeAreSmoothAndWithoutCombs) {
     const double noise = MeanOver(low, up, [&](int x, int y) { return square(high(x, y).g - other(x, y).g); });
     EXPECT_LT(std::sqrt(0.5 * noise) / bright, 0.15) << low;
     // Steps from column to column are as many times smaller than from row to row as columns are narrower.
-    const double across = MeanOver(
-        low, up, [&](int x, int y) { return square(high((x + 1) % kWidth, y).g - high(x, y).g); });
+    const double across = MeanOver(low, up, [&](int x, int y) { return square(high((x + 1) % kWidth, y).g - high(x, y).g); });
     const double down = MeanOver(low, up, [&](int x, int y) { return square(high(x, y + 1).g - high(x, y).g); });
-    const double narrow = MeanOver(
-        low, up, [&](int, int y) { return square(std::sin(std::numbers::pi * (y + 0.5) / kHeight)); });
+    const double narrow = MeanOver(low, up, [&](int, int y) { return square(std::sin(std::numbers::pi * (y + 0.5) / kHeight)); });
     EXPECT_LT(across / down, 2 * narrow) << low;
     RecordProperty("noise" + std::to_string(static_cast<int>(-low)), std::to_string(std::sqrt(0.5 * noise) / bright));
     RecordProperty("comb" + std::to_string(static_cast<int>(-low)), std::to_string(across / down / narrow));

@@ -39,21 +39,16 @@ Estimate Average(Renderer& renderer, RenderRequest request, int frames, uint64_t
   }
   Estimate e{Image<Rgb32f>(frame.radiance.width(), frame.radiance.height()),
              Image<Rgb32f>(frame.radiance.width(), frame.radiance.height())};
-  const auto single = [](Vec3d v) {
-    return Rgb32f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-  };
+  const auto single = [](Vec3d v) { return Rgb32f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; };
   for (size_t k = 0; k < sums.size(); ++k) {
     const Vec3d mean = sums[k] * (1.0 / frames);
     e.mean.pixels()[k] = single(mean);
-    e.variance.pixels()[k] =
-        single((squares[k] * (1.0 / frames) - mean * mean) * (1.0 / (frames - 1)) + mean * mean * (kModel * kModel));
+    e.variance.pixels()[k] = single((squares[k] * (1.0 / frames) - mean * mean) * (1.0 / (frames - 1)) + mean * mean * (kModel * kModel));
   }
   return e;
 }
 
-double Share(const Estimate& a, const Estimate& b) {
-  return test::ShareWithinNoise(a.mean, a.variance, b.mean, b.variance);
-}
+double Share(const Estimate& a, const Estimate& b) { return test::ShareWithinNoise(a.mean, a.variance, b.mean, b.variance); }
 
 // Ground half under a black roof, whose edge throws a penumbra of 23 pixels, beside a black wall: nothing is
 // lit by what is lit, so that both tiers look for the same integral.
@@ -81,17 +76,15 @@ std::shared_ptr<const Scene> MakeRoofAndWall() {
 TEST(HighStatistics, WithoutBouncesItIsThePathTracersLightWithinTheNoise) {
   const auto tracer = std::make_shared<const RayTracer>(MakeRoofAndWall());
   const auto renderer = MakeCpuRenderer(tracer, {.tier = Tier::kHigh});
-  const RenderRequest request{{},
-                              Pinhole{48, 40, 128, 128, 24, 20},
-                              {Mat3d::FromColumns({1, 0, 0}, {0, -1, 0}, {0, 0, -1}), {0, 0.2, 2}}};
+  const RenderRequest request{{}, Pinhole{48, 40, 128, 128, 24, 20}, {Mat3d::FromColumns({1, 0, 0}, {0, -1, 0}, {0, 0, -1}), {0, 0.2, 2}}};
   const Estimate high = Average(*renderer, request, 64, 1);
 
   const Shader shader(tracer, tracer->scene().environment);
   internal::CameraRays rays;
   rays.Update(request.camera, request.X_WC.R);
   Estimate paths;
-  internal::TracePaths(*tracer, shader, rays, VecCast<float>(request.X_WC.p), {.samples = 512, .max_bounces = 1},
-                       paths.mean, &paths.variance);
+  internal::TracePaths(*tracer, shader, rays, VecCast<float>(request.X_WC.p), {.samples = 512, .max_bounces = 1}, paths.mean,
+                       &paths.variance);
   // The path tracer's sun is darker towards its limb, and a pixel that no neighbour gives away has one ray.
   const float lit = paths.mean(2, 20).g, dark = paths.mean(46, 20).g;
   for (size_t k = 0; k < paths.mean.size(); ++k) {
@@ -111,8 +104,7 @@ TEST(HighStatistics, WithoutBouncesItIsThePathTracersLightWithinTheNoise) {
 TEST(HighStatistics, FewRaysInManyFramesAreManyRaysInFewFrames) {
   const auto tracer = std::make_shared<const RayTracer>(test::MakeOpenSquare());
   const auto renderer = MakeCpuRenderer(tracer, {.tier = Tier::kHigh});
-  RenderRequest request{
-      {}, Equirectangular{64, 32}, BodyPose({0.3, 0.2, 1.7}, 0.3, 0.2, -0.1) * CameraInBody()};
+  RenderRequest request{{}, Equirectangular{64, 32}, BodyPose({0.3, 0.2, 1.7}, 0.3, 0.2, -0.1) * CameraInBody()};
   request.samples = 2;
   const Estimate few = Average(*renderer, request, 96, 1);
   request.samples = 16;

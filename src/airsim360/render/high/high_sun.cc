@@ -12,7 +12,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr int kSide = 16;
-constexpr float kSunAngle = 0.0093f;          // width of the disc, radians (0.53 degrees)
+constexpr float kSunAngle = 0.0093f;  // width of the disc, radians (0.53 degrees)
 // Rays of a pixel where a shadow ends: always as many. Stopping where the first ones agree would make penumbrae narrower.
 constexpr int kSunSamples = 8;
 
@@ -27,15 +27,14 @@ bool AnyBit(uint32_t bits, Each each) {
 
 // The surfaces of a tile that ask for the sun, by pixel: rows as bits.
 struct SunGrid {
-  uint8_t at[256];  // index of the surface of a pixel that asks
+  uint8_t at[256];               // index of the surface of a pixel that asks
   uint32_t seen[2][kSide] = {};  // pixels that do not see the sun, and that do
 };
 
 // Whether two surfaces are about the same plane.
 bool SamePlane(const RaySet& rays, const SurfaceSet& s, int i, int k) {
   const float facing = s.gx[i] * s.gx[k] + s.gy[i] * s.gy[k] + s.gz[i] * s.gz[k];
-  const float apart =
-      s.gx[i] * (s.px[k] - s.px[i]) + s.gy[i] * (s.py[k] - s.py[i]) + s.gz[i] * (s.pz[k] - s.pz[i]);
+  const float apart = s.gx[i] * (s.px[k] - s.px[i]) + s.gy[i] * (s.py[k] - s.py[i]) + s.gz[i] * (s.pz[k] - s.pz[i]);
   return facing > 0.9f && std::fabs(apart) < 0.01f + 0.002f * rays.distance[i];
 }
 
@@ -56,8 +55,7 @@ class SunTile {
         sun_(FrameOf(shader.sky->to_sun())),
         seed_(sampling.seed + 0x9e3779b9u * sampling.tile) {
     static const auto ask = AIRSIM360_SELECT_KERNEL(AskSun);
-    for (int first = 0; first < rays.count; first += 16)
-      any_ |= asked_[first / 16] = ask(s, first) & Existing(first, rays.count);
+    for (int first = 0; first < rays.count; first += 16) any_ |= asked_[first / 16] = ask(s, first) & Existing(first, rays.count);
   }
   bool any() const { return any_ != 0; }
 
@@ -124,8 +122,7 @@ class SunTile {
  private:
   template <class Each>
   void ForAsked(Each each) const {
-    for (int first = 0; first < rays_.count; first += 16)
-      ForLanes(asked_[first / 16], [&](int k) { each(first + k); });
+    for (int first = 0; first < rays_.count; first += 16) ForLanes(asked_[first / 16], [&](int k) { each(first + k); });
   }
 
   // The first points of the disc.
@@ -160,8 +157,7 @@ class SunTile {
   bool AtShadowEdge(int x, int y, const uint32_t* others) const {
     const int i = grid_.at[y * kSide + x];
     float aspect = 1;
-    if (sampling_.panorama)
-      aspect = std::max(Norm(Cross(sampling_.pole, Vec3f{rays_.dx[i], rays_.dy[i], rays_.dz[i]})), 1e-4f);
+    if (sampling_.panorama) aspect = std::max(Norm(Cross(sampling_.pole, Vec3f{rays_.dx[i], rays_.dy[i], rays_.dz[i]})), 1e-4f);
     const int columns = static_cast<int>(std::min(kSide - 1.0f, 2 / aspect + 0.5f));
     const int left = std::max(0, x - columns), right = std::min(kSide - 1, x + columns);
     const uint32_t window = (2u << right) - (1u << left);
@@ -176,8 +172,7 @@ class SunTile {
   void TracePair(int a, int b, uint8_t* penumbra) {
     static const auto lift = AIRSIM360_SELECT_KERNEL(LiftSunRays);
     const auto first = [&](int i) { return kSunSamples * sampling_.layout->phase[rays_.slot[i]]; };
-    const PixelShape shape{sampling_.cone_angle, sampling_.panorama,
-                           {sampling_.pole.x, sampling_.pole.y, sampling_.pole.z}};
+    const PixelShape shape{sampling_.cone_angle, sampling_.panorama, {sampling_.pole.x, sampling_.pole.y, sampling_.pole.z}};
     lift(rays_, s_, sun_, points_, shape, {{a, b}, {first(a), first(b)}}, pair_.rays);
     pair_.Fill(0);
     if (a == b) pair_.count = kSunSamples;
@@ -224,8 +219,7 @@ class SunTile {
 
 }  // namespace
 
-void TraceSunDisc(const Shader::Impl& shader, const TileSampling& sampling, const RaySet& rays, SurfaceSet& s,
-                  uint8_t* penumbra) {
+void TraceSunDisc(const Shader::Impl& shader, const TileSampling& sampling, const RaySet& rays, SurfaceSet& s, uint8_t* penumbra) {
   SunTile sun(shader, sampling, rays, s);
   if (!sun.any()) return;
   if (sun.TraceOne()) sun.TraceEdges(penumbra);

@@ -29,10 +29,8 @@ AIRSIM360_INLINE const Ints16& At(const int32_t* from) { return reinterpret_cast
 
 // The sum of sixteen numbers, the same for every instruction set.
 AIRSIM360_INLINE float Sum(const Floats16& v) {
-  const auto eight = __builtin_shufflevector(v, v, 0, 1, 2, 3, 4, 5, 6, 7) +
-                     __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15);
-  const auto four =
-      __builtin_shufflevector(eight, eight, 0, 1, 2, 3) + __builtin_shufflevector(eight, eight, 4, 5, 6, 7);
+  const auto eight = __builtin_shufflevector(v, v, 0, 1, 2, 3, 4, 5, 6, 7) + __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15);
+  const auto four = __builtin_shufflevector(eight, eight, 0, 1, 2, 3) + __builtin_shufflevector(eight, eight, 4, 5, 6, 7);
   return (four[0] + four[2]) + (four[1] + four[3]);
 }
 
@@ -53,8 +51,7 @@ struct Window {
 };
 
 // `count` pixels from (u, v) on into row r from column c on.
-AIRSIM360_INLINE void FillRun(const SunPlanes& planes, const RayField& f, int u, int v, int count, int r, int c,
-                              Window& w) {
+AIRSIM360_INLINE void FillRun(const SunPlanes& planes, const RayField& f, int u, int v, int count, int r, int c, Window& w) {
   const int64_t first = static_cast<int64_t>(v) * f.width + u;
   const float* range = planes.range + first;
   float *x = w.x[r] + c, *y = w.y[r] + c, *z = w.z[r] + c;
@@ -84,8 +81,7 @@ AIRSIM360_INLINE void FillRun(const SunPlanes& planes, const RayField& f, int u,
 }
 
 // `reach` columns to either side, and as many more as vectors read.
-AIRSIM360_INLINE void FillWindow(const SunPlanes& planes, const RayField& f, int column, int row, int reach,
-                                 Window& w) {
+AIRSIM360_INLINE void FillWindow(const SunPlanes& planes, const RayField& f, int column, int row, int reach, Window& w) {
   w.left = column - reach;
   w.top = Most(0, row - kMostRows);
   w.rows = Least(f.height, row + kTileSize + kMostRows) - w.top;
@@ -120,19 +116,15 @@ struct Middle {
 // Calls visit(row, column of the window, which of sixteen pixels from there on are alike, their squared distances)
 // for pixels of about the same plane, at most so many rows and columns away; on[i] != 0: column i of these counts.
 template <class Visit>
-AIRSIM360_INLINE void ForAlike(const Window& w, const Middle& m, int rows, int columns, const int32_t* on,
-                               const Visit& visit) {
+AIRSIM360_INLINE void ForAlike(const Window& w, const Middle& m, int rows, int columns, const int32_t* on, const Visit& visit) {
   const float near = 0.02f + 0.01f * m.range;
   for (int r = Most(0, m.r - rows); r <= Least(w.rows - 1, m.r + rows); ++r) {
     for (int k = 0; k <= 2 * columns; k += 16) {
       const int c = m.c - columns + k;
-      const Floats16 facing = m.nx * At(w.nx[r] + c) + m.ny * At(w.ny[r] + c) +
-                              m.nz * At(w.nz[r] + c);
-      const Floats16 dx = At(w.x[r] + c) - m.x, dy = At(w.y[r] + c) - m.y,
-                     dz = At(w.z[r] + c) - m.z;
+      const Floats16 facing = m.nx * At(w.nx[r] + c) + m.ny * At(w.ny[r] + c) + m.nz * At(w.nz[r] + c);
+      const Floats16 dx = At(w.x[r] + c) - m.x, dy = At(w.y[r] + c) - m.y, dz = At(w.z[r] + c) - m.z;
       const Floats16 apart = m.nx * dx + m.ny * dy + m.nz * dz;
-      const Ints16 alike = (At(w.entity[r] + c) == m.entity) & (facing >= 0.9f) & (apart < near) &
-                           (apart > -near) & At(on + k);
+      const Ints16 alike = (At(w.entity[r] + c) == m.entity) & (facing >= 0.9f) & (apart < near) & (apart > -near) & At(on + k);
       visit(r, c, alike, dx * dx + dy * dy + dz * dz);
     }
   }
@@ -168,9 +160,7 @@ void SmoothSunTile(const SunPlanes& planes, const RayField& field, float cone_an
       const int64_t pixel = first + x - column;
       if (planes.penumbra[pixel] == 0) continue;
       const int r = y - w.top, c = x - w.left;
-      const Middle m{r,          c,          w.x[r][c],  w.y[r][c],
-                     w.z[r][c],  w.nx[r][c], w.ny[r][c], w.nz[r][c],
-                     planes.range[pixel], w.entity[r][c]};
+      const Middle m{r, c, w.x[r][c], w.y[r][c], w.z[r][c], w.nx[r][c], w.ny[r][c], w.nz[r][c], planes.range[pixel], w.entity[r][c]};
 
       // Width of the penumbra here, for rays that all saw the sun do not know it.
       Floats16 codes = {}, found = {};

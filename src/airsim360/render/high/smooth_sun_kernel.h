@@ -24,5 +24,4 @@ struct SunPlanes {
 /// Fills `sun_smooth` of the tile whose corner is (column, row). Near the edge of a shadow it is the mean of the pixels
 /// around that show the same surface, weighted by their distance along it; so far as the penumbra is wide. `cone_angle`
 /// is a pixel's.
-AIRSIM360_DECLARE_KERNEL(void SmoothSunTile(const SunPlanes& planes, const RayField& field, float cone_angle,
-                                            int column, int row))
+AIRSIM360_DECLARE_KERNEL(void SmoothSunTile(const SunPlanes& planes, const RayField& field, float cone_angle, int column, int row))

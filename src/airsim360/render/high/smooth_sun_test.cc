@@ -43,13 +43,11 @@ struct Picture {
     const RayField& f = rays.field();
     if (f.separable) {
       const double s = f.row_scale[y];
-      return VecCast<float>(Vec3d{s * f.column_x[x] + f.row_x[y], s * f.column_y[x] + f.row_y[y],
-                                  s * f.column_z[x] + f.row_z[y]});
+      return VecCast<float>(Vec3d{s * f.column_x[x] + f.row_x[y], s * f.column_y[x] + f.row_y[y], s * f.column_z[x] + f.row_z[y]});
     }
     const int i = y * f.stride + x;
     const Vec3d d{f.ray_x[i], f.ray_y[i], f.ray_z[i]};
-    return VecCast<float>(Vec3d{f.R[0] * d.x + f.R[1] * d.y + f.R[2] * d.z,
-                                f.R[3] * d.x + f.R[4] * d.y + f.R[5] * d.z,
+    return VecCast<float>(Vec3d{f.R[0] * d.x + f.R[1] * d.y + f.R[2] * d.z, f.R[3] * d.x + f.R[4] * d.y + f.R[5] * d.z,
                                 f.R[6] * d.x + f.R[7] * d.y + f.R[8] * d.z});
   }
 
@@ -81,8 +79,8 @@ struct Picture {
     if (count == 0) return sun[i];
     const double spread = std::min(0.45 + 0.13 * sum / (8 * count), 2.5);
     const double metres = spread * rays.cone_angle() * range[i];
-    ForPixels(x, y, static_cast<int>(std::ceil(2 * spread)),
-              std::min(40, static_cast<int>(std::ceil(2 * spread * across))), 1, [&](int k, float distance2) {
+    ForPixels(x, y, static_cast<int>(std::ceil(2 * spread)), std::min(40, static_cast<int>(std::ceil(2 * spread * across))), 1,
+              [&](int k, float distance2) {
                 const double w = std::pow(std::max(0.0, 1 - distance2 / (8 * metres * metres)), 4);
                 light += sun[k] * w, weight += w;
               });
@@ -104,8 +102,7 @@ struct Picture {
 void ExpectSmooth(const Picture& picture) {
   const std::vector<float> smooth = picture.Smooth(&isa_sse42::SmoothSunTile);
   for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x)
-      ASSERT_NEAR(smooth[y * picture.width + x], picture.Expected(x, y), 2e-5) << x << " " << y;
+    for (int x = 0; x < picture.width; ++x) ASSERT_NEAR(smooth[y * picture.width + x], picture.Expected(x, y), 2e-5) << x << " " << y;
   }
   if (__builtin_cpu_supports("avx2")) {
     EXPECT_TRUE(smooth == picture.Smooth(&isa_avx2::SmoothSunTile));
@@ -115,13 +112,9 @@ void ExpectSmooth(const Picture& picture) {
   }
 }
 
-TEST(SmoothSun, IsTheMeanOfTheSameSurfaceAroundInAPanorama) {
-  ExpectSmooth(Picture(Equirectangular{150, 75}, 150, 75));
-}
+TEST(SmoothSun, IsTheMeanOfTheSameSurfaceAroundInAPanorama) { ExpectSmooth(Picture(Equirectangular{150, 75}, 150, 75)); }
 
-TEST(SmoothSun, IsTheMeanOfTheSameSurfaceAroundInAPinhole) {
-  ExpectSmooth(Picture(Pinhole{70, 45, 50, 50, 35, 22.5}, 70, 45));
-}
+TEST(SmoothSun, IsTheMeanOfTheSameSurfaceAroundInAPinhole) { ExpectSmooth(Picture(Pinhole{70, 45, 50, 50, 35, 22.5}, 70, 45)); }
 
 }  // namespace
 }  // namespace airsim360::internal

@@ -53,7 +53,8 @@ std::vector<Patch> Patches() {
       patches.push_back(MakePatch(face, i * a, (i + 1) * a, j * b, (j + 1) * b, face % 2 ? static_cast<double>(kSize[axis]) : 0));
     }
   }
-  patches.push_back(MakePatch(5, static_cast<double>(kLampX[0]), static_cast<double>(kLampX[1]), static_cast<double>(kLampY[0]), static_cast<double>(kLampY[1]), static_cast<double>(kLampZ)));
+  patches.push_back(MakePatch(5, static_cast<double>(kLampX[0]), static_cast<double>(kLampX[1]), static_cast<double>(kLampY[0]),
+                              static_cast<double>(kLampY[1]), static_cast<double>(kLampZ)));
   patches.back().lamp = true;
   return patches;
 }
@@ -70,7 +71,8 @@ double FormFactor(Vec3d p, Vec3d n, const Patch& to) {
 }
 
 // Mean irradiance of each face in one colour.
-std::array<double, kFaces> Radiosity(const std::vector<Patch>& patches, const std::array<double, kFaces>& albedo, double of_lamp, double glow) {
+std::array<double, kFaces> Radiosity(const std::vector<Patch>& patches, const std::array<double, kFaces>& albedo, double of_lamp,
+                                     double glow) {
   const size_t count = patches.size();
   const auto faces_lamp = [](const Patch& p) { return p.face == 5 && !p.lamp; };
   std::vector<double> share(count * count);
@@ -86,14 +88,17 @@ std::array<double, kFaces> Radiosity(const std::vector<Patch>& patches, const st
     if (!faces_lamp(patches[j])) continue;
     double covered = 0;
     for (int k = 0; k < 64; ++k) {
-      const Vec3d p = patches[j].corner[0] + (patches[j].corner[1] - patches[j].corner[0]) * ((k % 8 + 0.5) / 8) + (patches[j].corner[3] - patches[j].corner[0]) * ((k / 8 + 0.5) / 8);
-      covered += p.x > static_cast<double>(kLampX[0]) && p.x < static_cast<double>(kLampX[1]) && p.y > static_cast<double>(kLampY[0]) && p.y < static_cast<double>(kLampY[1]);
+      const Vec3d p = patches[j].corner[0] + (patches[j].corner[1] - patches[j].corner[0]) * ((k % 8 + 0.5) / 8) +
+                      (patches[j].corner[3] - patches[j].corner[0]) * ((k / 8 + 0.5) / 8);
+      covered += p.x > static_cast<double>(kLampX[0]) && p.x < static_cast<double>(kLampX[1]) && p.y > static_cast<double>(kLampY[0]) &&
+                 p.y < static_cast<double>(kLampY[1]);
     }
     open[j] = 1 - covered / 64;
   }
   std::vector<double> sent(count), got(count);
   for (int step = 0; step < 60; ++step) {
-    for (size_t i = 0; i < count; ++i) sent[i] = got[i] * (i == lamp ? of_lamp : albedo[static_cast<size_t>(patches[i].face)]) + (i == lamp ? kPi * glow : 0);
+    for (size_t i = 0; i < count; ++i)
+      sent[i] = got[i] * (i == lamp ? of_lamp : albedo[static_cast<size_t>(patches[i].face)]) + (i == lamp ? kPi * glow : 0);
     for (size_t i = 0; i < count; ++i) {
       got[i] = 0;
       for (size_t j = 0; j < count; ++j) got[i] += share[i * count + j] * open[j] * sent[j];
@@ -134,8 +139,10 @@ TEST(LightSolver, CornellBoxHasTheLightOfItsRadiosity) {
   for (int c = 0; c < 3; ++c) {
     std::array<double, kFaces> albedo{};
     for (size_t f = 0; f < kFaces; ++f) albedo[f] = static_cast<double>(reflectance.Of(paint[f], kPaint[f])[c]);
-    const auto expected = Radiosity(patches, albedo, static_cast<double>(reflectance.Of(paint[0], {0.78f, 0.78f, 0.78f})[c]), static_cast<double>(kGlow[c]));
-    for (size_t f = 0; f < kFaces; ++f) EXPECT_NEAR(mean[f][c] / area[f], expected[f], 0.01 * expected[f]) << "face " << f << ", colour " << c;
+    const auto expected =
+        Radiosity(patches, albedo, static_cast<double>(reflectance.Of(paint[0], {0.78f, 0.78f, 0.78f})[c]), static_cast<double>(kGlow[c]));
+    for (size_t f = 0; f < kFaces; ++f)
+      EXPECT_NEAR(mean[f][c] / area[f], expected[f], 0.01 * expected[f]) << "face " << f << ", colour " << c;
   }
 }
 

@@ -10,12 +10,12 @@ namespace airsim360::internal {
 namespace {
 
 constexpr int kDirections = 48;
-constexpr float kSteep = 0.5f;         // sine of the elevation from which a ray looks for a roof: 12 of them
-constexpr float kFar = 60;             // m: what is farther encloses nothing
-constexpr float kMostCubes = 60000;    // of the box looked at
-constexpr float kLeastVolume = 12;     // m^3: smaller hollows are no rooms
-constexpr float kLeastShare = 0.1f;    // of its box that a scanned house is made of
-constexpr float kMargin = 1;           // m about ceilings
+constexpr float kSteep = 0.5f;       // sine of the elevation from which a ray looks for a roof: 12 of them
+constexpr float kFar = 60;           // m: what is farther encloses nothing
+constexpr float kMostCubes = 60000;  // of the box looked at
+constexpr float kLeastVolume = 12;   // m^3: smaller hollows are no rooms
+constexpr float kLeastShare = 0.1f;  // of its box that a scanned house is made of
+constexpr float kMargin = 1;         // m about ceilings
 
 bool IsUnder(const SemanticTree& tree, CategoryId id, std::string_view path) {
   const std::string& name = tree[id].path;
@@ -78,8 +78,7 @@ bool SeenFromBehind(const RayTracer& tracer, const SurfaceRef& ref, Vec3f direct
   const Instance& instance = scene.instances[ref.instance];
   const Mesh& mesh = scene.meshes[instance.mesh];
   const Vec3u& t = mesh.triangles[ref.triangle];
-  const Vec3f a = instance.X_WM * mesh.positions[t.x], b = instance.X_WM * mesh.positions[t.y],
-              c = instance.X_WM * mesh.positions[t.z];
+  const Vec3f a = instance.X_WM * mesh.positions[t.x], b = instance.X_WM * mesh.positions[t.y], c = instance.X_WM * mesh.positions[t.z];
   // A mirrored instance turns its triangles round; their front stays the front.
   const Mat3f& A = instance.X_WM.A;
   const float turned = Dot(Cross(A.column(0), A.column(1)), A.column(2)) < 0 ? -1.0f : 1.0f;
@@ -112,13 +111,11 @@ void Enclosure::Look(const RayTracer& tracer, const Box3f& box) {
     for (int first = 0; first < n_[0]; first += 16) {
       const int count = std::min(16, n_[0] - first);
       Vec3f places[16];
-      for (int i = 0; i < count; ++i)
-        places[i] = origin_ + Vec3f{first + i + 0.5f, y + 0.5f, z + 0.5f} * size_;
+      for (int i = 0; i < count; ++i) places[i] = origin_ + Vec3f{first + i + 0.5f, y + 0.5f, z + 0.5f} * size_;
       const Counts counts = LookAround(tracer, places, count);
       for (int i = 0; i < count; ++i) {
         const bool solid = counts.behind[i] * 5 > kDirections;
-        cubes_[static_cast<size_t>(row) * n_[0] + first + i] =
-            !solid && counts.met[i] * 10 > kDirections * 6 && counts.left[i] < 2;
+        cubes_[static_cast<size_t>(row) * n_[0] + first + i] = !solid && counts.met[i] * 10 > kDirections * 6 && counts.left[i] < 2;
       }
     }
   });

@@ -22,8 +22,7 @@ IndoorSurfel Kept(const Surfel& s, const LevelLight& light, size_t i, float clea
   out.bend[0] = own > 0 ? light.mean[i] / 4 / own : 1;
   Put(own > 0 ? light.bend[i] * (0.5f / own) : Vec3f{}, out.bend + 1);
   out.share = std::clamp((kAllOpen - light.open[i]) / (kAllOpen - kOpen), 0.0f, 1.0f);
-  for (int k = 0; k < kClearSectors; ++k)
-    out.clear[k] = static_cast<uint8_t>(std::clamp(s.clear[k] / clear_step, 0.0f, 255.0f));
+  for (int k = 0; k < kClearSectors; ++k) out.clear[k] = static_cast<uint8_t>(std::clamp(s.clear[k] / clear_step, 0.0f, 255.0f));
   return out;
 }
 
@@ -32,8 +31,7 @@ IndoorSurfel Kept(const Surfel& s, const LevelLight& light, size_t i, float clea
 IndoorCache::Level IndoorCache::LevelOf(const SurfelSet& set, const LevelLight& light) {
   Level level;
   level.cell = set.cell(), level.origin = set.origin();
-  for (size_t i = 0; i < set.surfels().size(); ++i)
-    level.surfels.push_back(Kept(set.surfels()[i], light, i, 2 * set.cell() / 255));
+  for (size_t i = 0; i < set.surfels().size(); ++i) level.surfels.push_back(Kept(set.surfels()[i], light, i, 2 * set.cell() / 255));
   level.cells.assign(set.cells().begin(), set.cells().end());
   return level;
 }
@@ -55,13 +53,11 @@ bool IndoorCache::Sound(const Level& level) {
   return used < level.cells.size();
 }
 
-bool IndoorCache::Sound() const {
-  return Sound(coarse_) && Sound(fine_) && radiance_.size() == coarse_.surfels.size();
-}
+bool IndoorCache::Sound() const { return Sound(coarse_) && Sound(fine_) && radiance_.size() == coarse_.surfels.size(); }
 
 IndoorLevel IndoorCache::View(const Level& level) {
-  return {level.surfels.data(), level.cells.data(), level.cells.size() - 1,
-          {level.origin.x, level.origin.y, level.origin.z}, 1 / level.cell, 2 * level.cell / 255};
+  return {level.surfels.data(), level.cells.data(),  level.cells.size() - 1, {level.origin.x, level.origin.y, level.origin.z},
+          1 / level.cell,       2 * level.cell / 255};
 }
 
 IndoorView IndoorCache::view() const { return {View(coarse_), View(fine_)}; }

@@ -6,12 +6,12 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-constexpr float kFacing = 0.35f;     // as in surfels.cc
-constexpr float kPlane = 0.6f;       // of a cell
-constexpr float kSlack = 0.004f;     // m
-constexpr float kHardly = 1e-5f;     // weight of a surfel in front or behind
-constexpr float kLastResort = 1e-9f; // of one that something stands before
-constexpr float kCovered = 0.45f;    // share of the fine cells around from which the fine level counts alone
+constexpr float kFacing = 0.35f;      // as in surfels.cc
+constexpr float kPlane = 0.6f;        // of a cell
+constexpr float kSlack = 0.004f;      // m
+constexpr float kHardly = 1e-5f;      // weight of a surfel in front or behind
+constexpr float kLastResort = 1e-9f;  // of one that something stands before
+constexpr float kCovered = 0.45f;     // share of the fine cells around from which the fine level counts alone
 
 struct Sums {
   real weight, covered, share, r, g, b, lamp_r, lamp_g, lamp_b;
@@ -30,8 +30,8 @@ KERNEL real Sector(real x, real y) {
   return rmin(rmax(turn * 4.0f, real(0.0f)), real(15.0f));
 }
 
-KERNEL void AddSurfel(const IndoorLevel& level, const IndoorSurfel& s, const Places& at, mask_t lanes, real place,
-                      mask_t& met, Sums& sums) {
+KERNEL void AddSurfel(const IndoorLevel& level, const IndoorSurfel& s, const Places& at, mask_t lanes, real place, mask_t& met,
+                      Sums& sums) {
   const ufloat3 n{s.normal[0], s.normal[1], s.normal[2]}, t{s.tangent[0], s.tangent[1], s.tangent[2]};
   const ufloat3 b{n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x};
   const real c = dot3(at.g, n);
@@ -46,8 +46,8 @@ KERNEL void AddSurfel(const IndoorLevel& level, const IndoorSurfel& s, const Pla
   const real zero = real(0.0f);
   const real fit = rmax(1.0f - e * e * 0.8f, zero) * ((c - kFacing) * (c - kFacing)) + kHardly;
   const real weight = sel(facing, place * sel(seen, fit, real(kLastResort)), zero);
-  const real bend = rmin(rmax(at.n.x * s.bend[1] + at.n.y * s.bend[2] + at.n.z * s.bend[3] + s.bend[0], real(kLeastBend)),
-                         real(kMostBend)) * weight;
+  const real bend =
+      rmin(rmax(at.n.x * s.bend[1] + at.n.y * s.bend[2] + at.n.z * s.bend[3] + s.bend[0], real(kLeastBend)), real(kMostBend)) * weight;
   met = met || seen;
   sums.weight += weight;
   sums.share += weight * s.share;
@@ -89,8 +89,7 @@ static __attribute__((noinline)) void SumLevel(const IndoorLevel& level, const P
       if (cell == nullptr) continue;
       const real place = (k & 1 ? fx : 1.0f - fx) * (k & 2 ? fy : 1.0f - fy) * (k & 4 ? fz : 1.0f - fz);
       mask_t met = mask_t(false);
-      for (uint32_t i = cell->first; i < cell->first + cell->count; ++i)
-        AddSurfel(level, level.surfels[i], at, same, place, met, sums);
+      for (uint32_t i = cell->first; i < cell->first + cell->count; ++i) AddSurfel(level, level.surfels[i], at, same, place, met, sums);
       sums.covered += sel(met, place, zero);
     }
   }
@@ -100,8 +99,7 @@ static __attribute__((noinline)) void SumLevel(const IndoorLevel& level, const P
 
 void LookUpIndoors(const IndoorView& view, const SurfaceSet& s, int count, IndoorLight& out) {
   for (int i = 0; i < count; i += kLanes) {
-    const Places at{load3(s.px + i, s.py + i, s.pz + i), load3(s.nx + i, s.ny + i, s.nz + i),
-                    load3(s.gx + i, s.gy + i, s.gz + i)};
+    const Places at{load3(s.px + i, s.py + i, s.pz + i), load3(s.nx + i, s.ny + i, s.nz + i), load3(s.gx + i, s.gy + i, s.gz + i)};
     Sums coarse, fine;
     const real zero = real(0.0f);
     SumLevel(view.fine, at, mask_t(true), fine);

@@ -18,8 +18,7 @@ constexpr float kMirrorMetal = 0.9f, kMirrorRoughness = 0.12f;
 // Mean over all views of what a material gives back in even light.
 Vec3f EvenAnswer(const MaterialRecord& m, Vec3f base) {
   constexpr int kViews = 16;
-  const scalar::Bsdf bsdf = scalar::bsdf_make(m.kind, base, m.metallic, m.roughness, m.transmission, m.clear_coat,
-                                              m.clear_coat_roughness);
+  const scalar::Bsdf bsdf = scalar::bsdf_make(m.kind, base, m.metallic, m.roughness, m.transmission, m.clear_coat, m.clear_coat_roughness);
   Vec3f sum;
   for (int k = 0; k < kViews; ++k) {
     const float cosine = std::sqrt((static_cast<float>(k) + 0.5f) / kViews);
@@ -65,8 +64,7 @@ class ShadowQueue {
   int count_ = 0;
 };
 
-void AddSun(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, int rays, Vec2f shift,
-            ShadowQueue& queue) {
+void AddSun(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, int rays, Vec2f shift, ShadowQueue& queue) {
   if (world.sky == nullptr || rays == 0) return;
   const SunLight sun = world.sky->sun();
   Vec3f t, b;
@@ -80,12 +78,12 @@ void AddSun(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, in
     const float cosine = Dot(n, d);
     if (!(cosine > 0)) continue;
     const Vec3f p = points[static_cast<size_t>(k) % points.size()];
-    queue.Add(p + n * kLift, d, INFINITY, sun.irradiance * (cosine * world.sky->CloudShadow(p) / static_cast<float>(rays)), &DirectLight::sun);
+    queue.Add(p + n * kLift, d, INFINITY, sun.irradiance * (cosine * world.sky->CloudShadow(p) / static_cast<float>(rays)),
+              &DirectLight::sun);
   }
 }
 
-void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, const LampMix& mix, uint32_t seed,
-              ShadowQueue& queue) {
+void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, const LampMix& mix, uint32_t seed, ShadowQueue& queue) {
   const int rays = mix.to_lamps;
   if (world.lights == nullptr || world.lights->empty() || rays == 0) return;
   const Vec2f shift = ShiftOf(seed * 2654435761ull + 1);
@@ -108,8 +106,7 @@ void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, 
     const float shape = here * there / (distance * distance);
     const bool shared = mix.plain != nullptr && mix.plain->Holds(lamp);
     const float weight = shape / (sample.pdf * static_cast<float>(rays)) * (shared ? mix.OfLampRays(sample.pdf, shape / kPi) : 1);
-    queue.Add(p + n * kLift, d, distance * 0.999f - 2 * kLift, sample.radiance * weight,
-              held ? &DirectLight::held : &DirectLight::others);
+    queue.Add(p + n * kLift, d, distance * 0.999f - 2 * kLift, sample.radiance * weight, held ? &DirectLight::held : &DirectLight::others);
   }
 }
 
@@ -170,8 +167,8 @@ MetSurface SurfaceUnder(const IndoorWorld& world, const RayPacket& packet, int l
   met.material = triangle.material & ~kMirroredUv;
   const float* m = instance.normal_matrix;
   const Vec3f n = UnpackDirection(triangle.geometric_normal), d = packet.Direction(lane);
-  met.normal = Normalized(Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z,
-                                m[6] * n.x + m[7] * n.y + m[8] * n.z});
+  met.normal =
+      Normalized(Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z, m[6] * n.x + m[7] * n.y + m[8] * n.z});
   met.behind = Dot(met.normal, d) > 0;
   if (met.behind) met.normal = -met.normal;
   met.point = packet.Origin(lane) + d * rays.t_far[lane];
@@ -182,8 +179,8 @@ MetSurface SurfaceUnder(const IndoorWorld& world, const RayPacket& packet, int l
   return met;
 }
 
-DirectLight LightFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, const LampMix& lamps,
-                           uint32_t seed, int sun_rays) {
+DirectLight LightFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, const LampMix& lamps, uint32_t seed,
+                           int sun_rays) {
   DirectLight sum;
   ShadowQueue queue(world, sum);
   AddSun(world, points, normal, sun_rays, ShiftOf(seed), queue);

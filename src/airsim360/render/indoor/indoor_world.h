@@ -47,8 +47,8 @@ struct MetSurface {
   Vec3f point, normal;  ///< geometric normal towards the ray's origin
   Vec3f base;           ///< mean colour
   uint32_t material;
-  bool behind;          ///< met from the back
-  bool mirror;          ///< reflects all it gets in one direction
+  bool behind;  ///< met from the back
+  bool mirror;  ///< reflects all it gets in one direction
 };
 MetSurface SurfaceUnder(const IndoorWorld& world, const RayPacket& packet, int lane);
 
@@ -61,8 +61,8 @@ struct DirectLight {
   Vec3f others;  ///< of the others
 };
 /// `lamps`: how many rays look for them, and what is left to other rays.
-DirectLight LightFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, const LampMix& lamps,
-                           uint32_t seed, int sun_rays);
+DirectLight LightFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, const LampMix& lamps, uint32_t seed,
+                           int sun_rays);
 inline constexpr int kSunRays = 16;
 
 /// Points of the unit square that fill it evenly, the i-th of a sequence (Roberts 2018); `shift` turns it.

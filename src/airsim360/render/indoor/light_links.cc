@@ -12,8 +12,8 @@ namespace {
 
 constexpr float kLift = 1.5e-3f;
 constexpr int kMostMirrors = 6;
-constexpr float kSectors = 8;      // of directions about the normal
-constexpr float kGuided = 0.8f;    // of the density that follows the light
+constexpr float kSectors = 8;    // of directions about the normal
+constexpr float kGuided = 0.8f;  // of the density that follows the light
 constexpr float kMostDense = 64;
 
 // What a pane takes on the way of the packet's rays, as grey.
@@ -28,8 +28,8 @@ void DimPacket(const IndoorWorld& world, const RayPacket& hit, const RayPacket& 
 }
 
 // Ends one ray, or turns it at a mirror; true: it goes on. lamps: for the first surface of an even ray, else nullptr.
-bool Land(const IndoorWorld& world, const Reflectance& reflectance, const SurfelSet& coarse, RayPacket& packet, int i,
-          bool last, const LampMix* lamps, Vec3f normal, Landing& out) {
+bool Land(const IndoorWorld& world, const Reflectance& reflectance, const SurfelSet& coarse, RayPacket& packet, int i, bool last,
+          const LampMix* lamps, Vec3f normal, Landing& out) {
   out.direction = packet.Direction(i);
   if (!packet.Hit(i)) {
     out.target = LightLink::kSky;

@@ -34,7 +34,7 @@ struct Landing {
   float share;      ///< of light that panes and mirrors on the way leave
   Vec3f direction;  ///< at its end
   OutsidePlace outside;
-  MetGlow glow;     ///< of the first surface met
+  MetGlow glow;  ///< of the first surface met
   static constexpr uint32_t kOutside = UINT32_MAX - 2;
 };
 

@@ -12,18 +12,18 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 constexpr int64_t kChunk = 128;
-constexpr float kHomeCell = 0.12f;        // m
-constexpr double kMostCoarse = 70000;     // cells of surface, about
+constexpr float kHomeCell = 0.12f;     // m
+constexpr double kMostCoarse = 70000;  // cells of surface, about
 constexpr int kFirstBounces = 6, kMostBounces = 200;
-constexpr float kConverged = 2e-5f;       // of all light, that the last bounce brings
-constexpr float kOutsideCell = 0.12f;     // m
-constexpr uint32_t kOutsidePlaces = 8;   // of a cell that are looked at
-constexpr float kStratified = 0.6f;       // of the variance of random rays
-constexpr float kRefine = 1.5f;          // ratio of neighbours
-constexpr double kMostFine = 300000;      // surfels, about
+constexpr float kConverged = 2e-5f;                     // of all light, that the last bounce brings
+constexpr float kOutsideCell = 0.12f;                   // m
+constexpr uint32_t kOutsidePlaces = 8;                  // of a cell that are looked at
+constexpr float kStratified = 0.6f;                     // of the variance of random rays
+constexpr float kRefine = 1.5f;                         // ratio of neighbours
+constexpr double kMostFine = 300000;                    // surfels, about
 constexpr float kFinest = 1.0f / 3, kLeastFine = 0.6f;  // cells of the fine level, of the coarse one's
-constexpr float kOnePlane = 0.2f;         // of a cell: what is farther off is another surface
-constexpr float kNear = 0.6f;             // of a cell: something as near needs the fine level
+constexpr float kOnePlane = 0.2f;                       // of a cell: what is farther off is another surface
+constexpr float kNear = 0.6f;                           // of a cell: something as near needs the fine level
 
 // Directions of links in the frame of a surfel.
 struct LinkTable {
@@ -66,8 +66,7 @@ void ForSurfels(size_t count, const Body& body) {
 template <class Each>
 void ForNeighbours(const SurfelSet& set, const Surfel& s, int step, const Each& each) {
   for (int k = 0; k < 27; ++k) {
-    const auto [first, count] = set.In(s.cell[0] + (k % 3 - 1) * step, s.cell[1] + (k / 3 % 3 - 1) * step,
-                                       s.cell[2] + (k / 9 - 1) * step);
+    const auto [first, count] = set.In(s.cell[0] + (k % 3 - 1) * step, s.cell[1] + (k / 3 % 3 - 1) * step, s.cell[2] + (k / 9 - 1) * step);
     for (uint32_t i = first; i < first + count; ++i) each(i, set.surfels()[i]);
   }
 }
@@ -169,8 +168,8 @@ void LightSolver::AddOutside(std::vector<std::vector<std::pair<size_t, OutsidePl
     for (const auto& [at, place] : part) {
       const Vec3f n = place.n;
       const int side = std::fabs(n.x) > std::fabs(n.y) && std::fabs(n.x) > std::fabs(n.z) ? (n.x > 0 ? 0 : 1)
-                       : std::fabs(n.y) > std::fabs(n.z)                                 ? (n.y > 0 ? 2 : 3)
-                                                                                         : (n.z > 0 ? 4 : 5);
+                       : std::fabs(n.y) > std::fabs(n.z)                                  ? (n.y > 0 ? 2 : 3)
+                                                                                          : (n.z > 0 ? 4 : 5);
       auto id = static_cast<uint32_t>(count.size());
       const bool alone = place.radiance != Vec3f{} || n == Vec3f{};
       if (!alone) {
@@ -379,8 +378,8 @@ void LightSolver::MakeFine(std::span<const SurfacePiece> pieces) {
 void LightSolver::LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& kept) {
   const Surfel& s = fine_->surfels()[i];
   const LampMix lamps{&plain_, options_.lamp_rays, options_.fine_rays};
-  DirectLight direct = LightFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, lamps,
-                                      static_cast<uint32_t>(i) ^ 0x80000000u, 0);
+  DirectLight direct =
+      LightFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, lamps, static_cast<uint32_t>(i) ^ 0x80000000u, 0);
   const uint32_t near = coarse_.Nearest(s.p, s.n);
   const LightGuide guide = near == SurfelSet::kNone ? LightGuide() : KeptGuide(s, near, kept);
   std::vector<Vec2f> points;
@@ -398,7 +397,7 @@ void LightSolver::LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& 
     if (landing.target == LightLink::kNothing) continue;
     sum.found += weight;
     if (landing.target == LightLink::kSky) sum.open += weight / kPi;
-    const Vec3f light = landing.target == LightLink::kSky      ? SkyAlong(landing.direction)
+    const Vec3f light = landing.target == LightLink::kSky     ? SkyAlong(landing.direction)
                         : landing.target == Landing::kOutside ? RadianceOutside(landing.outside, i)
                                                               : radiance_[landing.target];
     sum.Add(light, landing.direction, std::sqrt(std::max(0.0f, 1 - points[k].x)), weight);

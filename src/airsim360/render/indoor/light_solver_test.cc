@@ -39,8 +39,8 @@ double Parallel(double x, double y, double z) {
 // The same, C-14: from w by l to h by l with the common edge l, at a right angle.
 double Perpendicular(double w, double h, double l) {
   const double a = h / l, b = w / l, aa = a * a, bb = b * b, s = aa + bb;
-  const double logs = std::log((1 + bb) * (1 + aa) / (1 + s)) + bb * std::log(bb * (1 + s) / ((1 + bb) * s)) +
-                      aa * std::log(aa * (1 + s) / ((1 + aa) * s));
+  const double logs =
+      std::log((1 + bb) * (1 + aa) / (1 + s)) + bb * std::log(bb * (1 + s) / ((1 + bb) * s)) + aa * std::log(aa * (1 + s) / ((1 + aa) * s));
   return (b * std::atan(1 / b) + a * std::atan(1 / a) - std::sqrt(s) * std::atan(1 / std::sqrt(s)) + 0.25 * logs) / (kPi * b);
 }
 

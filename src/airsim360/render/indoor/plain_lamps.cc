@@ -25,8 +25,7 @@ PlainLamps::PlainLamps(const IndoorWorld& world) {
   }
 }
 
-MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket& packet, int lane, const MetSurface& met,
-                  Vec3f normal) {
+MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket& packet, int lane, const MetSurface& met, Vec3f normal) {
   if (rays.plain == nullptr || met.behind) return {};
   const Material& material = world.tracer.scene().materials[met.material];
   if (material.emission == Vec3f{}) return {};
@@ -37,8 +36,7 @@ MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket
   const float distance = std::max(packet.rays.t_far[lane], 1e-4f);
   const float even = std::max(0.0f, Dot(d, normal)) * -Dot(d, met.normal) / (kPi * distance * distance);
   const float left = rays.OfLampRays(world.lights->Pdf(from, normal, ref.instance, ref.triangle), even);
-  return {material.emission * world.tables.GlowOf(ref.instance) * (1 - left),
-          world.lamps != nullptr && world.lamps->Holds(lamp)};
+  return {material.emission * world.tables.GlowOf(ref.instance) * (1 - left), world.lamps != nullptr && world.lamps->Holds(lamp)};
 }
 
 }  // namespace airsim360::internal

@@ -36,7 +36,6 @@ struct MetGlow {
   Vec3f radiance;
   bool held = false;  ///< by the lamp grid
 };
-MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket& packet, int lane, const MetSurface& met,
-                  Vec3f normal);
+MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket& packet, int lane, const MetSurface& met, Vec3f normal);
 
 }  // namespace airsim360::internal

@@ -8,7 +8,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTiny = 1e-4f;    // m^2 of a triangle, below which it counts by chance
+constexpr float kTiny = 1e-4f;  // m^2 of a triangle, below which it counts by chance
 
 Box3f BoxOf(const SurfacePiece& piece) {
   Box3f box;
@@ -37,8 +37,8 @@ void Cut(const Enclosure& enclosure, const SurfacePiece& piece, float largest, s
   Cut(enclosure, two, largest, out);
 }
 
-void CutInstance(const IndoorWorld& world, const Enclosure& enclosure, const Reflectance& reflectance,
-                 uint32_t index, float largest, std::vector<SurfacePiece>& out) {
+void CutInstance(const IndoorWorld& world, const Enclosure& enclosure, const Reflectance& reflectance, uint32_t index, float largest,
+                 std::vector<SurfacePiece>& out) {
   const Scene& scene = world.tracer.scene();
   const Instance& instance = scene.instances[index];
   const Mesh& mesh = scene.meshes[instance.mesh];
@@ -52,8 +52,8 @@ void CutInstance(const IndoorWorld& world, const Enclosure& enclosure, const Ref
     const uint32_t material = world.tables.triangles[record.first_triangle + k].material & ~kMirroredUv;
     if (IsClearPane(scene.materials[material])) continue;
     const Vec3u& t = mesh.triangles[k];
-    SurfacePiece piece{{instance.X_WM * mesh.positions[t.x], instance.X_WM * mesh.positions[t.y],
-                        instance.X_WM * mesh.positions[t.z]}, {}, {}};
+    SurfacePiece piece{
+        {instance.X_WM * mesh.positions[t.x], instance.X_WM * mesh.positions[t.y], instance.X_WM * mesh.positions[t.z]}, {}, {}};
     const Vec3f cross = Cross(piece.corner[1] - piece.corner[0], piece.corner[2] - piece.corner[0]) * turned;
     if (!(Norm(cross) > 1e-9f)) continue;
     piece.normal = Normalized(cross);
@@ -74,8 +74,7 @@ bool StandsForTiny(SurfacePiece& piece, float least, float u) {
   return u < kept;
 }
 
-std::vector<SurfacePiece> EnclosedPieces(const IndoorWorld& world, const Enclosure& enclosure,
-                                         const Reflectance& reflectance) {
+std::vector<SurfacePiece> EnclosedPieces(const IndoorWorld& world, const Enclosure& enclosure, const Reflectance& reflectance) {
   const Scene& scene = world.tracer.scene();
   const std::vector<uint8_t> moving = MovingInstances(scene);
   std::vector<std::vector<SurfacePiece>> of_instance(scene.instances.size());
@@ -93,8 +92,7 @@ double AreaOf(std::span<const SurfacePiece> pieces) {
   return area;
 }
 
-void SamplePiece(const SurfacePiece& piece, float step, bool back,
-                 const std::function<void(const SurfaceSample&)>& each) {
+void SamplePiece(const SurfacePiece& piece, float step, bool back, const std::function<void(const SurfaceSample&)>& each) {
   const Vec3f a = piece.corner[1] - piece.corner[0], b = piece.corner[2] - piece.corner[0];
   const int across = std::max(1, static_cast<int>(std::ceil(Norm(a) / step))),
             along = std::max(1, static_cast<int>(std::ceil(Norm(b) / step)));
@@ -103,7 +101,9 @@ void SamplePiece(const SurfacePiece& piece, float step, bool back,
   int count = 0;
   for (int i = 0; i < across; ++i)
     for (int j = 0; j < along; ++j) count += at(i, across) + at(j, along) < 1;
-  SurfaceSample sample{{}, back ? -piece.normal : piece.normal, piece.albedo,
+  SurfaceSample sample{{},
+                       back ? -piece.normal : piece.normal,
+                       piece.albedo,
                        0.5f * Norm(Cross(a, b)) * piece.stands_for / static_cast<float>(std::max(1, count))};
   for (int i = 0; i < across; ++i) {
     for (int j = 0; j < along; ++j) {

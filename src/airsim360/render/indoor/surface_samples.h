@@ -42,13 +42,11 @@ struct SurfacePiece {
 /// Of pieces of less than `least` m^2 some stand for all; u: a random number in [0, 1). False if this one is left out.
 bool StandsForTiny(SurfacePiece& piece, float least, float u);
 /// Triangles of what does not move and is no clear pane, cut to pieces of at most kPieceSize m, in their order.
-std::vector<SurfacePiece> EnclosedPieces(const IndoorWorld& world, const Enclosure& enclosure,
-                                         const Reflectance& reflectance);
+std::vector<SurfacePiece> EnclosedPieces(const IndoorWorld& world, const Enclosure& enclosure, const Reflectance& reflectance);
 inline constexpr float kPieceSize = 0.7f;
 /// m^2 of pieces.
 double AreaOf(std::span<const SurfacePiece> pieces);
 /// Points on a lattice of about `step` m on one side of a piece, at least one.
-void SamplePiece(const SurfacePiece& piece, float step, bool back,
-                 const std::function<void(const SurfaceSample&)>& each);
+void SamplePiece(const SurfacePiece& piece, float step, bool back, const std::function<void(const SurfaceSample&)>& each);
 
 }  // namespace airsim360::internal

@@ -10,15 +10,15 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kSampleStep = 0.45f;   // of a cell
-constexpr float kTinyShare = 0.05f;    // of a cell's face: smaller pieces have samples by chance
-constexpr size_t kMostSamples = 20;    // of a cell and direction
-constexpr float kFlat = 0.002f;        // m
+constexpr float kSampleStep = 0.45f;  // of a cell
+constexpr float kTinyShare = 0.05f;   // of a cell's face: smaller pieces have samples by chance
+constexpr size_t kMostSamples = 20;   // of a cell and direction
+constexpr float kFlat = 0.002f;       // m
 constexpr size_t kMostSurfels = 3;
-constexpr float kBuriedNear = 0.02f;   // m
-constexpr float kFacing = 0.35f;       // least cosine between the normals of a place and its surfel
-constexpr float kPlane = 0.6f;         // of a cell: thickness of the disc
-constexpr float kOffPlane = 24;        // how much farther a surfel is that lies in another plane
+constexpr float kBuriedNear = 0.02f;  // m
+constexpr float kFacing = 0.35f;      // least cosine between the normals of a place and its surfel
+constexpr float kPlane = 0.6f;        // of a cell: thickness of the disc
+constexpr float kOffPlane = 24;       // how much farther a surfel is that lies in another plane
 
 float Lift(float cell) { return std::min(0.012f, cell * 0.2f); }
 
@@ -37,8 +37,7 @@ struct Sorted {
 
 int32_t CellOf(float x) { return static_cast<int32_t>(std::floor(std::clamp(x, -0.9f * kFarCell, 0.9f * kFarCell))); }
 
-std::vector<Sorted> SortSamples(std::span<const SurfacePiece> pieces, float cell,
-                                const std::function<bool(Vec3f, Vec3f)>& wanted) {
+std::vector<Sorted> SortSamples(std::span<const SurfacePiece> pieces, float cell, const std::function<bool(Vec3f, Vec3f)>& wanted) {
   constexpr int64_t kChunk = 256;
   const Vec3f origin = OriginOf(cell);
   const float least = kTinyShare * cell * cell;
@@ -73,8 +72,8 @@ bool Buried(const IndoorWorld& world, const SurfaceSample& s, uint64_t seed) {
   for (uint32_t i = 0; i < kRays; ++i) {
     const Vec2f u = EvenPoint(i, shift);
     const float r = std::sqrt(u.x), angle = 6.2831853f * u.y;
-    packet.Set(static_cast<int>(i), s.p + s.n * 1.5e-3f,
-               t * (r * std::cos(angle)) + b * (r * std::sin(angle)) + s.n * std::sqrt(1 - u.x), INFINITY);
+    packet.Set(static_cast<int>(i), s.p + s.n * 1.5e-3f, t * (r * std::cos(angle)) + b * (r * std::sin(angle)) + s.n * std::sqrt(1 - u.x),
+               INFINITY);
   }
   world.tracer.Intersect16(packet.valid, packet.rays, false);
   int bad = 0;

@@ -24,9 +24,9 @@ inline float ClearSector(float x, float y) {
 
 /// A disc of surface while light is computed.
 struct Surfel {
-  Vec3f p, n, t, b;       ///< frame: t, b, n
-  Vec3f albedo;           ///< share of even light given back
-  float area = 0;         ///< m^2 that it stands for
+  Vec3f p, n, t, b;  ///< frame: t, b, n
+  Vec3f albedo;      ///< share of even light given back
+  float area = 0;    ///< m^2 that it stands for
   int32_t cell[3] = {};
   float clear[kClearSectors];  ///< m, at most two cells
   static constexpr int kPoints = 12;

@@ -13,8 +13,7 @@ constexpr float kGlassIndex = 1.5f;
 
 }  // namespace
 
-void DimByPanes(const RayTracer& tracer, const SurfaceTables& tables, const int* valid, RayHit16& rays,
-                std::array<Vec3f, 16>& tint) {
+void DimByPanes(const RayTracer& tracer, const SurfaceTables& tables, const int* valid, RayHit16& rays, std::array<Vec3f, 16>& tint) {
   alignas(64) int active[16];
   float t_far[16];
   std::copy(valid, valid + 16, active);
@@ -36,15 +35,13 @@ void DimByPanes(const RayTracer& tracer, const SurfaceTables& tables, const int*
       // Two faces; light that bounces between them goes on.
       const float* m = instance.normal_matrix;
       const Vec3f n = UnpackDirection(triangle.geometric_normal);
-      const Vec3f world{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z,
-                        m[6] * n.x + m[7] * n.y + m[8] * n.z};
+      const Vec3f world{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z, m[6] * n.x + m[7] * n.y + m[8] * n.z};
       const Vec3f d{rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]};
       const float cosine = std::min(1.0f, std::fabs(Dot(Normalized(world), d)) / std::max(Norm(d), 1e-20f));
       const float one = scalar::fresnel_dielectric(kGlassIndex, cosine);
       const float kept = material.transmission * (1 - one) / (1 + one);
       for (int c = 0; c < 3; ++c) tint[i][c] *= material.base[c] * instance.tint[c] * kept;
-      if (instance.first_color != 0)
-        tint[i] = tint[i] * tables.ColorAt(instance, ref.triangle, rays.u[i], rays.v[i]);
+      if (instance.first_color != 0) tint[i] = tint[i] * tables.ColorAt(instance, ref.triangle, rays.u[i], rays.v[i]);
       rays.t_near[i] = rays.t_far[i] * (1 + 1e-5f) + 1e-4f;
       rays.t_far[i] = t_far[i];
       if (!(rays.t_near[i] < t_far[i])) active[i] = 0;

@@ -21,8 +21,7 @@ constexpr float kBrightLamp = 300 * kLux;
 constexpr size_t kFewLamps = 256;
 // A lamp reaches as far as it brings 0.05 lx, or one part in 10,000 of the daylight; one that brings less
 // than a five-hundredth of the daylight at 2 m is left out.
-constexpr float kLeastLight = 0.05f * kLux, kLeastShare = 1e-4f, kNearShare = 2e-3f, kNear = 2,
-                kFarthest = 150;
+constexpr float kLeastLight = 0.05f * kLux, kLeastShare = 1e-4f, kNearShare = 2e-3f, kNear = 2, kFarthest = 150;
 constexpr float kFinestCell = 2.5f;
 constexpr int kMostCells = 150000;
 constexpr float kAboveGround = 1.2f;
@@ -77,8 +76,7 @@ bool MeetsBack(const RayTracer& tracer, const RayHit16& r, int k) {
   const Instance& instance = tracer.scene().instances[ref.instance];
   const Mesh& mesh = tracer.scene().meshes[instance.mesh];
   const Vec3u t = mesh.triangles[ref.triangle];
-  const Vec3f a = instance.X_WM * mesh.positions[t.x], b = instance.X_WM * mesh.positions[t.y],
-              c = instance.X_WM * mesh.positions[t.z];
+  const Vec3f a = instance.X_WM * mesh.positions[t.x], b = instance.X_WM * mesh.positions[t.y], c = instance.X_WM * mesh.positions[t.z];
   const Vec3f normal = Cross(b - a, c - a) * (instance.X_WM.A.determinant() < 0 ? -1.0f : 1.0f);
   return Dot(normal, Vec3f{r.direction_x[k], r.direction_y[k], r.direction_z[k]}) > 0;
 }
@@ -160,8 +158,7 @@ void LampGrid::RaiseCorners(const RayTracer& tracer, const std::vector<uint32_t>
     const FlushDenormals flush;
     const size_t first = static_cast<size_t>(run) * 16, last = std::min(first + 16, corners.size());
     Packet packet;
-    for (size_t i = first; i < last; ++i)
-      packet.Set(static_cast<int>(i - first), CornerPosition(corners[i]), Vec3f{0, 0, 1}, cell_);
+    for (size_t i = first; i < last; ++i) packet.Set(static_cast<int>(i - first), CornerPosition(corners[i]), Vec3f{0, 0, 1}, cell_);
     tracer.Intersect16(packet.valid, packet.rays, false);
     for (size_t i = first; i < last; ++i) {
       const auto k = static_cast<int>(i - first);
@@ -198,10 +195,9 @@ void LampGrid::PlaceCells(const RayTracer& tracer) {
   const float reach = 0.5f * std::sqrt(3.0f) * cell_;
   ParallelFor(static_cast<int64_t>(ny_) * nz_, [&](int64_t row) {
     for (int64_t k = row * nx_; k < (row + 1) * nx_; ++k) {
-      const Vec3f center =
-          origin_ + Vec3f{static_cast<float>(k % nx_) + 0.5f, static_cast<float>(k / nx_ % ny_) + 0.5f,
-                          static_cast<float>(k / nx_ / ny_) + 0.5f} *
-                        cell_;
+      const Vec3f center = origin_ + Vec3f{static_cast<float>(k % nx_) + 0.5f, static_cast<float>(k / nx_ % ny_) + 0.5f,
+                                           static_cast<float>(k / nx_ / ny_) + 0.5f} *
+                                         cell_;
       filled[k] = tracer.Clearance(center, reach * 1.01f) < reach;
     }
   });
@@ -258,14 +254,12 @@ void LampGrid::LookAtLamps(const RayTracer& tracer, Vec3f p, RankedLamps& ranked
   }
 }
 
-std::vector<LampGrid::Corner> LampGrid::SeeFromCorners(const RayTracer& tracer,
-                                                       const std::vector<uint32_t>& places) const {
+std::vector<LampGrid::Corner> LampGrid::SeeFromCorners(const RayTracer& tracer, const std::vector<uint32_t>& places) const {
   std::vector<Corner> corners(places.size());
   constexpr int64_t kRun = 256;
   ParallelFor((static_cast<int64_t>(places.size()) + kRun - 1) / kRun, [&](int64_t run) {
     const FlushDenormals flush;
-    const int64_t first = run * kRun,
-                  last = std::min<int64_t>(first + kRun, static_cast<int64_t>(places.size()));
+    const int64_t first = run * kRun, last = std::min<int64_t>(first + kRun, static_cast<int64_t>(places.size()));
     Box3f box;
     for (int64_t i = first; i < last; ++i) box.Add(CornerPosition(places[i]));
     const std::vector<uint32_t> near = LampsThatReach(box);
@@ -297,8 +291,7 @@ void LampGrid::MarkSolid(const RayTracer& tracer, const std::vector<uint32_t>& p
         const Vec3f p = CornerPosition(places[i]);
         const LampRecord& lamp = records_[corners[i].lamp[0]];
         const Vec3f to = Vec3f{lamp.center[0], lamp.center[1], lamp.center[2]} - p;
-        packet.Set(static_cast<int>(i - first), p, upwards ? Vec3f{0.011f, 0.007f, 1} : Normalized(to),
-                   INFINITY);
+        packet.Set(static_cast<int>(i - first), p, upwards ? Vec3f{0.011f, 0.007f, 1} : Normalized(to), INFINITY);
       }
       tracer.Intersect16(packet.valid, packet.rays, false);
       for (size_t i = first; i < last; ++i) {
@@ -310,8 +303,7 @@ void LampGrid::MarkSolid(const RayTracer& tracer, const std::vector<uint32_t>& p
 }
 
 // The lamps that bring most to any corner; those that no corner sees come last.
-void LampGrid::FillCells(const std::vector<uint32_t>& places, const std::vector<Corner>& corners,
-                         const std::vector<uint32_t>& corner_of) {
+void LampGrid::FillCells(const std::vector<uint32_t>& places, const std::vector<Corner>& corners, const std::vector<uint32_t>& corner_of) {
   constexpr float kUnseen = 0.1f, kNegligible = 1e-3f;
   std::vector<LampCell> filled(places.size());
   ParallelFor((static_cast<int64_t>(places.size()) + 255) / 256, [&](int64_t run) {
@@ -321,8 +313,7 @@ void LampGrid::FillCells(const std::vector<uint32_t>& places, const std::vector<
       uint32_t seen;
     };
     std::vector<Candidate> found;
-    for (int64_t i = run * 256; i < std::min<int64_t>((run + 1) * 256, static_cast<int64_t>(places.size()));
-         ++i) {
+    for (int64_t i = run * 256; i < std::min<int64_t>((run + 1) * 256, static_cast<int64_t>(places.size())); ++i) {
       found.clear();
       uint32_t open = 0;
       const uint32_t place = places[i];
@@ -332,8 +323,7 @@ void LampGrid::FillCells(const std::vector<uint32_t>& places, const std::vector<
         for (int k = 0; k < corner.count; ++k) {
           const bool seen = (corner.seen >> k & 1) != 0;
           const float score = corner.strength[k] * (seen ? 1.0f : kUnseen);
-          auto at = std::find_if(found.begin(), found.end(),
-                                 [&](const Candidate& f) { return f.lamp == corner.lamp[k]; });
+          auto at = std::find_if(found.begin(), found.end(), [&](const Candidate& f) { return f.lamp == corner.lamp[k]; });
           if (at == found.end()) at = found.insert(found.end(), {corner.lamp[k], 0, 0});
           at->score = std::max(at->score, score);
           if (seen) at->seen |= 1u << c;
@@ -341,9 +331,7 @@ void LampGrid::FillCells(const std::vector<uint32_t>& places, const std::vector<
       }
       size_t count = std::min<size_t>(found.size(), LampCell::kLamps);
       std::partial_sort(found.begin(), found.begin() + static_cast<int64_t>(count), found.end(),
-                        [](const Candidate& a, const Candidate& b) {
-                          return a.score != b.score ? a.score > b.score : a.lamp < b.lamp;
-                        });
+                        [](const Candidate& a, const Candidate& b) { return a.score != b.score ? a.score > b.score : a.lamp < b.lamp; });
       while (count > 0 && found[count - 1].score < kNegligible * found[0].score) --count;
       LampCell& cell = filled[i];
       cell = LampCell{};
@@ -384,8 +372,7 @@ void LampGrid::AverageCells() {
         const Vec3f to = Normalized(Vec3f{lamp.center[0], lamp.center[1], lamp.center[2]} - p);
         const Vec3f color{lamp.color[0], lamp.color[1], lamp.color[2]};
         const Vec3f light = color * (Strength(lamp, p) / std::max(Luminance(color), 1e-30f));
-        for (int side = 0; side < 6; ++side)
-          sum[side] += light * std::max(0.0f, side & 1 ? -to[side / 2] : to[side / 2]);
+        for (int side = 0; side < 6; ++side) sum[side] += light * std::max(0.0f, side & 1 ? -to[side / 2] : to[side / 2]);
       }
     }
     for (int side = 0; side < 6; ++side) sides_[i][side] = sum[side] / std::max(open, 1.0f);
@@ -397,16 +384,14 @@ Vec3f LampGrid::NearIrradiance(Vec3f p, Vec3f n) const {
   const auto inside = [](float x, int n) { return x >= 0 && x < static_cast<float>(n); };
   const auto at = [&](Vec3f a) {
     return inside(a.x, nx_) && inside(a.y, ny_) && inside(a.z, nz_)
-               ? cell_of_[(static_cast<size_t>(a.z) * ny_ + static_cast<size_t>(a.y)) * nx_ +
-                          static_cast<size_t>(a.x)]
+               ? cell_of_[(static_cast<size_t>(a.z) * ny_ + static_cast<size_t>(a.y)) * nx_ + static_cast<size_t>(a.x)]
                : 0u;
   };
   if (records_.empty()) return {};
   uint32_t cell = at(q);
   if (cell == 0) cell = at((p - origin_) / cell_);
   const std::array<Vec3f, 6>& e = sides_[cell];
-  return e[n.x < 0 ? 1 : 0] * (n.x * n.x) + e[n.y < 0 ? 3 : 2] * (n.y * n.y) +
-         e[n.z < 0 ? 5 : 4] * (n.z * n.z);
+  return e[n.x < 0 ? 1 : 0] * (n.x * n.x) + e[n.y < 0 ? 3 : 2] * (n.y * n.y) + e[n.z < 0 ? 5 : 4] * (n.z * n.z);
 }
 
 float LampGrid::TypicalLight() const {
@@ -417,16 +402,7 @@ float LampGrid::TypicalLight() const {
 
 LampView LampGrid::view() const {
   if (records_.empty()) return {};
-  return {records_.data(),
-          cells_.data(),
-          cell_of_.data(),
-          origin_.x,
-          origin_.y,
-          origin_.z,
-          1 / cell_,
-          nx_,
-          ny_,
-          nz_};
+  return {records_.data(), cells_.data(), cell_of_.data(), origin_.x, origin_.y, origin_.z, 1 / cell_, nx_, ny_, nz_};
 }
 
 Vec3f LampGrid::Irradiance(Vec3f p, Vec3f normal) const {

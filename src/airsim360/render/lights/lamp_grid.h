@@ -49,8 +49,7 @@ class LampGrid {
   void LookAtLamps(const RayTracer& tracer, Vec3f p, RankedLamps& ranked, Corner& corner) const;
   void MarkSolid(const RayTracer& tracer, const std::vector<uint32_t>& places, std::vector<Corner>& corners) const;
   std::vector<Corner> SeeFromCorners(const RayTracer& tracer, const std::vector<uint32_t>& places) const;
-  void FillCells(const std::vector<uint32_t>& places, const std::vector<Corner>& corners,
-                 const std::vector<uint32_t>& corner_of);
+  void FillCells(const std::vector<uint32_t>& places, const std::vector<Corner>& corners, const std::vector<uint32_t>& corner_of);
   Vec3f CornerPosition(uint32_t corner) const;
   float Strength(const LampRecord& lamp, Vec3f p) const;
   void AverageCells();
@@ -63,7 +62,7 @@ class LampGrid {
   std::vector<LampCell> cells_;      ///< 0: none
   std::vector<uint32_t> cell_of_;
   std::vector<std::array<Vec3f, 6>> sides_;  ///< by cell: mean irradiance on surfaces that face +x, -x, +y …
-  std::vector<float> raised_;  ///< by corner, metres; while the grid is made
+  std::vector<float> raised_;                ///< by corner, metres; while the grid is made
   Vec3f origin_;
   float cell_ = 2.5f;
   int nx_ = 0, ny_ = 0, nz_ = 0;

@@ -7,11 +7,11 @@ namespace {
 
 #define KERNEL static inline __attribute__((always_inline, unused))
 
-constexpr int kSlots = 16;         // lamps of a cell, one spare
-constexpr float kFoliage = 1;      // SurfaceKind
-constexpr float kMatt = 0.6f;      // rougher surfaces show no highlight of a lamp
-constexpr float kBrightest = 400;  // as for the sun's glint
-constexpr float kUnseen = 0.15f;   // rank of a lamp that no corner of the cell sees, against one that all see
+constexpr int kSlots = 16;           // lamps of a cell, one spare
+constexpr float kFoliage = 1;        // SurfaceKind
+constexpr float kMatt = 0.6f;        // rougher surfaces show no highlight of a lamp
+constexpr float kBrightest = 400;    // as for the sun's glint
+constexpr float kUnseen = 0.15f;     // rank of a lamp that no corner of the cell sees, against one that all see
 constexpr float kTooLittle = 0.01f;  // of all light: not worth a ray
 static_assert(kSlots % kLanes == 0 && LampCell::kLamps < kSlots);
 
@@ -53,15 +53,14 @@ struct Place {
   float fx, fy, fz;  // in the cell
 };
 KERNEL Place Locate(const LampView& view, float x, float y, float z) {
-  const float gx = (x - view.origin_x) * view.cells_per_metre,
-              gy = (y - view.origin_y) * view.cells_per_metre,
+  const float gx = (x - view.origin_x) * view.cells_per_metre, gy = (y - view.origin_y) * view.cells_per_metre,
               gz = (z - view.origin_z) * view.cells_per_metre;
-  if (!(gx >= 0 && gy >= 0 && gz >= 0 && gx < static_cast<float>(view.nx) &&
-        gy < static_cast<float>(view.ny) && gz < static_cast<float>(view.nz)))
+  if (!(gx >= 0 && gy >= 0 && gz >= 0 && gx < static_cast<float>(view.nx) && gy < static_cast<float>(view.ny) &&
+        gz < static_cast<float>(view.nz)))
     return {0, 0, 0, 0};
   const int ix = static_cast<int>(gx), iy = static_cast<int>(gy), iz = static_cast<int>(gz);
-  return {view.cell_of[(static_cast<int64_t>(iz) * view.ny + iy) * view.nx + ix], gx - static_cast<float>(ix),
-          gy - static_cast<float>(iy), gz - static_cast<float>(iz)};
+  return {view.cell_of[(static_cast<int64_t>(iz) * view.ny + iy) * view.nx + ix], gx - static_cast<float>(ix), gy - static_cast<float>(iy),
+          gz - static_cast<float>(iz)};
 }
 
 /// Weights of the corners that are not in solids; 0 where all are.
@@ -86,8 +85,7 @@ struct alignas(64) Effects {
 
 KERNEL real3 Same(float x, float y, float z) { return make3(real(x), real(y), real(z)); }
 
-KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellLanes& c, const float* weight,
-                     Effects& e) {
+KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellLanes& c, const float* weight, Effects& e) {
   const real3 p = Same(s.px[i], s.py[i], s.pz[i]), n = Same(s.nx[i], s.ny[i], s.nz[i]);
   const real3 g = Same(s.gx[i], s.gy[i], s.gz[i]), d = Same(rays.dx[i], rays.dy[i], rays.dz[i]);
   const bool leaf = e.leaf = s.kind[i] == kFoliage;
@@ -102,8 +100,7 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
     const real3 w = to * (1.0f / distance);
     const real radius = load(c.radius + k);
     const real towards = zero - dot3(load3(c.fx + k, c.fy + k, c.fz + k), w);
-    real light =
-        lamp_irradiance(load(c.body + k), towards, load(c.soft + k), radius, distance, load(c.reach + k));
+    real light = lamp_irradiance(load(c.body + k), towards, load(c.soft + k), radius, distance, load(c.reach + k));
     if (c.beams) {
       const real along = zero - dot3(load3(c.bx + k, c.by + k, c.bz + k), w);
       light = light * beam_shape(load(c.sharp + k), along, zero - w.z);
@@ -126,11 +123,9 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
       // A lamp is not a point: its size widens the highlight (Karis 2013).
       const real own = real(s.roughness[i] * s.roughness[i]);
       const real alpha = rmin(rmax(own, real(0.006f)) + 0.5f * radius / distance, real(1.0f));
-      const real3 f = specular_brdf(f0, alpha, rmax(n_dot_l, real(1e-3f)), n_dot_v, rmax(dot3(n, h), zero),
-                                    clamp01(dot3(w, h)));
+      const real3 f = specular_brdf(f0, alpha, rmax(n_dot_l, real(1e-3f)), n_dot_v, rmax(dot3(n, h), zero), clamp01(dot3(w, h)));
       const real3 all = f * front;
-      const real3 shine =
-          make3(rmin(all.x, real(kBrightest)), rmin(all.y, real(kBrightest)), rmin(all.z, real(kBrightest)));
+      const real3 shine = make3(rmin(all.x, real(kBrightest)), rmin(all.y, real(kBrightest)), rmin(all.z, real(kBrightest)));
       brought = brought + luminance(shine);
       store3(e.shine[0] + k, e.shine[1] + k, e.shine[2] + k, shine);
     }
@@ -159,8 +154,7 @@ KERNEL void Soften(uint32_t key, float radius, LampRays::Ray& ray) {
   const float c = a < 1 ? 1 - 2 * a : a < 2 ? -1 : a < 3 ? 2 * a - 5 : 1;
   const float q = a < 1 ? 1 : a < 2 ? 3 - 2 * a : a < 3 ? -1 : 2 * a - 7;
   const float scale = 0.85f * radius * side / __builtin_sqrtf(c * c + q * q);
-  const float x = ray.dx * whole + c * scale, y = ray.dy * whole + q * scale,
-              h = ray.dz * whole + 0.85f * radius * z;
+  const float x = ray.dx * whole + c * scale, y = ray.dy * whole + q * scale, h = ray.dz * whole + 0.85f * radius * z;
   const float length = __builtin_sqrtf(x * x + y * y + h * h);
   const float inverse = 1 / (length > 1e-6f ? length : 1e-6f);
   ray.dx = x * inverse, ray.dy = y * inverse, ray.dz = h * inverse;
@@ -168,8 +162,7 @@ KERNEL void Soften(uint32_t key, float radius, LampRays::Ray& ray) {
 
 /// Takes the strongest lamps out for rays. The less a lamp stands out from the first one left behind, the
 /// less its ray counts: so nothing jumps where the order changes.
-KERNEL void ChooseRays(const CellLanes& c, Effects& e, float total, int count, bool soft, uint32_t key, int i,
-                       LampRays& wanted) {
+KERNEL void ChooseRays(const CellLanes& c, Effects& e, float total, int count, bool soft, uint32_t key, int i, LampRays& wanted) {
   int chosen[LampRays::kMost + 1];
   float rank[LampRays::kMost + 1];
   for (int k = 0; k <= count; ++k) {
@@ -192,16 +185,14 @@ KERNEL void ChooseRays(const CellLanes& c, Effects& e, float total, int count, b
     ray.distance = e.distance[j];
     ray.guess = e.guess[j];
     for (int q = 0; q < 3; ++q)
-      ray.front[q] = e.front[q][j], ray.back[q] = e.leaf ? e.back[q][j] : 0,
-      ray.shine[q] = e.shiny ? e.shine[q][j] : 0;
+      ray.front[q] = e.front[q][j], ray.back[q] = e.leaf ? e.back[q][j] : 0, ray.shine[q] = e.shiny ? e.shine[q][j] : 0;
     if (soft && ray.distance > 0) Soften(key * 4u + static_cast<uint32_t>(k), c.radius[j], ray);
   }
 }
 
 }  // namespace
 
-void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool soft, SurfaceSet& s,
-                  LampRays& wanted) {
+void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool soft, SurfaceSet& s, LampRays& wanted) {
   CellLanes cell;
   cell.count = 0;
   uint32_t loaded = 0;

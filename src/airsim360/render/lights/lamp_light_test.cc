@@ -25,11 +25,9 @@ Mesh Quad(Vec3f a, Vec3f b, Vec3f c, Vec3f d) {
 // Faces inwards.
 Mesh Room(Vec3f lo, Vec3f hi) {
   Mesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.positions.push_back({i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z});
-  for (const Vec3u t :
-       {Vec3u{0, 1, 3}, Vec3u{0, 3, 2}, Vec3u{4, 6, 7}, Vec3u{4, 7, 5}, Vec3u{0, 2, 6}, Vec3u{0, 6, 4},
-        Vec3u{1, 5, 7}, Vec3u{1, 7, 3}, Vec3u{0, 4, 5}, Vec3u{0, 5, 1}, Vec3u{2, 3, 7}, Vec3u{2, 7, 6}})
+  for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z});
+  for (const Vec3u t : {Vec3u{0, 1, 3}, Vec3u{0, 3, 2}, Vec3u{4, 6, 7}, Vec3u{4, 7, 5}, Vec3u{0, 2, 6}, Vec3u{0, 6, 4}, Vec3u{1, 5, 7},
+                        Vec3u{1, 7, 3}, Vec3u{0, 4, 5}, Vec3u{0, 5, 1}, Vec3u{2, 3, 7}, Vec3u{2, 7, 6}})
     mesh.triangles.push_back(t);
   return mesh;
 }
@@ -41,8 +39,7 @@ Mesh Ball(Vec3f center, float radius) {
   for (int i = 0; i <= kRings; ++i) {
     for (int j = 0; j < kSides; ++j) {
       const float a = kPi * static_cast<float>(i) / kRings, b = 2 * kPi * static_cast<float>(j) / kSides;
-      mesh.positions.push_back(
-          center + Vec3f{std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)} * radius);
+      mesh.positions.push_back(center + Vec3f{std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)} * radius);
     }
   }
   for (uint32_t i = 0; i < kRings; ++i) {
@@ -71,8 +68,7 @@ struct World {
     Add(std::move(mesh), material);
   }
   void Add(Mesh mesh, const Material& material) {
-    mesh.parts = {
-        {0, static_cast<uint32_t>(mesh.triangles.size()), builder.AddMaterial(material), kNoEntity}};
+    mesh.parts = {{0, static_cast<uint32_t>(mesh.triangles.size()), builder.AddMaterial(material), kNoEntity}};
     builder.AddInstance({builder.AddMesh(std::move(mesh)), {}, entity});
   }
   void Build() {
@@ -132,7 +128,8 @@ TEST(LampLight, AHeadLampLightsTheWallBeforeItByTheSquareOfTheDistanceAndItsBeam
     const HeadLamp lamp(distance);
     // Straight ahead, down, up beyond the cut-off, to the side.
     std::vector<Vec3f> points;
-    for (const Vec3f way : {Vec3f{0, -1, kBeamDrop}, Vec3f{0, -1, -0.05f}, Vec3f{0, -1, 0.2f}, Vec3f{0.2f, -1, -0.02f}, Vec3f{0.7f, -1, 0.01f}})
+    for (const Vec3f way :
+         {Vec3f{0, -1, kBeamDrop}, Vec3f{0, -1, -0.05f}, Vec3f{0, -1, 0.2f}, Vec3f{0.2f, -1, -0.02f}, Vec3f{0.7f, -1, 0.01f}})
       points.push_back(Vec3f{0, 0, HeadLamp::kHeight} + way * distance);
     const std::vector<float> light = lamp.world.Light(points, 2, {0, 1, 0});
     for (size_t i = 0; i < points.size(); ++i) {
@@ -176,8 +173,8 @@ TEST(LampLight, APlateThatFacesDownLightsByTheCosineLawAndNothingAboveIt) {
   const float half = 0.1f, height = 4, radiance = 1;
   world.Add(Quad({-30, -30, 0}, {30, -30, 0}, {30, 30, 0}, {-30, 30, 0}), 0.2f);
   world.Add(Quad({-5, -5, 9}, {-5, 5, 9}, {5, 5, 9}, {5, -5, 9}), 0.2f);
-  world.Add(Quad({-half, -half, height}, {-half, half, height}, {half, half, height}, {half, -half, height}),
-            0, {radiance, radiance, radiance});
+  world.Add(Quad({-half, -half, height}, {-half, half, height}, {half, half, height}, {half, -half, height}), 0,
+            {radiance, radiance, radiance});
   world.Build();
   const std::vector<Vec3f> points = Row();
   const std::vector<float> light = world.Light(points);
@@ -233,8 +230,7 @@ TEST(LampLight, ProbesInAClosedBoxHaveTheSeriesOfAllBounces) {
     for (Vec3u& t : lamp.triangles) std::swap(t.y, t.z);
     world.Add(lamp, 0, {1, 1, 1});
     world.Build();
-    const LightProbes probes({*world.tracer, *world.tables, nullptr, world.lights.get(), world.grid.get()},
-                             {.max_probes = 6000});
+    const LightProbes probes({*world.tracer, *world.tables, nullptr, world.lights.get(), world.grid.get()}, {.max_probes = 6000});
     // All light that walls get: the lamp's own, and what the probes say of bounces.
     double direct = 0, bounced = 0;
     int count = 0;
@@ -262,8 +258,7 @@ TEST(LampLight, IsTheSameOnEveryInstructionSetAndWithAnyNumberOfThreads) {
   world.Add(Quad({-30, -30, 0}, {30, -30, 0}, {30, 30, 0}, {-30, 30, 0}), 0.2f);
   for (int k = 0; k < 20; ++k) {
     const float a = static_cast<float>(k);
-    world.Add(Ball({5 * std::sin(a), 7 * std::cos(2 * a), 2 + 0.1f * a}, 0.1f), 0,
-              {1, 0.5f + 0.02f * a, 0.3f});
+    world.Add(Ball({5 * std::sin(a), 7 * std::cos(2 * a), 2 + 0.1f * a}, 0.1f), 0, {1, 0.5f + 0.02f * a, 0.3f});
   }
   world.Build();
   auto rays = std::make_unique<RaySet>();

@@ -70,8 +70,7 @@ MeshLamps FindLamps(const Scene& scene, const Mesh& mesh, const Mat3f& A, const 
     const Vec3u t = mesh.triangles[shining[i]];
     for (uint32_t corner : {t.x, t.y, t.z}) {
       const Vec3f p = mesh.positions[corner] + Vec3f{};  // minus zero becomes zero
-      const std::array<uint32_t, 3> key{std::bit_cast<uint32_t>(p.x), std::bit_cast<uint32_t>(p.y),
-                                        std::bit_cast<uint32_t>(p.z)};
+      const std::array<uint32_t, 3> key{std::bit_cast<uint32_t>(p.x), std::bit_cast<uint32_t>(p.y), std::bit_cast<uint32_t>(p.z)};
       groups.Join(first_at.try_emplace(key, i).first->second, i);
     }
   }
@@ -98,8 +97,7 @@ MeshLamps FindLamps(const Scene& scene, const Mesh& mesh, const Mat3f& A, const 
 
 LampTriangle PlaceTriangle(const Mesh& mesh, uint32_t triangle, const AffineTransform& X_WM) {
   const Vec3u t = mesh.triangles[triangle];
-  LampTriangle out{
-      {X_WM * mesh.positions[t.x], X_WM * mesh.positions[t.y], X_WM * mesh.positions[t.z]}, {}, 0};
+  LampTriangle out{{X_WM * mesh.positions[t.x], X_WM * mesh.positions[t.y], X_WM * mesh.positions[t.z]}, {}, 0};
   Vec3f cross = Cross(out.corner[1] - out.corner[0], out.corner[2] - out.corner[0]);
   if (X_WM.A.determinant() < 0) cross = -cross;
   const float length = Norm(cross);
@@ -108,8 +106,7 @@ LampTriangle PlaceTriangle(const Mesh& mesh, uint32_t triangle, const AffineTran
   return out;
 }
 
-PlacedLamp PlaceLamp(const Scene& scene, const SurfaceTables& tables, uint32_t instance,
-                     const LampShape& shape) {
+PlacedLamp PlaceLamp(const Scene& scene, const SurfaceTables& tables, uint32_t instance, const LampShape& shape) {
   const Instance& placed = scene.instances[instance];
   const Mesh& mesh = scene.meshes[placed.mesh];
   const uint32_t first = tables.instances[instance].first_triangle;
@@ -134,16 +131,14 @@ PlacedLamp PlaceLamp(const Scene& scene, const SurfaceTables& tables, uint32_t i
 
   // Bounds of place and direction.
   for (uint32_t k : shape.triangles) {
-    for (Vec3f p : PlaceTriangle(mesh, k, placed.X_WM).corner)
-      lamp.radius = std::max(lamp.radius, Norm(p - lamp.center));
+    for (Vec3f p : PlaceTriangle(mesh, k, placed.X_WM).corner) lamp.radius = std::max(lamp.radius, Norm(p - lamp.center));
   }
   lamp.axis = Normalized(lamp.facing);
   if (Norm(lamp.facing) < 0.01f * lamp.area) {
     lamp.axis = {0, 0, 1};
     lamp.spread = kPi;
   } else {
-    for (Vec3f n : normals)
-      lamp.spread = std::max(lamp.spread, std::acos(std::clamp(Dot(n, lamp.axis), -1.0f, 1.0f)));
+    for (Vec3f n : normals) lamp.spread = std::max(lamp.spread, std::acos(std::clamp(Dot(n, lamp.axis), -1.0f, 1.0f)));
   }
   return out;
 }

@@ -45,7 +45,6 @@ struct PlacedLamp {
   Box3f box;
   uint32_t shape = 0;  ///< index into the shapes of its mesh
 };
-PlacedLamp PlaceLamp(const Scene& scene, const SurfaceTables& tables, uint32_t instance,
-                     const LampShape& shape);
+PlacedLamp PlaceLamp(const Scene& scene, const SurfaceTables& tables, uint32_t instance, const LampShape& shape);
 
 }  // namespace airsim360::internal

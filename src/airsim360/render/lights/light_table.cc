@@ -17,8 +17,8 @@ namespace {
 bool IsSimilarity(const Mat3f& A) {
   const Vec3f a = A.column(0), b = A.column(1), c = A.column(2);
   const float scale = Dot(a, a), slack = 1e-4f * scale;
-  return std::fabs(Dot(b, b) - scale) < slack && std::fabs(Dot(c, c) - scale) < slack &&
-         std::fabs(Dot(a, b)) < slack && std::fabs(Dot(b, c)) < slack && std::fabs(Dot(c, a)) < slack;
+  return std::fabs(Dot(b, b) - scale) < slack && std::fabs(Dot(c, c) - scale) < slack && std::fabs(Dot(a, b)) < slack &&
+         std::fabs(Dot(b, c)) < slack && std::fabs(Dot(c, a)) < slack;
 }
 
 // Bilinear look-up of the finest level, as shading_texture.h does.
@@ -26,16 +26,13 @@ Vec3f TexelsAt(const TextureRecord& texture, float u, float v) {
   const TextureLevel& level = texture.levels[0];
   const auto fold = [](float x, uint8_t wrap) {
     const float half = x * 0.5f - std::floor(x * 0.5f);
-    return wrap == 0   ? x - std::floor(x)
-           : wrap == 1 ? 1 - std::fabs(1 - 2 * half)
-                       : std::clamp(x, 0.0f, 1.0f);
+    return wrap == 0 ? x - std::floor(x) : wrap == 1 ? 1 - std::fabs(1 - 2 * half) : std::clamp(x, 0.0f, 1.0f);
   };
   const auto neighbour = [](float at, float size, bool clamps) {
     if (at < 0) return clamps ? 0.0f : size - 1;
     return at > size - 1 ? (clamps ? size - 1 : 0.0f) : at;
   };
-  const float x = fold(u, texture.wrap_u) * level.width - 0.5f,
-              y = fold(v, texture.wrap_v) * level.height - 0.5f;
+  const float x = fold(u, texture.wrap_u) * level.width - 0.5f, y = fold(v, texture.wrap_v) * level.height - 0.5f;
   const float x0 = std::floor(x), y0 = std::floor(y);
   Vec3f sum;
   for (int k = 0; k < 4; ++k) {
@@ -66,17 +63,13 @@ struct LightTable::Impl {
   std::vector<uint32_t> shape;  // by lamp
   LightTree tree;
 
-  const LampShape& ShapeOf(uint32_t lamp) const {
-    return mesh_lamps[lamps_of_instance[lamps[lamp].instance]].shapes[shape[lamp]];
-  }
+  const LampShape& ShapeOf(uint32_t lamp) const { return mesh_lamps[lamps_of_instance[lamps[lamp].instance]].shapes[shape[lamp]]; }
 };
 
-LightTable::Impl::Impl(const Scene& s, const SurfaceTables& t, const Environment& environment)
-    : scene(s), tables(t) {
+LightTable::Impl::Impl(const Scene& s, const SurfaceTables& t, const Environment& environment) : scene(s), tables(t) {
   std::vector<bool> shines(scene.meshes.size());
   for (size_t m = 0; m < scene.meshes.size(); ++m) {
-    for (const MeshPart& part : scene.meshes[m].parts)
-      shines[m] = shines[m] || Shines(scene.materials[part.material], environment);
+    for (const MeshPart& part : scene.meshes[m].parts) shines[m] = shines[m] || Shines(scene.materials[part.material], environment);
   }
 
   // Groups of triangles are found once a mesh, and again for instances that shear it.
@@ -135,8 +128,7 @@ LightSample LightTable::Sample(Vec3f p, Vec3f normal, Vec3f u) const {
   sample.pdf = choice.probability / lamp.area;
 
   // Radiance, as the shader sees it there.
-  const TriangleRecord& record =
-      impl_->tables.triangles[impl_->tables.instances[lamp.instance].first_triangle + triangle];
+  const TriangleRecord& record = impl_->tables.triangles[impl_->tables.instances[lamp.instance].first_triangle + triangle];
   const Material& material = impl_->scene.materials[record.material & ~kMirroredUv];
   const MaterialRecord& look = impl_->tables.materials[record.material & ~kMirroredUv];
   sample.radiance = material.emission * impl_->tables.GlowOf(lamp.instance);

@@ -47,9 +47,7 @@ struct World {
   }
 };
 
-Vec3f Random(RngStream& r) {
-  return {static_cast<float>(r.Uniform()), static_cast<float>(r.Uniform()), static_cast<float>(r.Uniform())};
-}
+Vec3f Random(RngStream& r) { return {static_cast<float>(r.Uniform()), static_cast<float>(r.Uniform()), static_cast<float>(r.Uniform())}; }
 Vec3f Direction(RngStream& r) {
   const double z = r.Uniform(-1, 1), a = r.Uniform(0, 2 * kPi), s = std::sqrt(1 - z * z);
   return {static_cast<float>(s * std::cos(a)), static_cast<float>(s * std::sin(a)), static_cast<float>(z)};
@@ -70,8 +68,7 @@ void AddRandomLamps(World& world, int count, uint64_t seed) {
     const Vec3f n = Direction(r), e = Normalized(Cross(n, Direction(r)));
     const auto size = static_cast<float>(r.Uniform(0.05, 0.5));
     const auto light = static_cast<float>(std::exp(r.Uniform(-2, 3)));
-    world.Add(Rectangle((Random(r) - Vec3f{0.5f, 0.5f, 0.5f}) * 40, e * size, Cross(n, e) * size),
-              world.Emitter({light, light, light}));
+    world.Add(Rectangle((Random(r) - Vec3f{0.5f, 0.5f, 0.5f}) * 40, e * size, Cross(n, e) * size), world.Emitter({light, light, light}));
   }
 }
 
@@ -123,14 +120,13 @@ TEST(LightTable, ARectangleGivesItsAnalyticFormFactor) {
   world.Add(Rectangle({-a, -b, h}, {0, 2 * b, 0}, {2 * a, 0, 0}), world.Emitter({1, 1, 1}));
   world.Build();
   const float x = a / h, y = b / h;
-  const float corner = (x / std::sqrt(1 + x * x) * std::atan(y / std::sqrt(1 + x * x)) +
-                        y / std::sqrt(1 + y * y) * std::atan(x / std::sqrt(1 + y * y))) /
-                       (2 * kPi);
+  const float corner =
+      (x / std::sqrt(1 + x * x) * std::atan(y / std::sqrt(1 + x * x)) + y / std::sqrt(1 + y * y) * std::atan(x / std::sqrt(1 + y * y))) /
+      (2 * kPi);
   RngStream r(1, "rectangle");
   double sum = 0;
   constexpr int kSamples = 200000;
-  for (int i = 0; i < kSamples; ++i)
-    sum += Contribution(world.lights->Sample({0, 0, 0}, {0, 0, 1}, Random(r)), {0, 0, 0}, {0, 0, 1});
+  for (int i = 0; i < kSamples; ++i) sum += Contribution(world.lights->Sample({0, 0, 0}, {0, 0, 1}, Random(r)), {0, 0, 0}, {0, 0, 1});
   EXPECT_NEAR(sum / kSamples / (kPi * 4 * corner), 1, 0.005);
 }
 
@@ -176,8 +172,7 @@ TEST(LightTable, SampledAndQueriedDensitiesAgreeAndFrequenciesMatchThem) {
       // The lamp that holds the point.
       uint32_t nearest = 0;
       for (uint32_t i = 1; i < world.lights->size(); ++i) {
-        if (Norm(world.lights->lamps()[i].center - s.p) < Norm(world.lights->lamps()[nearest].center - s.p))
-          nearest = i;
+        if (Norm(world.lights->lamps()[i].center - s.p) < Norm(world.lights->lamps()[nearest].center - s.p)) nearest = i;
       }
       ++counted[nearest];
       ASSERT_NEAR(s.pdf / world.lights->Pdf(p, n, nearest, 0), 1, 1e-4);
@@ -211,10 +206,8 @@ TEST(LightTable, TheEstimateEqualsTheSumOverAllLamps) {
       const Vec3f normal = Normalized(Cross(e, f));
       constexpr int kGrid = 4;
       for (int k = 0; k < kGrid * kGrid; ++k) {
-        const float s = (static_cast<float>(k % kGrid) + 0.5f) / kGrid,
-                    t = (static_cast<float>(k / kGrid) + 0.5f) / kGrid;
-        const LightSample at{a + e * s + f * t, normal, world.scene->materials[i].emission,
-                             kGrid * kGrid / world.lights->lamps()[i].area};
+        const float s = (static_cast<float>(k % kGrid) + 0.5f) / kGrid, t = (static_cast<float>(k / kGrid) + 0.5f) / kGrid;
+        const LightSample at{a + e * s + f * t, normal, world.scene->materials[i].emission, kGrid * kGrid / world.lights->lamps()[i].area};
         sum += Contribution(at, p, n);
       }
     }

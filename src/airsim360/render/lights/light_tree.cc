@@ -32,8 +32,7 @@ Vec3f TurnTowards(Vec3f a, Vec3f b, float angle) {
 float Spread(float cone) {
   const float w = std::min(cone + kPi / 2, kPi);
   return 2 * kPi * (1 - std::cos(cone)) +
-         kPi / 2 *
-             (2 * w * std::sin(cone) - std::cos(cone - 2 * w) - 2 * cone * std::sin(cone) + std::cos(cone));
+         kPi / 2 * (2 * w * std::sin(cone) - std::cos(cone - 2 * w) - 2 * cone * std::sin(cone) + std::cos(cone));
 }
 
 float Area(const Box3f& box) {
@@ -42,9 +41,7 @@ float Area(const Box3f& box) {
   return 2 * (s.x * s.y + s.y * s.z + s.z * s.x);
 }
 
-float Cost(const LightBounds& b) {
-  return b.box.empty() ? 0 : b.power * Spread(b.spread) * (Area(b.box) + 1e-6f);
-}
+float Cost(const LightBounds& b) { return b.box.empty() ? 0 : b.power * Spread(b.spread) * (Area(b.box) + 1e-6f); }
 
 }  // namespace
 
@@ -112,8 +109,7 @@ uint32_t LightTree::Build(std::span<uint32_t> order, std::span<const LightBounds
   int best_axis = -1, best_bin = 0;
   const auto bin_of = [&](uint32_t i, int axis) {
     const float low = centers.min[axis], size = centers.size()[axis];
-    return std::min(kBins - 1,
-                    static_cast<int>((lamps[i].box.center()[axis] - low) / size * static_cast<float>(kBins)));
+    return std::min(kBins - 1, static_cast<int>((lamps[i].box.center()[axis] - low) / size * static_cast<float>(kBins)));
   };
   for (int axis = 0; axis < 3; ++axis) {
     if (!(centers.size()[axis] > 0)) continue;
@@ -134,8 +130,7 @@ uint32_t LightTree::Build(std::span<uint32_t> order, std::span<const LightBounds
   }
   size_t middle = order.size() / 2;
   if (best_axis >= 0) {
-    const auto split = std::stable_partition(order.begin(), order.end(),
-                                             [&](uint32_t i) { return bin_of(i, best_axis) <= best_bin; });
+    const auto split = std::stable_partition(order.begin(), order.end(), [&](uint32_t i) { return bin_of(i, best_axis) <= best_bin; });
     middle = static_cast<size_t>(split - order.begin());
   }
   Build(order.first(middle), lamps, index);
@@ -150,8 +145,7 @@ LightTree::Choice LightTree::Choose(Vec3f p, Vec3f normal, float u) const {
   Choice choice{0, 1, u};
   uint32_t at = 0;
   while (nodes_[at].second != 0) {
-    const float first = nodes_[at + 1].bounds.Importance(p, normal),
-                second = nodes_[nodes_[at].second].bounds.Importance(p, normal);
+    const float first = nodes_[at + 1].bounds.Importance(p, normal), second = nodes_[nodes_[at].second].bounds.Importance(p, normal);
     const float sum = first + second;
     if (!(sum > 0)) return {};
     const float share = first / sum;
@@ -171,8 +165,7 @@ float LightTree::Probability(Vec3f p, Vec3f normal, uint32_t lamp) const {
   for (uint32_t at = leaf_of_[lamp]; at != 0; at = nodes_[at].parent) {
     const Node& parent = nodes_[nodes_[at].parent];
     const uint32_t first = nodes_[at].parent + 1, other = at == first ? parent.second : first;
-    const float own = nodes_[at].bounds.Importance(p, normal),
-                sum = own + nodes_[other].bounds.Importance(p, normal);
+    const float own = nodes_[at].bounds.Importance(p, normal), sum = own + nodes_[other].bounds.Importance(p, normal);
     if (!(sum > 0)) return 0;
     probability *= own / sum;
   }

@@ -20,14 +20,14 @@ Look ParseLook(std::string_view name);
 /// figures of a product.
 struct CameraLook {
   // Exposure
-  double metering = 0.56;          ///< mean of the sRGB-encoded picture that exposure aims at, 0 … 1; 0: fixed daylight exposure
-  double metering_spread = 0.03;   ///< standard deviation of that aim, drawn
+  double metering = 0.56;                ///< mean of the sRGB-encoded picture that exposure aims at, 0 … 1; 0: fixed daylight exposure
+  double metering_spread = 0.03;         ///< standard deviation of that aim, drawn
   double dimmest_white = kDimmestWhite;  ///< cd/m2 that exposure makes white at the most: nights stay dark
 
   // Lens
-  double glare = 0.04;      ///< share of the light that the lens scatters
-  double glare_deg = 2;     ///< about half of that stays within so many degrees
-  double softness_px = 0.6; ///< standard deviation of the blur by lens and demosaicing, pixels, at most 0.8
+  double glare = 0.04;       ///< share of the light that the lens scatters
+  double glare_deg = 2;      ///< about half of that stays within so many degrees
+  double softness_px = 0.6;  ///< standard deviation of the blur by lens and demosaicing, pixels, at most 0.8
 
   // Sensor: noise of a channel of the picture's light in units of white has the variance
   // signal gain / full_well + (read_noise gain / full_well)^2.
@@ -41,10 +41,10 @@ struct CameraLook {
   double saturation = 1.05;     ///< 1: as it is
 
   // Tone
-  double shoulder = 2.2;           ///< highlights: white is reached at 1 where 0, at 2.2 by default; middle grey stays
-  double contrast = 0.72;          ///< of an S about the middle of the encoded values
-  double contrast_spread = 0.12;   ///< standard deviation, drawn
-  double sharpening = 0.45;        ///< of luminance against its blur by 1.3 pixels
+  double shoulder = 2.2;          ///< highlights: white is reached at 1 where 0, at 2.2 by default; middle grey stays
+  double contrast = 0.72;         ///< of an S about the middle of the encoded values
+  double contrast_spread = 0.12;  ///< standard deviation, drawn
+  double sharpening = 0.45;       ///< of luminance against its blur by 1.3 pixels
 
   bool each_frame = false;  ///< draw again for every frame; else one draw for all frames of a seed
 
@@ -58,7 +58,7 @@ void CheckCameraLook(const CameraLook& look, std::string_view prefix = {});
 
 /// What is drawn of a look, by (seed) or (seed, frame).
 struct DrawnLook {
-  double metering = 0;           ///< as CameraLook::metering
+  double metering = 0;                  ///< as CameraLook::metering
   double red = 1, green = 1, blue = 1;  ///< gains on top of the white balance
   double contrast = 0;
 };

@@ -113,8 +113,8 @@ void ToneRow(const ToneRowTask& task, const ConstColorRow* rows, ColorRow scratc
   for (int x = 0; x < task.width; x += kLanes) {
     real c[3];
     for (int k = 0; k < 3; ++k) {
-      const real light = side > 0 ? (Take(column[k] + x - 1) + Take(column[k] + x + 1)) * side + load(column[k] + x) * own
-                                  : load(from[k][1] + x);
+      const real light =
+          side > 0 ? (Take(column[k] + x - 1) + Take(column[k] + x + 1)) * side + load(column[k] + x) * own : load(from[k][1] + x);
       const real share = rmin(rmax(light * (task.gain[k] * task.clip_inverse), real(0.0f)), real(1.0f));
       c[k] = GatherFloats(task.curve, to_int(rroot(share) * static_cast<float>(kCurveSize) + 0.5f));
     }

@@ -22,17 +22,17 @@ struct ConstColorRow {
 struct ExposeRowTask {
   int width;
   float exposure, slope, floor;
-  uint32_t key;      ///< of the row's noise
-  float grain;       ///< columns of noise in a column of the picture, at most 1
+  uint32_t key;  ///< of the row's noise
+  float grain;   ///< columns of noise in a column of the picture, at most 1
 };
 
 /// From exposed light to encoded values: gains of the white balance, curve, saturation.
 struct ToneRowTask {
   int width;
-  float side;               ///< weight of either neighbour in the blur, both ways
+  float side;  ///< weight of either neighbour in the blur, both ways
   float gain[3];
-  float clip_inverse;       ///< 1 / the light that becomes 1
-  const float* curve;       ///< kCurveSize + 1 encoded values over the square root of light / clip; the nearest is taken
+  float clip_inverse;  ///< 1 / the light that becomes 1
+  const float* curve;  ///< kCurveSize + 1 encoded values over the square root of light / clip; the nearest is taken
   float saturation;
 };
 inline constexpr int kCurveSize = 4096;
@@ -49,9 +49,8 @@ AIRSIM360_DECLARE_KERNEL(void SpreadRow(const float* from, int cells, int width,
 /// In place.
 AIRSIM360_DECLARE_KERNEL(void ExposeRow(const ExposeRowTask& task, ColorRow row))
 /// Encoded values of the middle of three exposed rows, blurred by (side, 1 - 2 side, side) both ways, and their luminance.
-AIRSIM360_DECLARE_KERNEL(void ToneRow(const ToneRowTask& task, const ConstColorRow* rows, ColorRow scratch, ColorRow out,
-                                      float* luminance))
+AIRSIM360_DECLARE_KERNEL(void ToneRow(const ToneRowTask& task, const ConstColorRow* rows, ColorRow scratch, ColorRow out, float* luminance))
 /// Codes of encoded values, with `amount` of the difference between luminance and its 5 x 5 blur (rows y - 2 … y + 2 of
 /// luminance) added.
-AIRSIM360_DECLARE_KERNEL(void SharpenRow(int width, float amount, ConstColorRow encoded, const float* const* luminance,
-                                         float* scratch, Rgb8* out))
+AIRSIM360_DECLARE_KERNEL(void SharpenRow(int width, float amount, ConstColorRow encoded, const float* const* luminance, float* scratch,
+                                         Rgb8* out))

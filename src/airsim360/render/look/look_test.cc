@@ -164,18 +164,17 @@ struct Lab {
 // Of linear sRGB, CIE 1931, D65.
 Lab ToLab(double r, double g, double b) {
   const auto f = [](double t) { return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116; };
-  const double x = f((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047),
-               y = f(0.2126729 * r + 0.7151522 * g + 0.0721750 * b),
+  const double x = f((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047), y = f(0.2126729 * r + 0.7151522 * g + 0.0721750 * b),
                z = f((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883);
   return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }
 
 TEST(PhotoTest, AColorChartComesOutWithinDeltaE3AtNeutralSettings) {
   // The usual 24 patches of a chart as 8-bit sRGB (rounded, D65), of which the last six are greys; CIE 1976 difference.
-  constexpr int kPatches[24][3] = {{115, 82, 68},  {194, 150, 130}, {98, 122, 157}, {87, 108, 67},   {133, 128, 177}, {103, 189, 170},
-                                   {214, 126, 44}, {80, 91, 166},   {193, 90, 99},  {94, 60, 108},   {157, 188, 64},  {224, 163, 46},
-                                   {56, 61, 150},  {70, 148, 73},   {175, 54, 60},  {231, 199, 31},  {187, 86, 149},  {8, 133, 161},
-                                   {243, 243, 242}, {200, 200, 200}, {160, 160, 160}, {122, 122, 121}, {85, 85, 85},  {52, 52, 52}};
+  constexpr int kPatches[24][3] = {{115, 82, 68},   {194, 150, 130}, {98, 122, 157},  {87, 108, 67},   {133, 128, 177}, {103, 189, 170},
+                                   {214, 126, 44},  {80, 91, 166},   {193, 90, 99},   {94, 60, 108},   {157, 188, 64},  {224, 163, 46},
+                                   {56, 61, 150},   {70, 148, 73},   {175, 54, 60},   {231, 199, 31},  {187, 86, 149},  {8, 133, 161},
+                                   {243, 243, 242}, {200, 200, 200}, {160, 160, 160}, {122, 122, 121}, {85, 85, 85},    {52, 52, 52}};
   PhotoRequest request = Request();
   request.camera = Pinhole{240, 160, 200, 200, 120, 80};
   request.exposure = 0.25f;  // of light four times as strong
@@ -247,7 +246,8 @@ TEST(PhotoTest, MeteringHitsItsAim) {
       CameraLook look;
       look.metering = aim, look.metering_spread = 0, look.dimmest_white = 1e-4;
       Image<Rgb32f> light = Scenery();
-      for (Rgb32f& c : light.pixels()) c = {c.r * static_cast<float>(brightness), c.g * static_cast<float>(brightness), c.b * static_cast<float>(brightness)};
+      for (Rgb32f& c : light.pixels())
+        c = {c.r * static_cast<float>(brightness), c.g * static_cast<float>(brightness), c.b * static_cast<float>(brightness)};
       Image<Rgb8> rgb;
       TakePhoto(look, Request(), light, rgb);
       double sum = 0, whole = 0;
@@ -337,9 +337,10 @@ TEST(PhotoTest, TheNumberOfThreadsDoesNotMatter) {
 }
 
 TEST(PhotoTest, NeitherSizeNorProjectionMatters) {
-  for (const Camera& camera : std::vector<Camera>{Equirectangular{2, 1}, Equirectangular{36, 18}, Equirectangular{100, 50}, Pinhole{1, 1, 1, 1, 0.5, 0.5},
-                                                  Pinhole{33, 7, 20, 20, 16, 3}, Pinhole{3, 600, 20, 20, 1, 300}, CubeFace{CubeFaceName::kPosX, 64},
-                                                  Fisheye::Equidistant(50, 50, 3)}) {
+  for (const Camera& camera :
+       std::vector<Camera>{Equirectangular{2, 1}, Equirectangular{36, 18}, Equirectangular{100, 50}, Pinhole{1, 1, 1, 1, 0.5, 0.5},
+                           Pinhole{33, 7, 20, 20, 16, 3}, Pinhole{3, 600, 20, 20, 1, 300}, CubeFace{CubeFaceName::kPosX, 64},
+                           Fisheye::Equidistant(50, 50, 3)}) {
     PhotoRequest request;
     request.camera = camera;
     request.daylight = Noon();
@@ -405,13 +406,23 @@ TEST(LookKernels, AllInstructionSetsGiveTheSameBits) {
     std::vector<float> planes[4], cosines, sines;
     for (uint64_t k = 0; k < 4; ++k) planes[k] = noise(kLength * kRows, k);
     for (int k = 0; k < kLength / 2; ++k)
-      cosines.push_back(static_cast<float>(std::cos(2 * kPi * k / kLength))), sines.push_back(static_cast<float>(std::sin(2 * kPi * k / kLength)));
+      cosines.push_back(static_cast<float>(std::cos(2 * kPi * k / kLength))),
+          sines.push_back(static_cast<float>(std::sin(2 * kPi * k / kLength)));
     const std::vector<float> area = noise(kRows, 5), flux = noise(kRows + 1, 6), across = noise(kRows, 7), eigen = noise(kLength, 8);
     const float t[2] = {0.1f, 3}, weight[2] = {0.4f, 0.6f};
     const ScatterRows rows{planes[0].data(), planes[1].data(), kLength, kLength, cosines.data(), sines.data()};
     fourier(rows, 16, false);
-    solver({kRows, kLength, area.data(), flux.data(), across.data(), eigen.data(), 2, t, weight,
-            {planes[0].data(), planes[1].data(), planes[2].data(), planes[3].data()}}, 16);
+    solver({kRows,
+            kLength,
+            area.data(),
+            flux.data(),
+            across.data(),
+            eigen.data(),
+            2,
+            t,
+            weight,
+            {planes[0].data(), planes[1].data(), planes[2].data(), planes[3].data()}},
+           16);
     fourier(rows, 0, true);
     planes[0].insert(planes[0].end(), planes[1].begin(), planes[1].end());
     return planes[0];

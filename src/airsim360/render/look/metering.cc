@@ -85,8 +85,7 @@ std::array<double, 3> WhiteBalance(double strength, const Daylight& day, const L
   const std::array<double, 3> mean{picture.LogMean(0), picture.LogMean(1), picture.LogMean(2)};
   if (strength <= 0 || !(std::min({mean[0], mean[1], mean[2]}) > 0)) return gains;
   const double height = std::max(0.05, static_cast<double>(day.to_sun.z));
-  const std::array<double, 3> light{day.sun.r * height + day.sky.r, day.sun.g * height + day.sky.g,
-                                    day.sun.b * height + day.sky.b};
+  const std::array<double, 3> light{day.sun.r * height + day.sky.r, day.sun.g * height + day.sky.g, day.sun.b * height + day.sky.b};
   const bool is_day = std::min({light[0], light[1], light[2]}) > 0;
   // How far the picture is from what daylight would make of grey ground, in octaves.
   double by_day = 0;
@@ -104,8 +103,8 @@ std::array<double, 3> WhiteBalance(double strength, const Daylight& day, const L
   return gains;
 }
 
-double MeterExposure(const LightHistogram& picture, const std::vector<float>& curve, double clip,
-                     const std::array<double, 3>& gains, double aim, double low, double high) {
+double MeterExposure(const LightHistogram& picture, const std::vector<float>& curve, double clip, const std::array<double, 3>& gains,
+                     double aim, double low, double high) {
   double a = std::log2(low), b = std::log2(high);
   for (int i = 0; i < 24; ++i) {
     const double middle = 0.5 * (a + b), k = std::exp2(middle);

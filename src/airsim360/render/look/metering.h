@@ -33,7 +33,7 @@ class LightHistogram {
 std::array<double, 3> WhiteBalance(double strength, const Daylight& day, const LightHistogram& picture);
 
 /// Factor to light so that MeanEncoded is `aim`; within [low, high].
-double MeterExposure(const LightHistogram& picture, const std::vector<float>& curve, double clip,
-                     const std::array<double, 3>& gains, double aim, double low, double high);
+double MeterExposure(const LightHistogram& picture, const std::vector<float>& curve, double clip, const std::array<double, 3>& gains,
+                     double aim, double low, double high);
 
 }  // namespace airsim360::internal

@@ -18,7 +18,7 @@ using namespace internal;
 
 constexpr int kBandRows = 64;
 constexpr float kMostWhite = 400, kDiscWhite = 30;  // of light that is scattered, and of the sun's disc; of daylight's white
-constexpr double kBrightestWhite = 1e7;  // cd/m2
+constexpr double kBrightestWhite = 1e7;             // cd/m2
 // From the first to the second luminance of white, cd/m2, the meter's aim falls by a share.
 constexpr double kDayWhite = 500, kDimWhite = 5, kDimmer = 0.35;
 
@@ -73,8 +73,15 @@ double NoiseLeft(double side, double grain) {
 class Band {
  public:
   Band(const Plan& plan, const Image<Rgb32f>& light)
-      : plan_(plan), g_(plan.geometry), light_(light), exposed_(9, g_.width), encoded_(15, g_.width), luminance_(5, g_.width),
-        scratch_(3, g_.width), cells_(1, g_.cells_across), canonical_(static_cast<size_t>(g_.width)) {}
+      : plan_(plan),
+        g_(plan.geometry),
+        light_(light),
+        exposed_(9, g_.width),
+        encoded_(15, g_.width),
+        luminance_(5, g_.width),
+        scratch_(3, g_.width),
+        cells_(1, g_.cells_across),
+        canonical_(static_cast<size_t>(g_.width)) {}
 
   void Develop(int first, int last, Image<Rgb8>& rgb) {
     const auto sharpen = AIRSIM360_SELECT_KERNEL(SharpenRow);
@@ -108,7 +115,10 @@ class Band {
     // Grains are as wide as high on the sphere, too.
     const double latitude = std::numbers::pi * (0.5 - (from.y + 0.5) / g_.height), grain = g_.sphere ? std::cos(latitude) : 1;
     const auto scale = static_cast<float>(1 / NoiseLeft(plan_.side, grain));
-    const ExposeRowTask task{g_.width, plan_.exposure, plan_.slope * scale, plan_.floor * scale,
+    const ExposeRowTask task{g_.width,
+                             plan_.exposure,
+                             plan_.slope * scale,
+                             plan_.floor * scale,
                              static_cast<uint32_t>(MixBits(plan_.noise_key + static_cast<uint64_t>(from.y)) >> 32),
                              static_cast<float>(grain)};
     AIRSIM360_SELECT_KERNEL(ExposeRow)(task, row);
@@ -179,9 +189,12 @@ void SetSensor(const CameraLook& look, const PhotoFigures& figures, Plan& plan) 
 
 void SetTone(const CameraLook& look, const PhotoFigures& figures, Plan& plan) {
   plan.sharpening = static_cast<float>(look.sharpening);
-  plan.tone = {plan.geometry.width, plan.side,
+  plan.tone = {plan.geometry.width,
+               plan.side,
                {static_cast<float>(figures.red), static_cast<float>(figures.green), static_cast<float>(figures.blue)},
-               static_cast<float>(1 / ClipOfShoulder(look.shoulder)), plan.curve.data(), static_cast<float>(look.saturation)};
+               static_cast<float>(1 / ClipOfShoulder(look.shoulder)),
+               plan.curve.data(),
+               static_cast<float>(look.saturation)};
 }
 
 }  // namespace

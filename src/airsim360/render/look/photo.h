@@ -23,12 +23,12 @@ struct PhotoRequest {
 
 /// What a camera chose, and what was drawn.
 struct PhotoFigures {
-  double exposure_ev = 0;  ///< stops on top of the fixed daylight exposure, all together
-  double white_cd_m2 = 0;  ///< luminance that comes out as white
-  double gain = 1;         ///< of the sensor, see CameraLook::full_well
+  double exposure_ev = 0;               ///< stops on top of the fixed daylight exposure, all together
+  double white_cd_m2 = 0;               ///< luminance that comes out as white
+  double gain = 1;                      ///< of the sensor, see CameraLook::full_well
   double red = 1, green = 1, blue = 1;  ///< of the white balance, errors included
   double contrast = 0;
-  double sun_seen = 0;     ///< share of the sun's disc; 0 also where it is outside of the picture
+  double sun_seen = 0;  ///< share of the sun's disc; 0 also where it is outside of the picture
 };
 
 /// `light` is Frame::light; the sun's disc in it is clipped, for its light is that of `daylight`. A panorama rolled by

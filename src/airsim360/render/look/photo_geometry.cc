@@ -30,8 +30,10 @@ Vec3d SphereDirection(const PhotoGeometry& g, Vec2d at) {
 }  // namespace
 
 PhotoGeometry::PhotoGeometry(const PhotoRequest& request)
-    : width(Width(request.camera)), height(Height(request.camera)),
-      sphere(std::holds_alternative<Equirectangular>(request.camera)), shift(0) {
+    : width(Width(request.camera)),
+      height(Height(request.camera)),
+      sphere(std::holds_alternative<Equirectangular>(request.camera)),
+      shift(0) {
   column = row = sphere ? 2 * kPi / width : PixelAngle(request.camera);
   if (sphere) {
     CameraRays rays;

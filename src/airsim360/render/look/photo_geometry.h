@@ -16,8 +16,8 @@ namespace airsim360::internal {
 struct PhotoGeometry {
   int width, height;
   bool sphere;
-  int shift;          ///< 0 unless a panorama
-  double column, row; ///< radians of a pixel: at the equator, or in the middle of the picture
+  int shift;           ///< 0 unless a panorama
+  double column, row;  ///< radians of a pixel: at the equator, or in the middle of the picture
   int cells_across, cells_down;
 
   explicit PhotoGeometry(const PhotoRequest& request);

@@ -148,14 +148,20 @@ void Scatter(const ScatterMixture& mixture, const LightCells& light, LightCells&
   std::vector<float> t, weight;
   for (const ScatterMixture::Part& part : mixture.parts)
     t.push_back(static_cast<float>(part.t)), weight.push_back(static_cast<float>(part.weight));
-  const ScatterSystem system{h, stride, grid.area.data(), grid.flux.data(), grid.across.data(), grid.eigen.data(),
-                             static_cast<int>(t.size()), t.data(), weight.data(),
+  const ScatterSystem system{h,
+                             stride,
+                             grid.area.data(),
+                             grid.flux.data(),
+                             grid.across.data(),
+                             grid.eigen.data(),
+                             static_cast<int>(t.size()),
+                             t.data(),
+                             weight.data(),
                              {planes[0].data(), planes[1].data(), planes[2].data(), planes[3].data()}};
   const auto solve = AIRSIM360_SELECT_KERNEL(SolveColumns);
   ParallelFor(length / kScatterBlock, [&](int64_t block) { solve(system, static_cast<int>(block) * kScatterBlock); });
   for (size_t k = 0; k < 4; ++k) {
-    for (size_t y = 0; y < means[k].size(); ++y)
-      planes[k][y * static_cast<size_t>(stride)] = static_cast<float>(means[k][y]);
+    for (size_t y = 0; y < means[k].size(); ++y) planes[k][y * static_cast<size_t>(stride)] = static_cast<float>(means[k][y]);
   }
 
   const float scale = 1.0f / static_cast<float>(length);

@@ -20,8 +20,8 @@ inline constexpr double kScatterExponent = 0.31;
 /// Light in cells: of a sphere (equirectangular, as panoramas) or of a plane. Planes are red, green, blue, row-major.
 struct LightCells {
   bool sphere = true;
-  int width = 0, height = 0;    ///< width is a power of two, at most kMostColumns; height at most kMostRows
-  double column = 0, row = 0;   ///< size of a cell of the plane, radians; of a sphere 2 pi / width, pi / height
+  int width = 0, height = 0;   ///< width is a power of two, at most kMostColumns; height at most kMostRows
+  double column = 0, row = 0;  ///< size of a cell of the plane, radians; of a sphere 2 pi / width, pi / height
   std::array<std::vector<float>, 3> planes;
 
   static constexpr int kMostColumns = 1024, kMostRows = 512;

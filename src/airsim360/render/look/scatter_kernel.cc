@@ -1,6 +1,6 @@
 // Kernel: Fourier transforms of rows, tridiagonal systems of columns.
-#include "airsim360/render/look/scatter_kernels.h"
 #include "airsim360/render/look/scatter.h"
+#include "airsim360/render/look/scatter_kernels.h"
 #include "airsim360/render/shared/shading_simd.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
@@ -126,8 +126,7 @@ void SolveColumns(const ScatterSystem& s, int first) {
     const real eigen(s.eigen + x, stdx::element_aligned);
     for (int i = 0; i < s.parts; ++i) SolvePart(s, eigen, s.t[i], s.weight[i], c);
     for (int k = 0; k < 4; ++k) {
-      for (int y = 0; y < s.rows; ++y)
-        c.sum[k][y].copy_to(s.planes[k] + static_cast<int64_t>(y) * s.stride + x, stdx::element_aligned);
+      for (int y = 0; y < s.rows; ++y) c.sum[k][y].copy_to(s.planes[k] + static_cast<int64_t>(y) * s.stride + x, stdx::element_aligned);
     }
   }
 }

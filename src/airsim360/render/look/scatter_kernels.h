@@ -8,8 +8,8 @@ namespace airsim360::internal {
 /// Rows of complex numbers; rows are padded to the next multiple of kScatterBlock.
 struct ScatterRows {
   float *re, *im;
-  int length;  ///< a power of two
-  int stride;  ///< from row to row; no power of two, or the rows share their places in the caches
+  int length;                    ///< a power of two
+  int stride;                    ///< from row to row; no power of two, or the rows share their places in the caches
   const float *cosines, *sines;  ///< of 2 pi k / length, k < length / 2
 };
 inline constexpr int kScatterBlock = 16;

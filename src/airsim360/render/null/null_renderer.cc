@@ -22,8 +22,7 @@ class NullRenderer : public Renderer {
     const CategoryId category = sky == kNoEntity ? kVoid : scene_->entity(sky).category;
     const Products& products = request.products;
     const auto fill = [&](auto& image, bool wanted, auto value) {
-      image = wanted ? std::remove_reference_t<decltype(image)>(width, height, value)
-                     : std::remove_reference_t<decltype(image)>();
+      image = wanted ? std::remove_reference_t<decltype(image)>(width, height, value) : std::remove_reference_t<decltype(image)>();
     };
     fill(frame.rgb, products.rgb && request.tier != Tier::kLabels, kSkyColor);
     fill(frame.range, products.range, 0.0f);
@@ -46,8 +45,6 @@ class NullRenderer : public Renderer {
 
 }  // namespace
 
-std::unique_ptr<Renderer> MakeNullRenderer(std::shared_ptr<const Scene> scene) {
-  return std::make_unique<NullRenderer>(std::move(scene));
-}
+std::unique_ptr<Renderer> MakeNullRenderer(std::shared_ptr<const Scene> scene) { return std::make_unique<NullRenderer>(std::move(scene)); }
 
 }  // namespace airsim360

@@ -90,8 +90,7 @@ void PathBatch::Escape(RaySet& misses) {
       of_sky = path.pdf / (path.pdf + scene_.lights.SkyPdf(path.from, d));
       of_sun = path.pdf / (path.pdf + scene_.lights.SunPdf(d));
     }
-    path.radiance += path.throughput * (Vec3f{sky.r[i], sky.g[i], sky.b[i]} * of_sky +
-                                        scene_.lights.SunRadiance(path.origin, d) * of_sun);
+    path.radiance += path.throughput * (Vec3f{sky.r[i], sky.g[i], sky.b[i]} * of_sky + scene_.lights.SunRadiance(path.origin, d) * of_sun);
   }
 }
 
@@ -111,8 +110,7 @@ void PathBatch::Arrive(RaySet& hits, uint32_t step) {
     }
     path.radiance += path.throughput * Vec3f{s.er[i], s.eg[i], s.eb[i]} * EmissionWeight(path, i);
     const bool lit_by_room = path.bounces > 0 && path.pdf < kMirrorPdf && Luminance(scene_.room_light) > 0;
-    if (lit_by_room)
-      path.radiance += path.throughput * scene_.room_light * (0.35f + 0.65f * t * t / (t * t + 0.5f));
+    if (lit_by_room) path.radiance += path.throughput * scene_.room_light * (0.35f + 0.65f * t * t / (t * t + 0.5f));
     if (lit_by_room) path.throughput = {};
     // After its last bounce a path may still pass clear panes.
     any |= Luminance(path.throughput) > 0 && (path.bounces < max_bounces_ || scene_.clear_panes);
@@ -127,10 +125,9 @@ void PathBatch::Arrive(RaySet& hits, uint32_t step) {
 // Share of a lamp's light that a path brings which might have been joined to it.
 float PathBatch::EmissionWeight(const Path& path, int i) const {
   if (!next_event_ || path.pdf == 0 || surfaces_.er[i] + surfaces_.eg[i] + surfaces_.eb[i] == 0) return 1;
-  const Vec3f p{surfaces_.px[i], surfaces_.py[i], surfaces_.pz[i]},
-      g{surfaces_.gx[i], surfaces_.gy[i], surfaces_.gz[i]};
-  const float lamp = scene_.lights.LampPdf(path.from, path.from_normal, at_.instance[i], at_.triangle[i],
-                                           Norm(p - path.from), -Dot(g, path.direction));
+  const Vec3f p{surfaces_.px[i], surfaces_.py[i], surfaces_.pz[i]}, g{surfaces_.gx[i], surfaces_.gy[i], surfaces_.gz[i]};
+  const float lamp =
+      scene_.lights.LampPdf(path.from, path.from_normal, at_.instance[i], at_.triangle[i], Norm(p - path.from), -Dot(g, path.direction));
   return path.pdf / (path.pdf + lamp);
 }
 
@@ -143,8 +140,7 @@ void PathBatch::JoinSun(uint32_t step) {
   for (int i = 0; i < at_.count; ++i) {
     const Path& path = paths_[at_.slot[i]];
     const Vec3f p{surfaces_.px[i], surfaces_.py[i], surfaces_.pz[i]};
-    SetLight(i,
-             scene_.lights.SampleSun(p, path.sampler.Pair(path.sample, kFirstPair + step * kPairsPerStep)));
+    SetLight(i, scene_.lights.SampleSun(p, path.sampler.Pair(path.sample, kFirstPair + step * kPairsPerStep)));
   }
   JoinLights(false);
 }
@@ -153,8 +149,7 @@ void PathBatch::JoinSky(uint32_t step) {
   for (int i = 0; i < at_.count; ++i) {
     const Path& path = paths_[at_.slot[i]];
     const Vec3f p{surfaces_.px[i], surfaces_.py[i], surfaces_.pz[i]};
-    SetLight(i,
-             scene_.lights.SampleSky(p, path.sampler.Pair(path.sample, kFirstPair + 1 + step * kPairsPerStep)));
+    SetLight(i, scene_.lights.SampleSky(p, path.sampler.Pair(path.sample, kFirstPair + 1 + step * kPairsPerStep)));
   }
   JoinLights(true);
 }
@@ -163,8 +158,7 @@ void PathBatch::JoinLamps(uint32_t step) {
   for (int i = 0; i < at_.count; ++i) {
     const Path& path = paths_[at_.slot[i]];
     const uint32_t pair = kFirstPair + 4 + step * kPairsPerStep;
-    const Vec2f where = path.sampler.Pair(path.sample, pair),
-                which = path.sampler.Pair(path.sample, pair + 1);
+    const Vec2f where = path.sampler.Pair(path.sample, pair), which = path.sampler.Pair(path.sample, pair + 1);
     const Vec3f p{surfaces_.px[i], surfaces_.py[i], surfaces_.pz[i]};
     SetLight(i, scene_.lights.SampleLamp(p, LampNormal(surfaces_, i), {which.x, where.x, where.y}));
   }
@@ -185,8 +179,8 @@ void PathBatch::JoinLights(bool of_sky) {
   shadow.count = 0;
   for (int i = 0; i < at_.count; ++i) {
     const Path& path = paths_[at_.slot[i]];
-    const Vec3f light = path.throughput * Vec3f{scatter_.r[i], scatter_.g[i], scatter_.b[i]} *
-                        lights_[i].radiance * (1 / (lights_[i].pdf + scatter_.pdf[i]));
+    const Vec3f light = path.throughput * Vec3f{scatter_.r[i], scatter_.g[i], scatter_.b[i]} * lights_[i].radiance *
+                        (1 / (lights_[i].pdf + scatter_.pdf[i]));
     if (path.bounces >= max_bounces_ || lights_[i].pdf == 0 || !(Luminance(light) > 0)) continue;
     const int k = shadow.count++;
     const Vec3f d{scatter_.x[i], scatter_.y[i], scatter_.z[i]}, from = LeaveSurface(at_, surfaces_, i, d);
@@ -249,8 +243,7 @@ void PathBatch::Scatter(uint32_t step) {
       ++path.bounces;
     }
     if (path.bounces >= kFirstRoulette) {
-      const float survival =
-          std::min(0.95f, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
+      const float survival = std::min(0.95f, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
       if (rest[i].y >= survival) continue;
       path.throughput = path.throughput * (1 / survival);
     }

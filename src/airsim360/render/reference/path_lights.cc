@@ -11,8 +11,7 @@ constexpr float kSunRadius = 0.004625f;  // radians; as in light_kernel.cc
 
 }  // namespace
 
-PathLights::PathLights(const Shader::Impl& parts)
-    : sky_(parts.sky ? &*parts.sky : nullptr), lamps_(parts.lights) {
+PathLights::PathLights(const Shader::Impl& parts) : sky_(parts.sky ? &*parts.sky : nullptr), lamps_(parts.lights) {
   if (sky_ == nullptr) return;
   if (parts.enclosure) portals_ = Portals(*parts.built, *parts.enclosure);
   to_sun_ = sky_->to_sun();
@@ -28,8 +27,8 @@ LightRay PathLights::SampleSun(Vec3f p, Vec2f u) const {
   // The chord to the disc's centre squared is even over solid angle.
   const float chord = kSunRadius * std::sqrt(u.x), turn = kTau * u.y;
   const float side = chord * std::sqrt(1 - 0.25f * chord * chord);
-  const Vec3f d = Normalized(to_sun_ * (1 - 0.5f * chord * chord) + sun_right_ * (side * std::cos(turn)) +
-                             sun_up_ * (side * std::sin(turn)));
+  const Vec3f d =
+      Normalized(to_sun_ * (1 - 0.5f * chord * chord) + sun_right_ * (side * std::cos(turn)) + sun_up_ * (side * std::sin(turn)));
   return {d, SunRadiance(p, d), SunPdf(d), INFINITY};
 }
 
@@ -72,8 +71,7 @@ LightRay PathLights::SampleLamp(Vec3f p, Vec3f normal, Vec3f u) const {
   return {d, sample.radiance, sample.pdf * distance * distance / cosine, distance};
 }
 
-float PathLights::LampPdf(Vec3f p, Vec3f normal, uint32_t instance, uint32_t triangle, float distance,
-                          float cos_lamp) const {
+float PathLights::LampPdf(Vec3f p, Vec3f normal, uint32_t instance, uint32_t triangle, float distance, float cos_lamp) const {
   return lamps_.Pdf(p, normal, instance, triangle) * distance * distance / std::max(cos_lamp, 1e-5f);
 }
 

@@ -42,8 +42,7 @@ class PathLights {
   LightRay SampleLamp(Vec3f p, Vec3f normal, Vec3f u) const;
   /// Density with which SampleLamp at (p, normal) finds the triangle that a ray has met after `distance` with
   /// cosine `cos_lamp`.
-  float LampPdf(Vec3f p, Vec3f normal, uint32_t instance, uint32_t triangle, float distance,
-                float cos_lamp) const;
+  float LampPdf(Vec3f p, Vec3f normal, uint32_t instance, uint32_t triangle, float distance, float cos_lamp) const;
 
  private:
   const Sky* sky_;

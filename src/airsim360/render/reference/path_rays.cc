@@ -16,8 +16,7 @@ void FillPacket(const RaySet& rays, int first, const float* reach, RayHit16& pac
     const bool used = first + k < rays.count;
     const int i = used ? first + k : first;
     packet.origin_x[k] = rays.ox[i], packet.origin_y[k] = rays.oy[i], packet.origin_z[k] = rays.oz[i];
-    packet.direction_x[k] = rays.dx[i], packet.direction_y[k] = rays.dy[i],
-    packet.direction_z[k] = rays.dz[i];
+    packet.direction_x[k] = rays.dx[i], packet.direction_y[k] = rays.dy[i], packet.direction_z[k] = rays.dz[i];
     packet.t_near[k] = packet.time[k] = 0;
     packet.t_far[k] = reach != nullptr ? reach[i] : INFINITY;
     packet.mask[k] = UINT32_MAX;
@@ -44,12 +43,10 @@ PathScene::PathScene(const RayTracer& t, const Shader& shader)
     : tracer(t), view(shader.impl().view), kernels(shader.impl().kernels), lights(shader.impl()) {
   const Scene& scene = tracer.scene();
   if (!lights.has_sky()) room_light = scene.interior_light;
-  for (const Material& m : scene.materials)
-    clear_panes |= m.kind == SurfaceKind::kGlass && m.transmission > 0;
+  for (const Material& m : scene.materials) clear_panes |= m.kind == SurfaceKind::kGlass && m.transmission > 0;
 }
 
-void TraceNearest(const RayTracer& tracer, const RaySet& rays, bool coherent, RaySet& hits, RaySet& misses,
-                  const float* reach) {
+void TraceNearest(const RayTracer& tracer, const RaySet& rays, bool coherent, RaySet& hits, RaySet& misses, const float* reach) {
   hits.count = misses.count = 0;
   RayHit16 packet;
   alignas(64) int valid[16];
@@ -104,8 +101,7 @@ void DimByPanes(const PathScene& scene, ShadowRays& shadow) {
       const int k = rays.count++;
       const Vec3f from = LeaveSurface(hits, surfaces, i, {hits.dx[i], hits.dy[i], hits.dz[i]});
       CopyRay(hits, i, rays, k);
-      const Vec3f way = from - Vec3f{shadow.rays.ox[hits.slot[i]], shadow.rays.oy[hits.slot[i]],
-                                     shadow.rays.oz[hits.slot[i]]};
+      const Vec3f way = from - Vec3f{shadow.rays.ox[hits.slot[i]], shadow.rays.oy[hits.slot[i]], shadow.rays.oz[hits.slot[i]]};
       reach[k] = shadow.reach[hits.slot[i]] - Norm(way);
       rays.ox[k] = from.x, rays.oy[k] = from.y, rays.oz[k] = from.z;
     }

@@ -33,8 +33,7 @@ struct ShadowRays {
 
 /// Splits rays into those that meet a surface and those that do not; `width` and `slot` are copied. `reach`,
 /// if not nullptr, is how far each goes.
-void TraceNearest(const RayTracer& tracer, const RaySet& rays, bool coherent, RaySet& hits, RaySet& misses,
-                  const float* reach = nullptr);
+void TraceNearest(const RayTracer& tracer, const RaySet& rays, bool coherent, RaySet& hits, RaySet& misses, const float* reach = nullptr);
 /// Blackens the light of rays that meet anything.
 void DropHidden(const RayTracer& tracer, ShadowRays& shadow);
 /// The same, but clear panes let their part through.

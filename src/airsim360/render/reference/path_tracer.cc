@@ -66,8 +66,7 @@ bool ImageTracer::Start(int column, int row, uint32_t sample, Path& path) const 
 
 void ImageTracer::RunTile(int column, int row, Image<Rgb32f>& radiance, Image<Rgb32f>* variance) const {
   const RayField& field = rays_.field();
-  const int width = std::min(kTileSize, field.width - column),
-            height = std::min(kTileSize, field.height - row);
+  const int width = std::min(kTileSize, field.width - column), height = std::min(kTileSize, field.height - row);
   PathBatch batch(scene_, options_.max_bounces, options_.next_event, static_cast<float>(rays_.cone_angle()));
   Sums sums[kTileSize * kTileSize];
   int pixel_of[kTileSize * kTileSize];
@@ -91,8 +90,8 @@ void ImageTracer::RunTile(int column, int row, Image<Rgb32f>& radiance, Image<Rg
 
 }  // namespace
 
-void TracePaths(const RayTracer& tracer, const Shader& shader, const CameraRays& rays, Vec3f origin,
-                const PathTracerOptions& options, Image<Rgb32f>& radiance, Image<Rgb32f>* variance) {
+void TracePaths(const RayTracer& tracer, const Shader& shader, const CameraRays& rays, Vec3f origin, const PathTracerOptions& options,
+                Image<Rgb32f>& radiance, Image<Rgb32f>* variance) {
   const RayField& field = rays.field();
   for (Image<Rgb32f>* image : {&radiance, variance}) {
     if (image != nullptr && (image->width() != field.width || image->height() != field.height))
@@ -100,13 +99,11 @@ void TracePaths(const RayTracer& tracer, const Shader& shader, const CameraRays&
   }
   const PathScene scene(tracer, shader);
   const ImageTracer image(scene, rays, origin, options);
-  const int across = (field.width + kTileSize - 1) / kTileSize,
-            down = (field.height + kTileSize - 1) / kTileSize;
+  const int across = (field.width + kTileSize - 1) / kTileSize, down = (field.height + kTileSize - 1) / kTileSize;
   std::atomic<int> done = 0;
   ParallelFor(int64_t{across} * down, [&](int64_t tile) {
     const FlushDenormals flush_denormals;
-    image.RunTile(static_cast<int>(tile % across) * kTileSize, static_cast<int>(tile / across) * kTileSize,
-                  radiance, variance);
+    image.RunTile(static_cast<int>(tile % across) * kTileSize, static_cast<int>(tile / across) * kTileSize, radiance, variance);
     const int count = ++done;
     if (options.progress) options.progress(static_cast<double>(count) / (across * down));
   });

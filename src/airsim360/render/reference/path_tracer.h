@@ -24,7 +24,7 @@ struct PathTracerOptions {
 /// black. The same bytes with any number of threads. Uses the shader's tables, sky and BSDFs, so that what
 /// differs from the other tiers is the light transport alone. A closed room's ambient light meets every
 /// bounce ray where it ends, less where that is near, as in the light probes.
-void TracePaths(const RayTracer& tracer, const Shader& shader, const CameraRays& rays, Vec3f origin,
-                const PathTracerOptions& options, Image<Rgb32f>& radiance, Image<Rgb32f>* variance = nullptr);
+void TracePaths(const RayTracer& tracer, const Shader& shader, const CameraRays& rays, Vec3f origin, const PathTracerOptions& options,
+                Image<Rgb32f>& radiance, Image<Rgb32f>* variance = nullptr);
 
 }  // namespace airsim360::internal

@@ -34,8 +34,7 @@ struct World {
   std::unique_ptr<const Shader> shader;
 
   void Add(Mesh mesh, const Material& material) {
-    mesh.parts = {
-        {0, static_cast<uint32_t>(mesh.triangles.size()), builder.AddMaterial(material), kNoEntity}};
+    mesh.parts = {{0, static_cast<uint32_t>(mesh.triangles.size()), builder.AddMaterial(material), kNoEntity}};
     builder.AddInstance({builder.AddMesh(std::move(mesh)), AffineTransform(), entity});
   }
   // A clear sky with the sun at this elevation, due south.
@@ -51,8 +50,7 @@ struct World {
     tracer = std::make_shared<const RayTracer>(std::move(scene));
     shader = std::make_unique<const Shader>(tracer, tracer->scene().environment);
   }
-  Traced Trace(const Camera& camera, Vec3f from, const PathTracerOptions& options,
-               const Mat3d& R_WC = Mat3d()) const {
+  Traced Trace(const Camera& camera, Vec3f from, const PathTracerOptions& options, const Mat3d& R_WC = Mat3d()) const {
     CameraRays rays;
     rays.Update(camera, R_WC);
     Traced traced;
@@ -62,20 +60,13 @@ struct World {
 };
 
 // An upright quadrangle a, b, c, d seen counter-clockwise.
-Mesh Quad(Vec3f a, Vec3f b, Vec3f c, Vec3f d) {
-  return {"quad", {a, b, c, d}, {}, {}, {{0, 1, 2}, {0, 2, 3}}, {}};
-}
-Mesh Ground(float half, float z = 0) {
-  return Quad({-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z});
-}
+Mesh Quad(Vec3f a, Vec3f b, Vec3f c, Vec3f d) { return {"quad", {a, b, c, d}, {}, {}, {{0, 1, 2}, {0, 2, 3}}, {}}; }
+Mesh Ground(float half, float z = 0) { return Quad({-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}); }
 // The six sides of [-half, half]^3 about a point, seen from outside or, as a room, from inside.
 Mesh Box(float half, Vec3f center = {}, bool room = false) {
-  constexpr uint32_t kQuads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                     {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  constexpr uint32_t kQuads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   Mesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.positions.push_back(center +
-                             Vec3f{i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half});
+  for (int i = 0; i < 8; ++i) mesh.positions.push_back(center + Vec3f{i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half});
   for (const auto& q : kQuads) {
     const int second = room ? 3 : 1, last = room ? 1 : 3;
     mesh.triangles.push_back({q[0], q[second], q[2]});
@@ -112,8 +103,7 @@ TEST(PathTracer, WhiteRoomThatGlowsAddsItsLightAtEveryBounceWithinOnePerCent) {
   world.Add(Box(2, {}, true), glowing);
   world.Build();
   for (int bounces : {0, 1, 3, 6}) {
-    const Traced t =
-        world.Trace(Equirectangular{32, 16}, {0.3f, -0.2f, 0.5f}, {.samples = 32, .max_bounces = bounces});
+    const Traced t = world.Trace(Equirectangular{32, 16}, {0.3f, -0.2f, 0.5f}, {.samples = 32, .max_bounces = bounces});
     EXPECT_NEAR(MeanOf(t.mean), 0.5 * (bounces + 1), 0.005 * (bounces + 1)) << bounces;
   }
 }
@@ -177,8 +167,8 @@ TEST(PathTracer, PenumbraIsAsWideAsTheSunSaysTimesTheDistance) {
   world.Build();
   // One metre of ground over 64 columns.
   constexpr int kColumns = 64, kRows = 8;
-  const Traced t = world.Trace(Pinhole{kColumns, kRows, 128, 128, kColumns / 2, kRows / 2}, {0, 0, 2},
-                               {.samples = 256, .max_bounces = 1}, kLookDown);
+  const Traced t =
+      world.Trace(Pinhole{kColumns, kRows, 128, 128, kColumns / 2, kRows / 2}, {0, 0, 2}, {.samples = 256, .max_bounces = 1}, kLookDown);
   std::vector<double> profile(kColumns);
   for (int x = 0; x < kColumns; ++x)
     for (int y = 0; y < kRows; ++y) profile[x] += t.mean(x, y).g;
@@ -215,8 +205,7 @@ World MakeDusk() {
   World world;
   world.AddSky(-1.5);
   world.Add(Ground(8), Matte(0.5f));
-  Material car = Matte(0.3f), leaf = Matte(0.3f), pane = Matte(0.9f), metal = Matte(0.8f),
-           water = Matte(0.05f);
+  Material car = Matte(0.3f), leaf = Matte(0.3f), pane = Matte(0.9f), metal = Matte(0.8f), water = Matte(0.05f);
   car.clear_coat = 1, car.clear_coat_roughness = 0.3f, car.roughness = 0.5f;
   leaf.kind = SurfaceKind::kFoliage, leaf.transmission = 0.8f, leaf.roughness = 0.5f;
   pane.kind = SurfaceKind::kGlass, pane.transmission = 0.9f, pane.roughness = 0.08f;
@@ -235,16 +224,14 @@ TEST(PathTracer, AnotherSeedAgreesWithinTheNoise) {
   const World world = MakeDusk();
   const Traced a = world.Trace(Equirectangular{64, 32}, {0, 0, 1.2f}, {.samples = 64, .seed = 1});
   const Traced b = world.Trace(Equirectangular{64, 32}, {0, 0, 1.2f}, {.samples = 64, .seed = 2});
-  EXPECT_NE(0, std::memcmp(a.mean.pixels().data(), b.mean.pixels().data(),
-                           a.mean.pixels().size() * sizeof(Rgb32f)));
+  EXPECT_NE(0, std::memcmp(a.mean.pixels().data(), b.mean.pixels().data(), a.mean.pixels().size() * sizeof(Rgb32f)));
   EXPECT_GE(test::ShareWithinNoise(a.mean, a.variance, b.mean, b.variance), test::kShareThatMustPass);
 }
 
 TEST(PathTracer, LightFoundByChanceAgreesWithinTheNoise) {
   const World world = MakeDusk();
   const Traced a = world.Trace(Equirectangular{64, 32}, {0, 0, 1.2f}, {.samples = 64, .seed = 1});
-  const Traced b =
-      world.Trace(Equirectangular{64, 32}, {0, 0, 1.2f}, {.samples = 192, .seed = 2, .next_event = false});
+  const Traced b = world.Trace(Equirectangular{64, 32}, {0, 0, 1.2f}, {.samples = 192, .seed = 2, .next_event = false});
   EXPECT_GE(test::ShareWithinNoise(a.mean, a.variance, b.mean, b.variance), test::kShareThatMustPass);
   // All pixels together: far finer than one by one.
   double error = 0, variance = 0;
@@ -288,9 +275,7 @@ TEST(PathTracer, PanesDimTheSunByTheirFresnelAndColour) {
     pane.kind = SurfaceKind::kGlass, pane.transmission = 1;
     if (roofed) world.Add(Ground(30, 3), pane);
     world.Build();
-    return MeanOf(
-        world.Trace(Pinhole{8, 8, 200, 200, 4, 4}, {0, 0, 1}, {.samples = 128, .max_bounces = 1}, kLookDown)
-            .mean);
+    return MeanOf(world.Trace(Pinhole{8, 8, 200, 200, 4, 4}, {0, 0, 1}, {.samples = 128, .max_bounces = 1}, kLookDown).mean);
   };
   // Most of the light is the sun's, straight from above; what the pane mirrors back down takes more bounces.
   const double pane = scalar::bsdf_pane(1.0f), share = sunlit(true) / sunlit(false);
@@ -347,8 +332,7 @@ TEST(CpuRenderer, ReferenceHasTheLabelsOfTheOtherTiersAndSimilarColours) {
   EXPECT_TRUE(fast.entity == reference.entity);
   EXPECT_TRUE(fast.semantic == reference.semantic);
   double difference = 0;
-  for (size_t i = 0; i < fast.rgb.pixels().size(); ++i)
-    difference += std::abs(fast.rgb.pixels()[i].g - reference.rgb.pixels()[i].g);
+  for (size_t i = 0; i < fast.rgb.pixels().size(); ++i) difference += std::abs(fast.rgb.pixels()[i].g - reference.rgb.pixels()[i].g);
   EXPECT_LT(difference / static_cast<double>(fast.rgb.pixels().size()), 20);
 }
 

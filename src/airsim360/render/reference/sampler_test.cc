@@ -39,8 +39,8 @@ constexpr int kCount = 100000;
 TEST(Samplers, AnyPairOfAnySampleIsEvenOverPixels) {
   for (const uint32_t index : {0u, 1u, 37u}) {
     for (const uint32_t pair : {0u, 5u}) {
-      const double chance = ChiSquareOfSquare(
-          kCount, [&](int pixel) { return PathSampler(3, static_cast<uint64_t>(pixel)).Pair(index, pair); });
+      const double chance =
+          ChiSquareOfSquare(kCount, [&](int pixel) { return PathSampler(3, static_cast<uint64_t>(pixel)).Pair(index, pair); });
       EXPECT_GT(chance, kSignificance) << index << ' ' << pair;
     }
   }
@@ -63,8 +63,7 @@ TEST(Samplers, AllSamplesOfOnePixelAreStratified) {
 TEST(Samplers, SharedDirectionsOfTierHighAreEvenOverSeeds) {
   for (const uint32_t index : {0u, 13u}) {
     RngStream random(5, "seeds");
-    const double chance = ChiSquareOfSquare(
-        kCount, [&](int) { return SobolPoint(index, static_cast<uint32_t>(random.Bits())); });
+    const double chance = ChiSquareOfSquare(kCount, [&](int) { return SobolPoint(index, static_cast<uint32_t>(random.Bits())); });
     EXPECT_GT(chance, kSignificance) << index;
   }
 }

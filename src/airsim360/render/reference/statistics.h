@@ -23,9 +23,7 @@ inline double ChiSquareTail(double statistic, int degrees) {
 }
 
 /// Significance of each of `tests` so that all of them together have `alpha` (Sidak 1967).
-inline double Sidak(double alpha, int64_t tests) {
-  return -std::expm1(std::log1p(-alpha) / static_cast<double>(tests));
-}
+inline double Sidak(double alpha, int64_t tests) { return -std::expm1(std::log1p(-alpha) / static_cast<double>(tests)); }
 
 /// Chance that samples drawn with `sample` have density `pdf` per solid angle. Cells of azimuth by cosine
 /// about +z; `sample` returns false for a sample that is thrown away, which `pdf` leaves out. Cells with
@@ -35,8 +33,7 @@ struct SphereGrid {
   int across = 24, up = 24, fine = 16;
   double low = -1, high = 1;
 };
-inline double ChiSquareOfDirections(const std::function<bool(Vec3f&)>& sample,
-                                    const std::function<double(Vec3f)>& pdf, int64_t count,
+inline double ChiSquareOfDirections(const std::function<bool(Vec3f&)>& sample, const std::function<double(Vec3f)>& pdf, int64_t count,
                                     const SphereGrid& grid = {}) {
   const int cells = grid.across * grid.up;
   constexpr double kTau = 6.283185307179586;
@@ -57,12 +54,11 @@ inline double ChiSquareOfDirections(const std::function<bool(Vec3f&)>& sample,
   for (int c = 0; c < cells; ++c) {
     for (int k = 0; k < grid.fine * grid.fine; ++k) {
       const double a = (c % grid.across + (k % grid.fine + 0.5) / grid.fine) * kTau / grid.across;
-      const double z = grid.low + (static_cast<double>(c / grid.across) + (k / grid.fine + 0.5) / grid.fine) *
-                                      (grid.high - grid.low) / grid.up;
+      const double z =
+          grid.low + (static_cast<double>(c / grid.across) + (k / grid.fine + 0.5) / grid.fine) * (grid.high - grid.low) / grid.up;
       const double s = std::sqrt(std::max(0.0, 1 - z * z));
-      expected[c] += pdf({static_cast<float>(s * std::cos(a)), static_cast<float>(s * std::sin(a)),
-                          static_cast<float>(z)}) *
-                     area * static_cast<double>(count);
+      expected[c] += pdf({static_cast<float>(s * std::cos(a)), static_cast<float>(s * std::sin(a)), static_cast<float>(z)}) * area *
+                     static_cast<double>(count);
     }
     total += expected[c];
   }
@@ -88,9 +84,8 @@ inline double ChiSquareOfDirections(const std::function<bool(Vec3f&)>& sample,
 /// Share of pixel channels whose difference is explained by their variances: two-sided Z-test of every
 /// channel, all of them together at significance `alpha`. Variances are of the means and are at least
 /// `floor`.
-inline double ShareWithinNoise(const Image<Rgb32f>& a, const Image<Rgb32f>& variance_a,
-                               const Image<Rgb32f>& b, const Image<Rgb32f>& variance_b, double alpha = 0.01,
-                               double floor = 1e-8) {
+inline double ShareWithinNoise(const Image<Rgb32f>& a, const Image<Rgb32f>& variance_a, const Image<Rgb32f>& b,
+                               const Image<Rgb32f>& variance_b, double alpha = 0.01, double floor = 1e-8) {
   const int64_t tests = static_cast<int64_t>(a.pixels().size()) * 3;
   const double significance = Sidak(alpha, tests);
   int64_t passed = 0;
@@ -99,8 +94,7 @@ inline double ShareWithinNoise(const Image<Rgb32f>& a, const Image<Rgb32f>& vari
       const double spread = std::sqrt(std::max<double>(static_cast<double>(vx) + vy, floor));
       passed += TwoSidedTail((static_cast<double>(x) - y) / spread) >= significance;
     };
-    const Rgb32f &p = a.pixels()[i], &q = b.pixels()[i], &v = variance_a.pixels()[i],
-                 &w = variance_b.pixels()[i];
+    const Rgb32f &p = a.pixels()[i], &q = b.pixels()[i], &v = variance_a.pixels()[i], &w = variance_b.pixels()[i];
     test(p.r, v.r, q.r, w.r);
     test(p.g, v.g, q.g, w.g);
     test(p.b, v.b, q.b, w.b);

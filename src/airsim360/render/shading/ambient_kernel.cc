@@ -14,9 +14,8 @@ struct alignas(64) Met {
 };
 
 /// Vertex colours in the mean of each triangle, of vectors some lane of which lies in a mesh that has them.
-static __attribute__((noinline)) void TintMet(const ShadeView& view, const AmbientHits& hits,
-                                              const InstanceRecord* const* instance, int first,
-                                              float (&mean)[3][kLanes]) {
+static __attribute__((noinline)) void TintMet(const ShadeView& view, const AmbientHits& hits, const InstanceRecord* const* instance,
+                                              int first, float (&mean)[3][kLanes]) {
   for (int i = 0; i < kLanes; ++i) {
     if (instance[i]->first_color == 0 || hits.instance[first + i] == kMiss) continue;
     const TriangleColors& colors = view.colors[instance[i]->first_color + hits.triangle[first + i]];
@@ -54,9 +53,7 @@ KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
     }
     if (colored != 0) TintMet(view, hits, instance, first, mean);
     const auto quad = [](const auto* const* records, int q) __attribute__((always_inline)) {
-      return GatherQuads([&](int i) __attribute__((always_inline)) {
-        return reinterpret_cast<const float*>(records[i]) + 4 * q;
-      });
+      return GatherQuads([&](int i) __attribute__((always_inline)) { return reinterpret_cast<const float*>(records[i]) + 4 * q; });
     };
     const real4 m0 = quad(instance, 0), m1 = quad(instance, 1), m2 = quad(instance, 2);
     const real rows[9] = {m0.x, m0.y, m0.z, m0.w, m1.x, m1.y, m1.z, m1.w, m2.x};
@@ -72,8 +69,7 @@ KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
 KERNEL real3 MetNormal(const Met& met, int i) {
   const ireal p(met.normal + i, stdx::vector_aligned);
   constexpr float scale = 2.0f / 65534.0f;
-  const real3 a =
-      octahedral_decode(to_real(p & 0xffff) * scale - 1.0f, to_real((p >> 16) & 0xffff) * scale - 1.0f);
+  const real3 a = octahedral_decode(to_real(p & 0xffff) * scale - 1.0f, to_real((p >> 16) & 0xffff) * scale - 1.0f);
   const auto row = [&](int k) __attribute__((always_inline)) {
     return load(met.m[k] + i) * a.x + load(met.m[k + 1] + i) * a.y + load(met.m[k + 2] + i) * a.z;
   };
@@ -82,14 +78,11 @@ KERNEL real3 MetNormal(const Met& met, int i) {
 
 /// 1 where the sun map says that the sun is seen, or knows nothing.
 KERNEL real SunSeen(const SunMapView& map, real3 p, real bias) {
-  const auto affine = [&](const float* m) __attribute__((always_inline)) {
-    return p.x * m[0] + p.y * m[1] + p.z * m[2] + m[3];
-  };
+  const auto affine = [&](const float* m) __attribute__((always_inline)) { return p.x * m[0] + p.y * m[1] + p.z * m[2] + m[3]; };
   const real last = real(static_cast<float>(map.size - 1)), zero = real(0.0f);
   const real column = affine(map.column), row = affine(map.row);
   const mask_t inside = (column > 0.0f) && (column < last) && (row > 0.0f) && (row < last);
-  const real height = GatherFloats(
-      map.heights, to_int(rmin(last, rmax(zero, row))) * map.size + to_int(rmin(last, rmax(zero, column))));
+  const real height = GatherFloats(map.heights, to_int(rmin(last, rmax(zero, row))) * map.size + to_int(rmin(last, rmax(zero, column))));
   return sel(inside && (affine(map.height) + bias < height), zero, real(1.0f));
 }
 
@@ -100,9 +93,7 @@ KERNEL real3 NearProbe(const ShadeView& view, mask_t wanted, real3 p, real3 n) {
   const ProbeView& grid = view.probes;
   if (grid.probes == nullptr) return UniformAmbient(view, n, n).front;
   const ProbePlace place = FindProbes(grid, p, n);
-  const auto bits = [](real x) __attribute__((always_inline)) {
-    return stdx::static_simd_cast<ureal>(to_int(rfloor(x * 1024.0f)));
-  };
+  const auto bits = [](real x) __attribute__((always_inline)) { return stdx::static_simd_cast<ureal>(to_int(rfloor(x * 1024.0f))); };
   ureal hash = bits(p.x) * 0x9e3779b1u ^ bits(p.y) * 0x85ebca77u ^ bits(p.z) * 0xc2b2ae3du;
   hash = (hash ^ (hash >> 16)) * 0x7feb352du;
   hash = (hash ^ (hash >> 15)) * 0x846ca68bu;
@@ -112,34 +103,29 @@ KERNEL real3 NearProbe(const ShadeView& view, mask_t wanted, real3 p, real3 n) {
     return to_int(sel(u < f, real(static_cast<float>(stride * 16)), real(0.0f)));
   };
   alignas(64) int32_t chosen[kLanes];
-  (ireal(place.index, stdx::vector_aligned) + step(place.fx, 0, 1) + step(place.fy, 10, grid.stride_y) +
-   step(place.fz, 20, grid.stride_z))
+  (ireal(place.index, stdx::vector_aligned) + step(place.fx, 0, 1) + step(place.fy, 10, grid.stride_y) + step(place.fz, 20, grid.stride_z))
       .copy_to(chosen, stdx::vector_aligned);
-  ProbeTerms terms =
-      GatherTerms([&](int i) __attribute__((always_inline)) { return grid.probes + chosen[i]; });
+  ProbeTerms terms = GatherTerms([&](int i) __attribute__((always_inline)) { return grid.probes + chosen[i]; });
   const mask_t solid = wanted && (terms.t[0].w < 0.5f);
   if (stdx::any_of(solid)) {
     const ProbeTerms all = MixProbes(grid, place);
     for (int j = 0; j < 4; ++j) {
       real4& t = terms.t[j];
-      t = {sel(solid, all.t[j].x, t.x), sel(solid, all.t[j].y, t.y), sel(solid, all.t[j].z, t.z),
-           sel(solid, all.t[j].w, t.w)};
+      t = {sel(solid, all.t[j].x, t.x), sel(solid, all.t[j].y, t.y), sel(solid, all.t[j].z, t.z), sel(solid, all.t[j].w, t.w)};
     }
   }
-  const real3 e = (Rgb(terms.t[0]) + Rgb(terms.t[1]) * n.x + Rgb(terms.t[2]) * n.y + Rgb(terms.t[3]) * n.z +
-                   terms.Square() * (n.z * n.z)) *
+  const real3 e = (Rgb(terms.t[0]) + Rgb(terms.t[1]) * n.x + Rgb(terms.t[2]) * n.y + Rgb(terms.t[3]) * n.z + terms.Square() * (n.z * n.z)) *
                   (1.0f / terms.t[0].w);
   const real zero = real(0.0f);
   return make3(rmax(e.x, zero), rmax(e.y, zero), rmax(e.z, zero));
 }
 
 /// Light of the surface met, towards the ray's origin.
-KERNEL real3 Bounced(const ShadeView& view, const SunMapView& map, const AmbientHits& hits, const Met& met,
-                     int i, real3 p, real3 d, real distance) {
+KERNEL real3 Bounced(const ShadeView& view, const SunMapView& map, const AmbientHits& hits, const Met& met, int i, real3 p, real3 d,
+                     real distance) {
   const real3 outward = MetNormal(met, i);
   const mask_t back = dot3(outward, d) > 0.0f;  // lamps shine to their front
-  const real3 emission = load3(met.emission[0] + i, met.emission[1] + i, met.emission[2] + i) *
-                         sel(back, real(0.0f), real(1.0f));
+  const real3 emission = load3(met.emission[0] + i, met.emission[1] + i, met.emission[2] + i) * sel(back, real(0.0f), real(1.0f));
   const real3 glow{real(view.mean_ambient[0]), real(view.mean_ambient[1]), real(view.mean_ambient[2])};
   if (view.mean_ambient[0] + view.mean_ambient[1] + view.mean_ambient[2] > 0.0f) {
     // Closed rooms that glow do so less where something is near: the model that their probes use.
@@ -192,8 +178,8 @@ void AmbientRays(const AmbientOrigins& at, const float* side, const float* spher
   }
 }
 
-void ShadeAmbient(const ShadeView& view, const SunMapView& sun_map, const RayHit16& rays,
-                  const AmbientHits& hits, float* r, float* g, float* b) {
+void ShadeAmbient(const ShadeView& view, const SunMapView& sun_map, const RayHit16& rays, const AmbientHits& hits, float* r, float* g,
+                  float* b) {
   uint32_t any_hit = 0, any_miss = 0;
   for (int i = 0; i < 16; ++i) any_hit |= hits.instance[i] != kMiss, any_miss |= hits.instance[i] == kMiss;
   Met met;
@@ -222,8 +208,8 @@ void ScatterReflections(const RaySet& rays, const float* u, const float* v, Surf
     if (!stdx::any_of(coated || rough)) continue;
     const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
     const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), g = load3(s.gx + i, s.gy + i, s.gz + i);
-    const Bsdf bsdf = bsdf_make(kind, load3(s.ar + i, s.ag + i, s.ab + i), metallic, roughness, real(0.0f),
-                                coat, load(s.coat_roughness + i));
+    const Bsdf bsdf =
+        bsdf_make(kind, load3(s.ar + i, s.ag + i, s.ab + i), metallic, roughness, real(0.0f), coat, load(s.coat_roughness + i));
     const real n_dot_v = rmax(real(0.0f) - dot3(n, d), real(0.02f));
     const mask_t visible = luminance(bsdf_reflected(bsdf_side(bsdf, n_dot_v))) > kVisibleSkin;
     // A facet of the skin as the viewer sees it; a coat is taken as smooth.

@@ -18,8 +18,7 @@ namespace airsim360::internal {
 class LightCache {
  public:
   LightCache(const RayTracer& tracer, const Environment& environment)
-      : enabled_(!tracer.scene().cache_key.empty() && tracer.moved().empty() && tracer.deformed().empty() &&
-                 !disk_.folder().empty()) {
+      : enabled_(!tracer.scene().cache_key.empty() && tracer.moved().empty() && tracer.deformed().empty() && !disk_.folder().empty()) {
     if (!enabled_) return;
     CacheKey key("lit_scene", 1);
     key.AddProgram().Add(tracer.scene().cache_key);

@@ -9,7 +9,7 @@ namespace {
 constexpr float kFoliage = BSDF_FOLIAGE;
 constexpr int kAgx = 1, kLinear = 2;  // ToneCurve
 constexpr float kBrightest = 400;     // radiance of a sun glint that still averages well over few samples
-constexpr float kSunAlpha = 0.006f;  // about the sine of the sun's diameter of 0.53 degrees, less its limb
+constexpr float kSunAlpha = 0.006f;   // about the sine of the sun's diameter of 0.53 degrees, less its limb
 
 KERNEL real3 Grey(float v) { return make3(real(v), real(v), real(v)); }
 
@@ -49,10 +49,8 @@ struct LastBsdf {
 KERNEL void MakeBsdf(const SurfaceSet& s, int i, LastBsdf& last) {
   const real kind = load(s.kind + i);
   // A pane behind which nothing was traced shows its body alone.
-  const real transmission =
-      sel((kind == kFoliage) || (load(s.clear + i) > 0.5f), load(s.transmission + i), real(0.0f));
-  const real made_of[5] = {kind, load(s.metallic + i), load(s.roughness + i), load(s.coat + i),
-                           load(s.coat_roughness + i)};
+  const real transmission = sel((kind == kFoliage) || (load(s.clear + i) > 0.5f), load(s.transmission + i), real(0.0f));
+  const real made_of[5] = {kind, load(s.metallic + i), load(s.roughness + i), load(s.coat + i), load(s.coat_roughness + i)};
   const real3 base = load3(s.ar + i, s.ag + i, s.ab + i);
   if (last.any) {
     // Without metal the layers know nothing of the base colour.
@@ -69,8 +67,7 @@ KERNEL void MakeBsdf(const SurfaceSet& s, int i, LastBsdf& last) {
 }
 
 /// `sun` false: nobody asks what the sun does.
-KERNEL Response RespondTo(const ShadeView& view, const SurfaceSet& s, int i, real3 d, bool sun,
-                          LastBsdf& last) {
+KERNEL Response RespondTo(const ShadeView& view, const SurfaceSet& s, int i, real3 d, bool sun, LastBsdf& last) {
   const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), l = load3(s.lx + i, s.ly + i, s.lz + i);
   MakeBsdf(s, i, last);
   const Bsdf& bsdf = last.bsdf;
@@ -88,11 +85,9 @@ KERNEL Response RespondTo(const ShadeView& view, const SurfaceSet& s, int i, rea
   if (!sun) return out;
   // The sun as a point, so lobes narrower than its disc take the disc's width.
   real pdf = real(0.0f);
-  const real3 shine =
-      bsdf_evaluate(bsdf_widen(bsdf, real(kSunAlpha)), seen, bsdf_lobes(bsdf, seen), n, -d, l, pdf) *
-      Uniform(view.sun_irradiance) * CloudShadow(view.cloud_shadow, load3(s.px + i, s.py + i, s.pz + i));
-  out.sun = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)),
-                  rmin(shine.z, real(kBrightest)));
+  const real3 shine = bsdf_evaluate(bsdf_widen(bsdf, real(kSunAlpha)), seen, bsdf_lobes(bsdf, seen), n, -d, l, pdf) *
+                      Uniform(view.sun_irradiance) * CloudShadow(view.cloud_shadow, load3(s.px + i, s.py + i, s.pz + i));
+  out.sun = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)), rmin(shine.z, real(kBrightest)));
   return out;
 }
 
@@ -120,8 +115,8 @@ KERNEL void Air(const ShadeView& view, const RaySet& rays, int i, real3 d, real3
   added = air.added;
 }
 
-KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i, LastBsdf& last,
-                        LightSet& out, const IndoorLight* indoor = nullptr) {
+KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i, LastBsdf& last, LightSet& out,
+                        const IndoorLight* indoor = nullptr) {
   const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
   const real3 p = load3(s.px + i, s.py + i, s.pz + i);
   const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), g = load3(s.gx + i, s.gy + i, s.gz + i);
@@ -140,16 +135,14 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
     contact = contact + (1.0f - contact) * share;
   }
   const real crown = sel(load(s.kind + i) == kFoliage, real(SHADE_CROWN), real(1.0f));
-  const real3 body = (surface.body * ambient.front * contact + surface.leaf * ambient.back) *
-                     (crown * SHADE_INV_PI);
+  const real3 body = (surface.body * ambient.front * contact + surface.leaf * ambient.back) * (crown * SHADE_INV_PI);
   real3 seen = Reflection(view, s, i, r, ambient.reflected);
   if (indoor != nullptr) {
     const mask_t inside = (share > 0.5f) && !(load(s.traced + i) > 0.5f);
     seen = sel3(inside, ambient.reflected * real(SHADE_INV_PI), seen);
   }
   const real3 mirrored = seen * surface.skin;
-  real3 light = body + Behind(s, i, surface.straight) + surface.sun * sunlit + mirrored +
-                OwnAndLamps(view, s, i, surface);
+  real3 light = body + Behind(s, i, surface.straight) + surface.sun * sunlit + mirrored + OwnAndLamps(view, s, i, surface);
   if (view.has_sky > 0.5f) {
     real3 kept, added;
     Air(view, rays, i, d, kept, added);
@@ -158,16 +151,14 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   store3(out.r + i, out.g + i, out.b + i, light);
 }
 
-KERNEL void TermsVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i, LastBsdf& last,
-                        LightTerms& out) {
+KERNEL void TermsVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i, LastBsdf& last, LightTerms& out) {
   const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
   const Response surface = RespondTo(view, s, i, d, view.has_sky > 0.5f, last);
   // The traced ray is what the coat mirrors where there is one, else what the skin does. What no ray was sent
   // for mirrors the same light that the body gets.
   const mask_t traced = load(s.traced + i) > 0.5f, coated = load(s.coat + i) > 0.05f;
   const real3 sharp = sel3(traced, sel3(coated, surface.coat, surface.skin), Grey(0));
-  const real3 reflected =
-      sel3(traced, load3(s.reflected_r + i, s.reflected_g + i, s.reflected_b + i) * sharp, Grey(0));
+  const real3 reflected = sel3(traced, load3(s.reflected_r + i, s.reflected_g + i, s.reflected_b + i) * sharp, Grey(0));
   real3 ambient = (surface.body + surface.skin - sharp) * real(SHADE_INV_PI);
   real3 sun = surface.sun;
   real3 rest = reflected + Behind(s, i, surface.straight) + OwnAndLamps(view, s, i, surface);
@@ -192,8 +183,7 @@ KERNEL real3 SunDisc(const ShadeView& view, real3 d) {
     if (!stdx::any_of(x2 < 1.0f)) return Grey(0);
     const real3 light = make3(real(view.moon_light[0]), real(view.moon_light[1]), real(view.moon_light[2]));
     const real3 centre = make3(real(view.to_sun[0]), real(view.to_sun[1]), real(view.to_sun[2]));
-    return Uniform(view.sun_radiance) *
-           (moon_face(off * real(1.0f / 0.004625f), centre, light) * (view.moon_gain * view.sun_seen));
+    return Uniform(view.sun_radiance) * (moon_face(off * real(1.0f / 0.004625f), centre, light) * (view.moon_gain * view.sun_seen));
   }
   const real limb = 0.4f + 0.6f * rroot(rmax(1.0f - x2, real(0.0f)));
   return Uniform(view.sun_radiance) * sel(x2 < 1.0f, limb * (1.25f * view.sun_seen), real(0.0f));
@@ -205,8 +195,7 @@ KERNEL void StorePacked(ureal lanes, uint8_t* to) {
   lanes.copy_to(words, stdx::vector_aligned);
   const __m128i order = _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1);
   for (int q = 0; q < kLanes / 4; ++q) {
-    const __m128i four =
-        _mm_shuffle_epi8(_mm_load_si128(reinterpret_cast<const __m128i*>(words + 4 * q)), order);
+    const __m128i four = _mm_shuffle_epi8(_mm_load_si128(reinterpret_cast<const __m128i*>(words + 4 * q)), order);
     // Four bytes too many, where the next four pixels come.
     if (q + 1 < kLanes / 4) {
       _mm_storeu_si128(reinterpret_cast<__m128i*>(to + 12 * q), four);
@@ -279,13 +268,10 @@ void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSe
   }
 }
 
-void ToneMapRow(const float* r, const float* g, const float* b, int count, float exposure, int curve,
-                Rgb8* out) {
+void ToneMapRow(const float* r, const float* g, const float* b, int count, float exposure, int curve, Rgb8* out) {
   const auto map = [&](real3 light) __attribute__((always_inline)) {
     const real3 exposed = light * real(exposure);
-    const real3 c = curve == kAgx      ? agx_curve(exposed)
-                    : curve == kLinear ? linear_curve(exposed)
-                                       : tone_curve(exposed);
+    const real3 c = curve == kAgx ? agx_curve(exposed) : curve == kLinear ? linear_curve(exposed) : tone_curve(exposed);
     const auto code = [](real x) __attribute__((always_inline)) {
       return stdx::static_simd_cast<ureal>(to_int(srgb_encode(x) * 255.0f + 0.5f));
     };
@@ -293,8 +279,7 @@ void ToneMapRow(const float* r, const float* g, const float* b, int count, float
   };
   int i = 0;
   for (; i + kLanes <= count; i += kLanes) {
-    StorePacked(map({real(r + i, stdx::element_aligned), real(g + i, stdx::element_aligned),
-                     real(b + i, stdx::element_aligned)}),
+    StorePacked(map({real(r + i, stdx::element_aligned), real(g + i, stdx::element_aligned), real(b + i, stdx::element_aligned)}),
                 reinterpret_cast<uint8_t*>(out + i));
   }
   if (i == count) return;

@@ -24,8 +24,7 @@ constexpr size_t kSmall = 4000;  // probes of a coarse pass
 std::array<Vec3f, kDirections> EvenDirections() {
   std::array<Vec3f, kDirections> directions;
   for (int i = 0; i < kDirections; ++i) {
-    const float z = 1 - (2 * static_cast<float>(i) + 1) / kDirections,
-                angle = static_cast<float>(i) * 2.39996323f;
+    const float z = 1 - (2 * static_cast<float>(i) + 1) / kDirections, angle = static_cast<float>(i) * 2.39996323f;
     const float s = std::sqrt(1 - z * z);
     directions[i] = {s * std::cos(angle), s * std::sin(angle), z};
   }
@@ -43,8 +42,7 @@ std::array<std::array<float, 6>, kDirections> CubeWeights(const std::array<Vec3f
   for (int k = 0; k < 6; ++k) {
     float sum = 0;
     for (const Vec3f d : directions) sum += std::max(0.0f, Dot(d, kAxes[k]));
-    for (int i = 0; i < kDirections; ++i)
-      weights[i][k] = std::max(0.0f, Dot(directions[i], kAxes[k])) * kPi / sum;
+    for (int i = 0; i < kDirections; ++i) weights[i][k] = std::max(0.0f, Dot(directions[i], kAxes[k])) * kPi / sum;
   }
   return weights;
 }
@@ -94,14 +92,12 @@ void LightProbes::Place(const Scene& scene, const Options& options) {
   // Layers: 1.2 m apart at the bottom, growing to 6 m.
   float z = box.min.z + 0.3f, step = 1.2f;
   const float top = std::max(box.max.z + 2.0f, z + 2.5f);
-  for (; z < top || layers_.size() < 2;
-       z += step, step = std::min(step * 1.16f, std::max(6.0f, (top - box.min.z) / 16)))
+  for (; z < top || layers_.size() < 2; z += step, step = std::min(step * 1.16f, std::max(6.0f, (top - box.min.z) / 16)))
     layers_.push_back(z);
   nz_ = static_cast<int>(layers_.size());
   const Vec3f size = Max(box.size(), Vec3f{2, 2, 2});
   const float wanted = std::clamp(std::max(size.x, size.y) / 24, 0.4f, options.cell);
-  cell_ = std::max(
-      wanted, std::sqrt(size.x * size.y * static_cast<float>(nz_) / static_cast<float>(options.max_probes)));
+  cell_ = std::max(wanted, std::sqrt(size.x * size.y * static_cast<float>(nz_) / static_cast<float>(options.max_probes)));
   nx_ = std::max(2, static_cast<int>(std::ceil(size.x / cell_)) + 1);
   ny_ = std::max(2, static_cast<int>(std::ceil(size.y / cell_)) + 1);
   origin_ = {box.min.x + 0.5f * (size.x - cell_ * static_cast<float>(nx_ - 1)),
@@ -113,8 +109,7 @@ void LightProbes::Place(const Scene& scene, const Options& options) {
     const float h = std::min(layers_[0] + static_cast<float>(i) * height_step_, layers_.back());
     while (k + 2 < nz_ && h > layers_[k + 1]) ++k;
     layer_of_height_.push_back(
-        std::min(static_cast<float>(k) + (h - layers_[k]) / (layers_[k + 1] - layers_[k]),
-                 static_cast<float>(nz_) - 1.0001f));
+        std::min(static_cast<float>(k) + (h - layers_[k]) / (layers_[k + 1] - layers_[k]), static_cast<float>(nz_) - 1.0001f));
   }
 }
 
@@ -178,8 +173,7 @@ ProbeView LightProbes::view() const {
   view.probes = probes_.data();
   view.origin_x = origin_.x, view.origin_y = origin_.y;
   view.cells_per_metre = 1 / cell_;
-  view.max_x = static_cast<float>(nx_ - 2), view.max_y = static_cast<float>(ny_ - 2),
-  view.max_z = static_cast<float>(nz_ - 2);
+  view.max_x = static_cast<float>(nx_ - 2), view.max_y = static_cast<float>(ny_ - 2), view.max_z = static_cast<float>(nz_ - 2);
   view.stride_y = nx_, view.stride_z = nx_ * ny_;
   view.layer_of_height = layer_of_height_.data();
   view.height_origin = layers_[0];
@@ -191,23 +185,19 @@ ProbeView LightProbes::view() const {
 Vec3f LightProbes::Irradiance(Vec3f p, Vec3f n) const {
   const float x = std::clamp((p.x - origin_.x) / cell_, 0.0f, static_cast<float>(nx_) - 1.0001f);
   const float y = std::clamp((p.y - origin_.y) / cell_, 0.0f, static_cast<float>(ny_) - 1.0001f);
-  const float h =
-      std::clamp((p.z - origin_.z) / height_step_, 0.0f, static_cast<float>(layer_of_height_.size() - 1));
+  const float h = std::clamp((p.z - origin_.z) / height_step_, 0.0f, static_cast<float>(layer_of_height_.size() - 1));
   const float z = layer_of_height_[static_cast<size_t>(h + 0.5f)];
   const int ix = static_cast<int>(x), iy = static_cast<int>(y), iz = static_cast<int>(z);
   float sum[kFloats] = {};
   for (int k = 0; k < 8; ++k) {
     const int dx = k & 1, dy = k >> 1 & 1, dz = k >> 2;
-    const float weight =
-        (dx ? x - ix : 1 - (x - ix)) * (dy ? y - iy : 1 - (y - iy)) * (dz ? z - iz : 1 - (z - iz));
+    const float weight = (dx ? x - ix : 1 - (x - ix)) * (dy ? y - iy : 1 - (y - iy)) * (dz ? z - iz : 1 - (z - iz));
     const float* probe = &probes_[((static_cast<size_t>(iz + dz) * ny_ + iy + dy) * nx_ + ix + dx) * kFloats];
     for (int c = 0; c < kFloats; ++c) sum[c] += probe[c] * weight;
   }
   Vec3f e;
   for (int c = 0; c < 3; ++c)
-    e[c] = std::max(0.0f, (sum[c] + sum[4 + c] * n.x + sum[8 + c] * n.y + sum[12 + c] * n.z +
-                           sum[4 * c + 7] * n.z * n.z) /
-                              sum[3]);
+    e[c] = std::max(0.0f, (sum[c] + sum[4 + c] * n.x + sum[8 + c] * n.y + sum[12 + c] * n.z + sum[4 * c + 7] * n.z * n.z) / sum[3]);
   return e;
 }
 
@@ -225,22 +215,18 @@ float LightProbes::TypicalLight() const {
 
 bool LightProbes::Covers(Vec3f p) const {
   const Vec3f q = (p - origin_) / cell_;
-  return q.x >= -1 && q.y >= -1 && q.x <= static_cast<float>(nx_) && q.y <= static_cast<float>(ny_) &&
-         p.z < layers_.back() + cell_;
+  return q.x >= -1 && q.y >= -1 && q.x <= static_cast<float>(nx_) && q.y <= static_cast<float>(ny_) && p.z < layers_.back() + cell_;
 }
 
 Vec3f LightProbes::NearIrradiance(Vec3f p, Vec3f n) const {
   const Vec3f q = (p + n * (0.45f * cell_) - origin_) / cell_;
-  const int x = std::clamp(static_cast<int>(q.x + 0.5f), 0, nx_ - 1),
-            y = std::clamp(static_cast<int>(q.y + 0.5f), 0, ny_ - 1);
-  const float h =
-      std::clamp(q.z * cell_ / height_step_, 0.0f, static_cast<float>(layer_of_height_.size() - 1));
+  const int x = std::clamp(static_cast<int>(q.x + 0.5f), 0, nx_ - 1), y = std::clamp(static_cast<int>(q.y + 0.5f), 0, ny_ - 1);
+  const float h = std::clamp(q.z * cell_ / height_step_, 0.0f, static_cast<float>(layer_of_height_.size() - 1));
   const int z = static_cast<int>(layer_of_height_[static_cast<size_t>(h + 0.5f)] + 0.5f);
   const float* t = &probes_[((static_cast<size_t>(z) * ny_ + y) * nx_ + x) * kFloats];
   Vec3f e;
   for (int c = 0; c < 3; ++c)
-    e[c] = std::max(
-        0.0f, (t[c] + t[4 + c] * n.x + t[8 + c] * n.y + t[12 + c] * n.z + t[4 * c + 7] * n.z * n.z) / t[3]);
+    e[c] = std::max(0.0f, (t[c] + t[4 + c] * n.x + t[8 + c] * n.y + t[12 + c] * n.z + t[4 * c + 7] * n.z * n.z) / t[3]);
   return e;
 }
 

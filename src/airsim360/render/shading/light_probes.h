@@ -44,8 +44,7 @@ class LightProbes {
   /// All fields, for the disk cache.
   template <class Archive, class Self>
   static void Visit(Archive& archive, Self& s) {
-    archive(s.cell_, s.origin_, s.nx_, s.ny_, s.nz_, s.layers_, s.height_step_, s.layer_of_height_, s.probes_,
-            s.valid_);
+    archive(s.cell_, s.origin_, s.nx_, s.ny_, s.nz_, s.layers_, s.height_step_, s.layer_of_height_, s.probes_, s.valid_);
   }
 
  private:

@@ -56,8 +56,7 @@ struct World {
     tracer = std::make_shared<const RayTracer>(builder.Build());
     tables = std::make_unique<SurfaceTables>(tracer->scene());
     if (open) sky = std::make_unique<Sky>(tracer->scene().environment);
-    probes = std::make_unique<LightProbes>(ProbeLight{*tracer, *tables, sky.get()},
-                                           LightProbes::Options{20000, 2.0f});
+    probes = std::make_unique<LightProbes>(ProbeLight{*tracer, *tables, sky.get()}, LightProbes::Options{20000, 2.0f});
   }
 };
 
@@ -78,8 +77,7 @@ TEST(LightProbes, OverAnEmptyPlaneTheyShowTheSky) {
 TEST(LightProbes, SunlitGroundLightsFromBelow) {
   const World world(Ground(), 0.5f);
   const Vec3f below = world.probes->Irradiance({1, 2, 1.5f}, {0, 0, -1});
-  const float full = 0.5f * (world.sky->sun_irradiance().y * world.sky->to_sun().z +
-                             0.5f * world.sky->Irradiance({0, 0, 1}).y);
+  const float full = 0.5f * (world.sky->sun_irradiance().y * world.sky->to_sun().z + 0.5f * world.sky->Irradiance({0, 0, 1}).y);
   EXPECT_NEAR(below.y / full, 1, 0.25f);
 }
 
@@ -137,8 +135,7 @@ TEST(LightProbes, AreTheSameWithAnyNumberOfThreads) {
   const World single(mesh);
   ASSERT_EQ(many.probes->size(), single.probes->size());
   for (float x = -9; x < 9; x += 0.7f) {
-    EXPECT_EQ(many.probes->Irradiance({x, 0.3f * x, 2}, {0, 0.6f, 0.8f}),
-              single.probes->Irradiance({x, 0.3f * x, 2}, {0, 0.6f, 0.8f}));
+    EXPECT_EQ(many.probes->Irradiance({x, 0.3f * x, 2}, {0, 0.6f, 0.8f}), single.probes->Irradiance({x, 0.3f * x, 2}, {0, 0.6f, 0.8f}));
   }
 }
 

@@ -42,7 +42,8 @@ Disc Look(double phase) {
   for (int y = -kSteps; y < kSteps; ++y) {
     rays->count = 2 * kSteps;
     for (int x = 0; x < 2 * kSteps; ++x) {
-      const Vec3f d = Normalized(to + (right * static_cast<float>(x - kSteps + 0.5) + up * static_cast<float>(y + 0.5)) * static_cast<float>(step));
+      const Vec3f d =
+          Normalized(to + (right * static_cast<float>(x - kSteps + 0.5) + up * static_cast<float>(y + 0.5)) * static_cast<float>(step));
       rays->dx[x] = d.x, rays->dy[x] = d.y, rays->dz[x] = d.z;
     }
     AIRSIM360_SELECT_KERNEL(LookUpSky)(view, *rays, true, *with);

@@ -50,8 +50,8 @@ Met ResolveMet(const ProbeLight& world, const SurfaceRef& ref, Vec3f point, Vec3
   const uint32_t material = triangle.material & ~kMirroredUv;
   const Vec3f n = UnpackDirection(triangle.geometric_normal);
   const float* m = instance.normal_matrix;
-  Vec3f normal = Normalized(Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z,
-                                  m[6] * n.x + m[7] * n.y + m[8] * n.z});
+  Vec3f normal =
+      Normalized(Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z, m[6] * n.x + m[7] * n.y + m[8] * n.z});
   const bool back = Dot(normal, direction) > 0;
   if (back) normal = -normal;
   const auto kind = static_cast<SurfaceKind>(static_cast<int>(tables.materials[material].kind));
@@ -63,8 +63,7 @@ Met ResolveMet(const ProbeLight& world, const SurfaceRef& ref, Vec3f point, Vec3
     if (lamp != LightTable::kNoLamp && world.lamps->Holds(lamp)) emission = {};
   }
   const Vec3f color = tables.mean_colors[material] * tint * tables.MeanColor(instance, ref.triangle);
-  return {point,    normal, Min(color, Vec3f{0.9f, 0.9f, 0.9f}),
-          emission, back,   kind == SurfaceKind::kFoliage || kind == SurfaceKind::kGlass};
+  return {point, normal, Min(color, Vec3f{0.9f, 0.9f, 0.9f}), emission, back, kind == SurfaceKind::kFoliage || kind == SurfaceKind::kGlass};
 }
 
 // Light of the sky on a surface in a street, half of it hidden; and of ground like that of the scene.

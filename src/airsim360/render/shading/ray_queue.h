@@ -41,10 +41,8 @@ struct RayQueue {
     for (int i = 0; i < 16; ++i) {
       valid[i] = i < count ? -1 : 0;
       if (i < count) continue;
-      rays.origin_x[i] = rays.origin_x[0], rays.origin_y[i] = rays.origin_y[0],
-      rays.origin_z[i] = rays.origin_z[0];
-      rays.direction_x[i] = rays.direction_x[0], rays.direction_y[i] = rays.direction_y[0],
-      rays.direction_z[i] = rays.direction_z[0];
+      rays.origin_x[i] = rays.origin_x[0], rays.origin_y[i] = rays.origin_y[0], rays.origin_z[i] = rays.origin_z[0];
+      rays.direction_x[i] = rays.direction_x[0], rays.direction_y[i] = rays.direction_y[0], rays.direction_z[i] = rays.direction_z[0];
       rays.t_near[i] = 0, rays.t_far[i] = INFINITY, rays.mask[i] = mask;
     }
   }

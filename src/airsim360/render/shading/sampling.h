@@ -42,8 +42,7 @@ class SunDisc {
   /// Even over the disc for u even over the unit square.
   Vec3f At(Vec2f u) const {
     const float radius = std::sqrt(u.x), angle = 6.28318531f * u.y;
-    return Normalized(to_sun_ + right_ * (radius * scalar::sin_approx(angle + 1.57079633f)) +
-                      up_ * (radius * scalar::sin_approx(angle)));
+    return Normalized(to_sun_ + right_ * (radius * scalar::sin_approx(angle + 1.57079633f)) + up_ * (radius * scalar::sin_approx(angle)));
   }
 
  private:

@@ -61,8 +61,8 @@ int FirstSet(const float* flags, int count) {
 }
 
 // Rays of directions (x, y, z)[16] from sixteen surfaces from `first` on; the same numbers as one by one.
-void AddSixteen(const RaySet& rays, const SurfaceSet& s, int first, const float* x, const float* y,
-                const float* z, float reach, RayQueue& queue) {
+void AddSixteen(const RaySet& rays, const SurfaceSet& s, int first, const float* x, const float* y, const float* z, float reach,
+                RayQueue& queue) {
   static const auto lift = AIRSIM360_SELECT_KERNEL(LiftRays);
   lift(rays, s, first, x, y, z, queue.rays);
   queue.Fill(first, reach);
@@ -132,14 +132,13 @@ void TraceContact(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s) {
   if (queue.count > 0) flush(queue);
 }
 
-void TraceLamps(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays,
-                const LampRays& wanted, int count, SurfaceSet& s) {
+void TraceLamps(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays, const LampRays& wanted, int count,
+                SurfaceSet& s) {
   RayQueue queue(kMaskSolid);
   const LampRays::Ray* asked[16];
   const auto learn = [&](int i, const LampRays::Ray& ray, float seen) {
     const float more = (seen - ray.guess) * ray.share;
-    s.lamp_r[i] += ray.front[0] * more, s.lamp_g[i] += ray.front[1] * more,
-        s.lamp_b[i] += ray.front[2] * more;
+    s.lamp_r[i] += ray.front[0] * more, s.lamp_g[i] += ray.front[1] * more, s.lamp_b[i] += ray.front[2] * more;
     s.lamp_back_r[i] += ray.back[0] * more, s.lamp_back_g[i] += ray.back[1] * more;
     s.lamp_back_b[i] += ray.back[2] * more;
     s.lamp_shine_r[i] += ray.shine[0] * more, s.lamp_shine_g[i] += ray.shine[1] * more;
@@ -208,8 +207,7 @@ void TakeHits(const RayTracer& tracer, const RaySet& from, PaneTint* panes, RayQ
 
 }  // namespace
 
-void TraceReflections(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, PaneTint* panes, RaySet& hits,
-                      RaySet& misses) {
+void TraceReflections(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, PaneTint* panes, RaySet& hits, RaySet& misses) {
   hits.count = misses.count = 0;
   const int first = FirstSet(s.mirror, rays.count);
   if (first >= rays.count) return;
@@ -227,8 +225,7 @@ void TraceReflections(const RayTracer& tracer, const RaySet& rays, const Surface
   if (queue.count > 0) TakeHits(tracer, rays, panes, queue, hits, misses);
 }
 
-void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, PaneTint* panes, RaySet& hits,
-                RaySet& misses) {
+void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, PaneTint* panes, RaySet& hits, RaySet& misses) {
   constexpr float kGlass = 2;  // SurfaceKind
   hits.count = misses.count = 0;
   const int first = FirstSet(s.transmission, rays.count);

@@ -15,9 +15,7 @@ namespace airsim360::internal {
 /// (their colour is averaged).
 void SeenShare(const RayTracer& tracer, const SurfaceTables& tables, RayQueue& queue, float* share);
 /// The bits of those of the sixteen surfaces from `first` on that exist.
-inline uint32_t Existing(int first, int count) {
-  return count - first >= 16 ? 0xffffu : (1u << (count - first)) - 1;
-}
+inline uint32_t Existing(int first, int count) { return count - first >= 16 ? 0xffffu : (1u << (count - first)) - 1; }
 /// Calls `each` for the lanes of `bits`.
 template <class Each>
 void ForLanes(uint32_t bits, Each each) {
@@ -31,8 +29,7 @@ void TraceSun(const RayTracer& tracer, const SurfaceTables& tables, const RaySet
 /// ray upwards sets `contact`.
 void TraceContact(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s);
 /// Traces the rays of LightByLamps and corrects lamp_* by what they find.
-void TraceLamps(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays,
-                const LampRays& wanted, int count, SurfaceSet& s);
+void TraceLamps(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays, const LampRays& wanted, int count, SurfaceSet& s);
 /// What clear panes on the way of secondary rays do. In rooms they let light through: windows are bright in mirrors.
 struct PaneTint {
   const SurfaceTables& tables;
@@ -40,10 +37,8 @@ struct PaneTint {
 };
 /// Follows the reflections of panes, water and mirrors: what they meet, and those that meet nothing; `slot`
 /// is the index of the surface. panes == nullptr: clear panes are met as surfaces.
-void TraceReflections(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, PaneTint* panes, RaySet& hits,
-                      RaySet& misses);
+void TraceReflections(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, PaneTint* panes, RaySet& hits, RaySet& misses);
 /// Follows the view through clear panes (glass with transmission), one each, to what stands behind.
-void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, PaneTint* panes, RaySet& hits,
-                RaySet& misses);
+void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, PaneTint* panes, RaySet& hits, RaySet& misses);
 
 }  // namespace airsim360::internal

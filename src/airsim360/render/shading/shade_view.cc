@@ -9,8 +9,7 @@ namespace airsim360::internal {
 namespace {
 
 SkyTableView ViewOf(const SkyTable& table) {
-  return {table.texels.data(), static_cast<float>(table.width), static_cast<float>(table.height),
-          table.stride()};
+  return {table.texels.data(), static_cast<float>(table.width), static_cast<float>(table.height), table.stride()};
 }
 
 void Put(float (&to)[3], Vec3f from) {
@@ -47,8 +46,8 @@ float MoonGain(Vec3f to_moon, Vec3f light) {
 
 }  // namespace
 
-ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const Sky* sky,
-                        const LightProbes* probes, const Environment* environment) {
+ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const Sky* sky, const LightProbes* probes,
+                        const Environment* environment) {
   ShadeView view{};
   view.triangles = tables.triangles.data();
   view.instances = tables.instances.data();

@@ -10,7 +10,7 @@ namespace airsim360::internal {
 
 /// Refers to everything given, which must outlive it. `sky` and `probes` may be nullptr: then ambient light
 /// is the same everywhere. `environment`: whose weather lies on the surfaces; nullptr = the scene's.
-ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const Sky* sky,
-                        const LightProbes* probes, const Environment* environment = nullptr);
+ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const Sky* sky, const LightProbes* probes,
+                        const Environment* environment = nullptr);
 
 }  // namespace airsim360::internal

@@ -53,10 +53,7 @@ std::string KeyOf(const Environment& environment) {
 }  // namespace
 
 Shader::Impl::Impl(std::shared_ptr<const RayTracer> t, const Environment& environment)
-    : tracer(std::move(t)),
-      tables(tracer->scene(), environment.lamps_on()),
-      lights(tracer->scene(), tables, environment),
-      built(tracer) {
+    : tracer(std::move(t)), tables(tracer->scene(), environment.lamps_on()), lights(tracer->scene(), tables, environment), built(tracer) {
   SetLight(environment);
 }
 
@@ -75,8 +72,8 @@ void Shader::Impl::SetLight(const Environment& environment) {
     if (scene.sky_entity != kNoEntity) {
       const auto like = std::ranges::find(last_lights, table_key, &Light::table_key);
       const Sky* table = like == last_lights.end() ? nullptr : like->sky.get();
-      light.sky = std::make_shared<const Sky>(
-          cache.Get<Sky>("sky", [&] { return Sky(environment, scene.spawn.value_or(Vec3f{}), table); }));
+      light.sky =
+          std::make_shared<const Sky>(cache.Get<Sky>("sky", [&] { return Sky(environment, scene.spawn.value_or(Vec3f{}), table); }));
     }
     light.lamps = std::make_shared<const LampGrid>(*tracer, lights, light.sky ? light.sky->GroundIlluminance() : 0.0f);
     if (!scene.instances.empty()) {
@@ -165,9 +162,7 @@ bool Shader::HasRooms() const {
   return impl_->enclosure->any();
 }
 
-bool Shader::IsIndoors(Vec3f p) const {
-  return HasRooms() && impl_->enclosure->Holds(*impl_->built, p);
-}
+bool Shader::IsIndoors(Vec3f p) const { return HasRooms() && impl_->enclosure->Holds(*impl_->built, p); }
 
 void Shader::Apply(std::shared_ptr<const RayTracer> tracer) {
   impl_->tables.Apply(tracer->scene(), tracer->moved(), tracer->deformed());
@@ -176,12 +171,9 @@ void Shader::Apply(std::shared_ptr<const RayTracer> tracer) {
 
 float Shader::Exposure() const { return impl_->exposure; }
 
-double Shader::MostExposure() const {
-  return impl_->sky ? 1 / (kDimmestWhite * kNit) : std::numeric_limits<double>::infinity();
-}
+double Shader::MostExposure() const { return impl_->sky ? 1 / (kDimmestWhite * kNit) : std::numeric_limits<double>::infinity(); }
 
-void Shader::Impl::FollowRays(const RaySet& rays, SurfaceSet& s, const SunNeighbours* around,
-                              SunPixel* sun) const {
+void Shader::Impl::FollowRays(const RaySet& rays, SurfaceSet& s, const SunNeighbours* around, SunPixel* sun) const {
   if (around != nullptr) internal::GuessReflections(*around, rays, s);
   RaySet hits, misses;
   LightSet light;
@@ -220,8 +212,7 @@ void Shader::Impl::LightByLamps(const RaySet& rays, int count, SurfaceSet& s) co
   internal::TraceLamps(*tracer, tables, rays, wanted, count, s);
 }
 
-void Shader::Impl::FindSun(const RaySet& rays, SurfaceSet& s, const SunNeighbours* around,
-                           SunPixel* sun) const {
+void Shader::Impl::FindSun(const RaySet& rays, SurfaceSet& s, const SunNeighbours* around, SunPixel* sun) const {
   if (around == nullptr && sun == nullptr) {
     internal::TraceSun(*tracer, tables, rays, s);
     return;
@@ -240,8 +231,7 @@ void Shader::Impl::FindSun(const RaySet& rays, SurfaceSet& s, const SunNeighbour
   if (sun != nullptr) internal::KeepSun(rays, s, asked, sun);
 }
 
-void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light, const SunNeighbours* around,
-                                 SunPixel* sun) const {
+void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light, const SunNeighbours* around, SunPixel* sun) const {
   SurfaceSet surfaces;
   Pad(rays);  // sets that come from tracing are not yet
   kernels.prepare(view, rays, surfaces);
@@ -276,8 +266,7 @@ void SortByMaterial(const internal::ShadeView& view, const HitBatch& hits, uint3
   for (int i = 0; i < count; ++i) {
     const uint32_t k = slots[i];
     const uint32_t material =
-        view.triangles[view.instances[hits.instance[k]].first_triangle + hits.triangle[k]].material &
-        ~internal::kMirroredUv;
+        view.triangles[view.instances[hits.instance[k]].first_triangle + hits.triangle[k]].material & ~internal::kMirroredUv;
     uint32_t at = material * 0x9e3779b1u >> 23;
     while (material_at[at] != material && material_at[at] != kFree) at = (at + 1) % kHash;
     if (material_at[at] == kFree) material_at[at] = material, group_at[at] = static_cast<uint16_t>(groups++);
@@ -341,8 +330,7 @@ void internal::SplitHits(const HitBatch& hits, RaySet& surfaces, RaySet& sky, co
   }
 }
 
-void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance, const SunNeighbours* around,
-                   SunPixel* sun) const {
+void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance, const SunNeighbours* around, SunPixel* sun) const {
   RaySet surfaces, sky;
   const bool sort = around != nullptr;  // edge samples: neighbours lie on many materials
   internal::SplitHits(hits, surfaces, sky, sort ? &impl_->view : nullptr);
@@ -374,10 +362,8 @@ void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance, const SunNeigh
   }
 }
 
-void Shader::ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev, Rgb8* out,
-                     ToneCurve tone) const {
-  impl_->kernels.tone(r, g, b, count, Exposure() * static_cast<float>(std::exp2(exposure_ev)),
-                      static_cast<int>(tone), out);
+void Shader::ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev, Rgb8* out, ToneCurve tone) const {
+  impl_->kernels.tone(r, g, b, count, Exposure() * static_cast<float>(std::exp2(exposure_ev)), static_cast<int>(tone), out);
 }
 
 }  // namespace airsim360

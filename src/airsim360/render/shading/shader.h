@@ -23,7 +23,7 @@ struct alignas(64) HitBatch {
   alignas(64) float distance[kCapacity];
   alignas(64) float u[kCapacity], v[kCapacity];                   ///< barycentrics as in RayHit16
   alignas(64) uint32_t instance[kCapacity], triangle[kCapacity];  ///< as in SurfaceRef; instance kMiss = sky
-  alignas(64) uint32_t sample_key[kCapacity];  ///< 0 = pixel centre; others choose a point of the sun's disc
+  alignas(64) uint32_t sample_key[kCapacity];                     ///< 0 = pixel centre; others choose a point of the sun's disc
 };
 
 /// Linear radiance towards the camera, one per hit; units of Sky (sunlit white is about 20 / pi).
@@ -52,8 +52,7 @@ class Shader {
   void Apply(std::shared_ptr<const RayTracer> tracer);
   /// `sun`, if wanted, gets what was learned of the sun at every hit; `around` spares rays to the sun where
   /// the pixels around a hit agree about it.
-  void Shade(const HitBatch& hits, RadianceBatch& radiance, const SunNeighbours* around = nullptr,
-             SunPixel* sun = nullptr) const;
+  void Shade(const HitBatch& hits, RadianceBatch& radiance, const SunNeighbours* around = nullptr, SunPixel* sun = nullptr) const;
   /// Factor from radiance to the input of the tone curve: fixed by the environment's daylight, the same for
   /// the whole sphere.
   float Exposure() const;

@@ -30,11 +30,9 @@ struct Shader::Impl {
     decltype(&internal::isa_sse42::LightByLamps) lamps = AIRSIM360_SELECT_KERNEL(LightByLamps);
     decltype(&internal::isa_sse42::LookUpIndoors) indoors = AIRSIM360_SELECT_KERNEL(LookUpIndoors);
     decltype(&internal::isa_sse42::MixLampsIndoors) mix_lamps = AIRSIM360_SELECT_KERNEL(MixLampsIndoors);
-    decltype(&internal::isa_sse42::LightSurfacesIndoors) light_indoors =
-        AIRSIM360_SELECT_KERNEL(LightSurfacesIndoors);
+    decltype(&internal::isa_sse42::LightSurfacesIndoors) light_indoors = AIRSIM360_SELECT_KERNEL(LightSurfacesIndoors);
     decltype(&internal::isa_sse42::LookUpSky) sky = AIRSIM360_SELECT_KERNEL(LookUpSky);
-    decltype(&internal::isa_sse42::AddPrecipitation) precipitation =
-        AIRSIM360_SELECT_KERNEL(AddPrecipitation);
+    decltype(&internal::isa_sse42::AddPrecipitation) precipitation = AIRSIM360_SELECT_KERNEL(AddPrecipitation);
     decltype(&internal::isa_sse42::ToneMapRow) tone = AIRSIM360_SELECT_KERNEL(ToneMapRow);
   };
 
@@ -54,15 +52,14 @@ struct Shader::Impl {
   /// Traces the rays that mirrors and clear panes send on (where the surfaces say so) and shades what they
   /// meet in the same way, once.
   /// `around` and `sun` as in Shader::Shade, for what is seen in panes.
-  void FollowRays(const internal::RaySet& rays, internal::SurfaceSet& surfaces,
-                  const SunNeighbours* around = nullptr, SunPixel* sun = nullptr) const;
+  void FollowRays(const internal::RaySet& rays, internal::SurfaceSet& surfaces, const SunNeighbours* around = nullptr,
+                  SunPixel* sun = nullptr) const;
   /// Radiance of surfaces; `bounce` 0 = seen by the camera, 1 = seen in another surface. The rest as in
   /// Shader::Shade.
-  void ShadeSurfaces(internal::RaySet& rays, int bounce, internal::LightSet& light,
-                     const SunNeighbours* around = nullptr, SunPixel* sun = nullptr) const;
+  void ShadeSurfaces(internal::RaySet& rays, int bounce, internal::LightSet& light, const SunNeighbours* around = nullptr,
+                     SunPixel* sun = nullptr) const;
   /// Sets `sunlit`.
-  void FindSun(const internal::RaySet& rays, internal::SurfaceSet& surfaces, const SunNeighbours* around,
-               SunPixel* sun) const;
+  void FindSun(const internal::RaySet& rays, internal::SurfaceSet& surfaces, const SunNeighbours* around, SunPixel* sun) const;
 
   std::shared_ptr<const RayTracer> tracer;
   internal::SurfaceTables tables;
@@ -70,10 +67,10 @@ struct Shader::Impl {
   std::shared_ptr<const internal::Sky> sky;
   std::shared_ptr<const internal::LampGrid> lamps;
   std::shared_ptr<const internal::LightProbes> probes;
-  std::shared_ptr<const internal::IndoorCache> indoor;  ///< nullptr: no rooms, or not wanted (yet)
-  std::shared_ptr<const RayTracer> built;               ///< of the scene as built
-  std::shared_ptr<const internal::Enclosure> enclosure; ///< made when first wanted
-  std::vector<uint8_t> moving;                          ///< with `indoor`: by instance
+  std::shared_ptr<const internal::IndoorCache> indoor;   ///< nullptr: no rooms, or not wanted (yet)
+  std::shared_ptr<const RayTracer> built;                ///< of the scene as built
+  std::shared_ptr<const internal::Enclosure> enclosure;  ///< made when first wanted
+  std::vector<uint8_t> moving;                           ///< with `indoor`: by instance
   Environment environment;
   bool wants_indoor = false;
   /// The last lights, latest last: kMostLights at the most.

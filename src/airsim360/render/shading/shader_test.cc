@@ -44,8 +44,7 @@ struct World {
     shader = std::make_unique<const Shader>(tracer, tracer->scene().environment);
   }
   // Radiance along rays from one point.
-  std::vector<Vec3f> See(Vec3f origin, const std::vector<Vec3f>& directions, float cone = 1e-3f,
-                         uint32_t key = 0) const {
+  std::vector<Vec3f> See(Vec3f origin, const std::vector<Vec3f>& directions, float cone = 1e-3f, uint32_t key = 0) const {
     std::vector<Vec3f> out;
     for (size_t first = 0; first < directions.size(); first += HitBatch::kCapacity) {
       HitBatch batch;
@@ -87,10 +86,8 @@ TEST(Shader, SunlitGroundIsBrighterThanGroundInShadowByTheSunsShare) {
   const internal::Sky sky(world.tracer->scene().environment);
   const Vec3f s = sky.to_sun();
   const Vec3f shadow = Vec3f{-s.x, -s.y, 0} * (8 / s.z);
-  const Vec3f sunlit = world.SeeOne({20, 20, 6}, {20, 22, 0}),
-              shaded = world.SeeOne(shadow + Vec3f{0, -6, 5}, shadow);
-  EXPECT_NEAR((sunlit.y - shaded.y) * kPi / 0.2f, sky.sun_irradiance().y * s.z,
-              0.12f * sky.sun_irradiance().y);
+  const Vec3f sunlit = world.SeeOne({20, 20, 6}, {20, 22, 0}), shaded = world.SeeOne(shadow + Vec3f{0, -6, 5}, shadow);
+  EXPECT_NEAR((sunlit.y - shaded.y) * kPi / 0.2f, sky.sun_irradiance().y * s.z, 0.12f * sky.sun_irradiance().y);
   EXPECT_GT(shaded.y, 0.2f / kPi * 0.5f * sky.Irradiance({0, 0, 1}).y);
   // A sunlit grey of 0.18 sits in the middle of the tone curve.
   const Vec3f grey = sunlit * (0.18f / 0.2f);
@@ -109,8 +106,8 @@ TEST(Shader, AFlatLitPlaneShowsNoSelfShadowing) {
     RngStream random(3, "acne");
     for (int i = 0; i < 2000; ++i) {
       const double a = random.Uniform(0, 6.28), down = random.Uniform(0.05, 1.2);
-      rays.push_back({static_cast<float>(std::cos(down) * std::cos(a)),
-                      static_cast<float>(std::cos(down) * std::sin(a)), static_cast<float>(-std::sin(down))});
+      rays.push_back({static_cast<float>(std::cos(down) * std::cos(a)), static_cast<float>(std::cos(down) * std::sin(a)),
+                      static_cast<float>(-std::sin(down))});
     }
     float least = 1e9f;
     for (Vec3f c : world.See(origin, rays)) least = std::min(least, c.y);
@@ -135,17 +132,14 @@ TEST(Shader, AFineCheckerFadesToItsMean) {
   // From 30 m a pixel holds dozens of texels: neighbours must look alike.
   std::vector<Vec3f> rays;
   for (int i = 0; i < 256; ++i)
-    rays.push_back(
-        Normalized(Vec3f{0.001f * static_cast<float>(i % 16), 0.001f * static_cast<float>(i / 16), -1}));
+    rays.push_back(Normalized(Vec3f{0.001f * static_cast<float>(i % 16), 0.001f * static_cast<float>(i / 16), -1}));
   float low = 1e9f, high = 0;
-  for (Vec3f c : world.See({0.3f, 0.2f, 30}, rays, 3.14159f / 1024))
-    low = std::min(low, c.y), high = std::max(high, c.y);
+  for (Vec3f c : world.See({0.3f, 0.2f, 30}, rays, 3.14159f / 1024)) low = std::min(low, c.y), high = std::max(high, c.y);
   EXPECT_LT(high / low, 1.03f);
   // Close by the squares are there.
   low = 1e9f, high = 0;
   for (Vec3f& d : rays) d = Normalized(Vec3f{d.x * 8, d.y * 8, d.z});
-  for (Vec3f c : world.See({0.3f, 0.2f, 0.5f}, rays, 3.14159f / 8192))
-    low = std::min(low, c.y), high = std::max(high, c.y);
+  for (Vec3f c : world.See({0.3f, 0.2f, 0.5f}, rays, 3.14159f / 8192)) low = std::min(low, c.y), high = std::max(high, c.y);
   EXPECT_GT(high / low, 3);
 }
 
@@ -213,9 +207,8 @@ TEST(Shader, DoesNotDependOnTheOrderOfHits) {
   std::vector<Vec3f> rays;
   RngStream random(5, "order");
   for (int i = 0; i < 200; ++i)
-    rays.push_back(
-        Normalized(Vec3f{static_cast<float>(random.Uniform(-1, 1)), static_cast<float>(random.Uniform(-1, 1)),
-                         static_cast<float>(random.Uniform(-1, 0.3))}));
+    rays.push_back(Normalized(Vec3f{static_cast<float>(random.Uniform(-1, 1)), static_cast<float>(random.Uniform(-1, 1)),
+                                    static_cast<float>(random.Uniform(-1, 0.3))}));
   const std::vector<Vec3f> forward = world.See({1, 2, 7}, rays);
   std::reverse(rays.begin(), rays.end());
   std::vector<Vec3f> backward = world.See({1, 2, 7}, rays);
@@ -258,8 +251,7 @@ TEST(Shader, SurvivesCoordinatesThatAreNotNumbers) {
   world.Build();
   std::vector<Vec3f> rays;
   for (int i = 0; i < 100; ++i) {
-    rays.push_back(Normalized(
-        Vec3f{0.05f * static_cast<float>(i % 10 - 5), 0.05f * static_cast<float>(i / 10 - 5), -1}));
+    rays.push_back(Normalized(Vec3f{0.05f * static_cast<float>(i % 10 - 5), 0.05f * static_cast<float>(i / 10 - 5), -1}));
   }
   EXPECT_EQ(world.See({0.1f, 0.2f, 4}, rays).size(), rays.size());
 }
@@ -270,8 +262,7 @@ TEST(Shader, AllInstructionSetsAgreeToTheBit) {
   Image<Rgba8> noise(32, 32);
   RngStream random(7, "isa");
   for (Rgba8& p : noise.pixels())
-    p = {static_cast<uint8_t>(random.Index(256)), static_cast<uint8_t>(random.Index(256)),
-         static_cast<uint8_t>(random.Index(256)), 255};
+    p = {static_cast<uint8_t>(random.Index(256)), static_cast<uint8_t>(random.Index(256)), static_cast<uint8_t>(random.Index(256)), 255};
   Material material = Matte(0.7f);
   material.base_color_texture = world.builder.AddTexture(Texture::FromImage("noise", noise, true));
   material.normal_texture = world.builder.AddTexture(Texture::FromImage("bumps", noise, false));
@@ -289,12 +280,10 @@ TEST(Shader, AllInstructionSetsAgreeToTheBit) {
   internal::RaySet rays{};
   rays.count = internal::kBatch;
   for (int i = 0; i < internal::kBatch; ++i) {
-    const Vec3f d = Normalized(
-        Vec3f{static_cast<float>(random.Uniform(-1, 1)), static_cast<float>(random.Uniform(-1, 1)), -0.5f});
+    const Vec3f d = Normalized(Vec3f{static_cast<float>(random.Uniform(-1, 1)), static_cast<float>(random.Uniform(-1, 1)), -0.5f});
     rays.oz[i] = 6, rays.dx[i] = d.x, rays.dy[i] = d.y, rays.dz[i] = d.z;
     rays.distance[i] = -6 / d.z, rays.width[i] = 0.003f * rays.distance[i];
-    rays.u[i] = static_cast<float>(random.Uniform(0, 0.5)),
-    rays.v[i] = static_cast<float>(random.Uniform(0, 0.5));
+    rays.u[i] = static_cast<float>(random.Uniform(0, 0.5)), rays.v[i] = static_cast<float>(random.Uniform(0, 0.5));
     rays.instance[i] = static_cast<uint32_t>(i % 2), rays.triangle[i] = static_cast<uint32_t>(i / 2 % 2);
     rays.key[i] = static_cast<uint32_t>(i % 3);
   }
@@ -312,8 +301,7 @@ TEST(Shader, AllInstructionSetsAgreeToTheBit) {
     return result;
   };
   using namespace internal;
-  const auto base =
-      run(isa_sse42::PrepareSurfaces, isa_sse42::LightSurfaces, isa_sse42::LookUpSky, isa_sse42::ToneMapRow);
+  const auto base = run(isa_sse42::PrepareSurfaces, isa_sse42::LightSurfaces, isa_sse42::LookUpSky, isa_sse42::ToneMapRow);
   const auto expect_same = [&](const Result& other, const char* name) {
     EXPECT_EQ(std::memcmp(&base->surfaces, &other.surfaces, sizeof(SurfaceSet)), 0) << name;
     EXPECT_EQ(std::memcmp(&base->light, &other.light, sizeof(LightSet)), 0) << name;
@@ -322,13 +310,9 @@ TEST(Shader, AllInstructionSetsAgreeToTheBit) {
   };
   EXPECT_GT(base->light.g[0], 0);
   if (CurrentKernelIsa() >= KernelIsa::kAvx2)
-    expect_same(
-        *run(isa_avx2::PrepareSurfaces, isa_avx2::LightSurfaces, isa_avx2::LookUpSky, isa_avx2::ToneMapRow),
-        "avx2");
+    expect_same(*run(isa_avx2::PrepareSurfaces, isa_avx2::LightSurfaces, isa_avx2::LookUpSky, isa_avx2::ToneMapRow), "avx2");
   if (CurrentKernelIsa() >= KernelIsa::kAvx512)
-    expect_same(*run(isa_avx512::PrepareSurfaces, isa_avx512::LightSurfaces, isa_avx512::LookUpSky,
-                     isa_avx512::ToneMapRow),
-                "avx512");
+    expect_same(*run(isa_avx512::PrepareSurfaces, isa_avx512::LightSurfaces, isa_avx512::LookUpSky, isa_avx512::ToneMapRow), "avx512");
 }
 
 }  // namespace

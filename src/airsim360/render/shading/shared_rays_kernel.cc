@@ -25,9 +25,7 @@ KERNEL void SobolPoints(uint32_t first, uint32_t seed, float* u, float* v) {
   for (uint32_t i = 0; i < 16; ++i) v[i] = unit_of(owen_scramble(second[i], hash2));
 }
 
-KERNEL real3 Across(real3 a, real3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+KERNEL real3 Across(real3 a, real3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 KERNEL real3 Divided(real3 a, real s) { return {a.x / s, a.y / s, a.z / s}; }
 KERNEL real3 Spread(const float* p) { return {real(p[0]), real(p[1]), real(p[2])}; }
 
@@ -59,8 +57,8 @@ void SharedSun(const SunFrame& sun, uint32_t seed, int count, bool of_pixel, Sun
   }
 }
 
-void LiftSunRays(const RaySet& rays, const SurfaceSet& s, const SunFrame& sun, const SunPoints& points,
-                 const PixelShape& pixel, const SunPair& pair, RayHit16& out) {
+void LiftSunRays(const RaySet& rays, const SurfaceSet& s, const SunFrame& sun, const SunPoints& points, const PixelShape& pixel,
+                 const SunPair& pair, RayHit16& out) {
   alignas(64) float lanes[15][16];
   const float* planes[10] = {rays.dx, rays.dy, rays.dz, rays.distance, s.px, s.py, s.pz, s.gx, s.gy, s.gz};
   const float* of_point[5] = {points.x, points.y, points.z, points.across, points.up};
@@ -89,14 +87,11 @@ void LiftSunRays(const RaySet& rays, const SurfaceSet& s, const SunFrame& sun, c
     const real3 up = Across(across, d);
     const real aspect = pixel.panorama ? rmax(rroot(dot3(turned, turned)), real(1e-4f)) : one;
     // A point of the pixel on the surface's plane.
-    const real3 beside =
-        d + across * (lane(13) * pixel.cone_angle * aspect) + up * (lane(14) * pixel.cone_angle);
+    const real3 beside = d + across * (lane(13) * pixel.cone_angle * aspect) + up * (lane(14) * pixel.cone_angle);
     const real slant = dot3(g, d), there = dot3(g, beside);
-    const real stretch =
-        sel(there < 0.3f * slant, rmin(rmax(slant / there, real(0.5f)), real(2.0f)), one);
+    const real stretch = sel(there < 0.3f * slant, rmin(rmax(slant / there, real(0.5f)), real(2.0f)), one);
     const real lift = ray_offset(p, distance) * sel(dot3(g, to_sun) < 0.0f, real(-1.0f), one);
-    store3(out.origin_x + i, out.origin_y + i, out.origin_z + i,
-           p + g * lift + (beside * stretch - d) * distance);
+    store3(out.origin_x + i, out.origin_y + i, out.origin_z + i, p + g * lift + (beside * stretch - d) * distance);
     store3(out.direction_x + i, out.direction_y + i, out.direction_z + i, {lane(10), lane(11), lane(12)});
   }
 }

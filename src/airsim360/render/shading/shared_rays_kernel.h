@@ -36,10 +36,8 @@ struct PixelShape {
 /// SobolPoint of the indices `first` to `first` + 15, as unit vectors.
 AIRSIM360_DECLARE_KERNEL(void SharedSphere(uint32_t first, uint32_t seed, float* x, float* y, float* z))
 /// The first `count` points of the disc, a multiple of 16; `of_pixel`: and those of the pixel.
-AIRSIM360_DECLARE_KERNEL(void SharedSun(const SunFrame& sun, uint32_t seed, int count, bool of_pixel,
-                                        SunPoints& points))
+AIRSIM360_DECLARE_KERNEL(void SharedSun(const SunFrame& sun, uint32_t seed, int count, bool of_pixel, SunPoints& points))
 /// Rays to points of the disc from all over the parts of their surfaces' planes that two pixels show, lifted off them:
 /// fills origin and direction.
-AIRSIM360_DECLARE_KERNEL(void LiftSunRays(const RaySet& rays, const SurfaceSet& surfaces, const SunFrame& sun,
-                                          const SunPoints& points, const PixelShape& pixel, const SunPair& pair,
-                                          RayHit16& out))
+AIRSIM360_DECLARE_KERNEL(void LiftSunRays(const RaySet& rays, const SurfaceSet& surfaces, const SunFrame& sun, const SunPoints& points,
+                                          const PixelShape& pixel, const SunPair& pair, RayHit16& out))

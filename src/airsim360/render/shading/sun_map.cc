@@ -15,8 +15,7 @@ constexpr float kLeastTexel = 0.05f, kNothing = -1e30f;
 void Extent(const Box3f& box, Vec3f axis, float& low, float& high) {
   low = INFINITY, high = -INFINITY;
   for (int i = 0; i < 8; ++i) {
-    const float t = Dot(axis, Vec3f{(i & 1 ? box.max : box.min).x, (i & 2 ? box.max : box.min).y,
-                                    (i & 4 ? box.max : box.min).z});
+    const float t = Dot(axis, Vec3f{(i & 1 ? box.max : box.min).x, (i & 2 ? box.max : box.min).y, (i & 4 ? box.max : box.min).z});
     low = std::min(low, t), high = std::max(high, t);
   }
 }

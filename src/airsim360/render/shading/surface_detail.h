@@ -68,16 +68,15 @@ SEPARATE TileCorners ChooseCorners(const Fetched& f, real u, real v, real footpr
 
 /// Mix of the copies of one texture; `gain` (TileCorners::gain or 1) spreads it about `mean` in every
 /// channel.
-KERNEL real3 SampleTiles(const ShadeView& view, const Fetched& f, const int32_t* id, const TileCorners& c,
-                         real footprint, bool trilinear, real3 mean, real gain) {
+KERNEL real3 SampleTiles(const ShadeView& view, const Fetched& f, const int32_t* id, const TileCorners& c, real footprint, bool trilinear,
+                         real3 mean, real gain) {
   const real3 first = SampleTexture(view.textures, id, c.u[0], c.v[0], footprint, trilinear);
   if (!f.any_blend) return first;
   real3 sum = (first - mean) * c.weight[0];
   for (int k = 1; k < 3; ++k) {
     // A lane without weight adds nothing, so leaving out a vector without any changes no bit.
     if (stdx::any_of(c.weight[k] > 0.0f))
-      sum =
-          sum + (SampleTexture(view.textures, id, c.u[k], c.v[k], footprint, trilinear) - mean) * c.weight[k];
+      sum = sum + (SampleTexture(view.textures, id, c.u[k], c.v[k], footprint, trilinear) - mean) * c.weight[k];
   }
   const real3 mixed = mean + sum * gain;
   return sel3(load(f.blend) > 0.5f, make3(clamp01(mixed.x), clamp01(mixed.y), clamp01(mixed.z)), first);
@@ -107,12 +106,11 @@ SEPARATE Noises LookUpNoises(const ShadeView& view, const Fetched& f, real3 p, r
   out.wall = wall_share(load(f.macro), load(f.ground), n.z);
   const mask_t upright = out.wall > 0.0f;
   if ((f.any_ground || view.wetness > 0 || view.snow > 0 || stdx::any_of(upright)) && stdx::any_of(near)) {
-    const real qx = (px * 0.83f + py * 0.56f) * (1.0f / 11.3f),
-               qy = (py * 0.83f - px * 0.56f) * (1.0f / 11.3f);
+    const real qx = (px * 0.83f + py * 0.56f) * (1.0f / 11.3f), qy = (py * 0.83f - px * 0.56f) * (1.0f / 11.3f);
     // On walls it runs along and, much slower, down.
     const real along = (p.y * n.x - p.x * n.y) * (1.0f / 4.7f), down = p.z * (1.0f / 67.0f);
-    const real3 fine = SampleNoise(view, sel(upright, along, qx + (out.mid.y - 0.5f) * 0.6f + bend_x),
-                                   sel(upright, down, qy + (out.mid.z - 0.5f) * 0.6f));
+    const real3 fine =
+        SampleNoise(view, sel(upright, along, qx + (out.mid.y - 0.5f) * 0.6f + bend_x), sel(upright, down, qy + (out.mid.z - 0.5f) * 0.6f));
     out.fine = sel3(near, fine, out.fine);
   }
   return out;
@@ -125,8 +123,7 @@ KERNEL real3 MacroTint(const Fetched& f, const Noises& noises, real width) {
   const real light = (noises.wide.x - 0.5f) * 1.1f + (noises.mid.x - 0.5f) * 0.9f * fade;
   const real warm = (noises.wide.y - 0.5f) * 0.35f + (noises.mid.y - 0.5f) * 0.2f * fade;
   const real low = real(0.35f);
-  return make3(rmax(1.0f + amount * (light + warm), low), rmax(1.0f + amount * light, low),
-               rmax(1.0f + amount * (light - warm), low));
+  return make3(rmax(1.0f + amount * (light + warm), low), rmax(1.0f + amount * light, low), rmax(1.0f + amount * (light - warm), low));
 }
 
 /// Bricks and slabs differ from each other all over the world, not only within their tile.
@@ -144,19 +141,16 @@ KERNEL real3 UnitTint(const Fetched& f, real u, real v, real footprint) {
 }
 
 // GroundWear
-constexpr float kAsphalt = 1, kCarriageway = 2, kPaving = 3, kLawn = 4, kGravel = 5, kSoil = 6, kRoof = 7,
-                kRoofRolls = 8;
+constexpr float kAsphalt = 1, kCarriageway = 2, kPaving = 3, kLawn = 4, kGravel = 5, kSoil = 6, kRoof = 7, kRoofRolls = 8;
 
 /// Lanes of every kind of ground that the vector holds; see shading_ground.h and shading_marks.h.
-SEPARATE void WearGround(const Fetched& f, const Noises& s, real3 p, real u, real width, real3& color,
-                         real& roughness) {
+SEPARATE void WearGround(const Fetched& f, const Noises& s, real3 p, real u, real width, real3& color, real& roughness) {
   const real ground = load(f.ground);
   const real zero = real(0.0f), one = real(1.0f);
   const mask_t street = (ground == kCarriageway), asphalt = street || (ground == kAsphalt);
   if (stdx::any_of(asphalt)) {
     real gain = one, tar = zero, polish = zero;
-    asphalt_wear(p.x, p.y, u * load(f.tile), sel(street, one, zero), s.wide, s.mid, s.fine, s.detail, width,
-                 gain, tar, polish);
+    asphalt_wear(p.x, p.y, u * load(f.tile), sel(street, one, zero), s.wide, s.mid, s.fine, s.detail, width, gain, tar, polish);
     const real3 marked = asphalt_marks(color * gain, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width);
     color = sel3(asphalt, lerp3(marked, make3(real(0.034f), real(0.034f), real(0.035f)), tar), color);
     roughness = sel(asphalt, lerp1(roughness - polish, real(0.45f), tar), roughness);
@@ -167,12 +161,9 @@ SEPARATE void WearGround(const Fetched& f, const Noises& s, real3 p, real u, rea
     color = sel3(paving, paving_marks(worn, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width), color);
   }
   const mask_t lawn = (ground == kLawn);
-  if (stdx::any_of(lawn))
-    color = sel3(lawn, lawn_life(color, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width), color);
+  if (stdx::any_of(lawn)) color = sel3(lawn, lawn_life(color, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width), color);
   const mask_t gravel = (ground == kGravel), loose = gravel || (ground == kSoil);
-  if (stdx::any_of(loose))
-    color = sel3(loose, loose_ground(color, s.wide, s.mid, s.fine, s.detail, sel(gravel, real(0.35f), one)),
-                 color);
+  if (stdx::any_of(loose)) color = sel3(loose, loose_ground(color, s.wide, s.mid, s.fine, s.detail, sel(gravel, real(0.35f), one)), color);
   const mask_t rolls = (ground == kRoofRolls), roof = rolls || (ground == kRoof);
   if (stdx::any_of(roof)) {
     const real tint = roof_wear(p.x, s.wide, s.mid, s.fine, s.detail, width, sel(rolls, one, zero));
@@ -183,8 +174,7 @@ SEPARATE void WearGround(const Fetched& f, const Noises& s, real3 p, real u, rea
 /// Every leaf its own green: lighter and yellower or darker and bluer than its neighbours. Cloth (which lets
 /// little light through) stays as it is.
 KERNEL real3 LeafTint(const Fetched& f, real3 color) {
-  const real amount =
-      sel(load(f.kind) == kFoliage, clamp01((load(f.transmission) - 0.4f) * 5.0f), real(0.0f));
+  const real amount = sel(load(f.kind) == kFoliage, clamp01((load(f.transmission) - 0.4f) * 5.0f), real(0.0f));
   const real h = load(f.pane), h2 = hash_again(h, real(61.7f));
   const real light = 1.0f + (h - 0.5f) * 0.44f * amount, yellow = (h2 - 0.42f) * 0.34f * amount;
   return make3(color.x * light * (1.0f + yellow), color.y * light, color.z * light * (1.0f - yellow * 0.6f));
@@ -201,8 +191,8 @@ struct RoomView {
   real du, dv;
 };
 
-SEPARATE RoomView LookInside(const ShadeView& view, const Fetched& f, real3 right, real3 up, real3 facing,
-                             real3 d, real w, real u, real v) {
+SEPARATE RoomView LookInside(const ShadeView& view, const Fetched& f, real3 right, real3 up, real3 facing, real3 d, real w, real u,
+                             real v) {
   const real a = load(f.corner_a[0]) * w + load(f.corner_a[1]) * u + load(f.corner_a[2]) * v;
   const real b = load(f.corner_b[0]) * w + load(f.corner_b[1]) * u + load(f.corner_b[2]) * v;
   const real room = load(f.room);
@@ -212,9 +202,8 @@ SEPARATE RoomView LookInside(const ShadeView& view, const Fetched& f, real3 righ
   RoomView out;
   real back_a = a, back_b = b;
   // Seen from the back of the pane (from inside) right and left change places; the hash keeps the room.
-  interior_room(a, b, load(f.half_a), load(f.half_b), dot3(d, right), dot3(d, up),
-                real(0.0f) - dot3(d, facing), room, sel3(lit, light, dark), out.daylight, out.lamplight,
-                out.front, back_a, back_b);
+  interior_room(a, b, load(f.half_a), load(f.half_b), dot3(d, right), dot3(d, up), real(0.0f) - dot3(d, facing), room,
+                sel3(lit, light, dark), out.daylight, out.lamplight, out.front, back_a, back_b);
   // A picture is as wide as its pane; beyond its edges it continues mirrored.
   const auto fold = [](real x, real half) __attribute__((always_inline)) {
     return sel(rabs(x) > half, sel(x > 0.0f, 2.0f * half - x, 0.0f - 2.0f * half - x), x);
@@ -226,8 +215,7 @@ SEPARATE RoomView LookInside(const ShadeView& view, const Fetched& f, real3 righ
 
 /// The room instead of a flat colour. Tinted panes colour it; panes with a picture (shops) keep that as back
 /// wall, with the nearer furnishings in front.
-KERNEL void FurnishPane(const ShadeView& view, const Fetched& f, const RoomView& room, mask_t window,
-                        real3& color, real3& emission) {
+KERNEL void FurnishPane(const ShadeView& view, const Fetched& f, const RoomView& room, mask_t window, real3& color, real3& emission) {
   const real3 tint = load3(f.color[0], f.color[1], f.color[2]);
   const real most = rmax(tint.x, rmax(tint.y, rmax(tint.z, real(1e-3f))));
   const real3 glass = lerp3(make3(real(0.86f), real(0.87f), real(0.86f)), tint * (0.8f / most), real(0.5f));
@@ -296,8 +284,7 @@ KERNEL real OpenAbove(const ShadeView& view, real3 p, real3 facing) {
 }
 
 /// Film of water with puddles, then snow over it.
-SEPARATE void LieWeather(const ShadeView& view, const Fetched& f, const Noises& s, real3 p, real3 facing,
-                         real width, real u, Skin& k) {
+SEPARATE void LieWeather(const ShadeView& view, const Fetched& f, const Noises& s, real3 p, real3 facing, real width, real u, Skin& k) {
   const real open = OpenAbove(view, p, facing), zero = real(0.0f), one = real(1.0f);
   const mask_t leaf = k.kind == kFoliage, solid = (k.kind != kGlass) && (k.kind != kWater);
   const real up = sel(leaf, rabs(facing.z), facing.z), ground = load(f.ground);
@@ -306,12 +293,10 @@ SEPARATE void LieWeather(const ShadeView& view, const Fetched& f, const Noises& 
   const real lane = (rabs(rabs(u * load(f.tile)) - 1.72f) - 0.78f) * (1.0f / 0.32f);
   const real track = sel(street, exp_approx(zero - lane * lane), zero);
   if (view.wetness > 0) {
-    const real exposed =
-        smooth01(clamp01((open - 0.12f) * 5.0f)) * (0.12f + 0.88f * clamp01(up * 2.0f + 0.2f));
+    const real exposed = smooth01(clamp01((open - 0.12f) * 5.0f)) * (0.12f + 0.88f * clamp01(up * 2.0f + 0.2f));
     const real film = sel(solid, clamp01(view.wetness * exposed * (1.15f + 1.2f * (s.mid.y - 0.5f))), zero);
     const real soak = film * porosity(k.roughness, k.metallic);
-    k.color =
-        lerp3(k.color, make3(wet_albedo(k.color.x), wet_albedo(k.color.y), wet_albedo(k.color.z)), soak);
+    k.color = lerp3(k.color, make3(wet_albedo(k.color.x), wet_albedo(k.color.y), wet_albedo(k.color.z)), soak);
     // Puddles on level ground, the first of them in the wheel tracks.
     const real level = sel(grass || (facing.z < 0.97f) || leaf, zero, one);
     const real relief = 0.55f * s.mid.x + 0.30f * s.fine.y + 0.15f * s.wide.y - 0.035f * track;
@@ -333,11 +318,9 @@ SEPARATE void LieWeather(const ShadeView& view, const Fetched& f, const Noises& 
     k.coat = rmax(k.coat, water);
   }
   if (view.snow > 0) {
-    const real exposed = smooth01(clamp01((open - 0.15f) * 3.4f)) * (1.0f - 0.62f * track) *
-                         sel(ground > 0.5f && !grass, real(0.85f), one);
+    const real exposed = smooth01(clamp01((open - 0.15f) * 3.4f)) * (1.0f - 0.62f * track) * sel(ground > 0.5f && !grass, real(0.85f), one);
     const real relief = 0.45f * s.mid.z + 0.55f * s.fine.x;
-    const real cover = sel(solid || ((k.kind == kGlass) && (up > 0.25f)),
-                           snow_cover(real(view.snow), up, relief, exposed), zero);
+    const real cover = sel(solid || ((k.kind == kGlass) && (up > 0.25f)), snow_cover(real(view.snow), up, relief, exposed), zero);
     const real3 white = make3(real(0.83f), real(0.85f), real(0.88f)) * (0.97f + 0.25f * (s.fine.z - 0.5f));
     // Some slush stays dark at the edge.
     k.color = lerp3(k.color, white, cover);

@@ -37,8 +37,8 @@ struct alignas(64) Fetched {
   /// Set only where any_colored: the words of TriangleColors.
   int32_t corner_words[8][kLanes];
   bool any_smooth;  ///< some corner's normal is not the triangle's own
-  bool any_normal, any_roughness, any_emission, any_macro, any_glass, any_water, any_base, any_blend,
-      any_unit, any_ground, any_window, any_leaf, any_colored, any_beam;
+  bool any_normal, any_roughness, any_emission, any_macro, any_glass, any_water, any_base, any_blend, any_unit, any_ground, any_window,
+      any_leaf, any_colored, any_beam;
   bool any_picture;  ///< something that needs texture coordinates
   /// All lanes lie on one triangle, this one.
   bool one = false;
@@ -51,12 +51,11 @@ constexpr size_t kWord = sizeof(float), kRow = kWord * kLanes;
 static_assert(sizeof(TriangleRecord) == 16 * kWord && offsetof(TriangleRecord, window) == 15 * kWord &&
               offsetof(Fetched, window) == 15 * kRow && offsetof(Fetched, texels_log2) == 11 * kRow &&
               offsetof(TriangleRecord, texels_log2) == 11 * kWord);
-static_assert(offsetof(InstanceRecord, first_color) == 15 * kWord && sizeof(TriangleColors) == 8 * kWord && offsetof(Fetched, matrix) == 16 * kRow &&
-              offsetof(Fetched, first_color) == 31 * kRow && offsetof(Fetched, base) == 32 * kRow);
-static_assert(offsetof(MaterialRecord, interior) == 26 * kWord &&
-              offsetof(Fetched, room_material) == (32 + 26) * kRow &&
-              offsetof(MaterialRecord, base_texture) == 12 * kWord &&
-              offsetof(Fetched, base_id) == (32 + 12) * kRow &&
+static_assert(offsetof(InstanceRecord, first_color) == 15 * kWord && sizeof(TriangleColors) == 8 * kWord &&
+              offsetof(Fetched, matrix) == 16 * kRow && offsetof(Fetched, first_color) == 31 * kRow &&
+              offsetof(Fetched, base) == 32 * kRow);
+static_assert(offsetof(MaterialRecord, interior) == 26 * kWord && offsetof(Fetched, room_material) == (32 + 26) * kRow &&
+              offsetof(MaterialRecord, base_texture) == 12 * kWord && offsetof(Fetched, base_id) == (32 + 12) * kRow &&
               offsetof(MaterialRecord, beam) == 27 * kWord && offsetof(Fetched, beam) == (32 + 27) * kRow &&
               offsetof(MaterialRecord, tile) == 21 * kWord && offsetof(Fetched, tile) == (32 + 21) * kRow);
 
@@ -64,8 +63,7 @@ static_assert(offsetof(MaterialRecord, interior) == 26 * kWord &&
 KERNEL void Prefetch(const ShadeView& view, const RaySet& rays, int begin) {
   if (begin >= rays.count) return;
   for (int i = 0; i < kLanes; ++i) {
-    __builtin_prefetch(
-        &view.triangles[view.instances[rays.instance[begin + i]].first_triangle + rays.triangle[begin + i]]);
+    __builtin_prefetch(&view.triangles[view.instances[rays.instance[begin + i]].first_triangle + rays.triangle[begin + i]]);
   }
 }
 
@@ -93,8 +91,7 @@ static __attribute__((noinline)) void FetchPanes(const ShadeView& view, Fetched&
 template <class Record>
 KERNEL const Record* Shared(const Record* const* records) {
   uintptr_t differs = 0;
-  for (int i = 1; i < kLanes; ++i)
-    differs |= reinterpret_cast<uintptr_t>(records[i]) ^ reinterpret_cast<uintptr_t>(records[0]);
+  for (int i = 1; i < kLanes; ++i) differs |= reinterpret_cast<uintptr_t>(records[i]) ^ reinterpret_cast<uintptr_t>(records[0]);
   return differs == 0 ? records[0] : nullptr;
 }
 
@@ -134,15 +131,13 @@ KERNEL void TakeRecords(const Record* const* records, const Record* shared, int 
   }
   for (int q = 0; q < quads; ++q) {
     GatherRows(
-        [&](int i)
-            __attribute__((always_inline)) { return reinterpret_cast<const float*>(records[i]) + 4 * q; },
+        [&](int i) __attribute__((always_inline)) { return reinterpret_cast<const float*>(records[i]) + 4 * q; },
         to + 4 * static_cast<size_t>(q) * kRow);
   }
 }
 
 /// Vertex colours of vectors some lane of which lies in a mesh that has them.
-static __attribute__((noinline)) void FetchColors(const ShadeView& view, const RaySet& rays, int begin,
-                                                  Fetched& f) {
+static __attribute__((noinline)) void FetchColors(const ShadeView& view, const RaySet& rays, int begin, Fetched& f) {
   const TriangleColors* colors[kLanes];
   for (int i = 0; i < kLanes; ++i) {
     const uint32_t first = f.first_color[i];
@@ -152,10 +147,8 @@ static __attribute__((noinline)) void FetchColors(const ShadeView& view, const R
 }
 
 KERNEL real3 CornerColor(const Fetched& f, int corner) {
-  const ireal rg(f.corner_words[2 * corner], stdx::vector_aligned),
-      ba(f.corner_words[2 * corner + 1], stdx::vector_aligned);
-  return make3(to_real(rg & 0xffff), to_real((rg >> 16) & 0xffff), to_real(ba & 0xffff)) *
-         real(1.0f / 65535.0f);
+  const ireal rg(f.corner_words[2 * corner], stdx::vector_aligned), ba(f.corner_words[2 * corner + 1], stdx::vector_aligned);
+  return make3(to_real(rg & 0xffff), to_real((rg >> 16) & 0xffff), to_real(ba & 0xffff)) * real(1.0f / 65535.0f);
 }
 
 /// What vertex colours do to the base colour at barycentrics (u, v).
@@ -178,15 +171,13 @@ KERNEL void TakeMaterials(const MaterialRecord* const* material, const MaterialR
   f.any_unit = stdx::any_of(load(f.columns) != 0.0f);
   f.any_ground = stdx::any_of(load(f.ground) != 0.0f);
   f.any_beam = stdx::any_of(load(f.beam) != 0.0f);
-  f.any_picture =
-      f.any_base || f.any_normal || f.any_roughness || f.any_emission || f.any_blend || f.any_unit;
+  f.any_picture = f.any_base || f.any_normal || f.any_roughness || f.any_emission || f.any_blend || f.any_unit;
 }
 
 /// `f` is that of the vector before, or new.
 KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched& f) {
   const uint32_t one_instance = rays.instance[begin], one_triangle = rays.triangle[begin];
-  const bool one = stdx::all_of(Bits(rays.instance + begin) == one_instance &&
-                                Bits(rays.triangle + begin) == one_triangle);
+  const bool one = stdx::all_of(Bits(rays.instance + begin) == one_instance && Bits(rays.triangle + begin) == one_triangle);
   if (one && f.one && f.one_instance == one_instance && f.one_triangle == one_triangle) return;
   f.one = one, f.one_instance = one_instance, f.one_triangle = one_triangle;
 

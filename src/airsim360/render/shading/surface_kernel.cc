@@ -13,23 +13,19 @@ KERNEL real3 Facing(real3 n, real3 direction) {
 }
 
 /// A part of the normal map's slope; what mipmapping shortened becomes roughness (Toksvig 2005).
-KERNEL real3 MapNormal(const ShadeView& view, const Fetched& f, const TileCorners& corners, real3 n,
-                       real footprint, real& roughness) {
-  const real3 c = SampleTiles(view, f, f.normal_id, corners, footprint, false,
-                              make3(real(0.5f), real(0.5f), real(0.9f)), corners.gain);
+KERNEL real3 MapNormal(const ShadeView& view, const Fetched& f, const TileCorners& corners, real3 n, real footprint, real& roughness) {
+  const real3 c = SampleTiles(view, f, f.normal_id, corners, footprint, false, make3(real(0.5f), real(0.5f), real(0.9f)), corners.gain);
   const real3 m = c * real(2.0f) - make3(real(1.0f), real(1.0f), real(1.0f));
   const real length = rmin(rroot(dot3(m, m)), real(1.0f));
   const real scale = load(f.normal_scale);
   const real3 t0 = ToWorld(f, UnpackDirection(f.tangent));
   const real3 t = normalize3(t0 - n * dot3(n, t0));
-  const real3 b =
-      make3(n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x) * load(f.mirrored);
+  const real3 b = make3(n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x) * load(f.mirrored);
   const real3 bent = normalize3(t * (m.x * scale) + b * (m.y * scale) + n * rmax(m.z, real(0.05f)));
   const mask_t mapped = to_real(ireal(f.normal_id, stdx::vector_aligned)) > 0.5f;
   const real variance = (1.0f - length) / rmax(length, real(0.2f)) * scale * scale;
   const real alpha = roughness * roughness;
-  const real widened =
-      rroot(rroot(rmin(alpha * alpha + 2.0f * variance * variance + variance * 0.5f, real(1.0f))));
+  const real widened = rroot(rroot(rmin(alpha * alpha + 2.0f * variance * variance + variance * 0.5f, real(1.0f))));
   roughness = sel(mapped, rmax(widened, roughness), roughness);
   return sel3(mapped, bent, n);
 }
@@ -42,8 +38,7 @@ KERNEL real3 GlassNormal(const Fetched& f, real3 n, real3 p) {
   const real along = (p.x * across.x + p.y * across.y) * 2.1f + h1 * 40.0f;
   const real bend = sin_approx(along) * 0.0045f, rise = sin_approx(p.z * 1.9f + h2 * 40.0f) * 0.0045f;
   const mask_t upright = side > 0.3f;
-  const real3 tilted =
-      n + across * ((h1 - 0.5f) * 0.018f + bend) + make3(real(0.0f), real(0.0f), (h2 - 0.5f) * 0.018f + rise);
+  const real3 tilted = n + across * ((h1 - 0.5f) * 0.018f + bend) + make3(real(0.0f), real(0.0f), (h2 - 0.5f) * 0.018f + rise);
   return sel3(upright, normalize3(tilted), n);
 }
 
@@ -60,8 +55,7 @@ KERNEL real3 TowardsSun(const ShadeView& view, const RaySet& rays, int i, real3 
   };
   const real a = part(h >> 8), b = part(h >> 20);
   const mask_t beside = stdx::__proposed::static_simd_cast<mask_t>(key != 0u);
-  const real radius = rroot(a) * 0.00462f * sel(beside, real(1.0f), real(0.0f)),
-             angle = b * (2.0f * SHADE_PI);
+  const real radius = rroot(a) * 0.00462f * sel(beside, real(1.0f), real(0.0f)), angle = b * (2.0f * SHADE_PI);
   const float side = s.x * s.x + s.y * s.y > 1e-6f ? 1.0f / __builtin_sqrtf(s.x * s.x + s.y * s.y) : 0.0f;
   const ufloat3 e1 = side > 0 ? ufloat3{-s.y * side, s.x * side, 0} : ufloat3{1, 0, 0};
   const ufloat3 e2{s.y * e1.z - s.z * e1.y, s.z * e1.x - s.x * e1.z, s.x * e1.y - s.y * e1.x};
@@ -71,13 +65,13 @@ KERNEL real3 TowardsSun(const ShadeView& view, const RaySet& rays, int i, real3 
 
 /// Where a vector of rays meets surfaces.
 struct Meeting {
-  real3 d, p;        // direction of the rays; the points
-  real u, v, w;      // of the triangles
-  real3 facing, n;   // geometric and shading normal towards the viewer
-  real front;        // 1 where the triangle is seen from its front, else -1
-  real tu, tv;       // texture coordinates
-  real width, slant; // of the rays' cones; cosine between ray and surface
-  real footprint;    // log2 of texture tiles, for pictures alone: between the cone's width and its stretch on the slanted surface
+  real3 d, p;         // direction of the rays; the points
+  real u, v, w;       // of the triangles
+  real3 facing, n;    // geometric and shading normal towards the viewer
+  real front;         // 1 where the triangle is seen from its front, else -1
+  real tu, tv;        // texture coordinates
+  real width, slant;  // of the rays' cones; cosine between ray and surface
+  real footprint;     // log2 of texture tiles, for pictures alone: between the cone's width and its stretch on the slanted surface
 };
 
 KERNEL Meeting Meet(const RaySet& rays, int i, const Fetched& f) {
@@ -89,8 +83,7 @@ KERNEL Meeting Meet(const RaySet& rays, int i, const Fetched& f) {
   const real3 g = load3(f.facet[0], f.facet[1], f.facet[2]);
   real3 smooth = g;
   if (f.any_smooth) {
-    const real3 bent = UnpackDirection(f.normal[0]) * w + UnpackDirection(f.normal[1]) * u +
-                       UnpackDirection(f.normal[2]) * v;
+    const real3 bent = UnpackDirection(f.normal[0]) * w + UnpackDirection(f.normal[1]) * u + UnpackDirection(f.normal[2]) * v;
     smooth = sel3(IsSmooth(f), ToWorld(f, bent), g);
   }
   at.front = sel(dot3(g, at.d) > 0.0f, real(-1.0f), real(1.0f));
@@ -101,8 +94,7 @@ KERNEL Meeting Meet(const RaySet& rays, int i, const Fetched& f) {
   at.width = load(rays.width + i);
   at.slant = rmax(rabs(dot3(at.facing, at.d)), real(0.03f));
   at.footprint = real(0.0f);
-  if (f.any_picture)
-    at.footprint = log2_approx(rmax(at.width, real(1e-9f))) - 0.75f * log2_approx(at.slant) + load(f.texels_log2);
+  if (f.any_picture) at.footprint = log2_approx(rmax(at.width, real(1e-9f))) - 0.75f * log2_approx(at.slant) + load(f.texels_log2);
   return at;
 }
 
@@ -114,24 +106,19 @@ KERNEL Skin PaintSkin(const ShadeView& view, const RaySet& rays, int i, const Fe
   real metallic = load(f.metallic), roughness = load(f.roughness);
   real3 emission = load3(f.emission[0], f.emission[1], f.emission[2]);
   if (f.any_base) {
-    color = color * SampleTiles(view, f, f.base_id, corners, at.footprint, true,
-                                load3(f.mean[0], f.mean[1], f.mean[2]), corners.gain);
+    color = color * SampleTiles(view, f, f.base_id, corners, at.footprint, true, load3(f.mean[0], f.mean[1], f.mean[2]), corners.gain);
   }
   if (f.any_roughness) {
-    const real3 c = SampleTiles(view, f, f.roughness_id, corners, at.footprint, false,
-                                make3(real(1.0f), real(0.5f), real(1.0f)), real(1.0f));
+    const real3 c =
+        SampleTiles(view, f, f.roughness_id, corners, at.footprint, false, make3(real(1.0f), real(0.5f), real(1.0f)), real(1.0f));
     roughness = roughness * c.y;
     metallic = metallic * c.z;
   }
-  if (f.any_emission)
-    emission = emission * SampleTexture(view.textures, f.emission_id, at.tu, at.tv, at.footprint, true);
+  if (f.any_emission) emission = emission * SampleTexture(view.textures, f.emission_id, at.tu, at.tv, at.footprint, true);
   if (f.any_beam || (view.glows != nullptr && stdx::any_of(emission.x + emission.y + emission.z > 0.0f)))
     emission = Thrown(view, rays, i, f, at.d, emission);
-  if (f.any_macro || f.any_ground || view.wetness > 0 || view.snow > 0)
-    noises = LookUpNoises(view, f, at.p, at.n, at.width);
-  if (f.any_macro)
-    color = color * MacroTint(f, noises, at.width) *
-            wall_wear(noises.wide, noises.mid, noises.fine, at.width, noises.wall);
+  if (f.any_macro || f.any_ground || view.wetness > 0 || view.snow > 0) noises = LookUpNoises(view, f, at.p, at.n, at.width);
+  if (f.any_macro) color = color * MacroTint(f, noises, at.width) * wall_wear(noises.wide, noises.mid, noises.fine, at.width, noises.wall);
   if (f.any_unit) color = color * UnitTint(f, at.tu, at.tv, at.footprint);
   if (f.any_ground) WearGround(f, noises, at.p, at.tu, at.width, color, roughness);
   if (f.any_leaf) color = LeafTint(f, color);
@@ -147,8 +134,8 @@ KERNEL void Glaze(const Fetched& f, const Meeting& at, mask_t window, Skin& s) {
   s.n = sel3(glass, GlassNormal(f, s.n, at.p), s.n);
   s.roughness = sel(glass, rmin(s.roughness, real(0.08f)), s.roughness);
   // Behind some large panes without a room hang blinds: brighter than the dark.
-  const real blind = clamp01((0.30f - load(f.pane)) * 40.0f) * clamp01((load(f.area) - 0.7f) * 4.0f) *
-                     clamp01((0.3f - rabs(at.facing.z)) * 8.0f);
+  const real blind =
+      clamp01((0.30f - load(f.pane)) * 40.0f) * clamp01((load(f.area) - 0.7f) * 4.0f) * clamp01((0.3f - rabs(at.facing.z)) * 8.0f);
   const real shade = sel(glass && !window, blind * 0.16f * (0.6f + 1.3f * load(f.pane)), real(0.0f));
   s.color = s.color * (1.0f - shade) + make3(shade, shade * 0.97f, shade * 0.88f);
   // No two blinds or curtains have the same colour.
@@ -193,8 +180,7 @@ KERNEL void StoreReflection(const Meeting& at, const Skin& s, int i, SurfaceSet&
   const mask_t inside = below < 0.01f;
   if (stdx::any_of(inside)) r = sel3(inside, normalize3(r + at.facing * (0.02f - below)), r);
   store3(out.rx + i, out.ry + i, out.rz + i, r);
-  const mask_t sharp = (s.kind == kGlass) || (s.kind == kWater) ||
-                       ((s.roughness < kMirrorRoughness) && (s.metallic > 0.3f)) ||
+  const mask_t sharp = (s.kind == kGlass) || (s.kind == kWater) || ((s.roughness < kMirrorRoughness) && (s.metallic > 0.3f)) ||
                        ((s.coat > 0.25f) && (s.coat_roughness < kMirrorRoughness));
   store(out.mirror + i, sel(sharp, real(1.0f), real(0.0f)));
 }
@@ -213,8 +199,7 @@ KERNEL void StoreSun(const ShadeView& view, const Meeting& at, const Skin& s, re
 }
 
 /// `f` is that of the vector before, or new; `sun` the direction of the sun's centre.
-KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real3 sun, Fetched& f,
-                          SurfaceSet& out) {
+KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real3 sun, Fetched& f, SurfaceSet& out) {
   Fetch(view, rays, i, f);
   Prefetch(view, rays, i + kLanes);
   Meeting at = Meet(rays, i, f);
@@ -223,8 +208,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real
   const mask_t window = f.any_window ? load(f.interior) > 0.5f : mask_t(false);
   RoomView room;
   if (f.any_window) {
-    room = LookInside(view, f, ToWorld(f, UnpackDirection(f.right)), ToWorld(f, UnpackDirection(f.up)),
-                      at.facing, at.d, at.w, at.u, at.v);
+    room = LookInside(view, f, ToWorld(f, UnpackDirection(f.right)), ToWorld(f, UnpackDirection(f.up)), at.facing, at.d, at.w, at.u, at.v);
     at.tu = at.tu + room.du;
     at.tv = at.tv + room.dv;
   }
@@ -256,16 +240,13 @@ void PrepareSurfaces(const ShadeView& view, const RaySet& rays, SurfaceSet& surf
   for (int i = 0; i < rays.count; i += kLanes) PrepareVector(view, rays, i, sun, f, surfaces);
 }
 
-void LiftRays(const RaySet& rays, const SurfaceSet& s, int first, const float* x, const float* y,
-              const float* z, RayHit16& out) {
+void LiftRays(const RaySet& rays, const SurfaceSet& s, int first, const float* x, const float* y, const float* z, RayHit16& out) {
   const auto three = [](const float* a, const float* b, const float* c) __attribute__((always_inline)) {
-    return real3{real(a, stdx::element_aligned), real(b, stdx::element_aligned),
-                 real(c, stdx::element_aligned)};
+    return real3{real(a, stdx::element_aligned), real(b, stdx::element_aligned), real(c, stdx::element_aligned)};
   };
   for (int k = 0; k < 16; k += kLanes) {
     const int i = first + k;
-    const real3 d = three(x + k, y + k, z + k), p = three(s.px + i, s.py + i, s.pz + i),
-                g = three(s.gx + i, s.gy + i, s.gz + i);
+    const real3 d = three(x + k, y + k, z + k), p = three(s.px + i, s.py + i, s.pz + i), g = three(s.gx + i, s.gy + i, s.gz + i);
     const real distance(rays.distance + i, stdx::element_aligned);
     const real lift = ray_offset(p, distance);
     const real offset = sel(dot3(g, d) < 0.0f, 0.0f - lift, lift);

@@ -41,11 +41,8 @@ struct Sample {
   Sample(Mesh mesh, Material material, const Environment& environment = {}, Image<Rgba8> picture = {}) {
     builder.AddSky();
     const EntityId entity = builder.AddEntity("all", builder.tree().At("construction/building"));
-    if (!picture.empty())
-      material.base_color_texture =
-          builder.AddTexture(Texture::FromImage("picture", std::move(picture), true));
-    mesh.parts = {
-        {0, static_cast<uint32_t>(mesh.triangles.size()), builder.AddMaterial(material), kNoEntity}};
+    if (!picture.empty()) material.base_color_texture = builder.AddTexture(Texture::FromImage("picture", std::move(picture), true));
+    mesh.parts = {{0, static_cast<uint32_t>(mesh.triangles.size()), builder.AddMaterial(material), kNoEntity}};
     builder.AddInstance({builder.AddMesh(std::move(mesh)), AffineTransform(), entity});
     scene = builder.Build();
     tables = std::make_unique<internal::SurfaceTables>(*scene);
@@ -58,16 +55,14 @@ struct Sample {
     uint32_t triangle;
     float u, v;
   };
-  std::unique_ptr<internal::SurfaceSet> See(const std::vector<Point>& points, Vec3f d,
-                                            float width = 0.003f) const {
+  std::unique_ptr<internal::SurfaceSet> See(const std::vector<Point>& points, Vec3f d, float width = 0.003f) const {
     auto rays = std::make_unique<internal::RaySet>();
     rays->count = internal::kBatch;
     const Mesh& mesh = scene->meshes[0];
     for (int i = 0; i < internal::kBatch; ++i) {
       const Point& at = points[std::min(static_cast<size_t>(i), points.size() - 1)];
       const Vec3u t = mesh.triangles[at.triangle];
-      const Vec3f p =
-          mesh.positions[t.x] * (1 - at.u - at.v) + mesh.positions[t.y] * at.u + mesh.positions[t.z] * at.v;
+      const Vec3f p = mesh.positions[t.x] * (1 - at.u - at.v) + mesh.positions[t.y] * at.u + mesh.positions[t.z] * at.v;
       const Vec3f o = p - d * 4.0f;
       rays->ox[i] = o.x, rays->oy[i] = o.y, rays->oz[i] = o.z;
       rays->dx[i] = d.x, rays->dy[i] = d.y, rays->dz[i] = d.z;
@@ -150,8 +145,8 @@ TEST(Interior, NeverReflectsMoreThanAWhiteWallWould) {
     float front, back_a, back_b;
     const float ha = uniform(0.2, 2), hb = uniform(0.2, 1.6);
     const Vec3f d = Normalized(Vec3f{uniform(-1, 1), uniform(-1, 1), uniform(0.03, 1)});
-    scalar::interior_room(uniform(-1, 1) * ha, uniform(-1, 1) * hb, ha, hb, d.x, d.y, d.z, uniform(0, 1), Vec3f{},
-                          day, lamp, front, back_a, back_b);
+    scalar::interior_room(uniform(-1, 1) * ha, uniform(-1, 1) * hb, ha, hb, d.x, d.y, d.z, uniform(0, 1), Vec3f{}, day, lamp, front, back_a,
+                          back_b);
     for (int c = 0; c < 3; ++c) {
       ASSERT_GE(day[c], 0);
       ASSERT_LE(day[c], 0.5f);
@@ -227,8 +222,7 @@ struct Mean {
 Mean MeanOver(const Sample& sample, Vec3f d) {
   std::vector<Sample::Point> points;
   for (int i = 0; i < internal::kBatch; ++i)
-    points.push_back({0, 0.03f + 0.9f * static_cast<float>(i % 16) / 16 * 0.5f,
-                      0.03f + 0.9f * static_cast<float>(i / 16) / 16 * 0.5f});
+    points.push_back({0, 0.03f + 0.9f * static_cast<float>(i % 16) / 16 * 0.5f, 0.03f + 0.9f * static_cast<float>(i / 16) / 16 * 0.5f});
   const auto s = sample.See(points, d);
   Mean mean;
   for (int i = 0; i < internal::kBatch; ++i) {
@@ -243,11 +237,9 @@ Mean MeanOver(const Sample& sample, Vec3f d) {
 }
 
 TEST(Weather, RainDarkensGroundMoreThanWallsAndMakesPuddles) {
-  const Mesh ground = Rectangle({-30, -30, 0}, {60, 0, 0}, {0, 60, 0}),
-             wall = Rectangle({-30, 0, 0}, {60, 0, 0}, {0, 0, 60});
+  const Mesh ground = Rectangle({-30, -30, 0}, {60, 0, 0}, {0, 60, 0}), wall = Rectangle({-30, 0, 0}, {60, 0, 0}, {0, 0, 60});
   const Vec3f down = Normalized(Vec3f{0.2f, 0.3f, -1}), at = Normalized(Vec3f{0.1f, 1, 0.1f});
-  const Mean dry = MeanOver({ground, Plain(0.3f)}, down),
-             wet = MeanOver({ground, Plain(0.3f), Weather(1, 0)}, down);
+  const Mean dry = MeanOver({ground, Plain(0.3f)}, down), wet = MeanOver({ground, Plain(0.3f), Weather(1, 0)}, down);
   const Mean wet_wall = MeanOver({wall, Plain(0.3f), Weather(1, 0)}, at);
   EXPECT_NEAR(dry.albedo, 0.3, 1e-3);
   EXPECT_EQ(dry.coat, 0);
@@ -259,8 +251,7 @@ TEST(Weather, RainDarkensGroundMoreThanWallsAndMakesPuddles) {
 }
 
 TEST(Weather, DeepSnowWhitensWhatFacesUpAndLeavesWalls) {
-  const Mesh ground = Rectangle({-30, -30, 0}, {60, 0, 0}, {0, 60, 0}),
-             wall = Rectangle({-30, 0, 0}, {60, 0, 0}, {0, 0, 60});
+  const Mesh ground = Rectangle({-30, -30, 0}, {60, 0, 0}, {0, 60, 0}), wall = Rectangle({-30, 0, 0}, {60, 0, 0}, {0, 0, 60});
   const Vec3f down = Normalized(Vec3f{0.2f, 0.3f, -1}), at = Normalized(Vec3f{0.1f, 1, 0.1f});
   double last = 0.1;
   for (double depth : {0.1, 0.25, 0.5}) {
@@ -357,8 +348,8 @@ TEST(SurfaceKernel, FlatTrianglesHaveTheirFacetsNormalBesideCurvedOnes) {
   std::vector<Sample::Point> points;
   RngStream random(5, "flat");
   for (int i = 0; i < internal::kBatch; ++i) {
-    points.push_back({static_cast<uint32_t>(i) % 4, static_cast<float>(random.Uniform(0, 0.5)),
-                      static_cast<float>(random.Uniform(0, 0.5))});
+    points.push_back(
+        {static_cast<uint32_t>(i) % 4, static_cast<float>(random.Uniform(0, 0.5)), static_cast<float>(random.Uniform(0, 0.5))});
   }
   const auto seen = sample.See(points, {0, 0, -1});
   int curved = 0;
@@ -381,8 +372,7 @@ TEST(SurfaceKernel, AllInstructionSetsAgreeOnRoomsWeatherAndMixedTiles) {
   Image<Rgba8> noise(32, 32);
   RngStream random(9, "isa");
   for (Rgba8& p : noise.pixels())
-    p = {static_cast<uint8_t>(random.Index(256)), static_cast<uint8_t>(random.Index(256)),
-         static_cast<uint8_t>(random.Index(256)), 255};
+    p = {static_cast<uint8_t>(random.Index(256)), static_cast<uint8_t>(random.Index(256)), static_cast<uint8_t>(random.Index(256)), 255};
   const TextureId texture = builder.AddTexture(Texture::FromImage("noise", noise, true));
   int meshes = 0;
   const auto add = [&](Mesh mesh, Material m) {
@@ -441,14 +431,10 @@ TEST(SurfaceKernel, AllInstructionSetsAgreeOnRoomsWeatherAndMixedTiles) {
   const auto base = run(isa_sse42::PrepareSurfaces, isa_sse42::LightSurfaces);
   for (int i = 0; i < kBatch; ++i) ASSERT_TRUE(std::isfinite(base->light.g[i]));
   if (CurrentKernelIsa() >= KernelIsa::kAvx2) {
-    EXPECT_EQ(std::memcmp(base.get(), run(isa_avx2::PrepareSurfaces, isa_avx2::LightSurfaces).get(),
-                          sizeof(Result)),
-              0);
+    EXPECT_EQ(std::memcmp(base.get(), run(isa_avx2::PrepareSurfaces, isa_avx2::LightSurfaces).get(), sizeof(Result)), 0);
   }
   if (CurrentKernelIsa() >= KernelIsa::kAvx512) {
-    EXPECT_EQ(std::memcmp(base.get(), run(isa_avx512::PrepareSurfaces, isa_avx512::LightSurfaces).get(),
-                          sizeof(Result)),
-              0);
+    EXPECT_EQ(std::memcmp(base.get(), run(isa_avx512::PrepareSurfaces, isa_avx512::LightSurfaces).get(), sizeof(Result)), 0);
   }
 }
 

@@ -22,10 +22,8 @@ struct real4 {
 using LaneVector = __m512;
 template <class At>
 KERNEL LaneVector LaneRow(At at, int j) {
-  const __m256 low =
-      _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at(j))), _mm_loadu_ps(at(j + 4)), 1);
-  const __m256 high =
-      _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at(j + 8))), _mm_loadu_ps(at(j + 12)), 1);
+  const __m256 low = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at(j))), _mm_loadu_ps(at(j + 4)), 1);
+  const __m256 high = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at(j + 8))), _mm_loadu_ps(at(j + 12)), 1);
   return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
 }
 KERNEL LaneVector PairLow(LaneVector a, LaneVector b) { return _mm512_unpacklo_ps(a, b); }
@@ -58,12 +56,8 @@ KERNEL LaneVector LaneRow(At at, int j) {
 }
 KERNEL LaneVector PairLow(LaneVector a, LaneVector b) { return _mm_unpacklo_ps(a, b); }
 KERNEL LaneVector PairHigh(LaneVector a, LaneVector b) { return _mm_unpackhi_ps(a, b); }
-KERNEL LaneVector QuadLow(LaneVector a, LaneVector b) {
-  return _mm_castpd_ps(_mm_unpacklo_pd(_mm_castps_pd(a), _mm_castps_pd(b)));
-}
-KERNEL LaneVector QuadHigh(LaneVector a, LaneVector b) {
-  return _mm_castpd_ps(_mm_unpackhi_pd(_mm_castps_pd(a), _mm_castps_pd(b)));
-}
+KERNEL LaneVector QuadLow(LaneVector a, LaneVector b) { return _mm_castpd_ps(_mm_unpacklo_pd(_mm_castps_pd(a), _mm_castps_pd(b))); }
+KERNEL LaneVector QuadHigh(LaneVector a, LaneVector b) { return _mm_castpd_ps(_mm_unpackhi_pd(_mm_castps_pd(a), _mm_castps_pd(b))); }
 #endif
 
 /// Rows j of quads of the lanes j, j + 4, … to columns, and back: its own inverse.
@@ -114,20 +108,16 @@ KERNEL ireal GatherWords(const uint32_t* base, ireal index) {
   return ireal(lanes, stdx::vector_aligned);
 #endif
 }
-KERNEL real GatherFloats(const float* base, ireal index) {
-  return from_bits(GatherWords(reinterpret_cast<const uint32_t*>(base), index));
-}
+KERNEL real GatherFloats(const float* base, ireal index) { return from_bits(GatherWords(reinterpret_cast<const uint32_t*>(base), index)); }
 /// bases[lane][index] of every lane.
 KERNEL ireal GatherWordsAt(const uint32_t* const* bases, ireal index) {
   alignas(64) int32_t at[kLanes], lanes[kLanes];
   index.copy_to(at, stdx::vector_aligned);
 #if defined(__AVX512F__)
   const auto half = [&](int first) __attribute__((always_inline)) {
-    const __m512i offset = _mm512_slli_epi64(
-        _mm512_cvtepi32_epi64(_mm256_load_si256(reinterpret_cast<const __m256i*>(at + first))), 2);
+    const __m512i offset = _mm512_slli_epi64(_mm512_cvtepi32_epi64(_mm256_load_si256(reinterpret_cast<const __m256i*>(at + first))), 2);
     const __m512i address = _mm512_add_epi64(_mm512_loadu_si512(bases + first), offset);
-    _mm256_store_si256(reinterpret_cast<__m256i*>(lanes + first),
-                       _mm512_i64gather_epi32(address, nullptr, 1));
+    _mm256_store_si256(reinterpret_cast<__m256i*>(lanes + first), _mm512_i64gather_epi32(address, nullptr, 1));
   };
   half(0), half(8);
 #else
@@ -139,8 +129,6 @@ KERNEL ireal GatherWordsAt(const uint32_t* const* bases, ireal index) {
 KERNEL real3 Rgb(real4 c) { return {c.x, c.y, c.z}; }
 KERNEL ureal Bits(const uint32_t* lanes) { return ureal(lanes, stdx::vector_aligned); }
 /// A number in [0, 1) of mixed bits.
-KERNEL real HashLanes(ureal bits) {
-  return to_real(stdx::static_simd_cast<ireal>((bits * 0x9e3779b1u) >> 8)) * 0x1p-24f;
-}
+KERNEL real HashLanes(ureal bits) { return to_real(stdx::static_simd_cast<ireal>((bits * 0x9e3779b1u) >> 8)) * 0x1p-24f; }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

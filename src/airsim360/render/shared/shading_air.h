@@ -27,8 +27,7 @@ SHARED real forward_phase(ufloat g, real mu) {
 }
 
 // A function of azimuth as seven harmonics of the horizontal direction.
-SHARED real3 around_horizon(ufloat3 c0, ufloat3 cx, ufloat3 cy, ufloat3 cxx, ufloat3 cxy, ufloat3 cx3,
-                            ufloat3 cy3, real3 d) {
+SHARED real3 around_horizon(ufloat3 c0, ufloat3 cx, ufloat3 cy, ufloat3 cxx, ufloat3 cxy, ufloat3 cx3, ufloat3 cy3, real3 d) {
   real x2 = d.x * d.x;
   real y2 = d.y * d.y;
   real3 c = cx * d.x + cy * d.y + cxx * (x2 - y2) + cxy * (2.0f * d.x * d.y);
@@ -39,8 +38,7 @@ SHARED real3 around_horizon(ufloat3 c0, ufloat3 cx, ufloat3 cy, ufloat3 cxx, ufl
 
 // Where a point's shadow coordinate lies in the cloud shadow map, in texels of [0, size - 1): `along` the
 // axis, moved to the map's plane along the sun's ray.
-SHARED real shadow_column(real along, real above, ufloat slant, ufloat origin, ufloat cells_per_metre,
-                          ufloat size) {
+SHARED real shadow_column(real along, real above, ufloat slant, ufloat origin, ufloat cells_per_metre, ufloat size) {
   real x = (along - above * slant) * cells_per_metre + origin;
   return rmin(rmax(x, real(0.0f)), real(size - 1.001f));
 }
@@ -66,8 +64,8 @@ SHARED real3 hash3(real x, real y, real z) {
 // Share of a ray's light that drops of one lattice hide. Lengths in metres: `cell` of the lattice, `period`
 // between drops of a line, `streak` their blurred length (0: a round flake), `radius` of a drop; `keep` is
 // the share of places with a drop; `spread` the ray's width per metre.
-SHARED real drops_cover(real ox, real oy, real oz, real3 d, real reach, ufloat spread, ufloat cell,
-                        ufloat period, ufloat streak, ufloat radius, ufloat keep, ufloat range, ufloat seed) {
+SHARED real drops_cover(real ox, real oy, real oz, real3 d, real reach, ufloat spread, ufloat cell, ufloat period, ufloat streak,
+                        ufloat radius, ufloat keep, ufloat range, ufloat seed) {
   real px = ox * (1.0f / cell);
   real py = oy * (1.0f / cell);
   real cx = rfloor(px);

@@ -13,9 +13,7 @@ SHARED AirEffect air_effect(real3 depth, real3 source) {
   real3 kept = one - depth * (one - depth * (one * real(0.5f) - depth * real(0.16666667f)));
   const mask_t thick = rmax(depth.x, rmax(depth.y, depth.z)) >= 0.01f;
   if (any_lane(thick)) {
-    kept =
-        sel3(thick, make3(exp_approx(0.0f - depth.x), exp_approx(0.0f - depth.y), exp_approx(0.0f - depth.z)),
-             kept);
+    kept = sel3(thick, make3(exp_approx(0.0f - depth.x), exp_approx(0.0f - depth.y), exp_approx(0.0f - depth.z)), kept);
   }
   return {kept, source * make3(1.0f - kept.x, 1.0f - kept.y, 1.0f - kept.z)};
 }
@@ -32,9 +30,8 @@ SHARED AirEffect air_to_surface(const AirView& air, real z, real3 d, real distan
   real mu = dot3(d, ufloat3_of(air.to_sun));
   real3 glow = ufloat3_of(air.glow) * forward_phase(kAirAsymmetry, mu);
   real3 source =
-      around_horizon(ufloat3_of(air.horizon[0]), ufloat3_of(air.horizon[1]), ufloat3_of(air.horizon[2]),
-                     ufloat3_of(air.horizon[3]), ufloat3_of(air.horizon[4]), ufloat3_of(air.horizon[5]),
-                     ufloat3_of(air.horizon[6]), d);
+      around_horizon(ufloat3_of(air.horizon[0]), ufloat3_of(air.horizon[1]), ufloat3_of(air.horizon[2]), ufloat3_of(air.horizon[3]),
+                     ufloat3_of(air.horizon[4]), ufloat3_of(air.horizon[5]), ufloat3_of(air.horizon[6]), d);
   source = source * make3(glow.x + 1.0f, glow.y + 1.0f, glow.z + 1.0f);
   if (air.weather > 0.0f) {
     // Both media are taken as evenly mixed along the way.

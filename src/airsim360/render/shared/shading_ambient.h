@@ -13,8 +13,8 @@ KERNEL ufloat3 Uniform(const float* p) { return {p[0], p[1], p[2]}; }
 /// asin(z) for |z| <= 1 within 7e-7 (least-error quintic of what is left of it over the square root of 1 - |z|).
 KERNEL real Elevation(real z) {
   const real a = rabs(z), a2 = a * a;
-  const real p = (1.57079569f - a * 0.214542817f) + a2 * (0.0881710532f - a * 0.0459272275f) +
-                 (a2 * a2) * (0.0206200601f - a * 0.00491117374f);
+  const real p =
+      (1.57079569f - a * 0.214542817f) + a2 * (0.0881710532f - a * 0.0459272275f) + (a2 * a2) * (0.0206200601f - a * 0.00491117374f);
   const real e = 1.57079633f - rroot(1.0f - a) * p;
   return sel(z < 0.0f, 0.0f - e, e);
 }
@@ -48,18 +48,15 @@ KERNEL SkyPlace FindSky(const SkyTableView& table, real3 d, bool full_sphere) {
 /// Bilinear.
 KERNEL real3 TakeSky(const SkyTableView& table, const SkyPlace& place) {
   const auto texel = [&](int32_t offset) __attribute__((always_inline)) {
-    return Rgb(GatherQuads(
-        [&](int i) __attribute__((always_inline)) { return table.texels + place.index[i] + offset; }));
+    return Rgb(GatherQuads([&](int i) __attribute__((always_inline)) { return table.texels + place.index[i] + offset; }));
   };
   const int32_t below = table.stride * 4;
-  const real3 lower = lerp3(texel(0), texel(4), place.fx),
-              upper = lerp3(texel(below), texel(below + 4), place.fx);
+  const real3 lower = lerp3(texel(0), texel(4), place.fx), upper = lerp3(texel(below), texel(below + 4), place.fx);
   return lerp3(lower, upper, place.fy);
 }
 
 /// Both at once.
-static __attribute__((noinline, unused)) real3 SampleSky(const SkyTableView& table, real3 d,
-                                                         bool full_sphere) {
+static __attribute__((noinline, unused)) real3 SampleSky(const SkyTableView& table, real3 d, bool full_sphere) {
   SkyPlace place = FindSky(table, d, full_sphere);
   KeepInMemory(place.index);
   return TakeSky(table, place);
@@ -88,9 +85,8 @@ KERNEL real CloudShadow(const CloudShadowView& map, real3 p) {
 /// Sky, and ground below the horizon, blurred as by a surface of this roughness.
 KERNEL real3 BlurredSky(const ShadeView& view, real3 d, real roughness) {
   const real3 up = SampleSky(view.sky, d, false);
-  const real3 sharp = sel3(d.z > 0.0f, up,
-                           lerp3(up, make3(real(view.ground[0]), real(view.ground[1]), real(view.ground[2])),
-                                 clamp01(d.z * -12.0f)));
+  const real3 sharp =
+      sel3(d.z > 0.0f, up, lerp3(up, make3(real(view.ground[0]), real(view.ground[1]), real(view.ground[2])), clamp01(d.z * -12.0f)));
   if (!stdx::any_of(roughness > 0.05f)) return sharp;
   const real3 a = SampleSky(view.blurred[0], d, true);
   const real3 b = SampleSky(view.blurred[1], d, true);
@@ -109,11 +105,9 @@ struct Ambient {
 KERNEL Ambient UniformAmbient(const ShadeView& view, real3 n, real3 r) {
   const float* c = view.sky_irradiance;
   const auto sky = [&](real3 a) __attribute__((always_inline)) {
-    const real3 e =
-        sh9_irradiance(Uniform(c), Uniform(c + 3), Uniform(c + 6), Uniform(c + 9), Uniform(c + 12),
-                       Uniform(c + 15), Uniform(c + 18), Uniform(c + 21), Uniform(c + 24), a);
-    const ufloat3 extra{view.mean_ambient[0] * SHADE_PI, view.mean_ambient[1] * SHADE_PI,
-                        view.mean_ambient[2] * SHADE_PI};
+    const real3 e = sh9_irradiance(Uniform(c), Uniform(c + 3), Uniform(c + 6), Uniform(c + 9), Uniform(c + 12), Uniform(c + 15),
+                                   Uniform(c + 18), Uniform(c + 21), Uniform(c + 24), a);
+    const ufloat3 extra{view.mean_ambient[0] * SHADE_PI, view.mean_ambient[1] * SHADE_PI, view.mean_ambient[2] * SHADE_PI};
     const real3 sum = e + Uniform(view.ground) * ((0.5f - 0.5f * a.z) * SHADE_PI * view.has_sky) + extra;
     const real zero = real(0.0f);
     return make3(rmax(sum.x, zero), rmax(sum.y, zero), rmax(sum.z, zero));
@@ -136,11 +130,9 @@ KERNEL ProbePlace FindProbes(const ProbeView& grid, real3 p, real3 g) {
   const real y = rmin(real(grid.max_y + 0.9999f), rmax(zero, (q.y - grid.origin_y) * grid.cells_per_metre));
   const real h = rmin(real(grid.height_last), rmax(zero, (q.z - grid.height_origin) * grid.height_scale));
   const real z = GatherFloats(grid.layer_of_height, to_int(rfloor(h + 0.5f)));
-  const real x0 = rmin(rfloor(x), real(grid.max_x)), y0 = rmin(rfloor(y), real(grid.max_y)),
-             z0 = rmin(rfloor(z), real(grid.max_z));
+  const real x0 = rmin(rfloor(x), real(grid.max_x)), y0 = rmin(rfloor(y), real(grid.max_y)), z0 = rmin(rfloor(z), real(grid.max_z));
   ProbePlace place{x - x0, y - y0, z - z0, {}};
-  ((to_int(z0) * grid.stride_z + to_int(y0) * grid.stride_y + to_int(x0)) * 16)
-      .copy_to(place.index, stdx::vector_aligned);
+  ((to_int(z0) * grid.stride_z + to_int(y0) * grid.stride_y + to_int(x0)) * 16).copy_to(place.index, stdx::vector_aligned);
   return place;
 }
 
@@ -148,15 +140,12 @@ KERNEL ProbePlace FindProbes(const ProbeView& grid, real3 p, real3 g) {
 struct ProbeTerms {
   real4 t[4];
   __attribute__((always_inline)) real3 Square() const { return {t[1].w, t[2].w, t[3].w}; }
-  __attribute__((always_inline)) real3 Bent(real3 n) const {
-    return Rgb(t[1]) * n.x + Rgb(t[2]) * n.y + Rgb(t[3]) * n.z;
-  }
+  __attribute__((always_inline)) real3 Bent(real3 n) const { return Rgb(t[1]) * n.x + Rgb(t[2]) * n.y + Rgb(t[3]) * n.z; }
 };
 template <class At>
 KERNEL ProbeTerms GatherTerms(At at) {
   ProbeTerms terms;
-  for (int j = 0; j < 4; ++j)
-    terms.t[j] = GatherQuads([&](int i) __attribute__((always_inline)) { return at(i) + 4 * j; });
+  for (int j = 0; j < 4; ++j) terms.t[j] = GatherQuads([&](int i) __attribute__((always_inline)) { return at(i) + 4 * j; });
   return terms;
 }
 
@@ -166,8 +155,7 @@ KERNEL ProbeTerms MixProbes(const ProbeView& grid, const ProbePlace& place) {
   typedef float Probe __attribute__((vector_size(64), aligned(4), may_alias));
   alignas(64) float weight[8][kLanes], mixed[kLanes][16];
   for (int k = 0; k < 8; ++k) {
-    store(weight[k], (k & 1 ? place.fx : 1.0f - place.fx) * (k & 2 ? place.fy : 1.0f - place.fy) *
-                         (k & 4 ? place.fz : 1.0f - place.fz));
+    store(weight[k], (k & 1 ? place.fx : 1.0f - place.fx) * (k & 2 ? place.fy : 1.0f - place.fy) * (k & 4 ? place.fz : 1.0f - place.fz));
   }
   const int along_x = 16, along_y = grid.stride_y * 16, along_z = grid.stride_z * 16;
   const auto corner = [&](int k) __attribute__((always_inline)) {
@@ -197,8 +185,7 @@ KERNEL ProbeTerms MixProbes(const ProbeView& grid, const ProbePlace& place) {
   return GatherTerms([&](int i) __attribute__((always_inline)) { return mixed[i]; });
 }
 
-static __attribute__((noinline, unused)) Ambient SampleProbes(const ShadeView& view, real3 p, real3 g,
-                                                              real3 n, real3 r) {
+static __attribute__((noinline, unused)) Ambient SampleProbes(const ShadeView& view, real3 p, real3 g, real3 n, real3 r) {
   const ProbeView& grid = view.probes;
   if (grid.probes == nullptr) return UniformAmbient(view, n, r);
   ProbeTerms terms = MixProbes(grid, FindProbes(grid, p, g));
@@ -206,8 +193,7 @@ static __attribute__((noinline, unused)) Ambient SampleProbes(const ShadeView& v
   for (real4& t : terms.t) t = {t.x * scale, t.y * scale, t.z * scale, t.w * scale};
   const real3 square = terms.Square(), bent = terms.Bent(n);
   const real3 even = Rgb(terms.t[0]) + square * (n.z * n.z);
-  const real3 reflected = Rgb(terms.t[0]) + Rgb(terms.t[1]) * r.x + Rgb(terms.t[2]) * r.y +
-                          Rgb(terms.t[3]) * r.z + square * (r.z * r.z);
+  const real3 reflected = Rgb(terms.t[0]) + Rgb(terms.t[1]) * r.x + Rgb(terms.t[2]) * r.y + Rgb(terms.t[3]) * r.z + square * (r.z * r.z);
   const auto positive = [](real3 c) __attribute__((always_inline)) {
     const real zero = real(0.0f);
     return make3(rmax(c.x, zero), rmax(c.y, zero), rmax(c.z, zero));

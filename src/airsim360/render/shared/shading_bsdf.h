@@ -95,8 +95,7 @@ SHARED BsdfSide bsdf_side(Bsdf b, real mu) {
   s.single = bsdf_fresnel(b, clamp01(c)) * s.white;
   s.skin = s.single + b.multiple * ((1.0f - s.white) * b.lost);
   s.coat = real(0.0f);
-  if (any_lane(b.coat > 0.0f))
-    s.coat = b.coat * fresnel_schlick(real(BSDF_COAT_F0), rmin(rroot(mu * mu + b.coat_blur), real(1.0f)));
+  if (any_lane(b.coat > 0.0f)) s.coat = b.coat * fresnel_schlick(real(BSDF_COAT_F0), rmin(rroot(mu * mu + b.coat_blur), real(1.0f)));
   return s;
 }
 
@@ -119,8 +118,7 @@ SHARED Bsdf bsdf_bodies(Bsdf b, real3 base, real metallic, real transmission) {
 // The BSDF of a surface; all colours linear in [0, 1]. Where foliage would give back more than it gets, less
 // goes through. `transmission`: foliage, share of the base colour that passes; glass, share of the body that
 // is clear.
-SHARED Bsdf bsdf_make(real kind, real3 base, real metallic, real roughness, real transmission, real coat,
-                      real coat_roughness) {
+SHARED Bsdf bsdf_make(real kind, real3 base, real metallic, real roughness, real transmission, real coat, real coat_roughness) {
   Bsdf b;
   real zero = real(0.0f);
   mask_t leaf = (kind > 0.5f) && (kind < 1.5f);
@@ -149,16 +147,14 @@ SHARED Bsdf bsdf_make(real kind, real3 base, real metallic, real roughness, real
   real spread = (1.0f / rmax(b.lost, real(0.02f)));
   mask_t plain_kind = kind < 1.5f;
   b.multiple = sel3(plain_kind,
-                    make3(mean.x * mean.x * white / (1.0f - mean.x * b.lost),
-                          mean.y * mean.y * white / (1.0f - mean.y * b.lost),
+                    make3(mean.x * mean.x * white / (1.0f - mean.x * b.lost), mean.y * mean.y * white / (1.0f - mean.y * b.lost),
                           mean.z * mean.z * white / (1.0f - mean.z * b.lost)) *
                         spread,
                     make3(zero, zero, zero));
   skin = skin + b.multiple * (b.lost * b.lost);
   // Mean reflectances of the pane and of water (n = 1.33) by integration.
   real wet = 0.0201f * mirror + fifth;
-  skin = sel3(plain_kind, skin,
-              sel3(glass, make3(real(0.214563f), real(0.214563f), real(0.214563f)), make3(wet, wet, wet)));
+  skin = sel3(plain_kind, skin, sel3(glass, make3(real(0.214563f), real(0.214563f), real(0.214563f)), make3(wet, wet, wet)));
   // Under a coat 1 - E is smaller where the skin's is: 0.0119 is the covariance of two smooth films.
   real film = 1.0f - coat * 0.0857f;
   real both = coat * 0.0119f;
@@ -182,9 +178,7 @@ SHARED real3 bsdf_reflected(BsdfSide seen) {
   real film = 1.0f - seen.coat;
   return seen.skin * (film * film) + make3(seen.coat, seen.coat, seen.coat);
 }
-SHARED real3 bsdf_entering(BsdfSide seen) {
-  return make3(1.0f - seen.skin.x, 1.0f - seen.skin.y, 1.0f - seen.skin.z) * (1.0f - seen.coat);
-}
+SHARED real3 bsdf_entering(BsdfSide seen) { return make3(1.0f - seen.skin.x, 1.0f - seen.skin.y, 1.0f - seen.skin.z) * (1.0f - seen.coat); }
 
 SHARED BsdfLobes bsdf_lobes(Bsdf b, BsdfSide seen) {
   BsdfLobes p;
@@ -268,8 +262,7 @@ SHARED real3 bsdf_facet(real alpha, real3 v, real u, real w) {
 
 // A direction by density bsdf_evaluate, from three numbers in [0, 1). `event`: 0 = absorbed, 1 = scattered, 2
 // = straight on through a pane (l = -v), to be weighted by bsdf_straight / p.straight.
-SHARED real3 bsdf_sample(Bsdf b, BsdfLobes p, real3 n, real3 v, real choice, real u, real w,
-                         INOUT(real) event) {
+SHARED real3 bsdf_sample(Bsdf b, BsdfLobes p, real3 n, real3 v, real choice, real u, real w, INOUT(real) event) {
   // Frame of n (Duff et al. 2017).
   real side = sel(n.z < 0.0f, real(-1.0f), real(1.0f));
   real a = -1.0f / (side + n.z);
@@ -290,8 +283,7 @@ SHARED real3 bsdf_sample(Bsdf b, BsdfLobes p, real3 n, real3 v, real choice, rea
   real radius = rroot(u);
   real phi = w * (2.0f * SHADE_PI);
   real height = rroot(rmax(1.0f - u, real(1e-9f)));
-  real3 even = make3(radius * sin_approx(phi + 0.5f * SHADE_PI), radius * sin_approx(phi),
-                     sel(up, height, 0.0f - height));
+  real3 even = make3(radius * sin_approx(phi + 0.5f * SHADE_PI), radius * sin_approx(phi), sel(up, height, 0.0f - height));
 
   real3 l = sel3(facet, mirrored, even);
   real3 out_l = normalize3(t * l.x + s * l.y + n * l.z);

@@ -67,9 +67,8 @@ Vec3f Furnace(const Bsdf& b, Vec3f v, int n = 128) {
     // The choice of lobe goes through (i * golden ratio) so that all strata see all lobes.
     const double golden = i * 0.61803398874989485;
     float event = 0, pdf = 0;
-    const Vec3f l =
-        bsdf_sample(b, p, kUp, v, static_cast<float>(golden - std::floor(golden)) * 0.9999999f,
-                    std::min(inside(i % n), 0.9999999f), std::min(inside(i / n), 0.9999999f), event);
+    const Vec3f l = bsdf_sample(b, p, kUp, v, static_cast<float>(golden - std::floor(golden)) * 0.9999999f,
+                                std::min(inside(i % n), 0.9999999f), std::min(inside(i / n), 0.9999999f), event);
     if (event == 0) continue;
     if (event == 2) {
       sum += VecCast<double>(bsdf_straight(b, seen) * (1 / p.straight));
@@ -86,8 +85,7 @@ TEST(Bsdf, IsReciprocal) {
   for (const Surface& s : Surfaces()) {
     for (int i = 0; i < 10000; ++i) {
       const Vec3f v = Slanted(static_cast<float>(random.Uniform(0.02, 1)), 0);
-      Vec3f l =
-          Slanted(static_cast<float>(random.Uniform(0.02, 1)), static_cast<float>(random.Uniform(0, 6.28)));
+      Vec3f l = Slanted(static_cast<float>(random.Uniform(0.02, 1)), static_cast<float>(random.Uniform(0, 6.28)));
       const bool through = i % 2 == 1;
       if (through) l = -l;
       float pdf = 0;
@@ -95,11 +93,8 @@ TEST(Bsdf, IsReciprocal) {
       // The other way light comes from v; the normal is on the side of the one who looks.
       const float side = through ? -1.0f : 1.0f;
       const auto seen = bsdf_side(s.bsdf, std::fabs(l.z));
-      const Vec3f back =
-          bsdf_evaluate(s.bsdf, seen, bsdf_lobes(s.bsdf, seen), kUp * side, l, v, pdf) * (1 / v.z);
-      for (int k = 0; k < 3; ++k)
-        ASSERT_NEAR(there[k], back[k], 1e-5f * std::max(there[k], 1e-3f))
-            << s.name << ' ' << v.z << ' ' << l.z;
+      const Vec3f back = bsdf_evaluate(s.bsdf, seen, bsdf_lobes(s.bsdf, seen), kUp * side, l, v, pdf) * (1 / v.z);
+      for (int k = 0; k < 3; ++k) ASSERT_NEAR(there[k], back[k], 1e-5f * std::max(there[k], 1e-3f)) << s.name << ' ' << v.z << ' ' << l.z;
     }
   }
 }
@@ -154,11 +149,9 @@ TEST(Bsdf, AmbientFormulaIsTheIntegralOfTheBsdf) {
     if (s.bsdf.straight.x > 0) continue;
     for (float z : {0.2f, 0.5f, 0.9f}) {
       const auto seen = bsdf_side(s.bsdf, z);
-      const Vec3f formula = internal::scalar::bsdf_reflected(seen) +
-                            (s.bsdf.body + s.bsdf.through) * internal::scalar::bsdf_entering(seen);
+      const Vec3f formula = internal::scalar::bsdf_reflected(seen) + (s.bsdf.body + s.bsdf.through) * internal::scalar::bsdf_entering(seen);
       const Vec3f e = Furnace(s.bsdf, Slanted(z));
-      for (int k = 0; k < 3; ++k)
-        EXPECT_NEAR(e[k], formula[k], s.bsdf.coat > 0 ? 0.04f : 0.015f) << s.name << ' ' << z;
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(e[k], formula[k], s.bsdf.coat > 0 ? 0.04f : 0.015f) << s.name << ' ' << z;
     }
   }
 }

@@ -46,12 +46,7 @@ struct alignas(32) TriangleColors {
   uint16_t corner[3][4];
 };
 
-enum MaterialFlags : uint32_t {
-  kNormalMapped = 1,
-  kRoughnessMapped = 2,
-  kEmissionMapped = 4,
-  kBaseMapped = 8
-};
+enum MaterialFlags : uint32_t { kNormalMapped = 1, kRoughnessMapped = 2, kEmissionMapped = 4, kBaseMapped = 8 };
 
 /// Of one material, two cache lines.
 struct alignas(64) MaterialRecord {
@@ -124,9 +119,8 @@ struct alignas(64) LampRecord {
 /// The strongest lamps of one cell of space: one cache line.
 struct alignas(64) LampCell {
   static constexpr int kLamps = 15;
-  uint32_t header;  ///< number of lamps; from bit 8 on, which of the eight corners are not inside solids
-  uint32_t
-      lamp[kLamps];  ///< index; from bit 24 on, the corners that see it (bit 0 x, 1 y, 2 z of the corner)
+  uint32_t header;        ///< number of lamps; from bit 8 on, which of the eight corners are not inside solids
+  uint32_t lamp[kLamps];  ///< index; from bit 24 on, the corners that see it (bit 0 x, 1 y, 2 z of the corner)
 };
 
 /// Lamps near every place; see lights/lamp_grid.h.
@@ -142,8 +136,8 @@ struct LampView {
 struct AirView {
   float rayleigh[3], aerosol[3], weather;  ///< weather: fog, rain and snow, grey
   float rayleigh_height, aerosol_height, weather_height, base_z;
-  float horizon[7][3];  ///< light of much clear air, as around_horizon, without the glow about the sun
-  float glow[3];        ///< times forward_phase of kAirAsymmetry: what the glow adds to 1
+  float horizon[7][3];                      ///< light of much clear air, as around_horizon, without the glow about the sun
+  float glow[3];                            ///< times forward_phase of kAirAsymmetry: what the glow adds to 1
   float weather_light[3], weather_glow[3];  ///< the same of much fog; the glow is added
   float to_sun[3];
   float rain, snow;     ///< drops and flakes in the air, mm/h
@@ -184,14 +178,14 @@ struct ShadeView {
   SkyTableView sky_below;  ///< Sky::below; texels nullptr = far ground
   const PaneRecord* panes;
   const TriangleColors* colors;  ///< the first is white; nullptr where no mesh has any
-  float wetness, snow, rain;  ///< Environment: 0 … 1, 0 … 1, drops on puddles 0 … 1
-  float lit_rooms;            ///< share of rooms whose lamps are on
-  float evening;              ///< 1: rooms have evening_light, 0: day_light
-  float lamplight;            ///< radiance of a white surface in a lit room
-  float moon_light[3];        ///< from the moon to the sun; matters where moon_gain is not 0
-  float moon_gain;            ///< the disc at to_sun is the moon's: moon_face times this has the mean 1; 0 = the sun's
-  float sun_seen;             ///< share of the sun's disc that clouds leave to the eye
-  float open_sky;             ///< luminance of the irradiance of the whole sky on level ground; 0 = no sky
+  float wetness, snow, rain;     ///< Environment: 0 … 1, 0 … 1, drops on puddles 0 … 1
+  float lit_rooms;               ///< share of rooms whose lamps are on
+  float evening;                 ///< 1: rooms have evening_light, 0: day_light
+  float lamplight;               ///< radiance of a white surface in a lit room
+  float moon_light[3];           ///< from the moon to the sun; matters where moon_gain is not 0
+  float moon_gain;               ///< the disc at to_sun is the moon's: moon_face times this has the mean 1; 0 = the sun's
+  float sun_seen;                ///< share of the sun's disc that clouds leave to the eye
+  float open_sky;                ///< luminance of the irradiance of the whole sky on level ground; 0 = no sky
 };
 
 inline constexpr int kBatch = 256;
@@ -220,7 +214,7 @@ struct alignas(64) SurfaceSet {
   float lx[kBatch], ly[kBatch], lz[kBatch];  ///< towards the sun (a point of its disc)
   float sunlit[kBatch];                      ///< in: 1 if the sun can matter; then 1 if it is seen
   float contact[kBatch];                     ///< share of ambient light that things close above leave
-  float traced[kBatch];  ///< 1 if reflected_* is the radiance along the reflected direction
+  float traced[kBatch];                      ///< 1 if reflected_* is the radiance along the reflected direction
   float reflected_r[kBatch], reflected_g[kBatch], reflected_b[kBatch];
   float coat[kBatch], coat_roughness[kBatch];  ///< clear coat: share, roughness
   float clear[kBatch];                         ///< 1 if behind_* is the radiance behind a clear pane
@@ -262,7 +256,7 @@ struct alignas(64) AmbientOrigins {
 struct alignas(64) AmbientHits {
   uint32_t instance[16], triangle[16];       ///< kMiss = sky
   float lamp_r[16], lamp_g[16], lamp_b[16];  ///< irradiance by the lamps of ShadeView::lamps
-  float shines[16];  ///< 1, or 0 where the surface is one of those lamps and so is accounted for already
+  float shines[16];                          ///< 1, or 0 where the surface is one of those lamps and so is accounted for already
 };
 
 /// Heights along the sun's direction of the first surface that the sun meets, on a square lattice.

@@ -23,9 +23,9 @@ float mantissa_of(float a) { return intBitsToFloat((floatBitsToInt(a) & 0x007fff
 // Tables by the low four or five bits of the exponent.
 #define SHADE_TABLE16(name, a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15) \
   const float name[16] = float[16](a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15);
-#define SHADE_TABLE32(name, a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, \
-                      a16, a17, a18, a19, a20, a21, a22, a23, a24, a25, a26, a27, a28, a29, a30, a31) \
-  const float name[32] = float[32](a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, \
-                                   a16, a17, a18, a19, a20, a21, a22, a23, a24, a25, a26, a27, a28, a29, a30, a31);
+#define SHADE_TABLE32(name, a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23, \
+                      a24, a25, a26, a27, a28, a29, a30, a31)                                                                             \
+  const float name[32] = float[32](a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17, a18, a19, a20, a21,    \
+                                   a22, a23, a24, a25, a26, a27, a28, a29, a30, a31);
 #define octave16(table, a) (table[(floatBitsToInt(a) >> 23) & 15])
 #define octave32(table, a) (table[(floatBitsToInt(a) >> 23) & 31])

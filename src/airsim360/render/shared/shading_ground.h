@@ -7,14 +7,12 @@
 // than a pixel it fades instead of aliasing.
 SHARED real soft_line(real distance, real half_width, real width) {
   real w = half_width + 0.5f * width;
-  return clamp01((w - rabs(distance)) / rmax(width, real(1e-4f))) *
-         clamp01(half_width * 2.0f / rmax(width, real(1e-4f)) + 0.15f);
+  return clamp01((w - rabs(distance)) / rmax(width, real(1e-4f))) * clamp01(half_width * 2.0f / rmax(width, real(1e-4f)) + 0.15f);
 }
 
 // Repairs of roads: at most one rectangle per cell of 9 m. Out: `fresh` 1 on the patch, `seal` 1 on its
 // tarred edge, `tone` hash of the patch.
-SHARED void road_patch(real px, real py, real wobble, real width, INOUT(real) fresh, INOUT(real) seal,
-                       INOUT(real) tone) {
+SHARED void road_patch(real px, real py, real wobble, real width, INOUT(real) fresh, INOUT(real) seal, INOUT(real) tone) {
   real cx = rfloor(px * (1.0f / 9.0f));
   real cy = rfloor(py * (1.0f / 9.0f));
   real h = hash_cell(cx, cy);
@@ -35,8 +33,8 @@ SHARED void road_patch(real px, real py, real wobble, real width, INOUT(real) fr
 // Asphalt. `across` is the distance from the middle of the street where the texture runs along it
 // (`street` = 1), else it counts for nothing. Colours are multiplied by `gain`, then mixed with tar by `tar`;
 // `polish` is taken from the roughness.
-SHARED void asphalt_wear(real px, real py, real across, real street, real3 wide, real3 mid, real3 fine,
-                         real detail, real width, INOUT(real) gain, INOUT(real) tar, INOUT(real) polish) {
+SHARED void asphalt_wear(real px, real py, real across, real street, real3 wide, real3 mid, real3 fine, real detail, real width,
+                         INOUT(real) gain, INOUT(real) tar, INOUT(real) polish) {
   real f = (fine.x - 0.5f) * detail;
   real m = mid.x - 0.5f;
   real g = 1.0f + 0.35f * f + 0.28f * m;
@@ -48,8 +46,7 @@ SHARED void asphalt_wear(real px, real py, real across, real street, real3 wide,
   real crack = soft_line((mid.z - 0.5f + 0.16f * (fine.z - 0.5f)) * 2.4f, real(0.006f), width) * worn;
   real sealed = sel(wide.y > 0.56f, real(1.0f), real(0.0f));
   g = g * (1.0f - 0.62f * crack * (1.0f - sealed));
-  real snake =
-      soft_line((mid.y - 0.46f + 0.10f * (fine.x - 0.5f)) * 2.4f, real(0.024f), width) * sealed * worn;
+  real snake = soft_line((mid.y - 0.46f + 0.10f * (fine.x - 0.5f)) * 2.4f, real(0.024f), width) * sealed * worn;
   // Repairs, sealed round their edge.
   real fresh = real(0.0f);
   real seal = real(0.0f);
@@ -60,8 +57,7 @@ SHARED void asphalt_wear(real px, real py, real across, real street, real3 wide,
   real lane = rabs(rabs(across) - 1.72f);
   real band = (lane - 0.78f) * (1.0f / 0.27f);
   real track = exp_approx(0.0f - band * band) * street * clamp01(0.75f + 1.2f * m);
-  real drip =
-      exp_approx(0.0f - lane * lane * 16.0f) * street * clamp01(0.6f + 1.6f * (mid.z - 0.5f) + 0.6f * f);
+  real drip = exp_approx(0.0f - lane * lane * 16.0f) * street * clamp01(0.6f + 1.6f * (mid.z - 0.5f) + 0.6f * f);
   real joint = soft_line(rabs(across), real(0.012f), width) * street * 0.5f;
   g = g * (1.0f - 0.17f * track - 0.15f * drip) * (1.0f - 0.5f * joint);
   gain = g;
@@ -75,13 +71,11 @@ SHARED real paving_wear(real3 wide, real3 mid, real3 fine, real detail) {
   real stain = smooth01(clamp01((mid.y + 0.5f * (fine.y - 0.5f) * detail - 0.64f) * 8.0f));
   real spill = smooth01(clamp01((mid.z + 0.25f * (fine.z - 0.5f) * detail - 0.72f) * 14.0f));
   real worn = clamp01((wide.z - 0.5f) * 4.0f + 0.5f);
-  return (1.0f + 0.14f * f + 0.18f * (mid.x - 0.5f)) * (1.0f - 0.13f * stain - 0.16f * spill) *
-         (0.95f + 0.09f * worn);
+  return (1.0f + 0.14f * f + 0.18f * (mid.x - 0.5f)) * (1.0f - 0.13f * stain - 0.16f * spill) * (0.95f + 0.09f * worn);
 }
 
 // Lawn: mowing lanes of 1.6 m, clover, dry patches, bare earth. `color` is what the texture shows.
-SHARED real3 lawn_life(real3 color, real px, real py, real3 wide, real3 mid, real3 fine, real detail,
-                       real width) {
+SHARED real3 lawn_life(real3 color, real px, real py, real3 wide, real3 mid, real3 fine, real detail, real width) {
   real f = (fine.x - 0.5f) * detail;
   real lane = (px * 0.82f + py * 0.57f + 0.5f * (mid.x - 0.5f)) * 0.625f;
   real phase = lane - 2.0f * rfloor(lane * 0.5f);
@@ -115,8 +109,7 @@ SHARED real roof_wear(real px, real3 wide, real3 mid, real3 fine, real detail, r
   real ring = clamp01(1.0f - rabs(level - 0.585f) * 40.0f);
   real roll = px + 0.05f * (mid.z - 0.5f);
   real line = soft_line(roll - rfloor(roll) - 0.5f, real(0.03f), width) * seams;
-  return (1.0f + 0.3f * f + 0.2f * (mid.x - 0.5f)) * (1.0f - 0.26f * pond + 0.14f * ring) *
-         (1.0f - 0.22f * line);
+  return (1.0f + 0.3f * f + 0.2f * (mid.x - 0.5f)) * (1.0f - 0.26f * pond + 0.14f * ring) * (1.0f - 0.22f * line);
 }
 
 // Share of a surface's macro variation that is a wall's: upright, and no ground.

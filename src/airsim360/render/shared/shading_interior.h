@@ -25,9 +25,7 @@ SHARED real hash_cell(real x, real y) {
   return h - rfloor(h);
 }
 
-SHARED real inside01(real x, real low, real high) {
-  return sel(x > low, real(1.0f), real(0.0f)) * sel(x < high, real(1.0f), real(0.0f));
-}
+SHARED real inside01(real x, real low, real high) { return sel(x > low, real(1.0f), real(0.0f)) * sel(x < high, real(1.0f), real(0.0f)); }
 
 // Colour of furnishings: wood, cloth, paper, paint by two hashes.
 SHARED real3 furnishing(real h1, real h2) {
@@ -100,9 +98,9 @@ SHARED Room make_room(real half_a, real half_b, real hash) {
 
 // What a ray meets in a room.
 struct RoomHit {
-  real t, y, z;        // along the ray; height; depth behind the pane
+  real t, y, z;  // along the ray; height; depth behind the pane
   real3 albedo;
-  real lamp, near;     // 1 on a lamp; 1 on the nearer furniture
+  real lamp, near;  // 1 on a lamp; 1 on the nearer furniture
 };
 
 // Painted walls, floor of wood or carpet, white ceiling with a row of lamps; `into`: depth per length of the ray.
@@ -117,25 +115,23 @@ SHARED RoomHit meet_room(Room r, real a, real b, real da, real db, real into) {
   real x = a + da * at.t;
   at.y = b + db * at.t;
   at.z = into * at.t;
-  real3 paint =
-      lerp3(make3(real(0.62f), real(0.57f), real(0.47f)), make3(real(0.52f), real(0.56f), real(0.58f)), r.h4);
+  real3 paint = lerp3(make3(real(0.62f), real(0.57f), real(0.47f)), make3(real(0.52f), real(0.56f), real(0.58f)), r.h4);
   paint = paint * (0.72f + 0.35f * r.h2);
   real3 wall = paint * sel(at.y < r.low + 0.10f, real(0.55f), real(1.0f));
   // A door or a picture hangs on the back wall.
   real middle = r.left + (r.right - r.left) * (0.25f + 0.5f * r.h3);
-  real door = inside01(x, middle - 0.42f, middle + 0.42f) * inside01(at.y, r.low, r.low + 2.05f) *
-              sel(r.h1 > 0.5f, real(1.0f), real(0.0f));
-  real picture = inside01(x, middle - 0.55f, middle + 0.45f) * inside01(at.y, r.low + 1.15f, r.low + 1.85f) *
-                 sel(r.h1 > 0.5f, real(0.0f), real(1.0f));
+  real door = inside01(x, middle - 0.42f, middle + 0.42f) * inside01(at.y, r.low, r.low + 2.05f) * sel(r.h1 > 0.5f, real(1.0f), real(0.0f));
+  real picture =
+      inside01(x, middle - 0.55f, middle + 0.45f) * inside01(at.y, r.low + 1.15f, r.low + 1.85f) * sel(r.h1 > 0.5f, real(0.0f), real(1.0f));
   real3 back = lerp3(wall, make3(real(0.22f), real(0.13f), real(0.07f)), door);
   back = lerp3(back, furnishing(r.h3, r.h4), picture);
-  real3 boards = make3(0.25f + 0.1f * r.h2, 0.17f + 0.08f * r.h2, real(0.10f)) *
-                 (0.85f + 0.3f * hash_cell(rfloor(x * 7.0f), rfloor(r.h1 * 99.0f)));
+  real3 boards =
+      make3(0.25f + 0.1f * r.h2, 0.17f + 0.08f * r.h2, real(0.10f)) * (0.85f + 0.3f * hash_cell(rfloor(x * 7.0f), rfloor(r.h1 * 99.0f)));
   real3 level = sel3(db > 0.0f, make3(real(0.74f), real(0.73f), real(0.70f)), boards);
   at.albedo = sel3(on_level, level, sel3(on_side, wall, back));
   real lamp_x = rabs(x - 0.5f * (r.left + r.right));
-  at.lamp = sel(on_level, real(1.0f), real(0.0f)) * sel(db > 0.0f, real(1.0f), real(0.0f)) *
-            sel(lamp_x < 0.16f, real(1.0f), real(0.0f)) * inside01(at.z, r.deep * 0.25f, r.deep * 0.75f);
+  at.lamp = sel(on_level, real(1.0f), real(0.0f)) * sel(db > 0.0f, real(1.0f), real(0.0f)) * sel(lamp_x < 0.16f, real(1.0f), real(0.0f)) *
+            inside01(at.z, r.deep * 0.25f, r.deep * 0.75f);
   at.near = real(0.0f);
   return at;
 }
@@ -152,9 +148,8 @@ SHARED void furnish_room(Room r, real a, real b, real da, real db, real into, IN
     real pick = hash_cell(cell + rfloor(r.h1 * 512.0f), real(3.0f) + float(k) * 7.0f);
     real shade = hash_cell(cell + rfloor(r.h3 * 512.0f), real(11.0f) + float(k) * 5.0f);
     real tall = (k == 0 ? 0.55f : 0.38f) + pick * (k == 0 ? 1.4f : 0.55f);
-    real there = inside01(within, 0.10f + 0.1f * shade, 0.92f) * inside01(fy, real(-1.0f), tall) *
-                 inside01(fx, r.left, r.right) * sel(pick > 0.35f, real(1.0f), real(0.0f)) *
-                 sel(s < at.t, real(1.0f), real(0.0f));
+    real there = inside01(within, 0.10f + 0.1f * shade, 0.92f) * inside01(fy, real(-1.0f), tall) * inside01(fx, r.left, r.right) *
+                 sel(pick > 0.35f, real(1.0f), real(0.0f)) * sel(s < at.t, real(1.0f), real(0.0f));
     mask_t met = there > 0.5f;
     at.albedo = sel3(met, furnishing(pick * 2.0f - rfloor(pick * 2.0f), shade), at.albedo);
     at.z = sel(met, z, at.z);
@@ -171,13 +166,11 @@ SHARED real3 hang_cloth(Room r, real a, real b, real half_a, real half_b, real d
   real cy = (b + db * c) / half_b;
   real drawn = 0.08f + 0.45f * r.h3;
   real folds = 0.82f + 0.18f * sin_approx((a + da * c) * 46.0f + r.h1 * 6.0f);
-  real curtain =
-      sel(rabs(cx) > 1.0f - drawn, real(1.0f), real(0.0f)) * sel(r.h2 < 0.45f, real(1.0f), real(0.0f));
+  real curtain = sel(rabs(cx) > 1.0f - drawn, real(1.0f), real(0.0f)) * sel(r.h2 < 0.45f, real(1.0f), real(0.0f));
   real slat = (b + db * c) * 24.0f;
   real slats = 0.78f + 0.22f * (slat - rfloor(slat));
   real blind = sel(cy > 1.0f - 1.5f * r.h4, real(1.0f), real(0.0f)) * sel(r.h2 > 0.70f, real(1.0f), real(0.0f));
-  real3 cloth =
-      lerp3(make3(real(0.55f), real(0.52f), real(0.46f)), furnishing(0.46f + 0.3f * r.h1, r.h3), r.h4) * folds;
+  real3 cloth = lerp3(make3(real(0.55f), real(0.52f), real(0.46f)), furnishing(0.46f + 0.3f * r.h1, r.h3), r.h4) * folds;
   hung = rmax(curtain, blind);
   return lerp3(make3(real(0.58f), real(0.56f), real(0.52f)) * slats, cloth, curtain);
 }
@@ -188,9 +181,8 @@ SHARED real3 hang_cloth(Room r, real a, real b, real half_a, real half_b, real d
 // room in cd-like units where a surface of albedo 1 under its lamps has 1, and the point of the back wall
 // that the ray aims at, for pictures (`back_a`, `back_b`); `front` is 1 where the nearer furniture, a curtain
 // or a blind hides it.
-SHARED void interior_room(real a, real b, real half_a, real half_b, real da, real db, real dn, real hash,
-                          real3 light, INOUT(real3) daylight, INOUT(real3) lamplight, INOUT(real) front,
-                          INOUT(real) back_a, INOUT(real) back_b) {
+SHARED void interior_room(real a, real b, real half_a, real half_b, real da, real db, real dn, real hash, real3 light,
+                          INOUT(real3) daylight, INOUT(real3) lamplight, INOUT(real) front, INOUT(real) back_a, INOUT(real) back_b) {
   real into = rmax(dn, real(0.02f));
   Room room = make_room(half_a, half_b, hash);
   RoomHit at = meet_room(room, a, b, da, db, into);

@@ -5,8 +5,8 @@
 // At most one spot in each square cell of side `cell` metres, in a share of the cells, of radius `least` to `most` (small
 // ones are commoner), pulled out of round by `ragged` (0 = a disc). Out: `tone`, a hash of the spot; `rim`, 1 in a thin
 // ring at its edge. 0 outside to 1 within; what is narrower than a pixel of size `width` fades with its area.
-SHARED real ground_spot(real px, real py, float cell, real share, float least, float most, real ragged, real width,
-                        INOUT(real) tone, INOUT(real) rim) {
+SHARED real ground_spot(real px, real py, float cell, real share, float least, float most, real ragged, real width, INOUT(real) tone,
+                        INOUT(real) rim) {
   real cx = rfloor(px * (1.0f / cell));
   real cy = rfloor(py * (1.0f / cell));
   real h = hash_cell(cx, cy);
@@ -36,8 +36,7 @@ SHARED real3 paving_marks(real3 color, real px, real py, real3 wide, real3 mid, 
   real walked = 0.55f * mid.x + 0.30f * wide.y + 0.15f * fine.x;
   real grime = smooth01(clamp01((walked - 0.43f) * 6.5f)) * (0.75f + 1.3f * (fine.y - 0.5f) * detail);
   c = lerp3(c, make3(real(0.072f), real(0.064f), real(0.055f)), 0.08f + 0.46f * clamp01(grime));
-  real spill = ground_spot(px, py, 1.37f, 0.10f + 0.9f * (mid.z - 0.42f), 0.05f, 0.27f, 0.9f * (fine.z - 0.5f) * detail, width,
-                           tone, rim);
+  real spill = ground_spot(px, py, 1.37f, 0.10f + 0.9f * (mid.z - 0.42f), 0.05f, 0.27f, 0.9f * (fine.z - 0.5f) * detail, width, tone, rim);
   c = c * (1.0f - (0.08f + 0.34f * tone) * spill) * (1.0f - 0.22f * rim);
   // Far away gum is too small to be seen.
   real close = clamp01((0.05f - width) * 40.0f);
@@ -65,8 +64,7 @@ SHARED real3 asphalt_marks(real3 color, real px, real py, real3 wide, real3 mid,
   real net = rmax(soft_line((fine.y - 0.5f + 0.20f * (mid.x - 0.5f)) * 1.7f, half_width, width),
                   soft_line((fine.z - 0.48f) * 1.7f, half_width, width));
   c = c * (1.0f - 0.55f * net * tired * detail);
-  real drop = ground_spot(px, py, 0.43f, 0.08f + 0.8f * (mid.y - 0.44f), 0.008f, 0.075f, 0.9f * (fine.x - 0.5f) * detail, width,
-                          tone, rim);
+  real drop = ground_spot(px, py, 0.43f, 0.08f + 0.8f * (mid.y - 0.44f), 0.008f, 0.075f, 0.9f * (fine.x - 0.5f) * detail, width, tone, rim);
   c = c * (1.0f - (0.18f + 0.42f * tone) * drop);
   real close = clamp01((0.05f - width) * 40.0f);
   if (!any_lane(close > 0.0f)) return c;

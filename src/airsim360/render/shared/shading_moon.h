@@ -9,13 +9,13 @@ SHARED real moon_spot(real x, real y, real x0, real y0, real size) {
   return smooth01(inside);
 }
 SHARED real moon_ground(real x, real y) {
-  real dark = rmax(moon_spot(x, y, real(-0.30f), real(0.50f), real(0.34f)),   // Imbrium
-                   moon_spot(x, y, real(-0.62f), real(0.16f), real(0.34f)));  // Procellarum
-  dark = rmax(dark, moon_spot(x, y, real(0.28f), real(0.42f), real(0.22f)));  // Serenitatis
-  dark = rmax(dark, moon_spot(x, y, real(0.48f), real(0.12f), real(0.25f)));  // Tranquillitatis
-  dark = rmax(dark, moon_spot(x, y, real(0.78f), real(0.26f), real(0.14f)));  // Crisium
+  real dark = rmax(moon_spot(x, y, real(-0.30f), real(0.50f), real(0.34f)),     // Imbrium
+                   moon_spot(x, y, real(-0.62f), real(0.16f), real(0.34f)));    // Procellarum
+  dark = rmax(dark, moon_spot(x, y, real(0.28f), real(0.42f), real(0.22f)));    // Serenitatis
+  dark = rmax(dark, moon_spot(x, y, real(0.48f), real(0.12f), real(0.25f)));    // Tranquillitatis
+  dark = rmax(dark, moon_spot(x, y, real(0.78f), real(0.26f), real(0.14f)));    // Crisium
   dark = rmax(dark, moon_spot(x, y, real(-0.22f), real(-0.36f), real(0.24f)));  // Nubium
-  dark = rmax(dark, moon_spot(x, y, real(0.56f), real(-0.16f), real(0.18f)));  // Fecunditatis
+  dark = rmax(dark, moon_spot(x, y, real(0.56f), real(-0.16f), real(0.18f)));   // Fecunditatis
   return 1.0f - 0.42f * dark;
 }
 

@@ -49,6 +49,4 @@ SHARED float unit_of(word x) { return float(x >> 8) * (1.0f / 16777216.0f); }
 // Pixels take their rays one after the other from one sequence, so that no number is left out: leaving out every second one, say,
 // would leave out half of the sphere. Number of the first ray of pixel `place`, at most 256, where pixels want `wanted`
 // (1 ... 256) on average; the next pixel's first ray is where it ends.
-SHARED word first_ray(word place, float wanted, word seed) {
-  return (word(wanted * 4096.0f) * place + (hash_bits(seed) >> 20)) >> 12;
-}
+SHARED word first_ray(word place, float wanted, word seed) { return (word(wanted * 4096.0f) * place + (hash_bits(seed) >> 20)) >> 12; }

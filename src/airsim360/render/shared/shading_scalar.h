@@ -29,9 +29,7 @@ SHARED real rfloor(real a) { return std::floor(a); }
 SHARED real rabs(real a) { return std::fabs(a); }
 SHARED real pow2_int(real i) { return std::bit_cast<float>((static_cast<int32_t>(i) + 127) << 23); }
 SHARED real exponent_of(real a) { return static_cast<float>((std::bit_cast<int32_t>(a) >> 23) - 127); }
-SHARED real mantissa_of(real a) {
-  return std::bit_cast<float>((std::bit_cast<int32_t>(a) & 0x007fffff) | 0x3f800000);
-}
+SHARED real mantissa_of(real a) { return std::bit_cast<float>((std::bit_cast<int32_t>(a) & 0x007fffff) | 0x3f800000); }
 // Tables by the low four or five bits of the exponent.
 #define SHADE_TABLE16(name, ...) static constexpr float name[16] = {__VA_ARGS__};
 #define SHADE_TABLE32(name, ...) static constexpr float name[32] = {__VA_ARGS__};

@@ -33,9 +33,7 @@ SHARED real3 corner_color(real3 a, real3 b, real3 c, real u, real v) {
 SHARED real smooth01(real t) { return t * t * (3.0f - 2.0f * t); }
 SHARED real3 normalize3(real3 a) { return a * rsqrt_exact(rmax(dot3(a, a), real(1e-30f))); }
 // How far secondary rays start from a surface: above the rounding errors of hit points.
-SHARED real ray_offset(real3 p, real distance_) {
-  return 1e-3f + 4e-6f * (rabs(p.x) + rabs(p.y) + rabs(p.z) + distance_);
-}
+SHARED real ray_offset(real3 p, real distance_) { return 1e-3f + 4e-6f * (rabs(p.x) + rabs(p.y) + rabs(p.z) + distance_); }
 SHARED real luminance(real3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 // Polynomials are summed in pairs (Estrin), not from one end: their chains of dependent operations are what
@@ -46,8 +44,7 @@ SHARED real exp2_approx(real x) {
   real whole = rfloor(x + 0.5f);
   real f = (x - whole) * 0.69314718f;
   real f2 = f * f;
-  real p = (1.0f + f) + f2 * (0.5f + f * 0.166666667f) +
-           (f2 * f2) * ((0.0416666667f + f * 0.00833333333f) + f2 * 0.00138888889f);
+  real p = (1.0f + f) + f2 * (0.5f + f * 0.166666667f) + (f2 * f2) * ((0.0416666667f + f * 0.00833333333f) + f2 * 0.00138888889f);
   return p * pow2_int(whole);
 }
 
@@ -62,15 +59,12 @@ SHARED real log2_approx(real x) {
   e = sel(high, e + 1.0f, e);
   real t = (m - 1.0f) / (m + 1.0f);
   real t2 = t * t;
-  real s =
-      t * ((2.0f + t2 * 0.666666667f) + (t2 * t2) * ((0.4f + t2 * 0.285714286f) + (t2 * t2) * 0.222222222f));
+  real s = t * ((2.0f + t2 * 0.666666667f) + (t2 * t2) * ((0.4f + t2 * 0.285714286f) + (t2 * t2) * 0.222222222f));
   return e + s * 1.44269504f;
 }
 
 // x^y for x >= 0.
-SHARED real pow_approx(real x, real y) {
-  return exp2_approx(rmax(y * log2_approx(rmax(x, real(1e-30f))), real(-125.0f)));
-}
+SHARED real pow_approx(real x, real y) { return exp2_approx(rmax(y * log2_approx(rmax(x, real(1e-30f))), real(-125.0f))); }
 
 // x^y for x >= 0 and |y| below 2, for what is shown with 8 bits: relative error below 1.5e-5 |y| + 3e-6
 // (least-error polynomials of log2 over [1, 2] and exp2 over [-0.5, 0.5]; no division).
@@ -78,8 +72,8 @@ SHARED real pow_display(real x, real y) {
   real positive = rmax(x, real(1e-30f));
   real f = mantissa_of(positive) - 1.0f;
   real f2 = f * f;
-  real stops = exponent_of(positive) + (f * 1.44196561f + f2 * (-0.709662799f + f * 0.417595704f) +
-                                        (f2 * f2) * (-0.196269528f + f * 0.04638531f));
+  real stops =
+      exponent_of(positive) + (f * 1.44196561f + f2 * (-0.709662799f + f * 0.417595704f) + (f2 * f2) * (-0.196269528f + f * 0.04638531f));
   real e = rmax(y * stops, real(-125.0f));
   real whole = rfloor(e + 0.5f);
   real g = e - whole;
@@ -94,8 +88,7 @@ SHARED real sin_approx(real x) {
   real y = (x - turns * 3.140625f) - turns * 9.67653589e-4f;
   real odd = turns - 2.0f * rfloor(turns * 0.5f);
   real y2 = y * y;
-  real s = y * (1.0f +
-                y2 * (-0.166666667f + y2 * (0.00833333333f + y2 * (-0.000198412698f + y2 * 2.75573192e-6f))));
+  real s = y * (1.0f + y2 * (-0.166666667f + y2 * (0.00833333333f + y2 * (-0.000198412698f + y2 * 2.75573192e-6f))));
   return s * (1.0f - 2.0f * odd);
 }
 
@@ -191,8 +184,7 @@ SHARED real3 diffuse(real3 albedo, real3 e) { return albedo * e * real(SHADE_INV
 SHARED real3 leaf_diffuse(real3 albedo, real transmission, real n_dot_l) {
   real front = rmax(n_dot_l, real(0.0f));
   real back = rmax(0.0f - n_dot_l, real(0.0f)) * transmission;
-  return make3(albedo.x * (front + 1.10f * back), albedo.y * (front + 1.15f * back),
-               albedo.z * (front + 0.55f * back)) *
+  return make3(albedo.x * (front + 1.10f * back), albedo.y * (front + 1.15f * back), albedo.z * (front + 0.55f * back)) *
          real(SHADE_INV_PI);
 }
 
@@ -201,18 +193,16 @@ SHARED real3 leaf_diffuse(real3 albedo, real transmission, real n_dot_l) {
 
 // Irradiance of the sky from nine coefficients, normal n (Ramamoorthi & Hanrahan 2001; basis constants folded
 // in).
-SHARED real3 sh9_irradiance(ufloat3 c0, ufloat3 c1, ufloat3 c2, ufloat3 c3, ufloat3 c4, ufloat3 c5,
-                            ufloat3 c6, ufloat3 c7, ufloat3 c8, real3 n) {
+SHARED real3 sh9_irradiance(ufloat3 c0, ufloat3 c1, ufloat3 c2, ufloat3 c3, ufloat3 c4, ufloat3 c5, ufloat3 c6, ufloat3 c7, ufloat3 c8,
+                            real3 n) {
   real3 e = c1 * n.y + c2 * n.z + c3 * n.x;
-  e = e + c4 * (n.x * n.y) + c5 * (n.y * n.z) + c6 * (3.0f * n.z * n.z - 1.0f) + c7 * (n.x * n.z) +
-      c8 * (n.x * n.x - n.y * n.y);
+  e = e + c4 * (n.x * n.y) + c5 * (n.y * n.z) + c6 * (3.0f * n.z * n.z - 1.0f) + c7 * (n.x * n.z) + c8 * (n.x * n.x - n.y * n.y);
   return e + c0;
 }
 
 // Part of the light that is left after `distance` through extinction beta (1 / m).
 SHARED real3 transmittance(ufloat3 beta, real distance) {
-  return make3(exp_approx(0.0f - beta.x * distance), exp_approx(0.0f - beta.y * distance),
-               exp_approx(0.0f - beta.z * distance));
+  return make3(exp_approx(0.0f - beta.x * distance), exp_approx(0.0f - beta.y * distance), exp_approx(0.0f - beta.z * distance));
 }
 
 // ---- lamps

@@ -48,9 +48,7 @@ double Hemisphere(F f, int n = 256) {
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
       const double z = (i + 0.5) / n, a = (j + 0.5) / n * 2 * kPi, s = std::sqrt(1 - z * z);
-      sum += f(Vec3f{static_cast<float>(s * std::cos(a)), static_cast<float>(s * std::sin(a)),
-                     static_cast<float>(z)}) *
-             2 * kPi / (n * n);
+      sum += f(Vec3f{static_cast<float>(s * std::cos(a)), static_cast<float>(s * std::sin(a)), static_cast<float>(z)}) * 2 * kPi / (n * n);
     }
   }
   return sum;
@@ -65,11 +63,7 @@ TEST(ShadingShared, WhiteMirrorlikeSurfacesNeverReflectMoreThanArrives) {
   for (float roughness : {0.2f, 0.4f, 0.7f, 1.0f}) {
     for (float z : {0.1f, 0.5f, 1.0f}) {
       const Vec3f v{std::sqrt(1 - z * z), 0, z};
-      const double out = Hemisphere(
-          [&](Vec3f l) {
-            return Specular({1, 1, 1}, roughness * roughness, l, v).x * l.z;
-          },
-          512);
+      const double out = Hemisphere([&](Vec3f l) { return Specular({1, 1, 1}, roughness * roughness, l, v).x * l.z; }, 512);
       EXPECT_LE(out, 1.005) << roughness << ' ' << z;
       EXPECT_GT(out, 0.25) << roughness << ' ' << z;
     }
@@ -80,13 +74,8 @@ TEST(ShadingShared, EnvironmentBrdfAgreesWithTheIntegralOfTheSpecularBrdf) {
   for (float roughness : {0.3f, 0.6f, 0.9f}) {
     for (float z : {0.3f, 0.6f, 0.95f}) {
       const Vec3f v{std::sqrt(1 - z * z), 0, z};
-      const double truth = Hemisphere(
-          [&](Vec3f l) {
-            return Specular({0.5f, 0.5f, 0.5f}, roughness * roughness, l, v).x * l.z;
-          },
-          512);
-      EXPECT_NEAR(scalar::environment_brdf({0.5f, 0.5f, 0.5f}, roughness, z).x, truth, 0.08)
-          << roughness << ' ' << z;
+      const double truth = Hemisphere([&](Vec3f l) { return Specular({0.5f, 0.5f, 0.5f}, roughness * roughness, l, v).x * l.z; }, 512);
+      EXPECT_NEAR(scalar::environment_brdf({0.5f, 0.5f, 0.5f}, roughness, z).x, truth, 0.08) << roughness << ' ' << z;
     }
   }
 }
@@ -96,8 +85,7 @@ TEST(ShadingShared, SpecularReflectionIsReciprocal) {
   for (int i = 0; i < 100000; ++i) {
     const Vec3f a = RandomUp(random), b = RandomUp(random);
     const auto alpha = static_cast<float>(random.Uniform(0.05, 1));
-    const float ab = Specular({0.04f, 0.5f, 0.9f}, alpha, a, b).y,
-                ba = Specular({0.04f, 0.5f, 0.9f}, alpha, b, a).y;
+    const float ab = Specular({0.04f, 0.5f, 0.9f}, alpha, a, b).y, ba = Specular({0.04f, 0.5f, 0.9f}, alpha, b, a).y;
     ASSERT_NEAR(ab, ba, 1e-5f * (1 + ab));
   }
 }
@@ -174,11 +162,9 @@ TEST(ShadingShared, OwnTranscendentalsAgreeWithTheLibrary) {
     EXPECT_NEAR(scalar::exp_approx(f) / std::exp(static_cast<double>(f)), 1, 4e-6) << x;
     EXPECT_NEAR(scalar::sin_approx(f), std::sin(static_cast<double>(f)), 5e-6) << x;
     EXPECT_NEAR(scalar::log2_approx(std::exp(f)), std::log2(static_cast<double>(std::exp(f))), 6e-6) << x;
-    EXPECT_NEAR(scalar::atan2_approx(std::sin(f), std::cos(f)), std::atan2(std::sin(f), std::cos(f)), 3e-6)
-        << x;
+    EXPECT_NEAR(scalar::atan2_approx(std::sin(f), std::cos(f)), std::atan2(std::sin(f), std::cos(f)), 3e-6) << x;
   }
-  for (double x = -1; x <= 1; x += 0.001)
-    EXPECT_NEAR(scalar::asin_approx(static_cast<float>(x)), std::asin(x), 4e-4) << x;
+  for (double x = -1; x <= 1; x += 0.001) EXPECT_NEAR(scalar::asin_approx(static_cast<float>(x)), std::asin(x), 4e-4) << x;
   for (int i = 0; i <= 255; ++i) {
     const double s = i / 255.0, linear = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
     EXPECT_NEAR(scalar::srgb_decode_approx(static_cast<float>(s)), linear, 0.001);
@@ -208,8 +194,7 @@ void ExpectSame(const char* name, Wide wide_function, Scalar scalar_function, do
     wide::store(out, wide_function(wide::load(a), wide::load(b), wide::load(c)));
     for (int i = 0; i < wide::kLanes; ++i) {
       const float expected = scalar_function(a[i], b[i], c[i]);
-      ASSERT_NEAR(out[i], expected, 1e-6f * (1e-3f + std::fabs(expected)))
-          << name << ' ' << a[i] << ' ' << b[i] << ' ' << c[i];
+      ASSERT_NEAR(out[i], expected, 1e-6f * (1e-3f + std::fabs(expected))) << name << ' ' << a[i] << ' ' << b[i] << ' ' << c[i];
     }
   }
 }
@@ -240,8 +225,7 @@ TEST(ShadingShared, ScalarAndSimdAgree) {
   SAME(-1, 1, leaf_diffuse(make3(a, b, c), b, c).x);
   SAME(-1, 1, dot3(octahedral_decode(a, b), make3(a, b, c)));
   SAME(-1, 1, layer_path(a * 100.0f, b, c * 1000.0f, 160.0f) + forward_phase(0.76f, a));
-  SAME(-1, 1,
-       drops_cover(a * 9.0f, b, c, make3(a, b, c), 6.0f, 0.003f, 0.4f, 0.5f, 0.2f, 0.01f, 0.9f, 5.0f, 3.0f));
+  SAME(-1, 1, drops_cover(a * 9.0f, b, c, make3(a, b, c), 6.0f, 0.003f, 0.4f, 0.5f, 0.2f, 0.01f, 0.9f, 5.0f, 3.0f));
   SAME(0, 2, water_normal(a * 100.0f, b * 100.0f, c, a).x + a);
   SAME(0, 1, hash_cell(a * 1000.0f, b * 1000.0f) + wet_albedo(c));
   SAME(-1, 1, snow_cover(a, b, c, a) + puddle_cover(b, c));
@@ -280,16 +264,19 @@ TEST(GroundMarks, SpotsCoverTheShareThatTheirRadiiGive) {
   constexpr int kPlaces = 200000;
   for (int i = 0; i < kPlaces; ++i) {
     float tone = 0, rim = 0;
-    sum += scalar::ground_spot(static_cast<float>(random.Uniform(0, 400)), static_cast<float>(random.Uniform(0, 400)), kCell, kShare, kLeast, kMost,
-                               0, 1e-4f, tone, rim);
+    sum += scalar::ground_spot(static_cast<float>(random.Uniform(0, 400)), static_cast<float>(random.Uniform(0, 400)), kCell, kShare,
+                               kLeast, kMost, 0, 1e-4f, tone, rim);
   }
   const double d = kMost - kLeast, area = kPi * (kLeast * kLeast + 2 * kLeast * d / 3 + d * d / 5);
   EXPECT_NEAR(sum / kPlaces, kShare * area / (kCell * kCell), 0.004);
 }
 
 TEST(GroundMarks, WearTakesPaintToTheColourOfTheRoadAndLeavesAsphaltNearIt) {
-  const Vec3f paint{0.55f, 0.55f, 0.55f}, road{0.09f, 0.09f, 0.09f}, worn{0.5f, 0.5f, 0.5f}, torn{0.75f, 0.5f, 0.85f}, kept{0.3f, 0.3f, 0.3f};
-  const auto y = [&](Vec3f color, Vec3f noise, float x) { return scalar::asphalt_marks(color, x, 3.3f, worn, noise, noise, 1.0f, 0.001f).y; };
+  const Vec3f paint{0.55f, 0.55f, 0.55f}, road{0.09f, 0.09f, 0.09f}, worn{0.5f, 0.5f, 0.5f}, torn{0.75f, 0.5f, 0.85f},
+      kept{0.3f, 0.3f, 0.3f};
+  const auto y = [&](Vec3f color, Vec3f noise, float x) {
+    return scalar::asphalt_marks(color, x, 3.3f, worn, noise, noise, 1.0f, 0.001f).y;
+  };
   double gone = 0, left = 0, bare = 0;
   for (int i = 0; i < 500; ++i) {
     const float x = 0.013f * static_cast<float>(i);
@@ -301,8 +288,7 @@ TEST(GroundMarks, WearTakesPaintToTheColourOfTheRoadAndLeavesAsphaltNearIt) {
 }
 
 TEST(ShadingShared, CompilesAsGlsl) {
-  if (std::system("command -v glslangValidator > /dev/null 2>&1") != 0)
-    GTEST_SKIP() << "glslangValidator is not installed";
+  if (std::system("command -v glslangValidator > /dev/null 2>&1") != 0) GTEST_SKIP() << "glslangValidator is not installed";
   // A compute shader that uses the functions, pasted together from our headers.
   const auto read = [](const std::string& name) {
     std::ifstream file("src/airsim360/render/shared/" + name);
@@ -312,14 +298,12 @@ TEST(ShadingShared, CompilesAsGlsl) {
   };
   const std::string shared = read("shading_shared.h") + read("shading_air.h");
   if (shared.empty()) GTEST_SKIP() << "not run from the repository's root";
-  const std::string stem =
-      (std::filesystem::temp_directory_path() / ("airsim360_glsl_" + std::to_string(getpid()))).string();
+  const std::string stem = (std::filesystem::temp_directory_path() / ("airsim360_glsl_" + std::to_string(getpid()))).string();
   {
     std::ofstream out(stem + ".comp");
     out << "#version 450\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer Values { float v[]; };\n"
-        << read("shading_glsl.h") << shared << read("shading_tone.h") << read("shading_interior.h")
-        << read("shading_weather.h") << read("shading_moon.h") << read("shading_ground.h")
-        << read("shading_marks.h")
+        << read("shading_glsl.h") << shared << read("shading_tone.h") << read("shading_interior.h") << read("shading_weather.h")
+        << read("shading_moon.h") << read("shading_ground.h") << read("shading_marks.h")
         << "void main() { float lost = 0.0; vec3 n = water_normal(v[0], v[1], v[2], lost);\n"
            "  vec3 c = specular_brdf(n, v[1], v[2], v[3], v[4], v[5]) + environment_brdf(n, v[0], v[1]) + "
            "leaf_diffuse(n, v[0], v[1]);\n"
@@ -339,8 +323,7 @@ TEST(ShadingShared, CompilesAsGlsl) {
            "snow_cover(v[0], v[1], v[2], v[3]) + roof_wear(v[0], n, c, day, v[1], v[2], v[3]) + paving_marks(c, a, b, n, c, day, v[1], v[2]).x + "
            "asphalt_marks(c, a, b, n, c, day, v[1], v[2]).x; }\n";
   }
-  const int status = std::system(
-      ("glslangValidator -V " + stem + ".comp -o " + stem + ".spv > " + stem + ".log 2>&1").c_str());
+  const int status = std::system(("glslangValidator -V " + stem + ".comp -o " + stem + ".spv > " + stem + ".log 2>&1").c_str());
   std::ifstream log(stem + ".log");
   std::ostringstream message;
   message << log.rdbuf();

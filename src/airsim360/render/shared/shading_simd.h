@@ -51,34 +51,20 @@ SHARED real sel(mask_t m, real a, real b) {
   stdx::where(m, b) = a;
   return b;
 }
-SHARED real3 sel3(mask_t m, real3 a, real3 b) {
-  return {sel(m, a.x, b.x), sel(m, a.y, b.y), sel(m, a.z, b.z)};
-}
+SHARED real3 sel3(mask_t m, real3 a, real3 b) { return {sel(m, a.x, b.x), sel(m, a.y, b.y), sel(m, a.z, b.z)}; }
 SHARED bool any_lane(mask_t m) { return stdx::any_of(m); }
 SHARED real3 make3(real x, real y, real z) { return {x, y, z}; }
 // As b < a ? b : a and a < b ? b : a, one instruction each: x86 gives the second operand where neither is
 // less, and where one is not a number.
 #if defined(__AVX512F__)
-SHARED real rmin(real a, real b) {
-  return real(_mm512_min_ps(static_cast<__m512>(b), static_cast<__m512>(a)));
-}
-SHARED real rmax(real a, real b) {
-  return real(_mm512_max_ps(static_cast<__m512>(b), static_cast<__m512>(a)));
-}
+SHARED real rmin(real a, real b) { return real(_mm512_min_ps(static_cast<__m512>(b), static_cast<__m512>(a))); }
+SHARED real rmax(real a, real b) { return real(_mm512_max_ps(static_cast<__m512>(b), static_cast<__m512>(a))); }
 #elif defined(__AVX__)
-SHARED real rmin(real a, real b) {
-  return real(_mm256_min_ps(static_cast<__m256>(b), static_cast<__m256>(a)));
-}
-SHARED real rmax(real a, real b) {
-  return real(_mm256_max_ps(static_cast<__m256>(b), static_cast<__m256>(a)));
-}
+SHARED real rmin(real a, real b) { return real(_mm256_min_ps(static_cast<__m256>(b), static_cast<__m256>(a))); }
+SHARED real rmax(real a, real b) { return real(_mm256_max_ps(static_cast<__m256>(b), static_cast<__m256>(a))); }
 #else
-SHARED real rmin(real a, real b) {
-  return real(_mm_min_ps(static_cast<__m128>(b), static_cast<__m128>(a)));
-}
-SHARED real rmax(real a, real b) {
-  return real(_mm_max_ps(static_cast<__m128>(b), static_cast<__m128>(a)));
-}
+SHARED real rmin(real a, real b) { return real(_mm_min_ps(static_cast<__m128>(b), static_cast<__m128>(a))); }
+SHARED real rmax(real a, real b) { return real(_mm_max_ps(static_cast<__m128>(b), static_cast<__m128>(a))); }
 #endif
 SHARED real rroot(real a) { return stdx::sqrt(a); }
 SHARED real rsqrt_exact(real a) { return 1.0f / stdx::sqrt(a); }
@@ -95,12 +81,8 @@ SHARED real mantissa_of(real a) { return from_bits((bits_of(a) & 0x007fffff) | 0
 #define SHADE_TABLE16(name, ...) alignas(64) static constexpr float name[16] = {__VA_ARGS__};
 #define SHADE_TABLE32(name, ...) alignas(64) static constexpr float name[32] = {__VA_ARGS__};
 #if defined(__AVX512F__)
-SHARED __m512i exponent_bits(real a) {
-  return _mm512_srli_epi32(_mm512_castps_si512(static_cast<__m512>(a)), 23);
-}
-SHARED real octave16(const float* table, real a) {
-  return real(_mm512_permutexvar_ps(exponent_bits(a), _mm512_load_ps(table)));
-}
+SHARED __m512i exponent_bits(real a) { return _mm512_srli_epi32(_mm512_castps_si512(static_cast<__m512>(a)), 23); }
+SHARED real octave16(const float* table, real a) { return real(_mm512_permutexvar_ps(exponent_bits(a), _mm512_load_ps(table))); }
 SHARED real octave32(const float* table, real a) {
   return real(_mm512_permutex2var_ps(_mm512_load_ps(table), exponent_bits(a), _mm512_load_ps(table + 16)));
 }

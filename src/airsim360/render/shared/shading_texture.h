@@ -31,8 +31,7 @@ KERNEL real3 Decode(ireal t, mask_t encoded) {
 /// Bilinear in one level of w x h texels; u, v already brought into [0, 1]; `texels(index)` fetches the
 /// texels of all lanes.
 template <class Texels>
-KERNEL real3 SampleLevel(Texels texels, real w, real h, mask_t clamp_u, mask_t clamp_v, real u, real v,
-                         mask_t encoded) {
+KERNEL real3 SampleLevel(Texels texels, real w, real h, mask_t clamp_u, mask_t clamp_v, real u, real v, mask_t encoded) {
   const real x = u * w - 0.5f, y = v * h - 0.5f;
   const real x0 = rfloor(x), y0 = rfloor(y);
   const real fx = x - x0, fy = y - y0;
@@ -43,8 +42,7 @@ KERNEL real3 SampleLevel(Texels texels, real w, real h, mask_t clamp_u, mask_t c
   const real top = sel(y0 < 0.0f, sel(clamp_v, zero, h - 1.0f), rmin(y0, h - 1.0f));
   const real bottom = sel(y0 + 1.0f > h - 0.5f, sel(clamp_v, h - 1.0f, zero), y0 + 1.0f);
 
-  const ireal row0 = to_int(top) * to_int(w), row1 = to_int(bottom) * to_int(w), l = to_int(left),
-              r = to_int(right);
+  const ireal row0 = to_int(top) * to_int(w), row1 = to_int(bottom) * to_int(w), l = to_int(left), r = to_int(right);
   const real3 upper = lerp3(Decode(texels(row0 + l), encoded), Decode(texels(row0 + r), encoded), fx);
   const real3 lower = lerp3(Decode(texels(row1 + l), encoded), Decode(texels(row1 + r), encoded), fx);
   return lerp3(upper, lower, fy);
@@ -58,16 +56,13 @@ KERNEL real FoldCoordinate(real x, real wrap) {
 }
 
 /// The same for one wrap mode.
-KERNEL real FoldUniform(real x, uint8_t wrap) {
-  return wrap == 0 ? x - rfloor(x) : FoldCoordinate(x, real(static_cast<float>(wrap)));
-}
+KERNEL real FoldUniform(real x, uint8_t wrap) { return wrap == 0 ? x - rfloor(x) : FoldCoordinate(x, real(static_cast<float>(wrap))); }
 
 /// One level of one texture for all lanes.
 KERNEL real3 SampleUniform(const TextureRecord& t, const TextureLevel& level, real u, real v) {
-  const auto texels = [&](ireal index)
-                          __attribute__((always_inline)) { return GatherWords(level.texels, index); };
-  return SampleLevel(texels, real(level.width), real(level.height), mask_t(t.wrap_u != 0),
-                     mask_t(t.wrap_v != 0), u, v, mask_t(t.srgb > 0.5f));
+  const auto texels = [&](ireal index) __attribute__((always_inline)) { return GatherWords(level.texels, index); };
+  return SampleLevel(texels, real(level.width), real(level.height), mask_t(t.wrap_u != 0), mask_t(t.wrap_v != 0), u, v,
+                     mask_t(t.srgb > 0.5f));
 }
 
 /// The finest level of the noise texture, which repeats.
@@ -87,8 +82,7 @@ KERNEL real3 SampleOneTexture(const TextureRecord& t, int k, real fraction, real
 
 /// Of every lane's texture the level `level`.
 KERNEL LevelLanes TakeLevels(const TextureRecord* textures, const int32_t* id, real level) {
-  static_assert(sizeof(TextureLevel) == 16 && offsetof(TextureLevel, width) == 8 &&
-                offsetof(TextureLevel, height) == 12);
+  static_assert(sizeof(TextureLevel) == 16 && offsetof(TextureLevel, width) == 8 && offsetof(TextureLevel, height) == 12);
   alignas(64) int32_t k[kLanes];
   to_int(level).copy_to(k, stdx::vector_aligned);
   KeepInMemory(k);
@@ -98,8 +92,7 @@ KERNEL LevelLanes TakeLevels(const TextureRecord* textures, const int32_t* id, r
     at[i] = &textures[id[i]].levels[k[i]];
     out.texels[i] = at[i]->texels;
   }
-  const real4 words = GatherQuads(
-      [&](int i) __attribute__((always_inline)) { return reinterpret_cast<const float*>(at[i]); });
+  const real4 words = GatherQuads([&](int i) __attribute__((always_inline)) { return reinterpret_cast<const float*>(at[i]); });
   out.width = words.z;
   out.height = words.w;
   return out;
@@ -107,8 +100,8 @@ KERNEL LevelLanes TakeLevels(const TextureRecord* textures, const int32_t* id, r
 
 /// Filtered look-up of one texture per lane. `footprint_log2` is log2 of the pixel's size in uv units; with
 /// `trilinear` two levels are mixed, else the nearer is taken.
-static __attribute__((noinline)) real3 SampleTexture(const TextureRecord* textures, const int32_t* id, real u,
-                                                     real v, real footprint_log2, bool trilinear) {
+static __attribute__((noinline)) real3 SampleTexture(const TextureRecord* textures, const int32_t* id, real u, real v, real footprint_log2,
+                                                     bool trilinear) {
   static_assert(offsetof(TextureRecord, size_log2) == offsetof(TextureRecord, last_level) + 4 &&
                 offsetof(TextureRecord, srgb) == offsetof(TextureRecord, last_level) + 8 &&
                 offsetof(TextureRecord, wrap_u) == offsetof(TextureRecord, last_level) + 12 &&
@@ -123,12 +116,10 @@ static __attribute__((noinline)) real3 SampleTexture(const TextureRecord* textur
   if (stdx::all_of(ireal(id, stdx::vector_aligned) == id[0])) {
     const TextureRecord& t = textures[id[0]];
     const real fraction = choose(real(t.size_log2), real(t.last_level));
-    if (stdx::all_of(lower == real(lower[0])))
-      return SampleOneTexture(t, static_cast<int>(lower[0]), fraction, u, v, trilinear);
+    if (stdx::all_of(lower == real(lower[0]))) return SampleOneTexture(t, static_cast<int>(lower[0]), fraction, u, v, trilinear);
   }
   // Last level, size, encoding, wrap modes.
-  const real4 words = GatherQuads(
-      [&](int i) __attribute__((always_inline)) { return &textures[id[i]].last_level; });
+  const real4 words = GatherQuads([&](int i) __attribute__((always_inline)) { return &textures[id[i]].last_level; });
   const real fraction = choose(words.y, words.x);
   const ireal wraps = bits_of(words.w);
   const real wrap_u = to_real(wraps & 255), wrap_v = to_real((wraps >> 8) & 255);
@@ -138,8 +129,8 @@ static __attribute__((noinline)) real3 SampleTexture(const TextureRecord* textur
   const auto sample = [&](real level) __attribute__((always_inline)) {
     const LevelLanes lanes = TakeLevels(textures, id, level);
     return SampleLevel(
-        [&](ireal index) __attribute__((always_inline)) { return GatherWordsAt(lanes.texels, index); },
-        lanes.width, lanes.height, clamp_u, clamp_v, u, v, encoded);
+        [&](ireal index) __attribute__((always_inline)) { return GatherWordsAt(lanes.texels, index); }, lanes.width, lanes.height, clamp_u,
+        clamp_v, u, v, encoded);
   };
   const real3 c = sample(lower);
   if (!trilinear || !stdx::any_of(fraction > 0.0f)) return c;

@@ -46,8 +46,7 @@ SHADE_TABLE32(FILM_OCTAVE_3, 0.041755466f, 0.028775023f, 0.01578825f, 0.00773336
 SHARED real srgb_encode(real linear_value) {
   real x = rmin(rmax(real(3.0517578e-5f), linear_value), real(0.99999994f));
   real m = mantissa_of(x);
-  return octave16(SRGB_OCTAVE_0, x) +
-         m * (octave16(SRGB_OCTAVE_1, x) + m * (octave16(SRGB_OCTAVE_2, x) + m * octave16(SRGB_OCTAVE_3, x)));
+  return octave16(SRGB_OCTAVE_0, x) + m * (octave16(SRGB_OCTAVE_1, x) + m * (octave16(SRGB_OCTAVE_2, x) + m * octave16(SRGB_OCTAVE_3, x)));
 }
 
 // ---- filmic
@@ -58,8 +57,7 @@ SHARED real srgb_encode(real linear_value) {
 SHARED real film_curve(real light) {
   real x = rmin(rmax(real(7.6293945e-6f), light), real(32767.998f));
   real m = mantissa_of(x);
-  return octave32(FILM_OCTAVE_0, x) +
-         m * (octave32(FILM_OCTAVE_1, x) + m * (octave32(FILM_OCTAVE_2, x) + m * octave32(FILM_OCTAVE_3, x)));
+  return octave32(FILM_OCTAVE_0, x) + m * (octave32(FILM_OCTAVE_1, x) + m * (octave32(FILM_OCTAVE_2, x) + m * octave32(FILM_OCTAVE_3, x)));
 }
 
 // A little of each channel reaches the others, as in film, so that very bright colours turn white instead of
@@ -79,9 +77,7 @@ SHARED real3 tone_curve(real3 c) {
 
 // Share of the dynamic range below a radiance: -12.47 ... +4.03 EV about 1, that is ten stops below middle
 // grey (0.18) and six and a half above (Sobotka).
-SHARED real agx_log(real x) {
-  return clamp01((log2_approx(rmax(x, real(1.8e-4f))) + 12.47393f) * (1.0f / 16.5f));
-}
+SHARED real agx_log(real x) { return clamp01((log2_approx(rmax(x, real(1.8e-4f))) + 12.47393f) * (1.0f / 16.5f)); }
 
 // Contrast of one channel, [0, 1] to [0, 1], both power-2.2 encoded at the output: from middle grey, which is
 // kept (0.606 to 0.18^(1 / 2.2)), along a slope of 2.4 into two arms y = s u / (1 + u^3)^(1/3) that end in
@@ -102,8 +98,7 @@ SHARED real3 agx_curve(real3 c) {
   real r = agx_contrast(agx_log(0.842364158f * c.x + 0.0784229025f * c.y + 0.0792129399f * c.z));
   real g = agx_contrast(agx_log(0.0423298082f * c.x + 0.878501136f * c.y + 0.0791690562f * c.z));
   real b = agx_contrast(agx_log(0.0423776793f * c.x + 0.0784373471f * c.y + 0.879184974f * c.z));
-  real3 shown = make3(1.19704227f * r - 0.098017255f * g - 0.0990250133f * b,
-                      -0.0529040673f * r + 1.15186052f * g - 0.0989564493f * b,
+  real3 shown = make3(1.19704227f * r - 0.098017255f * g - 0.0990250133f * b, -0.0529040673f * r + 1.15186052f * g - 0.0989564493f * b,
                       -0.0529788612f * r - 0.0980398231f * g + 1.15101868f * b);
   return make3(pow_approx(clamp01(shown.x), real(2.2f)), pow_approx(clamp01(shown.y), real(2.2f)),
                pow_approx(clamp01(shown.z), real(2.2f)));

@@ -7,9 +7,7 @@ SHARED real wet_albedo(real albedo) { return 0.98f * 0.528f * albedo / (1.0f - 0
 
 // How much of a surface's look a film of water changes: rough mineral and organic matter soaks, skin does not
 // (thresholds after Lagarde 2013).
-SHARED real porosity(real roughness, real metallic) {
-  return clamp01((roughness - 0.42f) * 3.5f) * (1.0f - metallic);
-}
+SHARED real porosity(real roughness, real metallic) { return clamp01((roughness - 0.42f) * 3.5f) * (1.0f - metallic); }
 
 // Standing water, 0 … 1, on level ground: hollows of `relief` (mean 0.5, sd about 0.13) fill up to a level
 // that rises with wetness; nothing below wetness 0.35, about a third of the ground at 1.
@@ -43,8 +41,7 @@ SHARED void drop_rings(real px, real py, real amount, INOUT(real) slope_x, INOUT
     real oy = gy - cy - 0.5f - 0.3f * (hash_again(h, real(53.9f)) - 0.5f);
     real r = rroot(ox * ox + oy * oy + 1e-6f);
     real wave = (r - 0.32f * age) * 12.0f;
-    real ring =
-        clamp01(1.0f - rabs(wave)) * wave * 3.0f * (1.0f - age) * sel(h < amount, real(1.0f), real(0.0f));
+    real ring = clamp01(1.0f - rabs(wave)) * wave * 3.0f * (1.0f - age) * sel(h < amount, real(1.0f), real(0.0f));
     sx = sx + ring * ox / r;
     sy = sy + ring * oy / r;
   }

@@ -42,9 +42,7 @@ float SphereDistance(Vec3f p, Vec3f d, float r, bool far) {
   return static_cast<float>(far ? -b + std::sqrt(q) : -b - std::sqrt(q));
 }
 
-float HeightOf(Vec3f p) {
-  return std::max(0.0f, static_cast<float>(Norm(VecCast<double>(p)) - kGroundRadius));
-}
+float HeightOf(Vec3f p) { return std::max(0.0f, static_cast<float>(Norm(VecCast<double>(p)) - kGroundRadius)); }
 
 // Heights of the tables: quadratic, finer near the ground.
 constexpr float kTableTop = 60e3f;
@@ -79,9 +77,7 @@ Vec3f Interpolate(const std::vector<Vec3f>& table, int width, int height, float 
   return (t[0] * (1 - fx) + t[1] * fx) * (1 - fy) + (t[width] * (1 - fx) + t[width + 1] * fx) * fy;
 }
 
-float HeightRow(float height, int count) {
-  return std::sqrt(std::min(height, kTableTop) / kTableTop) * static_cast<float>(count - 1);
-}
+float HeightRow(float height, int count) { return std::sqrt(std::min(height, kTableTop) / kTableTop) * static_cast<float>(count - 1); }
 
 Vec3f AtHeight(float height) { return {0, 0, kGroundRadius + height}; }
 
@@ -89,15 +85,10 @@ Vec3f AtHeight(float height) { return {0, 0, kGroundRadius + height}; }
 
 // Aerosol optical depth at 550 nm from Linke's turbidity, a linear fit over clean to hazy continental air.
 ClearAir::ClearAir(double turbidity)
-    : rayleigh(kRayleigh),
-      aerosol(kAngstrom *
-              (static_cast<float>(std::max(0.02, 0.035 + 0.075 * (turbidity - 2.0))) / kAerosolHeight)) {}
+    : rayleigh(kRayleigh), aerosol(kAngstrom * (static_cast<float>(std::max(0.02, 0.035 + 0.075 * (turbidity - 2.0))) / kAerosolHeight)) {}
 
 Atmosphere::Atmosphere(Vec3f to_sun, double turbidity)
-    : to_sun_(to_sun),
-      air_(turbidity),
-      sun_transmittance_(kHeights * kSuns),
-      multiple_(kMultipleHeights * kMultipleSuns) {
+    : to_sun_(to_sun), air_(turbidity), sun_transmittance_(kHeights * kSuns), multiple_(kMultipleHeights * kMultipleSuns) {
   TabulateSun();
   TabulateMultiple();
 }
@@ -140,18 +131,15 @@ void Atmosphere::TabulateMultiple() {
         factor += f;
       }
       const float scale = 1.0f / (kPolar * kAround);
-      for (int c = 0; c < 3; ++c)
-        multiple_[row * kMultipleSuns + i][c] = second[c] * scale / (1.0f - factor[c] * scale);
+      for (int c = 0; c < 3; ++c) multiple_[row * kMultipleSuns + i][c] = second[c] * scale / (1.0f - factor[c] * scale);
     }
   });
 }
 
 Atmosphere::Medium Atmosphere::At(float height) const {
-  const float r = scalar::exp_approx(-height / kRayleighHeight),
-              a = scalar::exp_approx(-height / kAerosolHeight);
+  const float r = scalar::exp_approx(-height / kRayleighHeight), a = scalar::exp_approx(-height / kAerosolHeight);
   const float o = std::max(0.0f, 1.0f - std::fabs(height - 25e3f) / 15e3f);
-  return {air_.rayleigh * r, air_.aerosol * (kAerosolAlbedo * a),
-          air_.rayleigh * r + air_.aerosol * a + kOzone * o};
+  return {air_.rayleigh * r, air_.aerosol * (kAerosolAlbedo * a), air_.rayleigh * r + air_.aerosol * a + kOzone * o};
 }
 
 Vec3f Atmosphere::OpticalDepth(Vec3f p, Vec3f direction) const {
@@ -174,30 +162,24 @@ Vec3f Atmosphere::SunTransmittance(float height, float mu) const {
   const float seen = std::clamp(0.5f + (mu - horizon) / (2 * kRadius), 0.0f, 1.0f);
   if (seen <= 0) return {};
   const float t = std::sqrt(std::max(0.0f, mu - horizon) / (1 - horizon));
-  return Interpolate(sun_transmittance_, kSuns, kHeights, t * (kSuns - 1), HeightRow(height, kHeights)) *
-         seen;
+  return Interpolate(sun_transmittance_, kSuns, kHeights, t * (kSuns - 1), HeightRow(height, kHeights)) * seen;
 }
 
 Vec3f Atmosphere::MultipleAt(float height, float mu) const {
   const float t = std::copysign(std::sqrt(std::min(1.0f, std::fabs(mu))), mu);
-  return Interpolate(multiple_, kMultipleSuns, kMultipleHeights, (t + 1) * 0.5f * (kMultipleSuns - 1),
-                     HeightRow(height, kMultipleHeights));
+  return Interpolate(multiple_, kMultipleSuns, kMultipleHeights, (t + 1) * 0.5f * (kMultipleSuns - 1), HeightRow(height, kMultipleHeights));
 }
 
-Vec3f Atmosphere::SunIrradiance(float height) const {
-  return SunTransmittance(height, to_sun_.z) * kSolarIrradiance;
-}
+Vec3f Atmosphere::SunIrradiance(float height) const { return SunTransmittance(height, to_sun_.z) * kSolarIrradiance; }
 
 // In-scattered radiance along a ray. With `isotropic` phase functions, and then `multiple_factor` gets the
 // share of unit ambient radiance that comes back; otherwise true phase functions and the table of higher
 // orders.
-Vec3f Atmosphere::Scattered(Vec3f p, Vec3f direction, Vec3f to_sun, bool isotropic,
-                            Vec3f* multiple_factor) const {
+Vec3f Atmosphere::Scattered(Vec3f p, Vec3f direction, Vec3f to_sun, bool isotropic, Vec3f* multiple_factor) const {
   const float ground = SphereDistance(p, direction, kGroundRadius, false);
   const float length = ground > 0 ? ground : SphereDistance(p, direction, kTopRadius, true);
   const float mu = Dot(direction, to_sun);
-  const float phase_r = isotropic ? 0.25f / kPi : RayleighPhase(mu),
-              phase_a = isotropic ? 0.25f / kPi : AerosolPhase(mu);
+  const float phase_r = isotropic ? 0.25f / kPi : RayleighPhase(mu), phase_a = isotropic ? 0.25f / kPi : AerosolPhase(mu);
   const int steps = isotropic ? 20 : 48;
   Vec3f light{}, through{1, 1, 1}, factor{};
   for (int i = 0; i < steps; ++i) {
@@ -208,8 +190,7 @@ Vec3f Atmosphere::Scattered(Vec3f p, Vec3f direction, Vec3f to_sun, bool isotrop
     const float height = HeightOf(q), sun = Dot(q, to_sun) / Norm(q);
     const Medium medium = At(height);
     const Vec3f scattering = medium.rayleigh + medium.aerosol;
-    Vec3f source = (medium.rayleigh * phase_r + medium.aerosol * phase_a) * SunTransmittance(height, sun) *
-                   kSolarIrradiance;
+    Vec3f source = (medium.rayleigh * phase_r + medium.aerosol * phase_a) * SunTransmittance(height, sun) * kSolarIrradiance;
     if (!isotropic) source += scattering * MultipleAt(height, sun);
     const Vec3f step = Exp(medium.extinction * -ds);
     for (int c = 0; c < 3; ++c) {
@@ -222,8 +203,7 @@ Vec3f Atmosphere::Scattered(Vec3f p, Vec3f direction, Vec3f to_sun, bool isotrop
   if (isotropic && ground > 0) {
     const Vec3f q = p + direction * ground;
     const float sun = Dot(q, to_sun) / Norm(q);
-    light +=
-        through * kGroundAlbedo * SunTransmittance(0, sun) * kSolarIrradiance * (std::max(0.0f, sun) / kPi);
+    light += through * kGroundAlbedo * SunTransmittance(0, sun) * kSolarIrradiance * (std::max(0.0f, sun) / kPi);
   }
   if (multiple_factor) *multiple_factor = factor;
   return light;

@@ -18,17 +18,17 @@ class CloudLayer {
 
   /// What makes clouds of one type differ from another's; lengths in metres.
   struct Form {
-    float base = 1000;         ///< of the lowest clouds, above the ground
-    float cell = 48;           ///< of the maps
-    float extinction = 0.06f;  ///< 1 / m within
-    float erosion = 200;       ///< how deep noise wears the tops
-    float least_erosion = 20;  ///< … where the cloud is thin
-    float base_erosion = 120;  ///< … the base
-    float edge = 60;           ///< over which density grows from nothing at a worn edge
+    float base = 1000;                  ///< of the lowest clouds, above the ground
+    float cell = 48;                    ///< of the maps
+    float extinction = 0.06f;           ///< 1 / m within
+    float erosion = 200;                ///< how deep noise wears the tops
+    float least_erosion = 20;           ///< … where the cloud is thin
+    float base_erosion = 120;           ///< … the base
+    float edge = 60;                    ///< over which density grows from nothing at a worn edge
     float billow = 2000, detail = 350;  ///< sizes of the noise
-    float shear = 0.3f;        ///< drift of the noise with height, along the wind: metres a metre
-    float stretch = 1;         ///< of the noise along the wind
-    Vec2f wind{1, 0};          ///< unit, where it blows to
+    float shear = 0.3f;                 ///< drift of the noise with height, along the wind: metres a metre
+    float stretch = 1;                  ///< of the noise along the wind
+    Vec2f wind{1, 0};                   ///< unit, where it blows to
   };
   /// Height of the body above `base` and of its base above that, of a cell in [0, kCells)^2, metres.
   struct Column {

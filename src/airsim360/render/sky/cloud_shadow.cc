@@ -22,32 +22,22 @@ CloudShadowMap::CloudShadowMap(Vec3f place, Vec3f to_sun, const std::function<fl
   ParallelFor(kSize, [&](int64_t j) {
     for (int i = 0; i < kSize; ++i) {
       texels_[static_cast<size_t>(j) * kSize + i] =
-          light_at((static_cast<float>(i) + 0.5f - kSize / 2) * kCell,
-                   (static_cast<float>(j) + 0.5f - kSize / 2) * kCell);
+          light_at((static_cast<float>(i) + 0.5f - kSize / 2) * kCell, (static_cast<float>(j) + 0.5f - kSize / 2) * kCell);
     }
   });
-  mean_ = static_cast<float>(std::accumulate(texels_.begin(), texels_.end(), 0.0) /
-                             static_cast<double>(texels_.size()));
+  mean_ = static_cast<float>(std::accumulate(texels_.begin(), texels_.end(), 0.0) / static_cast<double>(texels_.size()));
 }
 
 CloudShadowView CloudShadowMap::view() const {
-  return {texels_.empty() ? nullptr : texels_.data(),
-          kSize,
-          slant_x_,
-          slant_y_,
-          kSize / 2 - 0.5f - place_.x / kCell,
-          kSize / 2 - 0.5f - place_.y / kCell,
-          1 / kCell,
-          place_.z};
+  return {texels_.empty() ? nullptr : texels_.data(), kSize,     slant_x_, slant_y_, kSize / 2 - 0.5f - place_.x / kCell,
+          kSize / 2 - 0.5f - place_.y / kCell,        1 / kCell, place_.z};
 }
 
 float CloudShadowMap::At(Vec3f p) const {
   if (texels_.empty()) return 1;
   const CloudShadowView v = view();
-  const float x = scalar::shadow_column(p.x, p.z - v.plane_z, v.slant_x, v.origin_x, v.cells_per_metre,
-                                        static_cast<float>(kSize)),
-              y = scalar::shadow_column(p.y, p.z - v.plane_z, v.slant_y, v.origin_y, v.cells_per_metre,
-                                        static_cast<float>(kSize));
+  const float x = scalar::shadow_column(p.x, p.z - v.plane_z, v.slant_x, v.origin_x, v.cells_per_metre, static_cast<float>(kSize)),
+              y = scalar::shadow_column(p.y, p.z - v.plane_z, v.slant_y, v.origin_y, v.cells_per_metre, static_cast<float>(kSize));
   const int i = static_cast<int>(x), j = static_cast<int>(y);
   const float fx = x - static_cast<float>(i), fy = y - static_cast<float>(j);
   const float* t = v.texels + static_cast<size_t>(j) * kSize + i;

@@ -32,7 +32,12 @@ float Between(RngStream& random, float low, float high) { return static_cast<flo
 class CumulusField {
  public:
   CumulusField(const CumulusForm& form, float cover, Vec2f wind, float cell, uint32_t seed)
-      : form_(form), cover_(cover), cell_(cell), seed_(static_cast<int>(seed & 0xffffff)), random_(seed, "cumulus"), columns_(kCells * kCells) {
+      : form_(form),
+        cover_(cover),
+        cell_(cell),
+        seed_(static_cast<int>(seed & 0xffffff)),
+        random_(seed, "cumulus"),
+        columns_(kCells * kCells) {
     street_[0] = std::round(-wind.y * 9), street_[1] = std::round(wind.x * 9);
     strength_ = Between(random_, 0.1f, 0.5f);
     cluster_ = Between(random_, 0.7f, 1.1f) * (1 - 0.8f * cover);
@@ -97,8 +102,8 @@ class CumulusField {
     ParallelFor(kCells, [&](int64_t j) {
       for (int i = 0; i < kCells; ++i) {
         const float x = static_cast<float>(i) / kCells, y = static_cast<float>(j) / kCells;
-        columns_[static_cast<size_t>(j) * kCells + i].base = 0.14f * form_.base * FractalNoise(x * 5, y * 5, 5, 2, seed_ + 3) +
-                                                             110 * FractalNoise(x * 26, y * 26, 26, 2, seed_ + 5);
+        columns_[static_cast<size_t>(j) * kCells + i].base =
+            0.14f * form_.base * FractalNoise(x * 5, y * 5, 5, 2, seed_ + 3) + 110 * FractalNoise(x * 26, y * 26, 26, 2, seed_ + 5);
       }
     });
   }
@@ -136,7 +141,8 @@ CloudLayer SheetLayer(const SheetForm& form, float cover, Vec2f wind, uint32_t s
       const float x = static_cast<float>(i) / kCells, y = static_cast<float>(j) / kCells;
       const float wx = x + 0.035f * FractalNoise(x * 9, y * 9, 9, 3, s + 40), wy = y + 0.035f * FractalNoise(x * 9, y * 9, 9, 3, s + 50);
       const auto count = static_cast<float>(elements), twice = static_cast<float>(2 * elements + 1);
-      const float heaps = 1 - PointDistance(wx * count, wy * count, elements, s), small = 1 - PointDistance(wx * twice, wy * twice, 2 * elements + 1, s + 1);
+      const float heaps = 1 - PointDistance(wx * count, wy * count, elements, s),
+                  small = 1 - PointDistance(wx * twice, wy * twice, 2 * elements + 1, s + 1);
       const float fields = FractalNoise(x * 5, y * 5, 5, 4, s + 60), groups = FractalNoise(wx * 14, wy * 14, 14, 3, s + 70);
       const size_t k = static_cast<size_t>(j) * kCells + i;
       field[k] = 0.55f * heaps + 0.2f * small + 0.7f * fields + 0.5f * groups;

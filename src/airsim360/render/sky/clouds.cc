@@ -56,8 +56,8 @@ CloudType TypeOf(const Environment& e, uint32_t seed) {
 struct Clouds::Ray {
   Vec3f direction, air;
   float dither;
-  float cosine;                          // to the sun
-  std::array<float, kOctaves> phase{};   // of the octaves
+  float cosine;                         // to the sun
+  std::array<float, kOctaves> phase{};  // of the octaves
   Vec3f light{};
   float through = 1;
 };

@@ -17,12 +17,12 @@ namespace airsim360::internal {
 
 /// What clouds need to know of the light.
 struct CloudLight {
-  Vec3f to_sun;                          ///< unit, W
-  std::function<Vec3f(float)> sun_at;    ///< irradiance facing the sun, by altitude in metres
-  Vec3f sky;                             ///< mean radiance of the clear sky
-  Vec3f ground;                          ///< radiance of the ground below a clear sky
-  ClearAir air;                          ///< before the clouds
-  float overcast;                        ///< what a closed deck gives level ground, units
+  Vec3f to_sun;                        ///< unit, W
+  std::function<Vec3f(float)> sun_at;  ///< irradiance facing the sun, by altitude in metres
+  Vec3f sky;                           ///< mean radiance of the clear sky
+  Vec3f ground;                        ///< radiance of the ground below a clear sky
+  ClearAir air;                        ///< before the clouds
+  float overcast;                      ///< what a closed deck gives level ground, units
 };
 
 /// Immutable: the same for the same environment and light on every machine. The observer stands at the origin. Volumes of cumulus,

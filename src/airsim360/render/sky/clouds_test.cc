@@ -31,8 +31,12 @@ struct ClearDay {
     return DirectionOf((static_cast<float>(k % kAround) + 0.5f) * 6.2831853f / kAround, std::asin(z));
   }
   CloudLight Light() const {
-    return {to_sun, [this](float height) { return atmosphere.SunIrradiance(height); }, diffuse * static_cast<float>(1 / kPi),
-            (diffuse + direct) * static_cast<float>(0.16 / kPi), ClearAir(2.5), 2.4f};
+    return {to_sun,
+            [this](float height) { return atmosphere.SunIrradiance(height); },
+            diffuse * static_cast<float>(1 / kPi),
+            (diffuse + direct) * static_cast<float>(0.16 / kPi),
+            ClearAir(2.5),
+            2.4f};
   }
   // Light of level ground by the sky through these clouds; its luminance.
   Vec3f DiffuseLight(const Clouds& clouds) const {

@@ -115,18 +115,15 @@ NoiseCube::NoiseCube(int size, std::vector<int> balls, std::vector<float> weight
   const std::vector<Points> points(balls.begin(), balls.end());
   ParallelFor(size, [&](int64_t k) {
     for (int i = 0; i < size * size; ++i) {
-      const Vec3f p = Vec3f{static_cast<float>(i % size), static_cast<float>(i / size), static_cast<float>(k)} *
-                      (1.0f / static_cast<float>(size));
+      const Vec3f p =
+          Vec3f{static_cast<float>(i % size), static_cast<float>(i / size), static_cast<float>(k)} * (1.0f / static_cast<float>(size));
       float sum = 0;
-      for (size_t b = 0; b < points.size(); ++b)
-        sum += weights[b] * (1 - points[b].Nearest(p * static_cast<float>(balls[b])));
+      for (size_t b = 0; b < points.size(); ++b) sum += weights[b] * (1 - points[b].Nearest(p * static_cast<float>(balls[b])));
       float value = (sum - low) / range;
       if (bend > 0) {
-        value += bend * (0.6f * GradientNoise3(p * 4.0f, 4) + 0.3f * GradientNoise3(p * 8.0f, 8) +
-                         0.2f * GradientNoise3(p * 16.0f, 16));
+        value += bend * (0.6f * GradientNoise3(p * 4.0f, 4) + 0.3f * GradientNoise3(p * 8.0f, 8) + 0.2f * GradientNoise3(p * 16.0f, 16));
       }
-      voxels_[static_cast<size_t>(k) * size * size + i] =
-          static_cast<uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
+      voxels_[static_cast<size_t>(k) * size * size + i] = static_cast<uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
     }
   });
 }

@@ -21,9 +21,7 @@ inline uint32_t HashLattice(int32_t x, int32_t y, int32_t z) {
              mix(static_cast<uint32_t>(y) * 19349663u ^ mix(static_cast<uint32_t>(z) * 83492791u + 17u)));
 }
 /// The same as a number in [0, 1).
-inline float HashUnit(int32_t x, int32_t y, int32_t z) {
-  return static_cast<float>(HashLattice(x, y, z) >> 8) * 0x1p-24f;
-}
+inline float HashUnit(int32_t x, int32_t y, int32_t z) { return static_cast<float>(HashLattice(x, y, z) >> 8) * 0x1p-24f; }
 
 inline float SmoothStep(float a, float b, float x) {
   const float t = x <= a ? 0.0f : x >= b ? 1.0f : (x - a) / (b - a);

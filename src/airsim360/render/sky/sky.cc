@@ -22,8 +22,7 @@ constexpr float kSunRadius = 0.004625f;
 
 Vec3f FromCompass(double azimuth_deg, double elevation_deg) {
   const double azimuth = azimuth_deg * (M_PI / 180), elevation = elevation_deg * (M_PI / 180);
-  return {static_cast<float>(std::sin(azimuth) * std::cos(elevation)),
-          static_cast<float>(std::cos(azimuth) * std::cos(elevation)),
+  return {static_cast<float>(std::sin(azimuth) * std::cos(elevation)), static_cast<float>(std::cos(azimuth) * std::cos(elevation)),
           static_cast<float>(std::sin(elevation))};
 }
 
@@ -46,8 +45,7 @@ struct Moon {
 Moon MoonOf(const Environment& environment) {
   constexpr double kDaylight = 5, kSet = -1;  // degrees
   Moon moon{FromCompass(environment.moon_azimuth_deg, environment.moon_elevation_deg)};
-  if (environment.sun_elevation_deg < kDaylight && environment.moon_elevation_deg > kSet)
-    moon.share = MoonShare(environment.moon_phase);
+  if (environment.sun_elevation_deg < kDaylight && environment.moon_elevation_deg > kSet) moon.share = MoonShare(environment.moon_phase);
   return moon;
 }
 
@@ -111,8 +109,7 @@ void Sky::BakeSky(const Environment& environment) {
   const Atmosphere atmosphere(sun, environment.turbidity), moonlit = atmosphere.WithSun(moon.direction);
 
   // The brighter of both throws the shadows.
-  const bool by_moon =
-      Luminance(atmosphere.SunIrradiance()) < moon.share * Luminance(moonlit.SunIrradiance());
+  const bool by_moon = Luminance(atmosphere.SunIrradiance()) < moon.share * Luminance(moonlit.SunIrradiance());
   to_sun_ = by_moon ? moon.direction : sun;
   if (by_moon) moon_light_ = LightOnMoon(moon.direction, sun, environment.moon_phase);
   const auto light_at = [&](float height) {
@@ -176,14 +173,13 @@ void Sky::BakeIrradiance() {
       Vec3f seen = table_.Texel(x, y);
       if (air_.weather > 0) seen = ThroughAir(place_, direction, INFINITY, seen);
       const Vec3d d = VecCast<double>(direction), light = VecCast<double>(seen) * weight;
-      const double basis[9] = {
-          1, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1, d.x * d.z, d.x * d.x - d.y * d.y};
+      const double basis[9] = {1, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1, d.x * d.z, d.x * d.x - d.y * d.y};
       for (int k = 0; k < 9; ++k) sum[k] += light * basis[k];
     }
   }
   // Squares of the basis normalisations, then the cosine lobe.
-  constexpr double a0 = 0.282095 * 0.282095, a1 = 0.488603 * 0.488603, a2 = 1.092548 * 1.092548,
-                   a20 = 0.315392 * 0.315392, a22 = 0.546274 * 0.546274;
+  constexpr double a0 = 0.282095 * 0.282095, a1 = 0.488603 * 0.488603, a2 = 1.092548 * 1.092548, a20 = 0.315392 * 0.315392,
+                   a22 = 0.546274 * 0.546274;
   constexpr double scale[9] = {a0, a1, a1, a1, a2, a2, a20, a2, a22};
   for (int k = 0; k < 9; ++k) {
     const double lobe = k == 0 ? M_PI : k < 4 ? 2 * M_PI / 3 : M_PI / 4;
@@ -193,20 +189,16 @@ void Sky::BakeIrradiance() {
 }
 
 void Sky::BakeGround() {
-  const Vec3f up =
-      Irradiance({0, 0, 1}) + sun_irradiance_ * (std::max(0.0f, to_sun_.z) * cloud_shadow_.mean());
+  const Vec3f up = Irradiance({0, 0, 1}) + sun_irradiance_ * (std::max(0.0f, to_sun_.z) * cloud_shadow_.mean());
   ground_radiance_ = up * Vec3f{0.21f, 0.20f, 0.17f} * (1 / kPi);
 }
 
 Vec3f Sky::Irradiance(Vec3f n) const {
-  const Vec3f e =
-      scalar::sh9_irradiance(sh_[0], sh_[1], sh_[2], sh_[3], sh_[4], sh_[5], sh_[6], sh_[7], sh_[8], n);
+  const Vec3f e = scalar::sh9_irradiance(sh_[0], sh_[1], sh_[2], sh_[3], sh_[4], sh_[5], sh_[6], sh_[7], sh_[8], n);
   return Max(e, Vec3f{});
 }
 
-float Sky::GroundIlluminance() const {
-  return Luminance(Irradiance({0, 0, 1}) + sun_irradiance_ * std::max(0.0f, to_sun_.z));
-}
+float Sky::GroundIlluminance() const { return Luminance(Irradiance({0, 0, 1}) + sun_irradiance_ * std::max(0.0f, to_sun_.z)); }
 
 Vec3f Sky::Radiance(Vec3f d) const {
   if (d.z >= 0) return ThroughAir(place_, d, INFINITY, table_.At(d));

@@ -44,8 +44,7 @@ HorizonFit FitWithGlow(const Ring& ring, const std::array<float, kAround>& phase
   };
   for (int k = 0; k < kAround; ++k) {
     const float even = ring[k][channel] / (1 + glow * phase[k]);
-    for (int i = 0; i < kHarmonics; ++i)
-      fit.harmonics[i] += even * basis(k, i) * (i == 0 ? 1.0f : 2.0f) / kAround;
+    for (int i = 0; i < kHarmonics; ++i) fit.harmonics[i] += even * basis(k, i) * (i == 0 ? 1.0f : 2.0f) / kAround;
   }
   fit.error = 0;
   for (int k = 0; k < kAround; ++k) {
@@ -59,8 +58,7 @@ HorizonFit FitWithGlow(const Ring& ring, const std::array<float, kAround>& phase
 // The glow about the sun is taken out of the horizon, so that what is seen above and below it has it too. Its
 // strength is that of single scattering, near which the best fit counts; a low sun shows it plainly, and is
 // fitted freely.
-HorizonFit FitHorizon(const Ring& ring, const std::array<float, kAround>& phase, int channel, float scattered,
-                      bool low_sun) {
+HorizonFit FitHorizon(const Ring& ring, const std::array<float, kAround>& phase, int channel, float scattered, bool low_sun) {
   float mean = 0;
   for (const Vec3f c : ring) mean += c[channel] / kAround;
   const float physical = scattered / std::max(mean - 0.5f * scattered, 0.25f * mean + 1e-12f);
@@ -78,8 +76,7 @@ HorizonFit FitHorizon(const Ring& ring, const std::array<float, kAround>& phase,
 // 5.5 S^1.38 dB/km (the same), which wet flakes of stronger falls do not follow: hence the bound.
 float PrecipitationExtinction(double rain, double snow) {
   constexpr double kPerDecibel = 0.2303e-3;
-  return static_cast<float>(kPerDecibel *
-                            (1.076 * std::pow(rain, 0.67) + std::min(5.5 * std::pow(snow, 1.38), 60.0)));
+  return static_cast<float>(kPerDecibel * (1.076 * std::pow(rain, 0.67) + std::min(5.5 * std::pow(snow, 1.38), 60.0)));
 }
 
 }  // namespace
@@ -87,8 +84,7 @@ float PrecipitationExtinction(double rain, double snow) {
 Vec3f Sky::ThroughAir(Vec3f origin, Vec3f d, float distance, Vec3f light) const {
   const bool sky = distance == INFINITY;
   if (sky && air_.weather <= 0) return light;
-  const scalar::AirEffect air = sky ? scalar::air_to_sky(air_, origin.z, d, kFarAir)
-                                    : scalar::air_to_surface(air_, origin.z, d, distance);
+  const scalar::AirEffect air = sky ? scalar::air_to_sky(air_, origin.z, d, kFarAir) : scalar::air_to_surface(air_, origin.z, d, distance);
   return light * air.kept + air.added;
 }
 
@@ -106,13 +102,10 @@ void Sky::BakeAir(const Environment& environment) {
   constexpr int kUp = 3;
   Ring ring{};
   for (int k = 0; k < kAround * kUp; ++k) {
-    ring[k / kUp] +=
-        table_.At(DirectionOf(AzimuthOf(k / kUp), 0.006f + 0.007f * static_cast<float>(k % kUp))) *
-        (1.0f / kUp);
+    ring[k / kUp] += table_.At(DirectionOf(AzimuthOf(k / kUp), 0.006f + 0.007f * static_cast<float>(k % kUp))) * (1.0f / kUp);
   }
   std::array<float, kAround> phase{};
-  for (int k = 0; k < kAround; ++k)
-    phase[k] = scalar::forward_phase(kAirAsymmetry, Dot(DirectionOf(AzimuthOf(k), 0), to_sun_));
+  for (int k = 0; k < kAround; ++k) phase[k] = scalar::forward_phase(kAirAsymmetry, Dot(DirectionOf(AzimuthOf(k), 0), to_sun_));
   for (int c = 0; c < 3; ++c) {
     const float scattered = clear.aerosol[c] / extinction_[c] * sun_irradiance_[c] / (4 * kPi);
     const HorizonFit fit = FitHorizon(ring, phase, c, environment.hdri ? 0.0f : scattered, to_sun_.z < 0.2f);
@@ -127,9 +120,8 @@ void Sky::BakeWeather(const Environment& environment) {
   const float falling = PrecipitationExtinction(environment.rain_mm_h, environment.snowfall_mm_h);
   float fog = 0;
   if (environment.visibility_m > 0) {
-    fog =
-        std::max(0.0f, kKoschmieder / static_cast<float>(environment.visibility_m) -
-                           extinction_.y * static_cast<float>(environment.haze) - falling);
+    fog = std::max(
+        0.0f, kKoschmieder / static_cast<float>(environment.visibility_m) - extinction_.y * static_cast<float>(environment.haze) - falling);
   }
   air_.weather = fog + falling;
   air_.weather_height = (fog * kFogHeight + falling * kPrecipitationHeight) / std::max(air_.weather, 1e-9f);
@@ -140,8 +132,7 @@ void Sky::BakeWeather(const Environment& environment) {
   Put(air_.weather_light, level * (kFogShare / kPi));
   // A forward peak passes several times the direct light.
   Put(air_.weather_glow, sun_irradiance_ * (std::exp(0.35f * std::min(depth, 10.0f)) / (4 * kPi)));
-  air_.rain = static_cast<float>(environment.rain_mm_h),
-  air_.snow = static_cast<float>(environment.snowfall_mm_h);
+  air_.rain = static_cast<float>(environment.rain_mm_h), air_.snow = static_cast<float>(environment.snowfall_mm_h);
   Put(air_.drop_light, level * (0.75f / kPi));
 }
 

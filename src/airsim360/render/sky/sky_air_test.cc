@@ -17,18 +17,14 @@ TEST(Air, PathThroughALayerIsTheIntegralOfItsDensity) {
       for (const float distance : {1.0f, 100.0f, 300.0f}) {
         constexpr int kSteps = 20000;
         double sum = 0;
-        for (int i = 0; i < kSteps; ++i)
-          sum += std::exp(-(height + slope * distance * (i + 0.5) / kSteps) / 160) * distance / kSteps;
-        EXPECT_NEAR(scalar::layer_path(height, slope, distance, 160) / sum, 1, 2e-4)
-            << height << " " << slope << " " << distance;
+        for (int i = 0; i < kSteps; ++i) sum += std::exp(-(height + slope * distance * (i + 0.5) / kSteps) / 160) * distance / kSteps;
+        EXPECT_NEAR(scalar::layer_path(height, slope, distance, 160) / sum, 1, 2e-4) << height << " " << slope << " " << distance;
       }
     }
   }
 }
 
-TEST(Air, AnAscendingRayLeavesALayerAfterItsScaleHeight) {
-  EXPECT_NEAR(scalar::layer_path(0, 0.5f, kFarAir, 160), 320, 0.5);
-}
+TEST(Air, AnAscendingRayLeavesALayerAfterItsScaleHeight) { EXPECT_NEAR(scalar::layer_path(0, 0.5f, kFarAir, 160), 320, 0.5); }
 
 TEST(Air, FogLeavesAContrastOfATwentiethAtTheVisibility) {
   Environment environment;
@@ -36,8 +32,7 @@ TEST(Air, FogLeavesAContrastOfATwentiethAtTheVisibility) {
   const Sky sky(environment);
   // A black and a white object in the same direction, and the fog itself.
   const Vec3f d{0.6f, 0.8f, 0};
-  const Vec3f black = sky.ThroughAir({0, 0, 0}, d, 400, {}),
-              white = sky.ThroughAir({0, 0, 0}, d, 400, {1, 1, 1});
+  const Vec3f black = sky.ThroughAir({0, 0, 0}, d, 400, {}), white = sky.ThroughAir({0, 0, 0}, d, 400, {1, 1, 1});
   EXPECT_NEAR(white.y - black.y, 0.05, 0.002);
   const Vec3f far = sky.ThroughAir({0, 0, 0}, d, 40000, {});
   EXPECT_NEAR((Luminance(far) - Luminance(black)) / Luminance(far), 0.05, 0.003);
@@ -91,9 +86,8 @@ TEST(Air, HazeGlowsTowardsTheSun) {
 TEST(Air, IsThinnerAbove) {
   const Sky sky{Environment{}};
   const Vec3f d{1, 0, 0};
-  EXPECT_GT(
-      sky.ThroughAir({0, 0, 1000}, d, 2000, {1, 1, 1}).y - sky.ThroughAir({0, 0, 1000}, d, 2000, {}).y,
-      1.05f * (sky.ThroughAir({0, 0, 0}, d, 2000, {1, 1, 1}).y - sky.ThroughAir({0, 0, 0}, d, 2000, {}).y));
+  EXPECT_GT(sky.ThroughAir({0, 0, 1000}, d, 2000, {1, 1, 1}).y - sky.ThroughAir({0, 0, 1000}, d, 2000, {}).y,
+            1.05f * (sky.ThroughAir({0, 0, 0}, d, 2000, {1, 1, 1}).y - sky.ThroughAir({0, 0, 0}, d, 2000, {}).y));
 }
 
 TEST(CloudShadow, PlaceStandsInTheSunAndSomeGroundDoesNot) {
@@ -104,8 +98,7 @@ TEST(CloudShadow, PlaceStandsInTheSunAndSomeGroundDoesNot) {
   EXPECT_GT(sky.CloudShadow(place), 0.9f);
   float darkest = 1;
   for (int k = 0; k < 3600; ++k) {
-    const Vec3f p =
-        place + Vec3f{static_cast<float>(k % 60) * 100 - 3000, static_cast<float>(k / 60) * 100 - 3000, 0};
+    const Vec3f p = place + Vec3f{static_cast<float>(k % 60) * 100 - 3000, static_cast<float>(k / 60) * 100 - 3000, 0};
     const float light = sky.CloudShadow(p);
     EXPECT_LE(light, 1.0001f);
     darkest = std::min(darkest, light);
@@ -130,8 +123,7 @@ TEST(Precipitation, CoverGrowsWithTheReachAndIsTheSameSeenFromAlongTheRay) {
   // World-anchored: starting nearer along the same ray hides no more than before, and what is left is kept.
   const Vec3f d = Normalized(Vec3f{0.8f, 0.35f, 0.1f});
   const auto cover = [&](Vec3f o, float reach) {
-    return scalar::drops_cover(o.x, o.y, o.z, d, reach, 0.003f, 0.4f, 0.55f, 0.22f, 0.0011f, 0.9f, 5.0f,
-                               3.0f);
+    return scalar::drops_cover(o.x, o.y, o.z, d, reach, 0.003f, 0.4f, 0.55f, 0.22f, 0.0011f, 0.9f, 5.0f, 3.0f);
   };
   float before = 0;
   double mean = 0;

@@ -26,12 +26,10 @@ std::vector<CoarseSample> CoarseSky(const Sky& sky, int width, int height) {
       CoarseSample& sample = samples[static_cast<size_t>(y) * width + x];
       sample = {DirectionOfTexel(grid, x, y), {}, std::max(RowSolidAngle(grid, y), 1e-7f)};
       for (int k = 0; k < 16; ++k) {
-        const float azimuth = (static_cast<float>(x) + (static_cast<float>(k % 4) + 0.5f) / 4) * 2 * kPi /
-                              static_cast<float>(width);
-        const float elevation = grid.ElevationOfRow(y) + ((static_cast<float>(k / 4) + 0.5f) / 4 - 0.5f) *
-                                                             kPi / static_cast<float>(height - 1);
-        sample.radiance +=
-            sky.Radiance(DirectionOf(azimuth, std::clamp(elevation, -kPi / 2, kPi / 2))) * (1 / 16.0f);
+        const float azimuth = (static_cast<float>(x) + (static_cast<float>(k % 4) + 0.5f) / 4) * 2 * kPi / static_cast<float>(width);
+        const float elevation =
+            grid.ElevationOfRow(y) + ((static_cast<float>(k / 4) + 0.5f) / 4 - 0.5f) * kPi / static_cast<float>(height - 1);
+        sample.radiance += sky.Radiance(DirectionOf(azimuth, std::clamp(elevation, -kPi / 2, kPi / 2))) * (1 / 16.0f);
       }
     }
   });
@@ -66,8 +64,7 @@ void Sky::BakeBlurred() {
     SkyTable& table = blurred_[level] = MakeTable(width, height, true);
     ParallelFor(height, [&](int64_t row) {
       for (int x = 0; x < width; ++x) {
-        table.SetTexel(x, static_cast<int>(row),
-                       LobeMean(source, DirectionOfTexel(table, x, static_cast<int>(row)), exponent));
+        table.SetTexel(x, static_cast<int>(row), LobeMean(source, DirectionOfTexel(table, x, static_cast<int>(row)), exponent));
       }
     });
   }

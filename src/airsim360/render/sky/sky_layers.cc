@@ -15,8 +15,7 @@ constexpr float kPi = 3.14159265f;
 void AddStar(SkyTable& table, float azimuth, float elevation, Vec3f irradiance) {
   constexpr float kRadius = 0.13f * kPi / 180;
   const auto each = [&](const auto& visit) {
-    const float across = 2 * kPi / static_cast<float>(table.width),
-                shrink = std::max(std::cos(elevation), 1e-3f);
+    const float across = 2 * kPi / static_cast<float>(table.width), shrink = std::max(std::cos(elevation), 1e-3f);
     const int reach = std::min(static_cast<int>(kRadius / shrink / across) + 1, table.width / 4);
     const int middle = static_cast<int>(azimuth / across);
     for (int y = 0; y < table.height; ++y) {
@@ -32,16 +31,12 @@ void AddStar(SkyTable& table, float azimuth, float elevation, Vec3f irradiance) 
   float all = 0;
   each([&](int, int y, float weight) { all += weight * RowSolidAngle(table, y); });
   if (all <= 0) return;
-  each([&](int x, int y, float weight) {
-    table.SetTexel(x, y, table.Texel(x, y) + irradiance * (weight / all));
-  });
+  each([&](int x, int y, float weight) { table.SetTexel(x, y, table.Texel(x, y) + irradiance * (weight / all)); });
 }
 
 }  // namespace
 
-float MoonShare(double phase) {
-  return 2.5e-6f * static_cast<float>(std::pow(std::clamp(phase, 0.0, 1.0), 3.6));
-}
+float MoonShare(double phase) { return 2.5e-6f * static_cast<float>(std::pow(std::clamp(phase, 0.0, 1.0), 3.6)); }
 
 Vec3f NightGlow(Vec3f direction, bool lamps) {
   // The airglow's layer at 90 km.
@@ -59,8 +54,7 @@ void AddStars(SkyTable& table) {
   constexpr int kStars = 4500;
   RngStream random(0, "stars");
   for (int i = 0; i < kStars; ++i) {
-    const auto azimuth = static_cast<float>(random.Uniform(0, 2 * kPi)),
-               z = static_cast<float>(random.Uniform());
+    const auto azimuth = static_cast<float>(random.Uniform(0, 2 * kPi)), z = static_cast<float>(random.Uniform());
     const double magnitude = 6.5 + 2 * std::log10(std::max(random.Uniform(), 1e-5));
     const auto warm = static_cast<float>(random.Uniform(-1, 1));
     const auto lux = static_cast<float>(2.54e-6 * std::pow(10, -0.4 * magnitude));

@@ -17,9 +17,7 @@ constexpr double kPi = 3.14159265358979;
 
 double Luminance(Vec3f c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
-Vec3f Direction(double azimuth, double elevation) {
-  return DirectionOf(static_cast<float>(azimuth), static_cast<float>(elevation));
-}
+Vec3f Direction(double azimuth, double elevation) { return DirectionOf(static_cast<float>(azimuth), static_cast<float>(elevation)); }
 
 // Horizontal illuminance of the clear sky without the sun, units.
 double ClearDiffuse(const Atmosphere& atmosphere) {
@@ -27,8 +25,7 @@ double ClearDiffuse(const Atmosphere& atmosphere) {
   double sum = 0;
   for (int k = 0; k < kUp * kAround; ++k) {
     const double z = std::sqrt((k / kAround + 0.5) / kUp);
-    sum += Luminance(atmosphere.Radiance(Direction((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)))) *
-           kPi / (kUp * kAround);
+    sum += Luminance(atmosphere.Radiance(Direction((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)))) * kPi / (kUp * kAround);
   }
   return sum;
 }
@@ -44,19 +41,15 @@ TEST(SkyLight, ClearSkyIlluminanceIsWithinFifteenPerCentOfTheIesModel) {
     const double direct_ies = 127.5 * std::exp(-0.21 / s) * s, diffuse_ies = 0.8 + 15.5 * std::sqrt(s);
     EXPECT_NEAR((direct + diffuse) / (direct_ies + diffuse_ies), 1, 0.15) << degrees;
     EXPECT_NEAR(diffuse / diffuse_ies, 1, 0.15) << degrees;
-    RecordProperty("global_klx_" + std::to_string(static_cast<int>(degrees)),
-                   std::to_string(direct + diffuse));
-    RecordProperty("sun_to_sky_" + std::to_string(static_cast<int>(degrees)),
-                   std::to_string(direct / diffuse));
+    RecordProperty("global_klx_" + std::to_string(static_cast<int>(degrees)), std::to_string(direct + diffuse));
+    RecordProperty("sun_to_sky_" + std::to_string(static_cast<int>(degrees)), std::to_string(direct / diffuse));
   }
 }
 
 // Illuminance of level ground, Explanatory Supplement to the Astronomical Almanac (Seidelmann 1992): about
 // 760 lx with the sun on the horizon, 3.4 lx at -6 degrees. Air and refraction make a factor of two.
 TEST(SkyLight, TwilightFallsAsTheAlmanacSays) {
-  const auto lux = [](double degrees) {
-    return ClearDiffuse(Atmosphere(Direction(0, degrees * kPi / 180), 2.5)) * kLuxPerUnit;
-  };
+  const auto lux = [](double degrees) { return ClearDiffuse(Atmosphere(Direction(0, degrees * kPi / 180), 2.5)) * kLuxPerUnit; };
   EXPECT_GT(lux(-0.3), 300);
   EXPECT_LT(lux(-0.3), 1100);
   EXPECT_GT(lux(-6), 1.2);
@@ -71,8 +64,7 @@ TEST(SkyLight, TwilightFallsAsTheAlmanacSays) {
 
 TEST(SkyLight, DuskIsRedOverTheSunAndBlueAtTheZenith) {
   const Atmosphere dusk(Direction(0, -3 * kPi / 180), 2.5);
-  const Vec3f low = dusk.Radiance(Direction(0, 0.03)), zenith = dusk.Radiance({0, 0, 1}),
-              behind = dusk.Radiance(Direction(kPi, 0.3));
+  const Vec3f low = dusk.Radiance(Direction(0, 0.03)), zenith = dusk.Radiance({0, 0, 1}), behind = dusk.Radiance(Direction(kPi, 0.3));
   EXPECT_GT(low.x, 1.5f * low.z);
   EXPECT_GT(zenith.z, 1.3f * zenith.x);
   // The glow is brightest some degrees up, where less air hides it.
@@ -157,8 +149,7 @@ TEST(SkyLight, SamplesFollowTheirDensity) {
     const int x = k % (kAcross * kFine), y = k / (kAcross * kFine);
     const double z = -1 + 2 * (y + 0.5) / (kUp * kFine);
     expected[y / kFine * kAcross + x / kFine] +=
-        sky.Pdf(Direction((x + 0.5) / (kAcross * kFine) * 2 * kPi, std::asin(z))) * 4 * kPi /
-        (kAcross * kUp * kFine * kFine);
+        sky.Pdf(Direction((x + 0.5) / (kAcross * kFine) * 2 * kPi, std::asin(z))) * 4 * kPi / (kAcross * kUp * kFine * kFine);
   }
   double all = 0;
   for (const double share : expected) all += share;
@@ -166,8 +157,7 @@ TEST(SkyLight, SamplesFollowTheirDensity) {
   RngStream random(1, "sky samples");
   double weighted = 0;
   for (int k = 0; k < kSamples; ++k) {
-    const SkySample s =
-        sky.Sample({static_cast<float>(random.Uniform()), static_cast<float>(random.Uniform())});
+    const SkySample s = sky.Sample({static_cast<float>(random.Uniform()), static_cast<float>(random.Uniform())});
     ASSERT_GT(s.pdf, 0);
     ASSERT_NEAR(Norm(s.direction), 1, 1e-5);
     double azimuth = std::atan2(s.direction.y, s.direction.x);

@@ -19,8 +19,7 @@ class Picture {
         turn_(static_cast<float>(environment.hdri_yaw_deg) * kDegrees),
         scale_(static_cast<float>(environment.hdri_scale)) {
     for (Rgb32f& p : pixels_.pixels()) {
-      for (float* c : {&p.r, &p.g, &p.b})
-        *c = std::isfinite(*c) ? std::clamp(*c, 0.0f, kBrightest) * scale_ : 0.0f;
+      for (float* c : {&p.r, &p.g, &p.b}) *c = std::isfinite(*c) ? std::clamp(*c, 0.0f, kBrightest) * scale_ : 0.0f;
     }
   }
   int width() const { return pixels_.width(); }
@@ -31,10 +30,8 @@ class Picture {
   }
   void Set(int x, int y, Vec3f c) { pixels_(x, y) = {c.x, c.y, c.z}; }
   Vec3f Direction(int x, int y) const {
-    const float compass =
-        2 * kPi * ((static_cast<float>(x) + 0.5f) / static_cast<float>(width()) - 0.5f) + turn_;
-    return DirectionOf(kPi / 2 - compass,
-                       kPi * (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(height())));
+    const float compass = 2 * kPi * ((static_cast<float>(x) + 0.5f) / static_cast<float>(width()) - 0.5f) + turn_;
+    return DirectionOf(kPi / 2 - compass, kPi * (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(height())));
   }
   float SolidAngle(int y) const {
     const float step = kPi / static_cast<float>(height()), top = kPi / 2 - static_cast<float>(y) * step;
@@ -45,13 +42,11 @@ class Picture {
     const float compass = kPi / 2 - azimuth - turn_;
     float x = (compass / (2 * kPi) + 0.5f) * static_cast<float>(width()) - 0.5f;
     x -= std::floor(x / static_cast<float>(width())) * static_cast<float>(width());
-    const float y = std::clamp((0.5f - elevation / kPi) * static_cast<float>(height()) - 0.5f, 0.0f,
-                               static_cast<float>(height() - 1));
+    const float y = std::clamp((0.5f - elevation / kPi) * static_cast<float>(height()) - 0.5f, 0.0f, static_cast<float>(height() - 1));
     const int x0 = std::min(static_cast<int>(x), width() - 1), x1 = (x0 + 1) % width();
     const int y0 = static_cast<int>(y), y1 = std::min(y0 + 1, height() - 1);
     const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-    return (At(x0, y0) * (1 - fx) + At(x1, y0) * fx) * (1 - fy) +
-           (At(x0, y1) * (1 - fx) + At(x1, y1) * fx) * fy;
+    return (At(x0, y0) * (1 - fx) + At(x1, y0) * fx) * (1 - fy) + (At(x0, y1) * (1 - fx) + At(x1, y1) * fx) * fy;
   }
 
  private:
@@ -64,8 +59,7 @@ template <class Visit>
 void Around(const Picture& picture, Vec3f center, float radius, const Visit& visit) {
   const float least = std::cos(radius);
   for (int y = 0; y < picture.height(); ++y) {
-    const float elevation =
-        kPi * (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(picture.height()));
+    const float elevation = kPi * (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(picture.height()));
     if (std::fabs(elevation - std::asin(std::clamp(center.z, -1.0f, 1.0f))) > radius) continue;
     for (int x = 0; x < picture.width(); ++x) {
       const Vec3f d = picture.Direction(x, y);
@@ -141,8 +135,7 @@ SkyTable Resample(const Picture& picture, float side) {
   const int fine = std::clamp((picture.width() + 2047) / 2048, 2, 6);
   ParallelFor(table.height, [&](int64_t row) {
     const int y = static_cast<int>(row);
-    const float low = table.ElevationOfRow(std::max(y - 1, 0)),
-                high = table.ElevationOfRow(std::min(y + 1, table.height - 1));
+    const float low = table.ElevationOfRow(std::max(y - 1, 0)), high = table.ElevationOfRow(std::min(y + 1, table.height - 1));
     for (int x = 0; x < table.width; ++x) {
       Vec3f sum{};
       for (int k = 0; k < fine * fine; ++k) {

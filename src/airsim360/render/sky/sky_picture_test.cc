@@ -25,8 +25,7 @@ Environment PictureWith(double azimuth_deg, double elevation_deg, double radius_
       const double theta = 2 * kPi * ((x + 0.5) / 1024 - 0.5), phi = kPi * (0.5 - (y + 0.5) / 512);
       const double mu = std::sin(phi) * std::sin(e) + std::cos(phi) * std::cos(e) * std::cos(theta - a);
       if (y >= 256) picture->pixels(x, y) = {0.1f, 0.1f, 0.1f};
-      if (std::acos(std::min(mu, 1.0)) < radius_deg * kPi / 180)
-        picture->pixels(x, y) = {light, light, light};
+      if (std::acos(std::min(mu, 1.0)) < radius_deg * kPi / 180) picture->pixels(x, y) = {light, light, light};
     }
   }
   Environment environment;
@@ -49,8 +48,7 @@ TEST(SkyPicture, TheSunIsTakenOutAndNoLightIsLost) {
   EXPECT_GT(Dot(split.sun.direction, expected), std::cos(0.1 * kPi / 180));
   double in_picture = 0;
   for (int y = 0; y < 256; ++y) {
-    const double weight =
-        (std::sin(kPi / 2 - y * kPi / 512) - std::sin(kPi / 2 - (y + 1) * kPi / 512)) * 2 * kPi / 1024;
+    const double weight = (std::sin(kPi / 2 - y * kPi / 512) - std::sin(kPi / 2 - (y + 1) * kPi / 512)) * 2 * kPi / 1024;
     for (int x = 0; x < 1024; ++x) in_picture += environment.hdri->pixels(x, y).g * weight;
   }
   EXPECT_NEAR((LightOf(split.above) + Luminance(split.sun.irradiance)) / in_picture, 1, 0.005);

@@ -25,8 +25,7 @@ struct Found {
   float inside;
 };
 Found Find(const float* cumulative, int count, float u) {
-  const int i =
-      std::min(static_cast<int>(std::upper_bound(cumulative, cumulative + count, u) - cumulative), count - 1);
+  const int i = std::min(static_cast<int>(std::upper_bound(cumulative, cumulative + count, u) - cumulative), count - 1);
   const float below = i > 0 ? cumulative[i - 1] : 0;
   return {i, std::clamp((u - below) / std::max(cumulative[i] - below, 1e-12f), 0.0f, 0.9999999f)};
 }
@@ -41,8 +40,7 @@ void Accumulate(const double* weights, int count, float* cumulative) {
 
 }  // namespace
 
-SkySampler::SkySampler(const std::function<float(Vec3f)>& luminance)
-    : density_(kAcross * kUp), cumulative_(kAcross * kUp), row_(kUp) {
+SkySampler::SkySampler(const std::function<float(Vec3f)>& luminance) : density_(kAcross * kUp), cumulative_(kAcross * kUp), row_(kUp) {
   std::vector<double> weight(kAcross * kUp);
   ParallelFor(kUp, [&](int64_t y) {
     for (int x = 0; x < kAcross; ++x) {
@@ -74,8 +72,7 @@ SkySampler::SkySampler(const std::function<float(Vec3f)>& luminance)
 Vec3f SkySampler::Direction(Vec2f u) const {
   const Found row = Find(row_.data(), kUp, u.y);
   const Found column = Find(&cumulative_[static_cast<size_t>(row.index) * kAcross], kAcross, u.x);
-  return DirectionAt(static_cast<float>(column.index) + column.inside,
-                     static_cast<float>(row.index) + row.inside);
+  return DirectionAt(static_cast<float>(column.index) + column.inside, static_cast<float>(row.index) + row.inside);
 }
 
 float SkySampler::Pdf(Vec3f d) const {

@@ -15,13 +15,11 @@ Vec3f Mix(Vec3f a, Vec3f b, float t) { return a + (b - a) * t; }
 }  // namespace
 
 Vec3f DirectionOf(float azimuth, float elevation) {
-  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-          std::sin(elevation)};
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
 }
 
 Vec3f DirectionOfTexel(const SkyTable& table, int x, int y) {
-  return DirectionOf((static_cast<float>(x) + 0.5f) * 2 * kPi / static_cast<float>(table.width),
-                     table.ElevationOfRow(y));
+  return DirectionOf((static_cast<float>(x) + 0.5f) * 2 * kPi / static_cast<float>(table.width), table.ElevationOfRow(y));
 }
 
 SkyTable MakeTable(int width, int height, bool full_sphere) {

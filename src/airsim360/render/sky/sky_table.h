@@ -13,8 +13,7 @@ namespace airsim360::internal {
 /// first, so that bilinear look-up never wraps. The last row is the zenith.
 struct SkyTable {
   int width = 0, height = 0;
-  bool full_sphere =
-      false;  ///< rows from nadir to zenith, linear in elevation; else from the horizon up, finer near it
+  bool full_sphere = false;  ///< rows from nadir to zenith, linear in elevation; else from the horizon up, finer near it
   TableVector<float> texels;
 
   int stride() const { return width + 1; }

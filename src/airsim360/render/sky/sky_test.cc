@@ -21,8 +21,7 @@ const Sky& DefaultSky() {
 }
 
 Vec3f Direction(double azimuth, double elevation) {
-  return {static_cast<float>(std::cos(elevation) * std::cos(azimuth)),
-          static_cast<float>(std::cos(elevation) * std::sin(azimuth)),
+  return {static_cast<float>(std::cos(elevation) * std::cos(azimuth)), static_cast<float>(std::cos(elevation) * std::sin(azimuth)),
           static_cast<float>(std::sin(elevation))};
 }
 
@@ -47,9 +46,7 @@ TEST(Sky, ClearNoonIsAsBrightAsMeasured) {
     constexpr int kUp = 48, kAround = 96;
     for (int k = 0; k < kUp * kAround; ++k) {
       const double z = std::sqrt((k / kAround + 0.5) / kUp);
-      sky +=
-          Luminance(atmosphere.Radiance(Direction((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)))) *
-          kPi / (kUp * kAround);
+      sky += Luminance(atmosphere.Radiance(Direction((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)))) * kPi / (kUp * kAround);
     }
     const double sun = Luminance(atmosphere.SunIrradiance()) * std::sin(e);
     const double klx = (sun + sky) * kLuxPerUnit / 1000;
@@ -99,8 +96,7 @@ TEST(Sky, SunStandsWhereTheCompassSays) {
   EXPECT_NEAR(sky.to_sun().z, 0.5, 1e-6);
   // The sky is brightest about the sun, and the disc holds the sun's irradiance.
   EXPECT_GT(Luminance(sky.Radiance(sky.to_sun())), 4 * Luminance(sky.Radiance({-0.866f, 0, 0.5f})));
-  EXPECT_NEAR(sky.sun_radiance().y * 2 * kPi * (1 - std::cos(0.265 * kPi / 180)) / sky.sun_irradiance().y, 1,
-              0.01);
+  EXPECT_NEAR(sky.sun_radiance().y * 2 * kPi * (1 - std::cos(0.265 * kPi / 180)) / sky.sun_irradiance().y, 1, 0.01);
 }
 
 TEST(Sky, CloudsCoverMoreWhenAskedAndLeaveTheSunFree) {

@@ -11,17 +11,14 @@ constexpr float kScale = 32767;
 constexpr int kLeastPixels = 3;            // fewer are no surface but a detail
 constexpr float kFoliage = 1, kGlass = 2;  // SurfaceKind
 constexpr float kAlike = 1.25f;            // brightest to darkest of reflections that stand for one another
-constexpr float kLeafReach =
-    8;  // how far apart leaves may be that share the sun: widths of an edge sample's ray
+constexpr float kLeafReach = 8;            // how far apart leaves may be that share the sun: widths of an edge sample's ray
 
 constexpr int kLeastExponent = -23;  // of packed light
 
 float PowerOf2(int n) { return std::bit_cast<float>(static_cast<uint32_t>(n + 127) << 23); }
 
 // Rounded; std::lrint is a call.
-int16_t Packed(float x) {
-  return static_cast<int16_t>(static_cast<int>(x * kScale + (x < 0 ? -0.5f : 0.5f)));
-}
+int16_t Packed(float x) { return static_cast<int16_t>(static_cast<int>(x * kScale + (x < 0 ? -0.5f : 0.5f))); }
 
 SunPixel::State StateOf(bool asked, float sunlit, bool leaf) {
   if (!asked || (sunlit != 0 && sunlit != 1)) return SunPixel::kUnknown;
@@ -84,12 +81,10 @@ float GuessLeafSun(const SunNeighbours& around, const RaySet& rays, int i) {
 
 void KeepSun(const RaySet& rays, const SurfaceSet& s, const bool* asked, SunPixel* out) {
   for (int i = 0; i < rays.count; ++i) {
-    const float offset = s.gx[i] * (s.px[i] - rays.ox[i]) + s.gy[i] * (s.py[i] - rays.oy[i]) +
-                         s.gz[i] * (s.pz[i] - rays.oz[i]);
+    const float offset = s.gx[i] * (s.px[i] - rays.ox[i]) + s.gy[i] * (s.py[i] - rays.oy[i]) + s.gz[i] * (s.pz[i] - rays.oz[i]);
     const SunPixel::State state = StateOf(asked[i], s.sunlit[i], s.kind[i] == kFoliage);
     const bool leaf = state == SunPixel::kDarkLeaf || state == SunPixel::kLitLeaf;
-    out[rays.slot[i]] = {
-        Packed(s.gx[i]), Packed(s.gy[i]), Packed(s.gz[i]), state, leaf ? rays.distance[i] : offset, 0};
+    out[rays.slot[i]] = {Packed(s.gx[i]), Packed(s.gy[i]), Packed(s.gz[i]), state, leaf ? rays.distance[i] : offset, 0};
   }
 }
 
@@ -141,12 +136,10 @@ uint32_t PackLight(Vec3f light) {
   const Vec3f c{limited(light.x), limited(light.y), limited(light.z)};
   // The largest is in [256, 512) of its unit, or below where the exponent ends.
   const float most = std::max({c.x, c.y, c.z, 1e-6f});
-  const int exponent =
-      std::max(static_cast<int>(std::bit_cast<uint32_t>(most) >> 23) - 127 - 8, kLeastExponent);
+  const int exponent = std::max(static_cast<int>(std::bit_cast<uint32_t>(most) >> 23) - 127 - 8, kLeastExponent);
   const float scale = PowerOf2(-exponent);
   const auto part = [&](float x) { return std::min(511u, static_cast<uint32_t>(x * scale + 0.5f)); };
-  return part(c.x) | part(c.y) << 9 | part(c.z) << 18 |
-         static_cast<uint32_t>(exponent - kLeastExponent + 1) << 27;
+  return part(c.x) | part(c.y) << 9 | part(c.z) << 18 | static_cast<uint32_t>(exponent - kLeastExponent + 1) << 27;
 }
 
 Vec3f UnpackLight(uint32_t packed) {

@@ -19,8 +19,7 @@ struct SunPixel {
   };
   int16_t nx, ny, nz;  ///< geometric normal towards the camera, of 32767
   int16_t state;
-  float
-      offset;  ///< of the plane from the camera along the normal, m; of a leaf: its distance from the camera
+  float offset;        ///< of the plane from the camera along the normal, m; of a leaf: its distance from the camera
   uint32_t reflected;  ///< radiance seen in a pane, packed by PackLight; 0 = no pane
 };
 

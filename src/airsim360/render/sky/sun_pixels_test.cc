@@ -36,9 +36,7 @@ struct Ground {
     return out;
   }
   SunPixel& At(int column, int row) { return pixels[static_cast<size_t>(row * kWidth + column)]; }
-  float Guess(bool wraps = true) {
-    return internal::GuessSun({pixels.data(), kWidth, kHeight, wraps, x, y}, *rays, *surfaces, 0);
-  }
+  float Guess(bool wraps = true) { return internal::GuessSun({pixels.data(), kWidth, kHeight, wraps, x, y}, *rays, *surfaces, 0); }
 };
 
 TEST(SunPixels, AgreeingNeighboursOnThePlaneTell) {
@@ -90,8 +88,8 @@ TEST(SunPixels, LeavesTakeTheAnswerOfALeafAboutAsFarAway) {
 }
 
 TEST(SunPixels, LightIsPackedToOnePartIn512OfItsLargest) {
-  for (const Vec3f light : {Vec3f{0, 0, 0}, Vec3f{1, 0.5f, 0.001f}, Vec3f{1e-4f, 3e-4f, 2e-4f},
-                            Vec3f{511.9f, 3, 7}, Vec3f{60000, 1, 40000}, Vec3f{-1, 1e9f, 0}}) {
+  for (const Vec3f light : {Vec3f{0, 0, 0}, Vec3f{1, 0.5f, 0.001f}, Vec3f{1e-4f, 3e-4f, 2e-4f}, Vec3f{511.9f, 3, 7}, Vec3f{60000, 1, 40000},
+                            Vec3f{-1, 1e9f, 0}}) {
     const uint32_t packed = internal::PackLight(light);
     EXPECT_NE(packed, 0u);
     const Vec3f back = internal::UnpackLight(packed);
@@ -104,8 +102,7 @@ TEST(SunPixels, PanesTakeTheMeanOfWhatIsSeenInTheirPlane) {
   Ground pane;
   pane.surfaces->kind[0] = 2, pane.surfaces->mirror[0] = 1;
   const auto guess = [&] {
-    internal::GuessReflections({pane.pixels.data(), kWidth, kHeight, true, pane.x, pane.y}, *pane.rays,
-                               *pane.surfaces);
+    internal::GuessReflections({pane.pixels.data(), kWidth, kHeight, true, pane.x, pane.y}, *pane.rays, *pane.surfaces);
   };
   pane.At(2, 1).reflected = internal::PackLight({1, 2, 4});
   pane.At(3, 1).reflected = internal::PackLight({3, 2, 1});

@@ -17,15 +17,14 @@ std::vector<uint32_t> WeldVertices(const Mesh& mesh) {
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), same_order);
   for (size_t k = 0; k < order.size(); ++k) {
-    const bool joined = k > 0 && mesh.positions[order[k]] == mesh.positions[order[k - 1]] &&
-                        mesh.normals[order[k]] == mesh.normals[order[k - 1]];
+    const bool joined =
+        k > 0 && mesh.positions[order[k]] == mesh.positions[order[k - 1]] && mesh.normals[order[k]] == mesh.normals[order[k - 1]];
     weld[order[k]] = joined ? weld[order[k - 1]] : order[k];
   }
   return weld;
 }
 
-void BendNormals(const Mesh& mesh, std::span<const Vec3f> positions, std::span<const uint32_t> weld,
-                 std::span<Vec3f> normals) {
+void BendNormals(const Mesh& mesh, std::span<const Vec3f> positions, std::span<const uint32_t> weld, std::span<Vec3f> normals) {
   std::fill(normals.begin(), normals.end(), Vec3f{});
   for (const Vec3u t : mesh.triangles) {
     const Vec3f p = positions[t.x];

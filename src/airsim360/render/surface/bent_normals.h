@@ -13,7 +13,6 @@ std::vector<uint32_t> WeldVertices(const Mesh& mesh);
 
 /// Into `normals`, of the vertices at `positions`: sums of the faces around, weighted by area, not normalised.
 /// `weld` is WeldVertices of the mesh as built.
-void BendNormals(const Mesh& mesh, std::span<const Vec3f> positions, std::span<const uint32_t> weld,
-                 std::span<Vec3f> normals);
+void BendNormals(const Mesh& mesh, std::span<const Vec3f> positions, std::span<const uint32_t> weld, std::span<Vec3f> normals);
 
 }  // namespace airsim360::internal

@@ -23,9 +23,7 @@ constexpr int kNoiseSize = 256;
 constexpr int kOwnTextures = 2;
 
 uint32_t Pack16(float x, float y) {
-  const auto quantize = [](float v) {
-    return static_cast<uint32_t>(std::lround((std::clamp(v, -1.0f, 1.0f) * 0.5f + 0.5f) * 65534.0f));
-  };
+  const auto quantize = [](float v) { return static_cast<uint32_t>(std::lround((std::clamp(v, -1.0f, 1.0f) * 0.5f + 0.5f) * 65534.0f)); };
   return quantize(x) | quantize(y) << 16;
 }
 
@@ -72,15 +70,14 @@ bool MakePane(const Vec3f (&p)[3], const float (&uv)[6], Vec3f normal, PaneRecor
   pane.up = PackDirection(up);
 
   // Texture coordinates along a and b.
-  const float a1 = pane.a[1] - pane.a[0], b1 = pane.b[1] - pane.b[0], a2 = pane.a[2] - pane.a[0],
-              b2 = pane.b[2] - pane.b[0], det = a1 * b2 - a2 * b1;
+  const float a1 = pane.a[1] - pane.a[0], b1 = pane.b[1] - pane.b[0], a2 = pane.a[2] - pane.a[0], b2 = pane.b[2] - pane.b[0],
+              det = a1 * b2 - a2 * b1;
   pane.u_per_a = ((uv[2] - uv[0]) * b2 - (uv[4] - uv[0]) * b1) / det;
   pane.v_per_b = ((uv[5] - uv[1]) * a1 - (uv[3] - uv[1]) * a2) / det;
   return std::isfinite(pane.u_per_a) && std::isfinite(pane.v_per_b);
 }
 
-TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material,
-                            const UvTransform& transform) {
+TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material, const UvTransform& transform) {
   const Vec3u t = mesh.triangles[index];
   const uint32_t corners[3] = {t.x, t.y, t.z};
   const Vec3f p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
@@ -107,12 +104,10 @@ TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material,
   // Texture frame: p = p0 + tangent * u + ..., and how many uv units a metre has.
   const Vec2f d1 = uv[1] - uv[0], d2 = uv[2] - uv[0];
   const float det = d1.x * d2.y - d2.x * d1.y;
-  Vec3f tangent = std::fabs(det) > 1e-20f ? Normalized((e1 * d2.y - e2 * d1.y) * (det > 0 ? 1.0f : -1.0f))
-                                          : Normalized(e1);
+  Vec3f tangent = std::fabs(det) > 1e-20f ? Normalized((e1 * d2.y - e2 * d1.y) * (det > 0 ? 1.0f : -1.0f)) : Normalized(e1);
   if (tangent == Vec3f{}) tangent = {1, 0, 0};
   record.tangent = PackDirection(tangent);
-  const float texels_log2 =
-      0.5f * std::log2(std::max(std::fabs(det), 1e-12f) / std::max(Norm(cross), 1e-12f));
+  const float texels_log2 = 0.5f * std::log2(std::max(std::fabs(det), 1e-12f) / std::max(Norm(cross), 1e-12f));
   record.texels_log2 = std::isfinite(texels_log2) ? texels_log2 : 0;
   // Green of a normal map points against growing v.
   const Vec3f against_v = (e1 * d2.x - e2 * d1.x) * (det > 0 ? 1.0f : -1.0f);
@@ -120,8 +115,7 @@ TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material,
   return record;
 }
 
-InstanceRecord MakeInstance(const Instance& instance, const AffineTransform& X_WM, uint32_t first_triangle,
-                            uint32_t index) {
+InstanceRecord MakeInstance(const Instance& instance, const AffineTransform& X_WM, uint32_t first_triangle, uint32_t index) {
   // Cofactors: the inverse transpose times the determinant, whose sign is taken back.
   const Mat3f& A = X_WM.A;
   const float det = A.determinant();
@@ -129,8 +123,7 @@ InstanceRecord MakeInstance(const Instance& instance, const AffineTransform& X_W
   const float scale = std::cbrt(std::max(std::fabs(det), 1e-30f));
   InstanceRecord record{};
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j)
-      record.normal_matrix[3 * i + j] = rows[i][j] * ((det < 0 ? -1.0f : 1.0f) / (scale * scale));
+    for (int j = 0; j < 3; ++j) record.normal_matrix[3 * i + j] = rows[i][j] * ((det < 0 ? -1.0f : 1.0f) / (scale * scale));
     record.tint[i] = instance.tint[i];
   }
   record.texels_log2 = -std::log2(scale);
@@ -140,9 +133,7 @@ InstanceRecord MakeInstance(const Instance& instance, const AffineTransform& X_W
 }
 
 int32_t TextureIndex(TextureId id, const Scene& scene) {
-  return id == kNoTexture || scene.textures[id].levels.empty() || scene.textures[id].levels[0].empty()
-             ? 0
-             : id + kOwnTextures;
+  return id == kNoTexture || scene.textures[id].levels.empty() || scene.textures[id].levels[0].empty() ? 0 : id + kOwnTextures;
 }
 
 // Mean of a texture, linear; white without one.
@@ -150,9 +141,7 @@ Vec3f MeanTexel(TextureId id, const Scene& scene) {
   if (TextureIndex(id, scene) == 0) return {1, 1, 1};
   const Texture& texture = scene.textures[id];
   const Rgba8 p = texture.levels.back()(0, 0);
-  const auto decode = [&](uint8_t v) {
-    return texture.srgb ? SrgbToLinear(v) : static_cast<float>(v) / 255.0f;
-  };
+  const auto decode = [&](uint8_t v) { return texture.srgb ? SrgbToLinear(v) : static_cast<float>(v) / 255.0f; };
   return {decode(p.r), decode(p.g), decode(p.b)};
 }
 
@@ -192,8 +181,8 @@ TextureRecord MakeTexture(const Texture& texture) {
   const int count = std::min<int>(static_cast<int>(texture.levels.size()), TextureRecord::kMaxLevels);
   for (int i = 0; i < count; ++i) {
     const Image<Rgba8>& level = texture.levels[i];
-    record.levels[i] = {reinterpret_cast<const uint32_t*>(level.pixels().data()),
-                        static_cast<float>(level.width()), static_cast<float>(level.height())};
+    record.levels[i] = {reinterpret_cast<const uint32_t*>(level.pixels().data()), static_cast<float>(level.width()),
+                        static_cast<float>(level.height())};
   }
   if (count > 0) record.size_log2 = 0.5f * std::log2(record.levels[0].width * record.levels[0].height);
   record.last_level = static_cast<float>(std::max(0, count - 1));
@@ -210,9 +199,7 @@ uint32_t NoiseTexel(int x, int y) {
     float sum = 0;
     for (int octave = 0, period = 8; octave < 4; ++octave, period *= 2) {
       const float scale = static_cast<float>(period) / kNoiseSize;
-      sum += (ValueNoise(static_cast<float>(x) * scale, static_cast<float>(y) * scale, 100 + 10 * c + octave,
-                         period) -
-              0.5f) /
+      sum += (ValueNoise(static_cast<float>(x) * scale, static_cast<float>(y) * scale, 100 + 10 * c + octave, period) - 0.5f) /
              static_cast<float>(1 << octave);
     }
     texel |= static_cast<uint32_t>(std::clamp(0.5f + 0.75f * sum, 0.0f, 1.0f) * 255.0f + 0.5f) << (8 * c);
@@ -243,16 +230,14 @@ uint32_t PackDirection(Vec3f d) {
 
 Vec3f UnpackDirection(uint32_t packed) {
   constexpr float scale = 2.0f / 65534.0f;
-  return scalar::octahedral_decode(static_cast<float>(packed & 0xffff) * scale - 1,
-                                   static_cast<float>(packed >> 16) * scale - 1);
+  return scalar::octahedral_decode(static_cast<float>(packed & 0xffff) * scale - 1, static_cast<float>(packed >> 16) * scale - 1);
 }
 
 SurfaceTables::SurfaceTables(const Scene& scene, bool lamps_on) {
   // Our own textures, then the scene's.
   own_texels_.assign(1 + static_cast<size_t>(kNoiseSize) * kNoiseSize, 0xffffffffu);
   ParallelFor(kNoiseSize, [&](int64_t y) {
-    for (int x = 0; x < kNoiseSize; ++x)
-      own_texels_[1 + static_cast<size_t>(y) * kNoiseSize + x] = NoiseTexel(x, static_cast<int>(y));
+    for (int x = 0; x < kNoiseSize; ++x) own_texels_[1 + static_cast<size_t>(y) * kNoiseSize + x] = NoiseTexel(x, static_cast<int>(y));
   });
   textures.push_back(PlainTexture(own_texels_.data(), 1));
   textures.push_back(PlainTexture(own_texels_.data() + 1, kNoiseSize));
@@ -301,8 +286,7 @@ Vec3f SurfaceTables::BeamOf(const InstanceRecord& instance, const MaterialRecord
   return Normalized(Vec3f{Dot(row[0], axis), Dot(row[1], axis), Dot(row[2], axis)}) * std::fabs(material.beam);
 }
 
-InstanceRecord SurfaceTables::Place(const Instance& instance, const AffineTransform& X_WM,
-                                    uint32_t index) const {
+InstanceRecord SurfaceTables::Place(const Instance& instance, const AffineTransform& X_WM, uint32_t index) const {
   InstanceRecord record = MakeInstance(instance, X_WM, first_[instance.mesh], index);
   record.first_color = first_color_[instance.mesh];
   return record;
@@ -358,11 +342,8 @@ void SurfaceTables::SetTriangles(const Scene& scene, MeshId id, const Mesh& shap
   }
 }
 
-void SurfaceTables::Apply(const Scene& scene, std::span<const MovedInstance> moved,
-                          std::span<const DeformedMesh> deformed) {
-  const auto place = [&](uint32_t i, const AffineTransform& X_WM) {
-    instances[i] = Place(scene.instances[i], X_WM, i);
-  };
+void SurfaceTables::Apply(const Scene& scene, std::span<const MovedInstance> moved, std::span<const DeformedMesh> deformed) {
+  const auto place = [&](uint32_t i, const AffineTransform& X_WM) { instances[i] = Place(scene.instances[i], X_WM, i); };
   for (uint32_t i : moved_) place(i, scene.instances[i].X_WM);
   moved_.clear();
   for (const MovedInstance& m : moved) {
@@ -371,8 +352,7 @@ void SurfaceTables::Apply(const Scene& scene, std::span<const MovedInstance> mov
   }
 
   for (MeshId id : deformed_) {
-    if (!std::ranges::binary_search(deformed, id, {}, &DeformedMesh::mesh))
-      SetTriangles(scene, id, scene.meshes[id]);
+    if (!std::ranges::binary_search(deformed, id, {}, &DeformedMesh::mesh)) SetTriangles(scene, id, scene.meshes[id]);
   }
   deformed_.clear();
   for (const DeformedMesh& d : deformed) {

@@ -23,21 +23,18 @@ struct SurfaceTables {
   /// Follows what moves, as listed by RayTracer::moved and deformed; what was listed before and is no more is
   /// as built again. Vertex normals of a deformed mesh are the means of the faces around, weighted by area,
   /// over vertices that share place and normal in the mesh as built. Pointers to the elements stay valid.
-  void Apply(const Scene& scene, std::span<const MovedInstance> moved,
-             std::span<const DeformedMesh> deformed);
+  void Apply(const Scene& scene, std::span<const MovedInstance> moved, std::span<const DeformedMesh> deformed);
 
   /// What vertex colours do to the base colour of a triangle at barycentrics (u, v); white without them.
   Vec3f ColorAt(const InstanceRecord& instance, uint32_t triangle, float u, float v) const;
   /// Of the corners alike: for light that bounces.
-  Vec3f MeanColor(const InstanceRecord& instance, uint32_t triangle) const {
-    return ColorAt(instance, triangle, 1.0f / 3, 1.0f / 3);
-  }
+  Vec3f MeanColor(const InstanceRecord& instance, uint32_t triangle) const { return ColorAt(instance, triangle, 1.0f / 3, 1.0f / 3); }
 
   TableVector<TriangleRecord> triangles;
   std::vector<InstanceRecord> instances;
   std::vector<MaterialRecord> materials;
   std::vector<PaneRecord> panes;
-  std::vector<TriangleColors> colors;    ///< the first is white; empty where no mesh has any
+  std::vector<TriangleColors> colors;   ///< the first is white; empty where no mesh has any
   std::vector<TextureRecord> textures;  ///< 0 is white, 1 the macro variation noise, then the scene's
   /// Per material: base colour including the mean of its texture; for light that bounces.
   std::vector<Vec3f> mean_colors;
@@ -59,7 +56,7 @@ struct SurfaceTables {
   InstanceRecord Place(const Instance& instance, const AffineTransform& X_WM, uint32_t index) const;
 
   std::vector<uint32_t> own_texels_;
-  std::vector<uint32_t> first_;  // by mesh: its first triangle
+  std::vector<uint32_t> first_;        // by mesh: its first triangle
   std::vector<uint32_t> first_color_;  // by mesh, see InstanceRecord
   std::vector<uint32_t> moved_;
   std::vector<MeshId> deformed_;

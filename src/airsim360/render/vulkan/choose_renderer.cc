@@ -22,8 +22,7 @@ bool HasRooms(const RayTracer& tracer) { return internal::Enclosure(tracer).any(
 // A GPU for as long as it can, then the CPU.
 class AutoRenderer : public Renderer, public Relightable {
  public:
-  AutoRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options,
-               std::unique_ptr<GpuRenderer> gpu)
+  AutoRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options, std::unique_ptr<GpuRenderer> gpu)
       : tracer_(std::move(tracer)), rooms_(HasRooms(*tracer_)), options_(options), gpu_(std::move(gpu)) {}
 
   RenderStats Render(const RenderRequest& request, Frame& frame) override {
@@ -81,9 +80,7 @@ void CheckDevice(const std::string& flag, const std::string& device) {
   ParseChoice("device", device, kDevices, flag);
 }
 
-bool ChoosesGpu(const DeviceChoice& choice) {
-  return choice.device != "cpu" && (choice.device == "vulkan" || !WhyNot(choice.gpu));
-}
+bool ChoosesGpu(const DeviceChoice& choice) { return choice.device != "cpu" && (choice.device == "vulkan" || !WhyNot(choice.gpu)); }
 
 std::unique_ptr<Renderer> MakeRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options,
                                        const DeviceChoice& choice) {

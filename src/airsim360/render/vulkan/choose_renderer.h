@@ -24,7 +24,6 @@ bool ChoosesGpu(const DeviceChoice& choice);
 /// there is one, else the CPU. Where the machine has no GPU and none was asked for nothing is opened and nothing said; else one
 /// line on stderr names the device or says why it is the CPU. What a GPU fails at (out of memory, lost) goes on on the CPU, with
 /// a line too. InputError for other devices.
-std::unique_ptr<Renderer> MakeRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options,
-                                       const DeviceChoice& choice);
+std::unique_ptr<Renderer> MakeRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options, const DeviceChoice& choice);
 
 }  // namespace airsim360

@@ -14,11 +14,11 @@ namespace airsim360 {
 
 /// A Vulkan device of this machine.
 struct GpuInfo {
-  int index = 0;         ///< what --gpu takes
-  std::string name;      ///< as the driver says
-  std::string driver;    ///< name and version of the driver
-  bool software = false; ///< runs on the CPU (Mesa's lavapipe): correct, slower than the CPU renderer
-  std::string missing;   ///< what it lacks to render; empty = nothing
+  int index = 0;                   ///< what --gpu takes
+  std::string name;                ///< as the driver says
+  std::string driver;              ///< name and version of the driver
+  bool software = false;           ///< runs on the CPU (Mesa's lavapipe): correct, slower than the CPU renderer
+  std::string missing;             ///< what it lacks to render; empty = nothing
   std::array<uint8_t, 16> uuid{};  ///< by which other interfaces (CUDA) know the device
   bool shares_memory = false;      ///< can give memory to them (VK_KHR_external_memory_fd)
 };
@@ -102,7 +102,7 @@ class GpuRenderer : public Renderer {
 
 /// Opens a device and uploads the scene. RuntimeError saying why where that fails: no Vulkan, no such GPU, an old driver, no
 /// memory.
-std::unique_ptr<GpuRenderer> MakeVulkanRenderer(std::shared_ptr<const RayTracer> tracer,
-                                                const RendererOptions& options = {}, const GpuOptions& gpu = {});
+std::unique_ptr<GpuRenderer> MakeVulkanRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options = {},
+                                                const GpuOptions& gpu = {});
 
 }  // namespace airsim360

@@ -36,8 +36,7 @@ std::vector<double> Coefficients(const CalibratedLens& lens) {
 
 // All that makes a camera, in one list.
 std::vector<double> KeyOf(const Camera& camera) {
-  std::vector<double> key{static_cast<double>(camera.index()), static_cast<double>(Width(camera)),
-                          static_cast<double>(Height(camera))};
+  std::vector<double> key{static_cast<double>(camera.index()), static_cast<double>(Width(camera)), static_cast<double>(Height(camera))};
   if (const auto* c = std::get_if<CubeFace>(&camera)) key.push_back(static_cast<double>(c->face));
   if (const auto* c = std::get_if<Pinhole>(&camera)) key.insert(key.end(), {c->fx, c->fy, c->cx, c->cy});
   if (const auto* c = std::get_if<Fisheye>(&camera)) {
@@ -107,9 +106,7 @@ Mat3d FromProjection(const Camera& camera, const RayField& field) {
   return R;
 }
 
-int PathSamples(const RenderRequest& request) {
-  return request.samples > 0 ? request.samples : PathTracerOptions::kDefaultSamples;
-}
+int PathSamples(const RenderRequest& request) { return request.samples > 0 ? request.samples : PathTracerOptions::kDefaultSamples; }
 
 int ColorSamples(const RenderRequest& request) {
   const Products& products = request.products;
@@ -118,9 +115,7 @@ int ColorSamples(const RenderRequest& request) {
   return EdgeSamples(request);
 }
 
-int PointsOfPixel(const RenderRequest& request) {
-  return request.products.coverage ? EdgeSamples(request) : ColorSamples(request);
-}
+int PointsOfPixel(const RenderRequest& request) { return request.products.coverage ? EdgeSamples(request) : ColorSamples(request); }
 
 std::byte* UploadCursor::Take(size_t bytes, uint64_t& where) {
   std::byte* to = mapped + next;
@@ -185,8 +180,7 @@ void GpuCameras::Fill(const RenderRequest& request, uint64_t frames, UploadCurso
       sine[static_cast<size_t>(x)] = R[0] * hx + R[3] * hy + R[6] * hz;
       cosine[static_cast<size_t>(x)] = R[2] * hx + R[5] * hy + R[8] * hz;
     }
-    for (int y = 0; y < rows; ++y)
-      up[static_cast<size_t>(y)] = -(R[1] * field.row_x[y] + R[4] * field.row_y[y] + R[7] * field.row_z[y]);
+    for (int y = 0; y < rows; ++y) up[static_cast<size_t>(y)] = -(R[1] * field.row_x[y] + R[4] * field.row_y[y] + R[7] * field.row_z[y]);
     PutPlanes({field.column_x, field.column_y, field.column_z, sine.data(), cosine.data()}, columns,
               upload.Take(20 * static_cast<size_t>(columns), out.columns));
     PutPlanes({field.row_scale, field.row_x, field.row_y, field.row_z, up.data()}, rows,
@@ -216,8 +210,7 @@ void GpuCameras::FillHigh(const RenderRequest& request, uint64_t frames, UploadC
   auto* const to = reinterpret_cast<float*>(upload.Take(2 * sizeof(float) * static_cast<size_t>(field.height), out.row_tables));
   for (int y = 0; y < field.height; ++y) {
     to[y] = AmbientRays(request, field, y / kTileSize * kTileSize);
-    to[field.height + y] =
-        field.separable ? static_cast<float>(1 / std::cos(std::numbers::pi * (0.5 - (y + 0.5) / field.height))) : 1.0f;
+    to[field.height + y] = field.separable ? static_cast<float>(1 / std::cos(std::numbers::pi * (0.5 - (y + 0.5) / field.height))) : 1.0f;
   }
 }
 

@@ -11,12 +11,10 @@ namespace airsim360 {
 namespace internal {
 namespace {
 
-constexpr const char* kExtensions[] = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
-                                       VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
+constexpr const char* kExtensions[] = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
                                        VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
-constexpr const char* kHowToGetADriver =
-    "install the driver of the GPU, or 'mesa-vulkan-drivers' from bookworm-backports (software)";
+constexpr const char* kHowToGetADriver = "install the driver of the GPU, or 'mesa-vulkan-drivers' from bookworm-backports (software)";
 
 const char* NameOf(VkResult result) {
   switch (result) {
@@ -51,10 +49,9 @@ struct Features {
   VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, nullptr, {}};
   VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES, nullptr};
   VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, nullptr};
-  VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR, nullptr};
-  VkPhysicalDeviceRayTracingPipelineFeaturesKHR pipeline{
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR, nullptr};
+  VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR,
+                                                             nullptr};
+  VkPhysicalDeviceRayTracingPipelineFeaturesKHR pipeline{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR, nullptr};
 
   Features() {
     core.pNext = &v11;
@@ -79,8 +76,8 @@ std::array<Need, 6> NeedsOf(const Features& f) {
 }
 
 std::string TooOld(uint32_t version) {
-  return "the driver offers Vulkan " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
-         std::to_string(VK_API_VERSION_MINOR(version)) + ", 1.2 is needed: update it";
+  return "the driver offers Vulkan " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) +
+         ", 1.2 is needed: update it";
 }
 
 std::vector<VkExtensionProperties> ExtensionsOf(VkPhysicalDevice physical) {
@@ -138,19 +135,16 @@ std::vector<VkPhysicalDevice> PhysicalDevices(VkInstance instance) {
   return devices;
 }
 
-VKAPI_ATTR VkBool32 VKAPI_CALL KeepMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                           VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL KeepMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                            const VkDebugUtilsMessengerCallbackDataEXT* data, void* list) {
   static_cast<std::vector<std::string>*>(list)->push_back(data->pMessage);
   return VK_FALSE;
 }
 
 VkInstance MakeInstance(bool validate, GpuFault fault = GpuFault::kNone) {
-  const VkApplicationInfo application{
-      VK_STRUCTURE_TYPE_APPLICATION_INFO, nullptr, "airsim360", 1, "airsim360", 1, VK_API_VERSION_1_2};
+  const VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO, nullptr, "airsim360", 1, "airsim360", 1, VK_API_VERSION_1_2};
   constexpr VkValidationFeatureEnableEXT kSync = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
-  const VkValidationFeaturesEXT checks{
-      VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, nullptr, 1, &kSync, 0, nullptr};
+  const VkValidationFeaturesEXT checks{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, nullptr, 1, &kSync, 0, nullptr};
   const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, nullptr};
   info.pApplicationInfo = &application;
@@ -162,10 +156,8 @@ VkInstance MakeInstance(bool validate, GpuFault fault = GpuFault::kNone) {
     info.ppEnabledExtensionNames = &extension;
   }
   VkInstance instance;
-  const VkResult result =
-      fault == GpuFault::kNoVulkan ? VK_ERROR_INCOMPATIBLE_DRIVER : vkCreateInstance(&info, nullptr, &instance);
-  if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
-    throw RuntimeError(std::string("no Vulkan driver found; ") + kHowToGetADriver);
+  const VkResult result = fault == GpuFault::kNoVulkan ? VK_ERROR_INCOMPATIBLE_DRIVER : vkCreateInstance(&info, nullptr, &instance);
+  if (result == VK_ERROR_INCOMPATIBLE_DRIVER) throw RuntimeError(std::string("no Vulkan driver found; ") + kHowToGetADriver);
   CheckVk(result, "opening Vulkan");
   return instance;
 }
@@ -199,15 +191,13 @@ VkPhysicalDevice Choose(VkInstance instance, int wanted, GpuFault fault, GpuInfo
     const GpuInfo& d = all.back();
     list += (i ? ", " : "") + std::to_string(i) + " = " + d.name;
     reasons += (i ? "; " : "") + d.name + ": " + d.missing;
-    if (d.missing.empty() && (best < 0 || Rank(devices[i]) > Rank(devices[static_cast<size_t>(best)])))
-      best = static_cast<int>(i);
+    if (d.missing.empty() && (best < 0 || Rank(devices[i]) > Rank(devices[static_cast<size_t>(best)]))) best = static_cast<int>(i);
   }
   if (wanted >= static_cast<int>(devices.size()))
     throw InputError("--gpu: there is no GPU " + std::to_string(wanted) + " (GPUs: " + list + ")");
   if (wanted >= 0 && !all[static_cast<size_t>(wanted)].missing.empty()) {
     const GpuInfo& d = all[static_cast<size_t>(wanted)];
-    throw RuntimeError("GPU " + std::to_string(wanted) + " (" + d.name + ", " + d.driver +
-                       ") cannot trace rays: " + d.missing);
+    throw RuntimeError("GPU " + std::to_string(wanted) + " (" + d.name + ", " + d.driver + ") cannot trace rays: " + d.missing);
   }
   if (wanted < 0 && best < 0) throw RuntimeError("no GPU here can trace rays: " + reasons);
   const auto chosen = static_cast<size_t>(wanted >= 0 ? wanted : best);
@@ -220,8 +210,7 @@ VkPhysicalDevice Choose(VkInstance instance, int wanted, GpuFault fault, GpuInfo
 void CheckVk(VkResult result, const char* what) {
   if (result >= 0) return;
   const char* name = NameOf(result);
-  throw RuntimeError(std::string("GPU: ") + what + ": " +
-                     (name ? name : ("Vulkan error " + std::to_string(result)).c_str()));
+  throw RuntimeError(std::string("GPU: ") + what + ": " + (name ? name : ("Vulkan error " + std::to_string(result)).c_str()));
 }
 
 GpuDevice::GpuDevice(const GpuOptions& options) : fault_(options.fault) {
@@ -248,8 +237,8 @@ void GpuDevice::Close() {
   }
   if (instance_ == VK_NULL_HANDLE) return;
   if (messenger_ != VK_NULL_HANDLE) {
-    const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
-        vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
+    const auto destroy =
+        reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
     destroy(instance_, messenger_, nullptr);
   }
   vkDestroyInstance(instance_, nullptr);
@@ -259,13 +248,12 @@ void GpuDevice::OpenInstance(bool validate) {
   instance_ = MakeInstance(validate, fault_);
   if (!validate) return;
   VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT, nullptr};
-  info.messageSeverity =
-      VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  info.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
   info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
   info.pfnUserCallback = KeepMessage;
   info.pUserData = &messages_;
-  const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-      vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
+  const auto create =
+      reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
   CheckVk(create(instance_, &info, nullptr, &messenger_), "listening to validation");
 }
 
@@ -295,9 +283,8 @@ void GpuDevice::OpenDevice(VkPhysicalDevice physical) {
   features.v12.storageBuffer8BitAccess = VK_TRUE;
   features.structure.accelerationStructure = features.pipeline.rayTracingPipeline = VK_TRUE;
   const float priority = 1;
-  VkDeviceQueueCreateInfo queues[2] = {
-      {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, queue_family_, 1, &priority},
-      {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, copy_family_, 1, &priority}};
+  VkDeviceQueueCreateInfo queues[2] = {{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, queue_family_, 1, &priority},
+                                       {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, copy_family_, 1, &priority}};
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
   info.queueCreateInfoCount = copy_family_ != queue_family_ ? 2 : 1;
   info.pQueueCreateInfos = queues;
@@ -308,8 +295,8 @@ void GpuDevice::OpenDevice(VkPhysicalDevice physical) {
   CheckVk(vkCreateDevice(physical, &info, nullptr, &device_), "opening the device");
   vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
   vkGetDeviceQueue(device_, copy_family_, 0, &copy_queue_);
-  const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
-                                     VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queue_family_};
+  const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                     queue_family_};
   CheckVk(vkCreateCommandPool(device_, &pool, nullptr, &pool_), "making a command pool");
 }
 
@@ -347,8 +334,8 @@ void GpuDevice::Run(const std::function<void(VkCommandBuffer)>& record) {
                                              VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
   VkCommandBuffer commands;
   CheckVk(vkAllocateCommandBuffers(device_, &allocate, &commands), "making commands");
-  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
-                                       VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
+                                       nullptr};
   CheckVk(vkBeginCommandBuffer(commands, &begin), "recording");
   record(commands);
   const VkMemoryBarrier all{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_MEMORY_WRITE_BIT,

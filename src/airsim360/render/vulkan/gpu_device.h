@@ -50,9 +50,7 @@ class GpuDevice {
   GpuFault fault() const { return fault_; }
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
   const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& pipeline_limits() const { return pipeline_limits_; }
-  const VkPhysicalDeviceAccelerationStructurePropertiesKHR& structure_limits() const {
-    return structure_limits_;
-  }
+  const VkPhysicalDeviceAccelerationStructurePropertiesKHR& structure_limits() const { return structure_limits_; }
   float timestamp_period_ns() const { return timestamp_period_ns_; }
   /// Bits of a timestamp that count.
   uint64_t timestamp_mask() const { return timestamp_mask_; }

@@ -12,8 +12,7 @@ namespace {
 
 constexpr int kRefitsOfABuild = 30;
 constexpr VkBuildAccelerationStructureFlagsKHR kBodyFlags =
-    VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_UPDATE_BIT_KHR |
-    VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
+    VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_UPDATE_BIT_KHR | VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
 
 VkDeviceSize Up(VkDeviceSize n, VkDeviceSize to) { return (n + to - 1) / to * to; }
 
@@ -21,8 +20,8 @@ VkDeviceSize ScratchAlign(const GpuDevice& device) {
   return std::max<VkDeviceSize>(device.structure_limits().minAccelerationStructureScratchOffsetAlignment, 256);
 }
 
-VkAccelerationStructureKHR Create(GpuDevice& device, VkBuffer buffer, size_t offset, size_t size,
-                                  VkAccelerationStructureTypeKHR type, VkDeviceAddress& address) {
+VkAccelerationStructureKHR Create(GpuDevice& device, VkBuffer buffer, size_t offset, size_t size, VkAccelerationStructureTypeKHR type,
+                                  VkDeviceAddress& address) {
   VkAccelerationStructureCreateInfoKHR info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR, nullptr};
   info.buffer = buffer;
   info.offset = offset;
@@ -30,17 +29,15 @@ VkAccelerationStructureKHR Create(GpuDevice& device, VkBuffer buffer, size_t off
   info.type = type;
   VkAccelerationStructureKHR structure;
   CheckVk(device.rt().create_structure(device.device(), &info, nullptr, &structure), "making a structure");
-  const VkAccelerationStructureDeviceAddressInfoKHR ask{
-      VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR, nullptr, structure};
+  const VkAccelerationStructureDeviceAddressInfoKHR ask{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR, nullptr,
+                                                        structure};
   address = device.rt().structure_address(device.device(), &ask);
   return structure;
 }
 
 void Barrier(VkCommandBuffer commands, VkPipelineStageFlags to, VkAccessFlags access) {
-  const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr,
-                                VK_ACCESS_ACCELERATION_STRUCTURE_WRITE_BIT_KHR, access};
-  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR, to, 0, 1, &barrier, 0,
-                       nullptr, 0, nullptr);
+  const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_ACCELERATION_STRUCTURE_WRITE_BIT_KHR, access};
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR, to, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
 bool IsFinite(const AffineTransform& X) {
@@ -54,10 +51,7 @@ void DescribeTop(VkAccelerationStructureGeometryKHR& geometry, VkDeviceAddress i
                  VkAccelerationStructureBuildGeometryInfoKHR& info) {
   geometry = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR, nullptr};
   geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
-  geometry.geometry.instances = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR,
-                                 nullptr,
-                                 VK_FALSE,
-                                 {instances}};
+  geometry.geometry.instances = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR, nullptr, VK_FALSE, {instances}};
   info = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR, nullptr};
   info.type = VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR;
   info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
@@ -71,12 +65,10 @@ void DescribeTop(VkAccelerationStructureGeometryKHR& geometry, VkDeviceAddress i
 void CheckState(const Scene& scene, const SceneState& state) {
   for (size_t i = 0; i < state.moved.size(); ++i) {
     const MovedInstance& m = state.moved[i];
-    if (m.instance >= scene.instances.size())
-      throw InputError("scene state: no instance " + std::to_string(m.instance));
+    if (m.instance >= scene.instances.size()) throw InputError("scene state: no instance " + std::to_string(m.instance));
     if (i > 0 && state.moved[i - 1].instance >= m.instance)
       throw InputError("scene state: moved instances are not in order at " + std::to_string(m.instance));
-    if (!IsFinite(m.X_WM))
-      throw InputError("scene state: the place of instance " + std::to_string(m.instance) + " is not finite");
+    if (!IsFinite(m.X_WM)) throw InputError("scene state: the place of instance " + std::to_string(m.instance) + " is not finite");
   }
   for (size_t i = 0; i < state.deformed.size(); ++i) {
     const DeformedMesh& d = state.deformed[i];
@@ -86,8 +78,7 @@ void CheckState(const Scene& scene, const SceneState& state) {
     if (d.positions == nullptr || d.positions->size() != scene.meshes[d.mesh].positions.size())
       throw InputError("scene state: mesh " + std::to_string(d.mesh) + " has another number of vertices");
     for (const Vec3f& p : *d.positions) {
-      if (!std::isfinite(p.x + p.y + p.z))
-        throw InputError("scene state: a vertex of mesh " + std::to_string(d.mesh) + " is not finite");
+      if (!std::isfinite(p.x + p.y + p.z)) throw InputError("scene state: a vertex of mesh " + std::to_string(d.mesh) + " is not finite");
     }
   }
 }
@@ -95,8 +86,7 @@ void CheckState(const Scene& scene, const SceneState& state) {
 GpuInstant::GpuInstant(GpuDevice& device, const GpuScene& scene)
     : device_(device),
       scene_(scene),
-      structures_(device, (scene.scene().instances.size() + 1) * sizeof(VkAccelerationStructureInstanceKHR),
-                  MemoryKind::kUpload),
+      structures_(device, (scene.scene().instances.size() + 1) * sizeof(VkAccelerationStructureInstanceKHR), MemoryKind::kUpload),
       records_(device, (scene.scene().instances.size() + 1) * sizeof(GpuInstance), MemoryKind::kUpload),
       body_vertices_(device, MemoryKind::kUpload),
       body_memory_(device) {
@@ -106,14 +96,11 @@ GpuInstant::GpuInstant(GpuDevice& device, const GpuScene& scene)
   VkAccelerationStructureBuildGeometryInfoKHR info;
   DescribeTop(geometry, structures_.address(), info);
   const auto count = static_cast<uint32_t>(instances.size());
-  VkAccelerationStructureBuildSizesInfoKHR sizes{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR,
-                                                 nullptr};
-  device.rt().build_sizes(device.device(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, &count,
-                          &sizes);
+  VkAccelerationStructureBuildSizesInfoKHR sizes{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR, nullptr};
+  device.rt().build_sizes(device.device(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, &count, &sizes);
   tlas_storage_ = GpuBuffer(device, sizes.accelerationStructureSize, MemoryKind::kDevice);
   scratch_ = GpuBuffer(device, sizes.buildScratchSize + ScratchAlign(device), MemoryKind::kDevice);
-  tlas_ = Create(device, tlas_storage_.handle(), 0, tlas_storage_.size(), VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR,
-                 tlas_address_);
+  tlas_ = Create(device, tlas_storage_.handle(), 0, tlas_storage_.size(), VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, tlas_address_);
 }
 
 GpuInstant::~GpuInstant() {
@@ -209,8 +196,7 @@ void GpuInstant::Set(const std::shared_ptr<const SceneState>& state) {
     const MeshId mesh = scene.instances[i].mesh;
     const auto deformed = std::ranges::lower_bound(s.deformed, mesh, {}, &DeformedMesh::mesh);
     const bool bends = deformed != s.deformed.end() && deformed->mesh == mesh && bodies_.count(mesh) != 0;
-    WriteInstance(i, moves ? moved->X_WM : scene.instances[i].X_WM, moves && moved->hidden,
-                  bends ? &bodies_.at(mesh) : nullptr);
+    WriteInstance(i, moves ? moved->X_WM : scene.instances[i].X_WM, moves && moved->hidden, bends ? &bodies_.at(mesh) : nullptr);
   }
   touched_ = std::move(now);
 }
@@ -234,9 +220,7 @@ void GpuInstant::RecordBodies(VkCommandBuffer commands) {
     const bool anew = body.refits < 0 || body.refits + 1 >= kRefitsOfABuild;
     MeshBuild& build = builds[infos.size()];
     scene_.Describe(mesh, body.vertices.address, kBodyFlags,
-                    anew ? VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR
-                         : VK_BUILD_ACCELERATION_STRUCTURE_MODE_UPDATE_KHR,
-                    build);
+                    anew ? VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR : VK_BUILD_ACCELERATION_STRUCTURE_MODE_UPDATE_KHR, build);
     build.info.srcAccelerationStructure = anew ? VK_NULL_HANDLE : body.structure;
     build.info.dstAccelerationStructure = body.structure;
     build.info.scratchData.deviceAddress = body.scratch;
@@ -246,8 +230,7 @@ void GpuInstant::RecordBodies(VkCommandBuffer commands) {
     body.changed = false;
   }
   device_.rt().build(commands, static_cast<uint32_t>(count), infos.data(), ranges.data());
-  Barrier(commands, VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
-          VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR);
+  Barrier(commands, VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR, VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR);
 }
 
 void GpuInstant::RecordTop(VkCommandBuffer commands) {
@@ -256,8 +239,7 @@ void GpuInstant::RecordTop(VkCommandBuffer commands) {
   DescribeTop(geometry, structures_.address(), info);
   info.dstAccelerationStructure = tlas_;
   info.scratchData.deviceAddress = Up(scratch_.address(), ScratchAlign(device_));
-  const VkAccelerationStructureBuildRangeInfoKHR range{
-      static_cast<uint32_t>(scene_.scene().instances.size()), 0, 0, 0};
+  const VkAccelerationStructureBuildRangeInfoKHR range{static_cast<uint32_t>(scene_.scene().instances.size()), 0, 0, 0};
   const VkAccelerationStructureBuildRangeInfoKHR* ranges = &range;
   device_.rt().build(commands, 1, &info, &ranges);
   Barrier(commands, VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR, VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR);

@@ -30,7 +30,7 @@ class GpuInstant {
  private:
   // A deformed mesh. Refitted, every 30th time built anew.
   struct Body {
-    GpuRange vertices;           // positions, then normals where the mesh has some
+    GpuRange vertices;  // positions, then normals where the mesh has some
     VkDeviceAddress scratch = 0;
     std::vector<uint32_t> weld;  // of vertices with normals
     VkAccelerationStructureKHR structure = VK_NULL_HANDLE;

@@ -14,16 +14,13 @@ namespace {
 // Few cards let the CPU see much of their memory: blocks of that are smaller.
 constexpr size_t kBlock = size_t{32} << 20, kUploadBlock = size_t{4} << 20, kStaging = size_t{32} << 20, kAlign = 256, kTail = 16;
 
-constexpr VkBufferUsageFlags kUsage =
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
-    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-    VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR |
-    VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR | VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR;
+constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                      VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR |
+                                      VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR | VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR;
 
-constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
-                                kVisible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT,
-                                kCoherent = VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                                kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, kVisible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT,
+                                kCoherent = VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 
 // Wishes in order; the last one is the least that will do.
 std::array<VkMemoryPropertyFlags, 3> WishesOf(MemoryKind kind) {
@@ -45,8 +42,8 @@ void CheckSize(const GpuDevice& device, size_t size) {
     std::snprintf(text, sizeof text, "%.1f GiB", static_cast<double>(bytes) / (1 << 30));
     return std::string(text);
   };
-  throw RuntimeError("GPU: " + gib(size) + " in one piece are more than " + device.info().name + " gives (" +
-                     gib(device.most_memory()) + "): render a smaller picture or fewer cameras");
+  throw RuntimeError("GPU: " + gib(size) + " in one piece are more than " + device.info().name + " gives (" + gib(device.most_memory()) +
+                     "): render a smaller picture or fewer cameras");
 }
 
 size_t RoundUp(size_t n) { return (n + kAlign - 1) / kAlign * kAlign; }
@@ -73,8 +70,7 @@ GpuBuffer::GpuBuffer(GpuDevice& device, size_t size, MemoryKind kind) : device_(
     vkGetBufferMemoryRequirements(d, buffer_, &needs);
 
     // Types in the order of the wishes, the next one where a heap is full.
-    const VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, nullptr,
-                                          VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, 0};
+    const VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, nullptr, VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, 0};
     VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
     if (device.fault() == GpuFault::kNoMemory) CheckVk(result, "allocating memory");
     if (device.fault() == GpuFault::kNoFrameMemory && kind == MemoryKind::kReadBack) CheckVk(result, "allocating memory");
@@ -137,8 +133,7 @@ GpuRange GpuArena::Take(size_t size) {
     next_ = 0;
   }
   const GpuBuffer& block = blocks_.back();
-  const GpuRange range{block.handle(), next_, block.address() + next_,
-                       block.mapped() != nullptr ? block.mapped() + next_ : nullptr};
+  const GpuRange range{block.handle(), next_, block.address() + next_, block.mapped() != nullptr ? block.mapped() + next_ : nullptr};
   next_ += rounded;
   return range;
 }

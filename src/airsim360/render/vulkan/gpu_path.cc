@@ -46,8 +46,13 @@ void PutLamps(GpuArena& arena, const Shader::Impl& shader, const Scene& scene, G
   for (uint32_t i = 0; i < all.size(); ++i) {
     const auto triangles = shader.lights.TrianglesOf(i);
     const auto shares = shader.lights.SharesOf(i);
-    GpuPathLamp lamp{static_cast<uint32_t>(parts.size()), static_cast<uint32_t>(triangles.size()),
-                     shader.lights.tree().leaf_of()[i], all[i].area, {}, {}, shader.tables.instances[all[i].instance].hash};
+    GpuPathLamp lamp{static_cast<uint32_t>(parts.size()),
+                     static_cast<uint32_t>(triangles.size()),
+                     shader.lights.tree().leaf_of()[i],
+                     all[i].area,
+                     {},
+                     {},
+                     shader.tables.instances[all[i].instance].hash};
     Copy(shader.tables.GlowOf(all[i].instance), lamp.glow);
     Copy(all[i].beam, lamp.beam);
     lamps.push_back(lamp);

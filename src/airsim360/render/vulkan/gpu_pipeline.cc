@@ -21,8 +21,8 @@ struct Group {
 constexpr Group kTable[kGroups] = {{kRaygen, kNone, kNone}, {kMissStage, kNone, kNone}, {kLightMiss, kNone, kNone},
                                    {kNone, kHit, kNone},    {kNone, kHit, kAlpha},      {kNone, kHit, kNone},
                                    {kNone, kHit, kNone},    {kNone, kHit, kAlpha},      {kNone, kHit, kPane}};
-constexpr VkShaderStageFlags kAllStages = VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR |
-                                          VK_SHADER_STAGE_ANY_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR;
+constexpr VkShaderStageFlags kAllStages =
+    VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR;
 
 // Shader modules that go with their scope.
 struct Modules {
@@ -63,22 +63,18 @@ GpuPipeline::~GpuPipeline() {
 void GpuPipeline::MakePipeline(std::span<const uint32_t> raygen) {
   Modules modules{device_.device(), {}};
   const std::pair<VkShaderStageFlagBits, std::span<const uint32_t>> codes[kStages] = {
-      {VK_SHADER_STAGE_RAYGEN_BIT_KHR, raygen},
-      {VK_SHADER_STAGE_MISS_BIT_KHR, MissShader()},
-      {VK_SHADER_STAGE_MISS_BIT_KHR, LightMissShader()},
-      {VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, HitShader()},
-      {VK_SHADER_STAGE_ANY_HIT_BIT_KHR, AlphaAnyHit()},
-      {VK_SHADER_STAGE_ANY_HIT_BIT_KHR, PaneAnyHit()}};
+      {VK_SHADER_STAGE_RAYGEN_BIT_KHR, raygen},          {VK_SHADER_STAGE_MISS_BIT_KHR, MissShader()},
+      {VK_SHADER_STAGE_MISS_BIT_KHR, LightMissShader()}, {VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, HitShader()},
+      {VK_SHADER_STAGE_ANY_HIT_BIT_KHR, AlphaAnyHit()},  {VK_SHADER_STAGE_ANY_HIT_BIT_KHR, PaneAnyHit()}};
   std::vector<VkPipelineShaderStageCreateInfo> stages;
   for (const auto& [stage, code] : codes) {
-    stages.push_back({VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, stage, modules.Add(code),
-                      "main", nullptr});
+    stages.push_back({VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, stage, modules.Add(code), "main", nullptr});
   }
   std::vector<VkRayTracingShaderGroupCreateInfoKHR> groups;
   for (const Group& g : kTable) {
     VkRayTracingShaderGroupCreateInfoKHR group{VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR, nullptr};
-    group.type = g.general != kNone ? VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR
-                                    : VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR;
+    group.type =
+        g.general != kNone ? VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR : VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR;
     group.generalShader = g.general, group.closestHitShader = g.closest, group.anyHitShader = g.any;
     group.intersectionShader = kNone;
     groups.push_back(group);
@@ -90,8 +86,7 @@ void GpuPipeline::MakePipeline(std::span<const uint32_t> raygen) {
   info.pGroups = groups.data();
   info.maxPipelineRayRecursionDepth = 1;
   info.layout = layout_;
-  CheckVk(device_.rt().create_pipelines(device_.device(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &info, nullptr,
-                                        &pipeline_),
+  CheckVk(device_.rt().create_pipelines(device_.device(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_),
           "compiling shaders");
 }
 
@@ -102,8 +97,7 @@ void GpuPipeline::MakeTable() {
   const VkDeviceSize stride = up(handle, std::max<VkDeviceSize>(limits.shaderGroupHandleAlignment, 32));
   const VkDeviceSize base = std::max<VkDeviceSize>(limits.shaderGroupBaseAlignment, 64);
   std::vector<std::byte> handles(size_t{handle} * kGroups);
-  CheckVk(device_.rt().group_handles(device_.device(), pipeline_, 0, kGroups, handles.size(), handles.data()),
-          "reading shader handles");
+  CheckVk(device_.rt().group_handles(device_.device(), pipeline_, 0, kGroups, handles.size(), handles.data()), "reading shader handles");
 
   const VkDeviceSize miss_at = up(stride, base), hit_at = miss_at + up(stride * kMissGroups, base);
   table_ = GpuBuffer(device_, hit_at + stride * kHitGroups + base, MemoryKind::kUpload);
@@ -119,8 +113,7 @@ void GpuPipeline::MakeTable() {
   hit_ = {start + hit_at, stride, stride * kHitGroups};
 }
 
-void GpuPipeline::Trace(VkCommandBuffer commands, const GpuPush& push, uint32_t width, uint32_t height,
-                        uint32_t depth) const {
+void GpuPipeline::Trace(VkCommandBuffer commands, const GpuPush& push, uint32_t width, uint32_t height, uint32_t depth) const {
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline_);
   vkCmdPushConstants(commands, layout_, kAllStages, 0, sizeof(push), &push);
   const VkStridedDeviceAddressRegionKHR callable{};

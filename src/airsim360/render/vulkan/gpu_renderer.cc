@@ -51,8 +51,7 @@ void CopyFrame(const GpuFrame& from, Frame& to) {
 
 class VulkanRenderer : public GpuRenderer {
  public:
-  VulkanRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& what,
-                 const GpuOptions& options)
+  VulkanRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& what, const GpuOptions& options)
       : tracer_(std::move(tracer)),
         environment_(what.environment.value_or(tracer_->scene().environment)),
         device_(options),
@@ -62,8 +61,7 @@ class VulkanRenderer : public GpuRenderer {
         labels_(device_, LabelsRaygen()) {
     if (options.frames_in_flight < 1 || options.frames_in_flight > 16)
       throw InputError("frames in flight: " + std::to_string(options.frames_in_flight) + " is not in 1 … 16");
-    for (int i = 0; i < options.frames_in_flight; ++i)
-      slots_.push_back(std::make_unique<GpuSlot>(device_, scene_));
+    for (int i = 0; i < options.frames_in_flight; ++i) slots_.push_back(std::make_unique<GpuSlot>(device_, scene_));
     if (what.tier != Tier::kLabels) PrepareColor();
     if (what.tier == Tier::kHigh) PrepareHigh();
   }
@@ -80,15 +78,13 @@ class VulkanRenderer : public GpuRenderer {
     frame.exposure = WantsColor(request) ? Exposure(request) : 1;
     RenderStats stats;
     stats.rays = static_cast<uint64_t>(Width(request.camera)) * static_cast<uint64_t>(Height(request.camera));
-    stats.render_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    stats.render_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return stats;
   }
 
   uint64_t Submit(std::span<const RenderRequest> requests) override {
     Check(requests);
-    if (requests.front().tier == Tier::kHigh && std::ranges::any_of(requests, &WantsColor))
-      history_.Count(requests.front().temporal);
+    if (requests.front().tier == Tier::kHigh && std::ranges::any_of(requests, &WantsColor)) history_.Count(requests.front().temporal);
     return Start(requests);
   }
 
@@ -142,16 +138,14 @@ class VulkanRenderer : public GpuRenderer {
   uint64_t Start(std::span<const RenderRequest> requests) { return Start(requests, WorkFor(requests)); }
   uint64_t Start(std::span<const RenderRequest> requests, const GpuSlot::Work& work) {
     const auto free = std::ranges::find(slots_, 0u, [](const auto& slot) { return slot->ticket; });
-    if (free == slots_.end())
-      throw RuntimeError("GPU: all " + std::to_string(slots_.size()) + " frames in flight are taken; release one");
+    if (free == slots_.end()) throw RuntimeError("GPU: all " + std::to_string(slots_.size()) + " frames in flight are taken; release one");
     const bool idle = std::ranges::all_of(slots_, [](const auto& slot) { return slot->ticket == 0; });
     if (idle) cameras_.Trim();
     (*free)->Submit(requests, cameras_, work);
     return (*free)->ticket = ++last_ticket_;
   }
   GpuSlot::Work WorkFor(std::span<const RenderRequest> requests) {
-    const bool shaded = std::ranges::any_of(
-        requests, [](const RenderRequest& r) { return WantsColor(r) || r.products.albedo; });
+    const bool shaded = std::ranges::any_of(requests, [](const RenderRequest& r) { return WantsColor(r) || r.products.albedo; });
     if (shaded) PrepareColor();
     GpuSlot::Work work = shaded ? ColorWork(requests) : GpuSlot::Work{.passes = {{&labels_}}};
     work.read_back = read_back_;
@@ -187,12 +181,8 @@ class VulkanRenderer : public GpuRenderer {
     if (!label_tables_) label_tables_ = std::make_unique<LabelTables>(*tracer_);
     frame.daylight = DaylightAt(*tracer_, *shader_, label_tables_->view(), VecCast<float>(request.X_WC.p));
   }
-  static bool WantsColor(const RenderRequest& r) {
-    return r.tier != Tier::kLabels && (r.products.rgb || r.products.radiance || r.light);
-  }
-  float Exposure(const RenderRequest& r) const {
-    return shader_->Exposure() * static_cast<float>(std::exp2(r.exposure_ev));
-  }
+  static bool WantsColor(const RenderRequest& r) { return r.tier != Tier::kLabels && (r.products.rgb || r.products.radiance || r.light); }
+  float Exposure(const RenderRequest& r) const { return shader_->Exposure() * static_cast<float>(std::exp2(r.exposure_ev)); }
   const GpuPipeline* Made(std::unique_ptr<GpuPipeline>& pipeline, std::span<const uint32_t> raygen) {
     if (!pipeline) pipeline = std::make_unique<GpuPipeline>(device_, raygen);
     return pipeline.get();
@@ -201,8 +191,7 @@ class VulkanRenderer : public GpuRenderer {
   GpuSlot::Work ColorWork(std::span<const RenderRequest> requests) {
     GpuSlot::Work work{.shade = shade_->address(requests.front().tone), .exposure = shader_->Exposure()};
     const bool antialias = std::ranges::any_of(requests, [](const RenderRequest& r) { return ColorSamples(r) > 1; });
-    if (std::ranges::any_of(requests, [](const RenderRequest& r) { return r.products.flow; }))
-      work.passes.push_back({&labels_});
+    if (std::ranges::any_of(requests, [](const RenderRequest& r) { return r.products.flow; })) work.passes.push_back({&labels_});
     if (requests.front().tier == Tier::kHigh) {
       PrepareHigh();
       work.high = high_tables_->address();
@@ -248,8 +237,7 @@ class VulkanRenderer : public GpuRenderer {
       pixels += static_cast<uint64_t>(Width(r.camera)) * static_cast<uint64_t>(Height(r.camera));
     }
     const int paths = GpuPathsOfAPass(pixels);
-    for (int first = 0; first < most; first += paths)
-      work.passes.push_back({Made(path_, PathRaygen()), first, paths, first > 0});
+    for (int first = 0; first < most; first += paths) work.passes.push_back({Made(path_, PathRaygen()), first, paths, first > 0});
   }
   void PrepareHigh() {
     if (!high_tables_) high_tables_ = std::make_unique<GpuHighTables>(device_, *shader_, *tracer_);
@@ -277,8 +265,7 @@ class VulkanRenderer : public GpuRenderer {
       if (r.state != first.state || r.next_state != first.next_state || r.tier != first.tier || r.tone != first.tone)
         throw InputError("GPU: the cameras of a submission must share state, tier and tone curve");
       if (r.products.material && scene.materials.size() > kMaxMaterials)
-        throw InputError("material ids have 16 bits, the scene has " + std::to_string(scene.materials.size()) +
-                         " materials");
+        throw InputError("material ids have 16 bits, the scene has " + std::to_string(scene.materials.size()) + " materials");
     }
     if (first.state) CheckState(scene, *first.state);
     if (first.next_state) CheckState(scene, *first.next_state);

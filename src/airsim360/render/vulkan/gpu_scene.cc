@@ -59,12 +59,10 @@ std::vector<uint32_t> PackAlpha(const Image<Rgba8>& image) {
 
 }  // namespace
 
-GpuScene::GpuScene(GpuDevice& device, std::shared_ptr<const Scene> scene)
-    : device_(device), scene_(std::move(scene)), arena_(device) {
+GpuScene::GpuScene(GpuDevice& device, std::shared_ptr<const Scene> scene) : device_(device), scene_(std::move(scene)), arena_(device) {
   const Scene& s = *scene_;
   if (s.instances.size() > kMaxInstances)
-    throw RuntimeError("GPU: the scene has " + std::to_string(s.instances.size()) +
-                       " instances, at most 2^24 can be traced");
+    throw RuntimeError("GPU: the scene has " + std::to_string(s.instances.size()) + " instances, at most 2^24 can be traced");
   records_.resize(s.meshes.size());
   structures_.resize(s.meshes.size(), VK_NULL_HANDLE);
   addresses_.resize(s.meshes.size(), 0);

@@ -11,8 +11,7 @@ namespace {
 
 static_assert(sizeof(GpuTriangle) == sizeof(TriangleRecord) && sizeof(GpuShaded) == sizeof(InstanceRecord) &&
               sizeof(GpuMaterial) == sizeof(MaterialRecord) && sizeof(GpuPane) == sizeof(PaneRecord) &&
-              sizeof(GpuTriangleColors) == sizeof(TriangleColors) &&
-              sizeof(GpuLamp) == sizeof(LampRecord));
+              sizeof(GpuTriangleColors) == sizeof(TriangleColors) && sizeof(GpuLamp) == sizeof(LampRecord));
 
 template <size_t N>
 void Copy(const float (&from)[N], float (&to)[N]) {
@@ -32,8 +31,7 @@ VkDeviceAddress PutTextures(GpuArena& arena, const std::vector<TextureRecord>& t
     for (int k = 0; k <= static_cast<int>(t.last_level); ++k) {
       const TextureLevel& level = t.levels[k];
       VkDeviceAddress& address = levels[level.texels];
-      if (address == 0)
-        address = PutArray(arena, level.texels, static_cast<size_t>(level.width) * static_cast<size_t>(level.height));
+      if (address == 0) address = PutArray(arena, level.texels, static_cast<size_t>(level.width) * static_cast<size_t>(level.height));
       r.texels[k] = address, r.width[k] = level.width, r.height[k] = level.height;
     }
     r.last_level = t.last_level, r.size_log2 = t.size_log2, r.srgb = t.srgb;
@@ -69,8 +67,7 @@ void PutLamps(GpuArena& arena, const LampView& grid, GpuShade& out) {
   const uint32_t cells = 1 + *std::max_element(grid.cell_of, grid.cell_of + places);
   uint32_t lamps = 1;
   for (uint32_t i = 1; i < cells; ++i) {
-    for (uint32_t k = 0; k < (grid.cells[i].header & 255); ++k)
-      lamps = std::max(lamps, 1 + (grid.cells[i].lamp[k] & 0xffffffu));
+    for (uint32_t k = 0; k < (grid.cells[i].header & 255); ++k) lamps = std::max(lamps, 1 + (grid.cells[i].lamp[k] & 0xffffffu));
   }
   out.has_lamps = 1;
   out.lamps = PutArray(arena, grid.lamps, lamps);

@@ -98,8 +98,15 @@ void CopyToShared(GpuDevice& device, const GpuBuffer& from, size_t bytes, GpuSha
     const VkBufferCopy copy{0, 0, bytes};
     vkCmdCopyBuffer(commands, from.handle(), shared.handle(), 1, &copy);
     // Given to the other interface.
-    const VkBufferMemoryBarrier give{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER, nullptr, VK_ACCESS_TRANSFER_WRITE_BIT, 0,
-                                     device.queue_family(), VK_QUEUE_FAMILY_EXTERNAL, shared.handle(), 0, VK_WHOLE_SIZE};
+    const VkBufferMemoryBarrier give{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER,
+                                     nullptr,
+                                     VK_ACCESS_TRANSFER_WRITE_BIT,
+                                     0,
+                                     device.queue_family(),
+                                     VK_QUEUE_FAMILY_EXTERNAL,
+                                     shared.handle(),
+                                     0,
+                                     VK_WHOLE_SIZE};
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0, 0, nullptr, 1, &give, 0,
                          nullptr);
   });

@@ -16,32 +16,30 @@ constexpr uint64_t kPatienceNs = uint64_t{300} * 1'000'000'000;
 enum Product { kRange, kEntity, kSemantic, kNormal, kPosition, kMaterial, kFlowProduct, kAlbedo, kRadiance, kRgb, kCoverage };
 constexpr size_t kProducts = GpuSlot::kProducts;
 constexpr size_t kPixelBytes[kProducts] = {4, 4, 2, 12, 12, 2, 28, 12, 12, 3, 32};
-constexpr uint32_t kWant[kProducts] = {kWantRange,    kWantEntity, kWantSemantic, kWantNormal,   kWantPosition,
-                                kWantMaterial, kWantFlow,   kWantAlbedo,   kWantRadiance, kWantRgb,     kWantCoverage};
+constexpr uint32_t kWant[kProducts] = {kWantRange, kWantEntity, kWantSemantic, kWantNormal, kWantPosition, kWantMaterial,
+                                       kWantFlow,  kWantAlbedo, kWantRadiance, kWantRgb,    kWantCoverage};
 
 std::array<bool, kProducts> Wanted(const RenderRequest& request) {
   const Products& p = request.products;
   const bool color = request.tier != Tier::kLabels;
-  return {p.range, p.entity, p.semantic, p.normal,          p.position,
-          p.material, p.flow, p.albedo,  color && (p.radiance || request.light), color && p.rgb, p.coverage};
+  return {p.range,        p.entity,  p.semantic, p.normal, p.position, p.material, p.flow, p.albedo, color && (p.radiance || request.light),
+          color && p.rgb, p.coverage};
 }
 
 VkCommandBuffer NewCommands(VkDevice device, VkCommandPool pool) {
-  const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool,
-                                         VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+  const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
   VkCommandBuffer commands;
   CheckVk(vkAllocateCommandBuffers(device, &info, &commands), "making commands");
   return commands;
 }
 
 void BeginOnce(VkCommandBuffer commands) {
-  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
-                                       VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
+                                       nullptr};
   CheckVk(vkBeginCommandBuffer(commands, &begin), "recording");
 }
 
-void PutBarrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags wrote, VkPipelineStageFlags to,
-                VkAccessFlags then) {
+void PutBarrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags wrote, VkPipelineStageFlags to, VkAccessFlags then) {
   const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, wrote, then};
   vkCmdPipelineBarrier(commands, from, to, 0, 1, &memory, 0, nullptr, 0, nullptr);
 }
@@ -56,8 +54,7 @@ std::span<const T> SpanAt(const std::byte* base, size_t offset, size_t count) {
 
 GpuSlot::GpuSlot(GpuDevice& device, const GpuScene& scene) : device_(device), scene_(scene), now_(device, scene) {
   const VkDevice d = device.device();
-  const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0,
-                                     device.queue_family()};
+  const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, device.queue_family()};
   CheckVk(vkCreateCommandPool(d, &pool, nullptr, &pool_), "making a command pool");
   if (device.discrete()) {
     const VkCommandPoolCreateInfo copies{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, device.copy_family()};
@@ -93,8 +90,7 @@ void GpuSlot::Arrange(std::span<const RenderRequest> requests, const Work& work)
     Place place{};
     place.width = Width(request.camera), place.height = Height(request.camera);
     if (place.width <= 0 || place.height <= 0)
-      throw InputError("camera of " + std::to_string(place.width) + "x" + std::to_string(place.height) +
-                       " pixels");
+      throw InputError("camera of " + std::to_string(place.width) + "x" + std::to_string(place.height) + " pixels");
     const size_t pixels = static_cast<size_t>(place.width) * static_cast<size_t>(place.height);
     const auto wanted = Wanted(request);
     for (size_t k = 0; k < kProducts; ++k) {
@@ -108,8 +104,7 @@ void GpuSlot::Arrange(std::span<const RenderRequest> requests, const Work& work)
   const size_t all_bytes = ArrangePasses(requests, work);
   const uint64_t invocations = uint64_t{width_} * height_ * requests.size();
   if (invocations > device_.pipeline_limits().maxRayDispatchInvocationCount)
-    throw RuntimeError("GPU: " + std::to_string(invocations) + " rays at once are more than " +
-                       device_.info().name + " takes (" +
+    throw RuntimeError("GPU: " + std::to_string(invocations) + " rays at once are more than " + device_.info().name + " takes (" +
                        std::to_string(device_.pipeline_limits().maxRayDispatchInvocationCount) +
                        "): render a smaller picture or fewer cameras");
 
@@ -157,9 +152,8 @@ void GpuSlot::FillParameters(std::span<const RenderRequest> requests, GpuCameras
     GpuCamera camera{};
     cameras.Fill(requests[i], work.frames, cursor, camera);
     if (work.history != nullptr) work.history->Fill(requests[i], cameras.field(), camera);
-    uint64_t* const to[kProducts] = {&camera.range,    &camera.entity, &camera.semantic, &camera.normal,   &camera.position,
-                              &camera.material, &camera.flow,   &camera.albedo,   &camera.radiance, &camera.rgb,
-                              &camera.coverage};
+    uint64_t* const to[kProducts] = {&camera.range, &camera.entity, &camera.semantic, &camera.normal, &camera.position, &camera.material,
+                                     &camera.flow,  &camera.albedo, &camera.radiance, &camera.rgb,    &camera.coverage};
     for (size_t k = 0; k < kProducts; ++k) {
       if (places_[i].offset[k] == kNowhere) continue;
       *to[k] = base + places_[i].offset[k];
@@ -224,14 +218,12 @@ void GpuSlot::RecordPasses(const Work& work, VkCommandBuffer commands) {
     }
     // The first pass waits for the last frame too where it reads from that.
     if (k > 0 || work.history != nullptr) {
-      PutBarrier(commands, kTracing, VK_ACCESS_SHADER_WRITE_BIT, kTracing,
-                 VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+      PutBarrier(commands, kTracing, VK_ACCESS_SHADER_WRITE_BIT, kTracing, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
     }
     pass.pipeline->Trace(commands, {parameters_, pass.number, pass.paths}, width_, height_, cameras);
   }
   if (clock_ != VK_NULL_HANDLE) vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, clock_, 1);
-  if (!device_.discrete())
-    PutBarrier(commands, kTracing, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+  if (!device_.discrete()) PutBarrier(commands, kTracing, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
   CheckVk(vkEndCommandBuffer(commands), "recording");
 }
 
@@ -241,8 +233,7 @@ void GpuSlot::RecordCopy() {
   BeginOnce(copy_);
   const VkBufferCopy copy{0, 0, bytes_};
   vkCmdCopyBuffer(copy_, pictures_.handle(), read_back_.handle(), 1, &copy);
-  PutBarrier(copy_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
-             VK_ACCESS_HOST_READ_BIT);
+  PutBarrier(copy_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
   CheckVk(vkEndCommandBuffer(copy_), "recording");
 }
 
@@ -280,8 +271,7 @@ void GpuSlot::Start() {
 void GpuSlot::Wait() {
   if (waited_) return;
   const VkResult result = vkWaitForFences(device_.device(), 1, &fence_, VK_TRUE, kPatienceNs * parts_);
-  if (result == VK_TIMEOUT)
-    throw RuntimeError("GPU: no answer in " + std::to_string(kPatienceNs / 60'000'000'000 * parts_) + " minutes");
+  if (result == VK_TIMEOUT) throw RuntimeError("GPU: no answer in " + std::to_string(kPatienceNs / 60'000'000'000 * parts_) + " minutes");
   CheckVk(device_.fault() == GpuFault::kLost ? VK_ERROR_DEVICE_LOST : result, "rendering");
   waited_ = true;
   read_back_.Invalidate();
@@ -290,8 +280,8 @@ void GpuSlot::Wait() {
   CheckVk(vkGetQueryPoolResults(device_.device(), clock_, 0, 2, sizeof(stamps), stamps, sizeof(uint64_t),
                                 VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "reading the clock");
-  gpu_ms_ = static_cast<double>((stamps[1] - stamps[0]) & device_.timestamp_mask()) *
-            static_cast<double>(device_.timestamp_period_ns()) * 1e-6;
+  gpu_ms_ =
+      static_cast<double>((stamps[1] - stamps[0]) & device_.timestamp_mask()) * static_cast<double>(device_.timestamp_period_ns()) * 1e-6;
 }
 
 std::vector<GpuFrame> GpuSlot::FramesAt(const std::byte* base) const {

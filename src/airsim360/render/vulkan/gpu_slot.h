@@ -20,23 +20,23 @@ class GpuSlot {
   GpuSlot& operator=(const GpuSlot&) = delete;
 
   static constexpr size_t kProducts = 11;  ///< kinds of pictures
-  uint64_t ticket = 0;  ///< of the submission in this slot; 0 = free
+  uint64_t ticket = 0;                     ///< of the submission in this slot; 0 = free
 
   /// What a submission runs.
   struct Work {
     struct Pass {
       const GpuPipeline* pipeline;
-      int32_t number = 0;   ///< for shaders that do several things
-      int32_t paths = 0;    ///< of a pixel; tier `reference`
-      bool is_long = false; ///< starts a submission of its own, so that none takes so long that a driver gives up
+      int32_t number = 0;    ///< for shaders that do several things
+      int32_t paths = 0;     ///< of a pixel; tier `reference`
+      bool is_long = false;  ///< starts a submission of its own, so that none takes so long that a driver gives up
     };
-    std::vector<Pass> passes;            ///< one after another, each once for each pixel
+    std::vector<Pass> passes;                       ///< one after another, each once for each pixel
     VkDeviceAddress shade = 0, high = 0, path = 0;  ///< GpuShade of colour tiers, GpuHigh, GpuPath
     float exposure = 1;
     size_t numbers = 0;             ///< that passes keep of each pixel for each other
     GpuHistory* history = nullptr;  ///< tier `high`, where light of the last frame is mixed in
     uint64_t frames = 0;            ///< that are added up (RenderRequest::temporal)
-    bool read_back = true;  ///< pictures go to memory of the CPU
+    bool read_back = true;          ///< pictures go to memory of the CPU
   };
   /// Starts `work` on all requests. The slot must be free.
   void Submit(std::span<const RenderRequest> requests, GpuCameras& cameras, const Work& work);

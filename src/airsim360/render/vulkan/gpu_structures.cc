@@ -10,8 +10,8 @@ namespace {
 
 constexpr VkDeviceSize kBatchBytes = VkDeviceSize{256} << 20;  // of structures and scratch at once
 constexpr size_t kBatchMeshes = 1024;
-constexpr VkBuildAccelerationStructureFlagsKHR kFlags = VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR |
-                                                        VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
+constexpr VkBuildAccelerationStructureFlagsKHR kFlags =
+    VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR | VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
 
 VkDeviceSize Up(VkDeviceSize n, VkDeviceSize to) { return (n + to - 1) / to * to; }
 
@@ -21,8 +21,7 @@ void Wait(VkCommandBuffer commands, VkAccessFlags from, VkAccessFlags to) {
   vkCmdPipelineBarrier(commands, kBuild, kBuild, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
-constexpr VkAccessFlags kWrite = VK_ACCESS_ACCELERATION_STRUCTURE_WRITE_BIT_KHR,
-                        kRead = VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR;
+constexpr VkAccessFlags kWrite = VK_ACCESS_ACCELERATION_STRUCTURE_WRITE_BIT_KHR, kRead = VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR;
 
 VkAccelerationStructureKHR Create(GpuDevice& device, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) {
   VkAccelerationStructureCreateInfoKHR info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR, nullptr};
@@ -67,9 +66,7 @@ void GpuScene::Describe(MeshId mesh, VkDeviceAddress positions, VkBuildAccelerat
     geometry = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR, nullptr};
     geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
     // A pane tints a ray of light once (pane.rahit).
-    geometry.flags = g == 0   ? VK_GEOMETRY_OPAQUE_BIT_KHR
-                     : g == 2 ? VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR
-                              : 0;
+    geometry.flags = g == 0 ? VK_GEOMETRY_OPAQUE_BIT_KHR : g == 2 ? VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR : 0;
     auto& triangles = geometry.geometry.triangles;
     triangles = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR, nullptr};
     triangles.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;
@@ -88,8 +85,7 @@ void GpuScene::Describe(MeshId mesh, VkDeviceAddress positions, VkBuildAccelerat
   out.info.geometryCount = 3;
   out.info.pGeometries = out.geometries.data();
   out.sizes = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR, nullptr};
-  device_.rt().build_sizes(device_.device(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &out.info,
-                           out.counts.data(), &out.sizes);
+  device_.rt().build_sizes(device_.device(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &out.info, out.counts.data(), &out.sizes);
 }
 
 void GpuScene::BuildStructures(const std::vector<MeshId>& used) {
@@ -110,28 +106,24 @@ void GpuScene::BuildStructures(const std::vector<MeshId>& used) {
 
 void GpuScene::BuildBatch(const std::vector<MeshId>& batch) {
   const auto count = static_cast<uint32_t>(batch.size());
-  const VkDeviceSize scratch_align =
-      std::max<VkDeviceSize>(device_.structure_limits().minAccelerationStructureScratchOffsetAlignment, 256);
+  const VkDeviceSize scratch_align = std::max<VkDeviceSize>(device_.structure_limits().minAccelerationStructureScratchOffsetAlignment, 256);
   const auto builds = std::make_unique<MeshBuild[]>(count);
   std::vector<VkDeviceSize> at(count), scratch_at(count);
   VkDeviceSize size = 0, scratch_size = 0;
   for (uint32_t i = 0; i < count; ++i) {
-    Describe(batch[i], records_[batch[i]].positions, kFlags, VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR,
-             builds[i]);
+    Describe(batch[i], records_[batch[i]].positions, kFlags, VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR, builds[i]);
     at[i] = size, scratch_at[i] = scratch_size;
     size += Up(builds[i].sizes.accelerationStructureSize, 256);
     scratch_size += Up(builds[i].sizes.buildScratchSize, scratch_align);
   }
 
   // Build all at once, each with its own scratch, and ask for the sizes.
-  const GpuBuffer storage(device_, size, MemoryKind::kDevice),
-      scratch(device_, scratch_size + scratch_align, MemoryKind::kDevice);
+  const GpuBuffer storage(device_, size, MemoryKind::kDevice), scratch(device_, scratch_size + scratch_align, MemoryKind::kDevice);
   Temporary loose{device_, {}};
   std::vector<VkAccelerationStructureBuildGeometryInfoKHR> infos;
   std::vector<const VkAccelerationStructureBuildRangeInfoKHR*> ranges;
   for (uint32_t i = 0; i < count; ++i) {
-    loose.list.push_back(
-        Create(device_, storage.handle(), at[i], builds[i].sizes.accelerationStructureSize));
+    loose.list.push_back(Create(device_, storage.handle(), at[i], builds[i].sizes.accelerationStructureSize));
     builds[i].info.dstAccelerationStructure = loose.list.back();
     builds[i].info.scratchData.deviceAddress = Up(scratch.address(), scratch_align) + scratch_at[i];
     infos.push_back(builds[i].info);
@@ -142,12 +134,11 @@ void GpuScene::BuildBatch(const std::vector<MeshId>& batch) {
     vkCmdResetQueryPool(commands, queries.pool, 0, count);
     device_.rt().build(commands, count, infos.data(), ranges.data());
     Wait(commands, kWrite, kRead);
-    device_.rt().write_properties(commands, count, loose.list.data(),
-                                  VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR, queries.pool, 0);
+    device_.rt().write_properties(commands, count, loose.list.data(), VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR, queries.pool,
+                                  0);
   });
   std::vector<VkDeviceSize> sizes(count);
-  CheckVk(vkGetQueryPoolResults(device_.device(), queries.pool, 0, count, count * sizeof(VkDeviceSize),
-                                sizes.data(), sizeof(VkDeviceSize),
+  CheckVk(vkGetQueryPoolResults(device_.device(), queries.pool, 0, count, count * sizeof(VkDeviceSize), sizes.data(), sizeof(VkDeviceSize),
                                 VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "reading sizes");
 
@@ -155,15 +146,14 @@ void GpuScene::BuildBatch(const std::vector<MeshId>& batch) {
   for (uint32_t i = 0; i < count; ++i) {
     const GpuRange place = arena_.Take(sizes[i]);
     structures_[batch[i]] = Create(device_, place.buffer, place.offset, sizes[i]);
-    const VkAccelerationStructureDeviceAddressInfoKHR address{
-        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR, nullptr, structures_[batch[i]]};
+    const VkAccelerationStructureDeviceAddressInfoKHR address{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR, nullptr,
+                                                              structures_[batch[i]]};
     addresses_[batch[i]] = device_.rt().structure_address(device_.device(), &address);
   }
   device_.Run([&](VkCommandBuffer commands) {
     for (uint32_t i = 0; i < count; ++i) {
-      const VkCopyAccelerationStructureInfoKHR copy{
-          VK_STRUCTURE_TYPE_COPY_ACCELERATION_STRUCTURE_INFO_KHR, nullptr, loose.list[i],
-          structures_[batch[i]], VK_COPY_ACCELERATION_STRUCTURE_MODE_COMPACT_KHR};
+      const VkCopyAccelerationStructureInfoKHR copy{VK_STRUCTURE_TYPE_COPY_ACCELERATION_STRUCTURE_INFO_KHR, nullptr, loose.list[i],
+                                                    structures_[batch[i]], VK_COPY_ACCELERATION_STRUCTURE_MODE_COMPACT_KHR};
       device_.rt().copy(commands, &copy);
     }
   });

@@ -156,8 +156,7 @@ double Truncation(const Camera& camera, std::span<const Vec3f> p_C) {
   }
   const double all = (x1 - x0) * (y1 - y0);
   if (!(all > 0)) return 1;
-  const double w = std::min<double>(x1, Width(camera)) - std::max(x0, 0.0),
-               h = std::min<double>(y1, Height(camera)) - std::max(y0, 0.0);
+  const double w = std::min<double>(x1, Width(camera)) - std::max(x0, 0.0), h = std::min<double>(y1, Height(camera)) - std::max(y0, 0.0);
   return w > 0 && h > 0 ? 1 - w * h / all : 1;
 }
 
@@ -211,23 +210,20 @@ void AddBoxes(const Shared& shared, size_t i, PersonLabel& label) {
 // Whether anything of a person can be in the picture.
 bool Outside(const Camera& camera, const PersonLabel& label) {
   if (std::holds_alternative<Equirectangular>(camera) || label.amodal.pixels > 0) return false;
-  return std::ranges::all_of(label.keypoints,
-                             [](const KeypointLabel& k) { return k.state == KeypointState::kAbsent; });
+  return std::ranges::all_of(label.keypoints, [](const KeypointLabel& k) { return k.state == KeypointState::kAbsent; });
 }
 
 }  // namespace
 
 std::vector<KeypointLabel> LabelKeypoints(const PeoplePicture& picture, size_t person) {
-  const Shared shared{picture, picture.X_WC.inverse(),
-                      PersonFlags(picture.people, picture.tracer.scene().entities.size()),
+  const Shared shared{picture, picture.X_WC.inverse(), PersonFlags(picture.people, picture.tracer.scene().entities.size()),
                       PixelDirections(picture.camera)};
   return Keypoints(shared, person);
 }
 
 std::vector<PersonLabel> LabelPeople(const PeoplePicture& picture, const LabelOptions& options) {
   const Camera& camera = picture.camera;
-  const Shared shared{picture, picture.X_WC.inverse(),
-                      PersonFlags(picture.people, picture.tracer.scene().entities.size()),
+  const Shared shared{picture, picture.X_WC.inverse(), PersonFlags(picture.people, picture.tracer.scene().entities.size()),
                       options.boxes ? PixelDirections(camera) : PixelDirections(Pinhole{})};
   std::vector<PersonLabel> labels;
   for (size_t i = 0; i < picture.poses.states.size() && !picture.people.refs.empty(); ++i) {

@@ -18,7 +18,8 @@ using internal::PeopledRoom;
 
 // Someone alone, someone behind the box, someone behind someone, someone across the seam.
 std::vector<internal::Stand> Crowd() {
-  return {{{2.2, 0.1, 0}, 3.0}, {{4.3, 0.1, 0}, 3.1}, {{0.5, 3.0, 0}, -1.2}, {{0.8, 4.2, 0}, 0.4}, {{-3, 0.05, 0}, 1.0}, {{-2, -3, 0}, 2.2}};
+  return {{{2.2, 0.1, 0}, 3.0}, {{4.3, 0.1, 0}, 3.1}, {{0.5, 3.0, 0}, -1.2},
+          {{0.8, 4.2, 0}, 0.4}, {{-3, 0.05, 0}, 1.0}, {{-2, -3, 0}, 2.2}};
 }
 constexpr Vec3d kEye{-0.2, 0, 1.5};
 
@@ -182,9 +183,7 @@ TEST(PeopleLabels, PositionsAreConsistentInAllFrames) {
   }
 }
 
-int64_t CountPixels(const Frame& frame, EntityId entity) {
-  return std::ranges::count(frame.entity.pixels(), entity);
-}
+int64_t CountPixels(const Frame& frame, EntityId entity) { return std::ranges::count(frame.entity.pixels(), entity); }
 
 TEST(PeopleLabels, AmodalSilhouettesAreThePicturesOfPeopleAlone) {
   const Camera cameras[] = {Equirectangular{1024, 512}, Pinhole{640, 480, 400, 400, 320, 240}, Fisheye::Equidistant(512, 512, 3.0)};

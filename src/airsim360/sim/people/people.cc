@@ -47,8 +47,8 @@ void ForRuns(size_t count, const Body& body) {
 }
 
 // Brings the motion of all people to the time of their states.
-void MoveLimbs(const SimPeople& people, std::span<const PersonState> before,
-               std::span<const PersonState> states, int64_t t_ns, std::span<MotionState> motions) {
+void MoveLimbs(const SimPeople& people, std::span<const PersonState> before, std::span<const PersonState> states, int64_t t_ns,
+               std::span<MotionState> motions) {
   const NavGround ground(people.crowd->navmesh.get());
   ForRuns(states.size(), [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
@@ -72,15 +72,14 @@ std::shared_ptr<const PeopleState> StartPeople(const SimPeople& people) {
   const NavGround ground(people.crowd->navmesh.get());
   state->motions.resize(people.cast.size());
   for (size_t i = 0; i < people.cast.size(); ++i) {
-    state->motions[i] = StartMotion(*people.cast[i].body, state->crowd.people[i],
-                                    RngStream(people.seed, "motion", i).Bits(), state->crowd.t_ns, &ground);
+    state->motions[i] =
+        StartMotion(*people.cast[i].body, state->crowd.people[i], RngStream(people.seed, "motion", i).Bits(), state->crowd.t_ns, &ground);
   }
   while (state->crowd.t_ns + kCrowdTickNs <= people.epoch_ns) TickPeople(people, {}, *state);
   return state;
 }
 
-void TickPeople(const SimPeople& people, std::span<const CrowdDrone> drones, PeopleState& state,
-                std::vector<CrowdEvent>* events) {
+void TickPeople(const SimPeople& people, std::span<const CrowdDrone> drones, PeopleState& state, std::vector<CrowdEvent>* events) {
   const std::vector<PersonState> before = state.crowd.people;
   StepCrowd(*people.crowd, state.crowd, kCrowdTickNs, drones, events);
   MoveLimbs(people, before, state.crowd.people, state.crowd.t_ns, state.motions);
@@ -141,13 +140,11 @@ std::vector<uint8_t> LevelsFor(const SimPeople& people, std::span<const PersonSt
 void ShowPeople(const SimPeople& people, const PeoplePoses& poses, SceneState& scene_state) {
   if (people.refs.empty()) return;
   std::vector<const SkeletonPose*> shown;
-  for (size_t i = 0; i < poses.poses.size(); ++i)
-    shown.push_back(poses.states[i].visible ? &poses.poses[i] : nullptr);
+  for (size_t i = 0; i < poses.poses.size(); ++i) shown.push_back(poses.states[i].visible ? &poses.poses[i] : nullptr);
   AppendPeople(people.cast, people.refs, shown, poses.levels, scene_state);
 }
 
-std::vector<PersonBox> PeopleNear(const SimPeople& people, const PeopleState& state, int64_t t_ns, Vec3d p_W,
-                                  double reach) {
+std::vector<PersonBox> PeopleNear(const SimPeople& people, const PeopleState& state, int64_t t_ns, Vec3d p_W, double reach) {
   std::vector<PersonBox> boxes;
   const double later = static_cast<double>(t_ns - state.crowd.t_ns) * 1e-9;
   for (size_t i = 0; i < state.crowd.people.size(); ++i) {
@@ -159,8 +156,7 @@ std::vector<PersonBox> PeopleNear(const SimPeople& people, const PeopleState& st
     const Vec3d half{body.size.radius, body.size.radius, body.spec.stature * (low ? 0.38 : 0.5)};
     Vec3d center = person.p_WP + person.v_WP * later;
     center.z += half.z;
-    boxes.push_back({{RotationZ(person.yaw), center}, half, person.v_WP,
-                     people.refs.empty() ? kNoEntity : people.refs[i].entity});
+    boxes.push_back({{RotationZ(person.yaw), center}, half, person.v_WP, people.refs.empty() ? kNoEntity : people.refs[i].entity});
   }
   return boxes;
 }
@@ -169,8 +165,7 @@ bool IsPerson(const SimPeople& people, EntityId entity) {
   return std::ranges::any_of(people.refs, [&](const PersonRef& ref) { return ref.entity == entity; });
 }
 
-std::optional<RigidTransform> PlaceOfPerson(const SimPeople& people, const PeopleState& state, int64_t t_ns,
-                                            EntityId entity) {
+std::optional<RigidTransform> PlaceOfPerson(const SimPeople& people, const PeopleState& state, int64_t t_ns, EntityId entity) {
   const auto found = std::ranges::find(people.refs, entity, &PersonRef::entity);
   if (found == people.refs.end()) return std::nullopt;
   const PersonState& person = state.crowd.people[static_cast<size_t>(found - people.refs.begin())];
@@ -180,9 +175,9 @@ std::optional<RigidTransform> PlaceOfPerson(const SimPeople& people, const Peopl
 }
 
 const char* BehaviourName(Behaviour behaviour) {
-  static constexpr const char* kNames[] = {"idle",       "walk",    "jog",   "run",   "talk",         "listen", "phone_call",
-                                           "texting",    "take_photo", "wave", "sit", "carry",        "push_stroller",
-                                           "crouch",     "stretch", "point", "wait",  "look_up",      "walk_dog", "umbrella"};
+  static constexpr const char* kNames[] = {"idle",    "walk",       "jog",  "run",     "talk",     "listen",        "phone_call",
+                                           "texting", "take_photo", "wave", "sit",     "carry",    "push_stroller", "crouch",
+                                           "stretch", "point",      "wait", "look_up", "walk_dog", "umbrella"};
   static_assert(std::size(kNames) == static_cast<size_t>(Behaviour::kCount));
   return kNames[static_cast<size_t>(behaviour)];
 }

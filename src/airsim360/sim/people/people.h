@@ -19,12 +19,12 @@ namespace airsim360 {
 /// CrowdModel::people.
 struct SimPeople {
   std::shared_ptr<const CrowdModel> crowd;
-  std::vector<PersonInScene> cast;       ///< bodies
-  std::vector<PersonRef> refs;           ///< where they are in the scene; empty: nobody is seen
-  std::vector<Socket> sockets;           ///< of users: labelled beside those of the body
+  std::vector<PersonInScene> cast;  ///< bodies
+  std::vector<PersonRef> refs;      ///< where they are in the scene; empty: nobody is seen
+  std::vector<Socket> sockets;      ///< of users: labelled beside those of the body
   uint64_t seed = 0;
   std::shared_ptr<const struct PeopleState> start;  ///< at simulation time 0
-  int64_t epoch_ns = 0;  ///< crowd time at simulation time 0: how long people had lived before
+  int64_t epoch_ns = 0;                             ///< crowd time at simulation time 0: how long people had lived before
 };
 
 /// Everything that changes, at a multiple of kCrowdTickNs. Immutable once shared: snapshots hold the pointer.
@@ -38,8 +38,7 @@ struct PeopleState {
 std::shared_ptr<const PeopleState> StartPeople(const SimPeople& people);
 
 /// One tick of kCrowdTickNs.
-void TickPeople(const SimPeople& people, std::span<const CrowdDrone> drones, PeopleState& state,
-                std::vector<CrowdEvent>* events = nullptr);
+void TickPeople(const SimPeople& people, std::span<const CrowdDrone> drones, PeopleState& state, std::vector<CrowdEvent>* events = nullptr);
 
 /// Hash of every number of the state.
 uint64_t HashPeople(const PeopleState& state);
@@ -75,13 +74,11 @@ struct PersonBox {
 };
 /// Boxes of the people who may come within `reach` metres of p, carried on to t_ns
 /// of crowd time.
-std::vector<PersonBox> PeopleNear(const SimPeople& people, const PeopleState& state, int64_t t_ns, Vec3d p_W,
-                                  double reach);
+std::vector<PersonBox> PeopleNear(const SimPeople& people, const PeopleState& state, int64_t t_ns, Vec3d p_W, double reach);
 
 /// Where the person of an entity stands at t_ns of crowd time: ground point and heading. nullopt for entities
 /// that are nobody's body, and people who are not in the world.
-std::optional<RigidTransform> PlaceOfPerson(const SimPeople& people, const PeopleState& state, int64_t t_ns,
-                                            EntityId entity);
+std::optional<RigidTransform> PlaceOfPerson(const SimPeople& people, const PeopleState& state, int64_t t_ns, EntityId entity);
 /// Whether an entity is the body of one of the people, in the world or not.
 bool IsPerson(const SimPeople& people, EntityId entity);
 

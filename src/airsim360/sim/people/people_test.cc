@@ -127,8 +127,7 @@ TEST(SimPeople, AreSeenWhereTheyAreAtTheInstantOfTheCapture) {
   const Peopled& room = Room();
   SimState state = StartState(*room.model);
   for (int i = 0; i < 1234; ++i) Step(*room.model, {}, state);
-  const PeoplePoses poses =
-      PosesAt(*room.populated.people, *state.people, state.t_ns + room.populated.people->epoch_ns);
+  const PeoplePoses poses = PosesAt(*room.populated.people, *state.people, state.t_ns + room.populated.people->epoch_ns);
   const auto scene_state = SceneStateOf(*room.model, state, kNobody);
   ASSERT_EQ(scene_state->deformed.size(), 4u);
   for (size_t i = 0; i < 4; ++i) {
@@ -142,8 +141,7 @@ TEST(SimPeople, AreSeenWhereTheyAreAtTheInstantOfTheCapture) {
   Capture capture;
   sensors.Camera(state, 0, 0, {.rgb = false}, *renderer, capture);
   size_t seen = 0;
-  for (const PersonRef& ref : room.populated.people->refs)
-    seen += std::ranges::count(capture.frame.entity.pixels(), ref.entity) > 0;
+  for (const PersonRef& ref : room.populated.people->refs) seen += std::ranges::count(capture.frame.entity.pixels(), ref.entity) > 0;
   EXPECT_GE(seen, 2u);
 }
 

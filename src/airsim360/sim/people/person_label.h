@@ -17,16 +17,16 @@ namespace airsim360 {
 /// Whether a keypoint can be seen, and if not why. Decided by the ray from the camera to it: what the ray
 /// meets first. Numbers are those of people.jsonl.
 enum class KeypointState : uint8_t {
-  kAbsent,           ///< outside the picture
-  kBehindScene,      ///< something that is no person's body is in front, a prop in the own hand too
-  kBehindPerson,     ///< another person is in front
-  kBehindOneself,    ///< another part of the own body is in front
+  kAbsent,         ///< outside the picture
+  kBehindScene,    ///< something that is no person's body is in front, a prop in the own hand too
+  kBehindPerson,   ///< another person is in front
+  kBehindOneself,  ///< another part of the own body is in front
   kVisible,
   kUnresolved  ///< nothing is in front, but the picture is too coarse: none of the nine pixels around the point
                ///< shows the person
 };
-inline constexpr const char* kKeypointStateNames[] = {"absent", "occluded_by_scene", "occluded_by_person",
-                                                      "self_occluded", "visible", "unresolved"};
+inline constexpr const char* kKeypointStateNames[] = {"absent",        "occluded_by_scene", "occluded_by_person",
+                                                      "self_occluded", "visible",           "unresolved"};
 
 struct KeypointLabel {
   Vec3d p_W;
@@ -47,11 +47,11 @@ struct PictureBox {
 /// An upright box around a body: length along the heading, then width, then height.
 struct PersonBox3d {
   Vec3d center_W, center_C;
-  Vec3d bottom_C;         ///< middle of the lower face
+  Vec3d bottom_C;                            ///< middle of the lower face
   double length = 0, width = 0, height = 0;  ///< metres
-  double yaw = 0;         ///< of the heading about +Z of W, 0 = +X
-  double rotation_y = 0;  ///< KITTI: of the heading about +Y (down) of C, 0 = +X (right); exact where C is level
-  double alpha = 0;       ///< KITTI: rotation_y less the azimuth atan2(x, z) of the centre, in [-pi, pi)
+  double yaw = 0;                            ///< of the heading about +Z of W, 0 = +X
+  double rotation_y = 0;                     ///< KITTI: of the heading about +Y (down) of C, 0 = +X (right); exact where C is level
+  double alpha = 0;                          ///< KITTI: rotation_y less the azimuth atan2(x, z) of the centre, in [-pi, pi)
 };
 
 /// Where the person is in the picture if nothing were in front.

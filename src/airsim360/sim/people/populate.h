@@ -25,8 +25,8 @@ struct PeopleRequest {
 };
 
 struct PopulatedScene {
-  std::shared_ptr<const Scene> scene;           ///< with everybody hidden
-  std::shared_ptr<const SimPeople> people;      ///< null: nobody
+  std::shared_ptr<const Scene> scene;       ///< with everybody hidden
+  std::shared_ptr<const SimPeople> people;  ///< null: nobody
 };
 
 /// The scene with its people, after all that it has: ids of everything else stay, and depend on the request

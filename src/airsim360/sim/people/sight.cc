@@ -10,10 +10,10 @@ namespace airsim360 {
 namespace {
 
 constexpr size_t kLanes = 16;
-constexpr double kDeepest = 1.3;      // own skin in front of a point, in radii of its socket
-constexpr double kSkin = 0.01;        // metres: clothes and bent joints
-constexpr double kTouching = 0.005;   // metres: what a foot stands on does not hide it
-constexpr double kReach = 2.5;        // metres: no part of a body is farther from another
+constexpr double kDeepest = 1.3;     // own skin in front of a point, in radii of its socket
+constexpr double kSkin = 0.01;       // metres: clothes and bent joints
+constexpr double kTouching = 0.005;  // metres: what a foot stands on does not hide it
+constexpr double kReach = 2.5;       // metres: no part of a body is farther from another
 
 /// Sixteen rays from one place.
 class RayPacket {
@@ -61,8 +61,7 @@ class RayPacket {
 double Behind(const SightTarget& target) { return target.radius + kSkin; }
 
 // Decides what the first hit of a ray means.
-Sight Judge(const SightTarget& target, double range, double distance, EntityId hit, EntityId own,
-            const std::vector<bool>& is_person) {
+Sight Judge(const SightTarget& target, double range, double distance, EntityId hit, EntityId own, const std::vector<bool>& is_person) {
   if (hit == kNoEntity) return {};
   if (hit == own) {
     const bool deep = distance < range - kDeepest * target.radius - kSkin;
@@ -112,7 +111,8 @@ void TestPixels(const RayTracer& tracer, const Camera& camera, const RigidTransf
   const auto ask = [&] {
     if (packet.size() == 0) return;
     packet.Trace(tracer);
-    for (size_t i = 0; i < packet.size(); ++i) if (packet.Entity(tracer, i) == entity) shown[asked[i]] = 1;
+    for (size_t i = 0; i < packet.size(); ++i)
+      if (packet.Entity(tracer, i) == entity) shown[asked[i]] = 1;
     packet.Clear();
   };
   const auto add = [&](size_t k, int dx, int dy) {

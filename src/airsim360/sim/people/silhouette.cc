@@ -170,8 +170,7 @@ Vec3f PixelDirections::At(int i, int j) const {
   return ray ? VecCast<float>(*ray) : Vec3f{};
 }
 
-Silhouette FindSilhouette(const PixelDirections& directions, std::span<const Vec3f> p_C,
-                          std::span<const Vec3u> triangles) {
+Silhouette FindSilhouette(const PixelDirections& directions, std::span<const Vec3f> p_C, std::span<const Vec3u> triangles) {
   Silhouette s;
   if (p_C.empty() || triangles.empty()) return s;
   const WindowFinder finder(directions.camera(), p_C);

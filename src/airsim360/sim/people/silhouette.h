@@ -16,7 +16,7 @@ namespace airsim360 {
 struct Silhouette {
   std::optional<PictureBox> box;  ///< tight; nullopt: no pixel
   int64_t pixels = 0;
-  std::vector<uint8_t> mask;      ///< of the box, row by row; columns of a panorama go on across the seam
+  std::vector<uint8_t> mask;  ///< of the box, row by row; columns of a panorama go on across the seam
 };
 
 /// Directions of the pixels of one camera, worked out once for many silhouettes.
@@ -33,7 +33,6 @@ class PixelDirections {
 };
 
 /// Silhouette of triangles with corners `p_C` (in C, metres from the camera), `triangles` indices into it.
-Silhouette FindSilhouette(const PixelDirections& directions, std::span<const Vec3f> p_C,
-                          std::span<const Vec3u> triangles);
+Silhouette FindSilhouette(const PixelDirections& directions, std::span<const Vec3f> p_C, std::span<const Vec3u> triangles);
 
 }  // namespace airsim360

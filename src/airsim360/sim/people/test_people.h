@@ -38,9 +38,7 @@ struct PeopledRoom {
     tracer = DynamicTracer(base).At(state);
   }
 
-  PeoplePicture Picture(const Camera& camera, const RigidTransform& X_WC) const {
-    return {*people, poses, *tracer, camera, X_WC};
-  }
+  PeoplePicture Picture(const Camera& camera, const RigidTransform& X_WC) const { return {*people, poses, *tracer, camera, X_WC}; }
   Frame Render(const Camera& camera, const RigidTransform& X_WC) const {
     const auto renderer = MakeCpuRenderer(base, {.tier = Tier::kLabels});
     RenderRequest request = MakeRequest(camera, X_WC, Tier::kLabels);

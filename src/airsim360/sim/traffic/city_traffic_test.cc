@@ -70,14 +70,14 @@ TEST(CityTraffic, InManhattanNobodyDrivesThroughAnotherOrStandsForMoreThanThreeC
       for (size_t k = i + 1; k < bodies.size(); ++k)
         if (std::hypot(bodies[i][0].x - bodies[k][0].x, bodies[i][0].y - bodies[k][0].y) < 30 && Overlap(bodies[i], bodies[k])) {
           if (++overlaps < 8)
-            ADD_FAILURE() << second << " s: " << i << " on " << state.vehicles[i].lane << " at " << state.vehicles[i].s << " and " << k << " on "
-                          << state.vehicles[k].lane << " at " << state.vehicles[k].s;
+            ADD_FAILURE() << second << " s: " << i << " on " << state.vehicles[i].lane << " at " << state.vehicles[i].s << " and " << k
+                          << " on " << state.vehicles[k].lane << " at " << state.vehicles[k].s;
         }
   }
   EXPECT_EQ(overlaps, 0);
   EXPECT_EQ(stuck, 0);
   EXPECT_GT(driven / 300 / 600, 2.5);  // m/s on the average: it flows
-  EXPECT_GT(hardest, -6.5);  // m/s^2: nobody is surprised
+  EXPECT_GT(hardest, -6.5);            // m/s^2: nobody is surprised
 }
 
 TEST(CityTraffic, IsTheSameForTheSameSeedAndGoesOnTheSameFromASnapshot) {

@@ -14,9 +14,9 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kMaxWarmUp = 3600;     // seconds
+constexpr double kMaxWarmUp = 3600;  // seconds
 constexpr size_t kMaxVehicles = 20000;
-constexpr float kInLane = 0.5f;         // of the width of a lane: nearer to its middle one stands in it
+constexpr float kInLane = 0.5f;  // of the width of a lane: nearer to its middle one stands in it
 
 // A vehicle of the scene that others can look like.
 struct Pattern {
@@ -68,7 +68,9 @@ std::vector<Pattern> FindPatterns(const Scene& scene, std::vector<uint32_t>& sta
     if (in_lane) standing.push_back(i);
     const auto [box, fresh] = boxes.try_emplace(instance.mesh);
     if (fresh) box->second = BoxOf(scene.meshes[instance.mesh]);
-    const Pattern pattern{instance.mesh, scene.entity(instance.entity).category, instance.tint, instance.glow, Norm(instance.X_WM.A.column(2)), box->second, in_lane};
+    const Pattern pattern{instance.mesh, scene.entity(instance.entity).category, instance.tint,
+                          instance.glow, Norm(instance.X_WM.A.column(2)),        box->second,
+                          in_lane};
     if (pattern.box.empty()) continue;
     const Vec3f size = (pattern.box.max - pattern.box.min) * pattern.scale;
     if (size.y > 2.5f && size.y < 20 && size.x > 1.2f && size.x < 3.5f) patterns.push_back(pattern);

@@ -21,7 +21,7 @@ struct TrafficBody {
   uint32_t instance = 0;
   EntityId entity = kNoEntity;
   float scale = 1;
-  Vec3f offset_M;    ///< from the origin of its mesh to the ground below the middle of its box, metres, unscaled
+  Vec3f offset_M;  ///< from the origin of its mesh to the ground below the middle of its box, metres, unscaled
 };
 
 /// What never changes. Shared, read-only. `bodies` is as long as TrafficModel::vehicles.
@@ -30,7 +30,7 @@ struct SimTraffic {
 
   TrafficModel model;
   std::vector<TrafficBody> bodies;
-  std::vector<uint32_t> standing;  ///< instances of the scene's own vehicles that stand where others drive: not shown
+  std::vector<uint32_t> standing;             ///< instances of the scene's own vehicles that stand where others drive: not shown
   std::shared_ptr<const TrafficState> start;  ///< at simulation time 0
   int64_t epoch_ns = 0;                       ///< traffic time at simulation time 0
 };

@@ -42,7 +42,8 @@ Answer DiscreteAnswer(VlnFields& fields) {
   const std::vector<std::string> names(std::begin(kPresetNames), std::end(kPresetNames));
   const auto found = std::ranges::find(names, name);
   if (found == names.end())
-    throw InputError("answer.action: " + UnknownChoiceMessage("action", action.dump(-1, ' ', true, VlnJson::error_handler_t::replace).substr(0, 40), names));
+    throw InputError("answer.action: " +
+                     UnknownChoiceMessage("action", action.dump(-1, ' ', true, VlnJson::error_handler_t::replace).substr(0, 40), names));
   const auto preset = static_cast<Preset>(found - names.begin());
   if (preset == Preset::kStop) return {.stop = true};
   return {.action = PresetAction{preset}};
@@ -89,7 +90,9 @@ std::string AnswerText(const Answer& answer) {
     if (const auto* preset = std::get_if<PresetAction>(&action)) {
       said["action"] = kPresetNames[static_cast<int>(preset->preset)];
     } else if (const auto* goal = std::get_if<RelativeGoalAction>(&action)) {
-      said = {{"azimuth_deg", degrees(goal->azimuth)}, {"elevation_deg", degrees(goal->elevation)}, {"distance_m", internal::Rounded(goal->distance)}};
+      said = {{"azimuth_deg", degrees(goal->azimuth)},
+              {"elevation_deg", degrees(goal->elevation)},
+              {"distance_m", internal::Rounded(goal->distance)}};
     } else if (const auto* way = std::get_if<WaypointsAction>(&action)) {
       VlnJson points = VlnJson::array();
       for (const Vec3d& p : way->points) points.push_back(internal::ToJson(p));

@@ -19,7 +19,8 @@ std::string Refusal(const std::string& text, Decisions decisions) {
 }
 
 TEST(Answer, OneMoveIsADirectionAndADistanceAndEndsTheFlight) {
-  const Answer answer = ParseAnswer(R"( {"azimuth_deg": -90, "elevation_deg": 10, "distance_m": 30, "reason": "seen left"} )", Decisions::kYomo);
+  const Answer answer =
+      ParseAnswer(R"( {"azimuth_deg": -90, "elevation_deg": 10, "distance_m": 30, "reason": "seen left"} )", Decisions::kYomo);
   const auto& move = std::get<RelativeGoalAction>(*answer.action);
   EXPECT_DOUBLE_EQ(move.azimuth, -std::numbers::pi / 2);
   EXPECT_DOUBLE_EQ(move.distance, 30);
@@ -73,7 +74,8 @@ TEST(Answer, WhateverElseIsRefusedWithItsField) {
       {"{\"waypoints\": [[1e9, 0, 0]]}", Decisions::kWaypoints, "waypoints"},
       {"{}", Decisions::kWaypoints, "waypoints"},
   };
-  for (const Case& c : cases) EXPECT_NE(Refusal(c.text, c.decisions).find(c.says), std::string::npos) << c.text << ": " << Refusal(c.text, c.decisions);
+  for (const Case& c : cases)
+    EXPECT_NE(Refusal(c.text, c.decisions).find(c.says), std::string::npos) << c.text << ": " << Refusal(c.text, c.decisions);
   EXPECT_FALSE(Refusal("{\"action\": " + deep, Decisions::kDiscrete).empty());
   EXPECT_FALSE(Refusal(std::string(kLongestAnswer + 1, ' ') + "{}", Decisions::kDiscrete).empty());
 }

@@ -26,15 +26,17 @@ std::string Sha(std::string_view text) { return Sha256Hex(AsBytes(text)); }
 
 // One exchange, as the transcript holds it.
 struct Exchange {
-  std::string text;    // of the model
-  std::string fault;   // of the server; "" = none
+  std::string text;   // of the model
+  std::string fault;  // of the server; "" = none
   int64_t tokens_in = 0, tokens_out = 0;
   double seconds = 0;
 };
 
 int64_t CountOf(const VlnJson& usage, const char* name) {
   const auto found = usage.is_object() ? usage.find(name) : usage.end();
-  return usage.is_object() && found != usage.end() && found->is_number_unsigned() ? std::min<int64_t>(found->get<uint64_t>() & INT64_MAX, 1'000'000'000) : 0;
+  return usage.is_object() && found != usage.end() && found->is_number_unsigned()
+             ? std::min<int64_t>(found->get<uint64_t>() & INT64_MAX, 1'000'000'000)
+             : 0;
 }
 
 // choices[0].message.content of whatever came.
@@ -47,9 +49,7 @@ void ReadBody(const std::string& body, Exchange& exchange) {
     return;
   }
   const VlnJson* at = &json;
-  const auto go = [&](const char* name) {
-    at = at != nullptr && at->is_object() && at->contains(name) ? &at->at(name) : nullptr;
-  };
+  const auto go = [&](const char* name) { at = at != nullptr && at->is_object() && at->contains(name) ? &at->at(name) : nullptr; };
   go("choices");
   at = at != nullptr && at->is_array() && !at->empty() ? &at->at(0) : nullptr;
   go("message");
@@ -99,7 +99,9 @@ class ChatAgent : public VlnAgent {
     const std::string rules =
         "You fly a drone. You get an instruction and what the drone sees now, and answer with one JSON object and nothing else: " +
         AnswerGrammar(s.decisions) + " You may add \"reason\", a short text." +
-        (s.eyes.view() == VlnView::kErp ? " The picture is a level panorama of all directions: its middle is ahead; yellow numbers are azimuths in degrees." : "");
+        (s.eyes.view() == VlnView::kErp
+             ? " The picture is a level panorama of all directions: its middle is ahead; yellow numbers are azimuths in degrees."
+             : "");
     VlnJson content = VlnJson::array();
     std::string names;
     for (const VlnPicture& picture : pictures) {
@@ -109,10 +111,13 @@ class ChatAgent : public VlnAgent {
     VlnJson told = internal::ObservationJson(s);
     told.erase("answer");
     std::string text = "Pictures: " + names + ". " + told.dump(-1, ' ', true);
-    if (!complaint.empty()) text += " Your last answer could not be read: " + Tame(complaint, kLongestQuoted) + ". Answer again, with one JSON object alone.";
+    if (!complaint.empty())
+      text += " Your last answer could not be read: " + Tame(complaint, kLongestQuoted) + ". Answer again, with one JSON object alone.";
     content.insert(content.begin(), VlnJson{{"type", "text"}, {"text", text}});
     VlnJson body = {{"messages", {{{"role", "system"}, {"content", rules}}, {{"role", "user"}, {"content", content}}}},
-                    {"temperature", 0}, {"max_tokens", options_.most_tokens}, {"stream", false}};
+                    {"temperature", 0},
+                    {"max_tokens", options_.most_tokens},
+                    {"stream", false}};
     if (!options_.model.empty()) body["model"] = options_.model;
     return body.dump(-1, ' ', true, VlnJson::error_handler_t::replace);
   }
@@ -123,15 +128,27 @@ class ChatAgent : public VlnAgent {
     if (const std::string line = transcript_.Find(key); !line.empty()) {
       const VlnJson json = VlnJson::parse(line);
       if (json.value("request", "") == sha)
-        return {json.value("answer", ""), json.value("fault", ""), json.value("tokens_in", int64_t{0}), json.value("tokens_out", int64_t{0})};
+        return {json.value("answer", ""), json.value("fault", ""), json.value("tokens_in", int64_t{0}),
+                json.value("tokens_out", int64_t{0})};
     }
     const Exchange exchange = Send(body);
     VlnJson hashes = VlnJson::array();
     for (const VlnPicture& picture : pictures) hashes.push_back(Sha(picture.jpeg));
-    const double cost = 1e-6 * (static_cast<double>(exchange.tokens_in) * options_.price_in + static_cast<double>(exchange.tokens_out) * options_.price_out);
-    transcript_.Add(key, VlnJson{{"key", key}, {"episode", s.episode.id}, {"step", s.step}, {"attempt", attempt}, {"model", options_.model},
-                                 {"request", sha}, {"pictures", hashes}, {"answer", exchange.text}, {"fault", exchange.fault},
-                                 {"tokens_in", exchange.tokens_in}, {"tokens_out", exchange.tokens_out}, {"seconds", exchange.seconds}, {"cost", cost}}
+    const double cost = 1e-6 * (static_cast<double>(exchange.tokens_in) * options_.price_in +
+                                static_cast<double>(exchange.tokens_out) * options_.price_out);
+    transcript_.Add(key, VlnJson{{"key", key},
+                                 {"episode", s.episode.id},
+                                 {"step", s.step},
+                                 {"attempt", attempt},
+                                 {"model", options_.model},
+                                 {"request", sha},
+                                 {"pictures", hashes},
+                                 {"answer", exchange.text},
+                                 {"fault", exchange.fault},
+                                 {"tokens_in", exchange.tokens_in},
+                                 {"tokens_out", exchange.tokens_out},
+                                 {"seconds", exchange.seconds},
+                                 {"cost", cost}}
                              .dump(-1, ' ', true, VlnJson::error_handler_t::replace));
     return exchange;
   }
@@ -164,7 +181,8 @@ class ChatAgent : public VlnAgent {
     static std::chrono::steady_clock::time_point next;
     const std::lock_guard lock(mutex);
     std::this_thread::sleep_until(next);
-    next = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(60 / options_.per_minute));
+    next = std::chrono::steady_clock::now() +
+           std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(60 / options_.per_minute));
   }
 
   ChatOptions options_;
@@ -189,7 +207,8 @@ ChatOptions ChatOptionsFromEnvironment() {
     throw InputError("--agent openai: the environment variable AIRSIM360_VLN_BASE_URL is missing, for example http://127.0.0.1:8000/v1");
   const auto plain = [](const std::string& text) { return std::ranges::all_of(text, [](unsigned char c) { return c > ' ' && c < 127; }); };
   std::string& url = options.base_url;
-  if (!(url.starts_with("http://") || url.starts_with("https://")) || !plain(url) || url.size() > 2000 || url.find('@') != std::string::npos)
+  if (!(url.starts_with("http://") || url.starts_with("https://")) || !plain(url) || url.size() > 2000 ||
+      url.find('@') != std::string::npos)
     throw InputError("AIRSIM360_VLN_BASE_URL: '" + Tame(url, 100) + "' is not http://HOST[:PORT]/PATH or https://…");
   if (!plain(options.key)) throw InputError("AIRSIM360_VLN_KEY: holds characters that no key has");
   while (url.ends_with('/')) url.pop_back();
@@ -197,6 +216,8 @@ ChatOptions ChatOptionsFromEnvironment() {
   return options;
 }
 
-std::unique_ptr<VlnAgent> MakeChatAgent(const ChatOptions& options, Transcript& transcript) { return std::make_unique<ChatAgent>(options, transcript); }
+std::unique_ptr<VlnAgent> MakeChatAgent(const ChatOptions& options, Transcript& transcript) {
+  return std::make_unique<ChatAgent>(options, transcript);
+}
 
 }  // namespace airsim360

@@ -125,7 +125,8 @@ class ExecAgent : public VlnAgent {
     internal::VlnJson asked = internal::ObservationJson(s);
     internal::VlnJson pictures = internal::VlnJson::array();
     for (const VlnPicture& picture : s.eyes.Pictures(s.flight.vehicle().motion.X_WB, s.episode.weather, s.moved()))
-      pictures.push_back({{"name", picture.name}, {"width", picture.width}, {"height", picture.height}, {"jpeg_base64", Base64(picture.jpeg)}});
+      pictures.push_back(
+          {{"name", picture.name}, {"width", picture.width}, {"height", picture.height}, {"jpeg_base64", Base64(picture.jpeg)}});
     asked["pictures"] = std::move(pictures);
     Decision decision;
     for (int attempt = 0; attempt < 2; ++attempt) {

@@ -16,8 +16,17 @@ constexpr int kRecogniserWidth = 512;  // of its panorama: as SeenAtStart
 constexpr int kQuality = 85;
 
 // Digits of 3 x 5 pixels, a row in three bits.
-constexpr std::array<std::array<int, 5>, 11> kDigits = {{{7, 5, 5, 5, 7}, {2, 6, 2, 2, 7}, {7, 1, 7, 4, 7}, {7, 1, 7, 1, 7}, {5, 5, 7, 1, 1}, {7, 4, 7, 1, 7},
-                                                         {7, 4, 7, 5, 7}, {7, 1, 2, 2, 2}, {7, 5, 7, 5, 7}, {7, 5, 7, 1, 7}, {0, 0, 7, 0, 0}}};
+constexpr std::array<std::array<int, 5>, 11> kDigits = {{{7, 5, 5, 5, 7},
+                                                         {2, 6, 2, 2, 7},
+                                                         {7, 1, 7, 4, 7},
+                                                         {7, 1, 7, 1, 7},
+                                                         {5, 5, 7, 1, 1},
+                                                         {7, 4, 7, 1, 7},
+                                                         {7, 4, 7, 5, 7},
+                                                         {7, 1, 2, 2, 2},
+                                                         {7, 5, 7, 5, 7},
+                                                         {7, 5, 7, 1, 7},
+                                                         {0, 0, 7, 0, 0}}};
 
 void Dot(Image<Rgb8>& image, int x, int y, int size, Rgb8 colour) {
   for (int dy = 0; dy < size; ++dy)
@@ -82,11 +91,13 @@ std::vector<Eyes::Shot> Eyes::Shots(const RigidTransform& X_WB, int width) const
   return shots;
 }
 
-SeenAtStart Eyes::Recognise(const RigidTransform& X_WB, const std::vector<EntityId>& entities, const std::shared_ptr<const SceneState>& moved) {
+SeenAtStart Eyes::Recognise(const RigidTransform& X_WB, const std::vector<EntityId>& entities,
+                            const std::shared_ptr<const SceneState>& moved) {
   SeenAtStart seen;
   Vec3d sum;  // of directions in the level heading frame
   for (const Shot& shot : Shots(X_WB, kRecogniserWidth)) {
-    RenderRequest request = MakeRequest(shot.camera, shot.X_WC, Tier::kLabels, {.rgb = false, .range = true, .semantic = false, .entity = true});
+    RenderRequest request =
+        MakeRequest(shot.camera, shot.X_WC, Tier::kLabels, {.rgb = false, .range = true, .semantic = false, .entity = true});
     request.state = moved;
     renderers_->Render("", request, frame_);
     const int w = frame_.entity.width(), h = frame_.entity.height();
@@ -114,7 +125,8 @@ SeenAtStart Eyes::Recognise(const RigidTransform& X_WB, const std::vector<Entity
   return seen;
 }
 
-std::vector<VlnPicture> Eyes::Pictures(const RigidTransform& X_WB, const std::string& weather, const std::shared_ptr<const SceneState>& moved) {
+std::vector<VlnPicture> Eyes::Pictures(const RigidTransform& X_WB, const std::string& weather,
+                                       const std::shared_ptr<const SceneState>& moved) {
   std::vector<VlnPicture> pictures;
   for (const Shot& shot : Shots(X_WB, width_)) {
     RenderRequest request{picture_, shot.camera, shot.X_WC};

@@ -56,7 +56,8 @@ class MaskAgent : public VlnAgent {
   // Straight towards it, or over what stands in between, as far as a drone fits.
   Decision MoveTo(VlnSituation& s, const SeenAtStart& seen) const {
     const Viewpoint view = s.Pose();
-    const double azimuth = seen.azimuth_deg * kDegree, yaw = view.yaw - azimuth, most = std::max(0.0, seen.range - std::min(kStandOff, s.radius));
+    const double azimuth = seen.azimuth_deg * kDegree, yaw = view.yaw - azimuth,
+                 most = std::max(0.0, seen.range - std::min(kStandOff, s.radius));
     double best = 0, elevation = 0;
     for (const double higher : {0.0, 3.0, 6.0, 10.0, 15.0, 20.0}) {
       const double e = std::min(seen.elevation_deg + higher, 80.0) * kDegree;
@@ -79,7 +80,8 @@ class MaskAgent : public VlnAgent {
     const PresetSizes& sizes = s.flight.spec().presets;
     const double azimuth = seen.azimuth_deg * kDegree, rise = seen.range * std::sin(seen.elevation_deg * kDegree);
     if (std::abs(rise) > 2 * sizes.vertical && std::abs(seen.elevation_deg) > 20)
-      if (Free(s, 0, rise > 0 ? kQuarter : -kQuarter, sizes.vertical + 1) > sizes.vertical) return {{PresetAction{rise > 0 ? Preset::kUp : Preset::kDown}}};
+      if (Free(s, 0, rise > 0 ? kQuarter : -kQuarter, sizes.vertical + 1) > sizes.vertical)
+        return {{PresetAction{rise > 0 ? Preset::kUp : Preset::kDown}}};
     struct Way {
       double azimuth, step;
       Preset preset;
@@ -93,7 +95,8 @@ class MaskAgent : public VlnAgent {
       const double off = std::abs(std::remainder(azimuth - ways[i].azimuth, 4 * kQuarter));
       const bool near_enough = off <= std::max(0.51 * sizes.turn, seen.range > 25 ? sizes.turn : 0.0);
       if (near_enough && Free(s, ways[i].azimuth, 0, ways[i].step + 1) > ways[i].step) return {{PresetAction{ways[i].preset}}};
-      if (near_enough && Free(s, 0, kQuarter, sizes.vertical + 1) > sizes.vertical && climbs_++ < 3 * kClimbs) return {{PresetAction{Preset::kUp}}};
+      if (near_enough && Free(s, 0, kQuarter, sizes.vertical + 1) > sizes.vertical && climbs_++ < 3 * kClimbs)
+        return {{PresetAction{Preset::kUp}}};
       if (near_enough) return {{.stop = true}};
     }
     return {{PresetAction{azimuth > 0 ? Preset::kTurnRight : Preset::kTurnLeft}}};

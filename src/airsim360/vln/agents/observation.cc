@@ -16,7 +16,11 @@ VlnJson ObservationJson(const VlnSituation& s) {
           {"decisions", kDecisionNames[static_cast<int>(s.decisions)]},
           {"view", kViewNames[static_cast<int>(s.eyes.view())]},
           {"answer", AnswerGrammar(s.decisions)},
-          {"from_start", {{"forward_m", Rounded(from.x)}, {"left_m", Rounded(from.y)}, {"up_m", Rounded(pose.p_W.z - s.episode.start.p_W.z)}, {"turned_right_deg", Rounded(turned)}}},
+          {"from_start",
+           {{"forward_m", Rounded(from.x)},
+            {"left_m", Rounded(from.y)},
+            {"up_m", Rounded(pose.p_W.z - s.episode.start.p_W.z)},
+            {"turned_right_deg", Rounded(turned)}}},
           {"seconds", Rounded(s.flight.seconds())},
           {"told", s.told}};
 }

@@ -12,16 +12,16 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kRoom = 0.45;      // metres free around a step
-constexpr double kOnLeg = 0.01;     // metres from a straight leg that rounding makes
-constexpr double kLongestLeg = 200;  // metres of a decision: after a minute another one is asked for
-constexpr double kBetter = 1;       // metres less to go that make steps worth it
+constexpr double kRoom = 0.45;                         // metres free around a step
+constexpr double kOnLeg = 0.01;                        // metres from a straight leg that rounding makes
+constexpr double kLongestLeg = 200;                    // metres of a decision: after a minute another one is asked for
+constexpr double kBetter = 1;                          // metres less to go that make steps worth it
 constexpr double kOff = 1.5, kAside = 15, kLost = 10;  // a metre beside the way as metres along it; so far beside; where it is out of sight
-constexpr double kHorizon = 5;      // moves that steps are planned for at a time
+constexpr double kHorizon = 5;                         // moves that steps are planned for at a time
 constexpr int kMostExpanded = 3000, kMostInNeed = 60000;  // places looked at for that; where the first find nothing
-constexpr double kLeastRoom = 0.25;  // metres free around a step where nothing else helps
-constexpr double kSurely = 0.9;     // of the radius: near enough where no steps lead nearer
-constexpr double kSpacing = 1;      // metres between points of the way that progress is measured on
+constexpr double kLeastRoom = 0.25;                       // metres free around a step where nothing else helps
+constexpr double kSurely = 0.9;                           // of the radius: near enough where no steps lead nearer
+constexpr double kSpacing = 1;                            // metres between points of the way that progress is measured on
 constexpr double kPi = std::numbers::pi;
 
 std::vector<Vec3d> Dense(const std::vector<Vec3d>& way) {
@@ -79,7 +79,9 @@ class OracleAgent : public VlnAgent {
       if (!IsFreeWay(s, view.p_W, way_[i])) continue;
       const Vec3d d = way_[i] - view.p_W;
       const double flat = std::hypot(d.x, d.y);
-      return {{RelativeGoalAction{.azimuth = std::remainder(view.yaw - std::atan2(d.y, d.x), 2 * kPi), .elevation = std::atan2(d.z, flat), .distance = Norm(d)},
+      return {{RelativeGoalAction{.azimuth = std::remainder(view.yaw - std::atan2(d.y, d.x), 2 * kPi),
+                                  .elevation = std::atan2(d.z, flat),
+                                  .distance = Norm(d)},
                true}};
     }
     return {{.stop = true}};
@@ -100,7 +102,8 @@ class OracleAgent : public VlnAgent {
 
   static bool Sees(const VlnSituation& s, Vec3d from, Vec3d to) {
     const double distance = Norm(to - from);
-    return distance < 1e-6 || !s.solid.Intersect(VecCast<float>(from), VecCast<float>((to - from) * (1 / distance)), static_cast<float>(distance));
+    return distance < 1e-6 ||
+           !s.solid.Intersect(VecCast<float>(from), VecCast<float>((to - from) * (1 / distance)), static_cast<float>(distance));
   }
 
   // A place that steps lead to, on the way of a search.
@@ -119,7 +122,8 @@ class OracleAgent : public VlnAgent {
     const auto add = [&](Vec3d step, int turns, Preset last) {
       const double yaw = from.yaw - turns * sizes.turn;
       const Vec3d p = from.p + RotationZ(yaw) * step;
-      if (IsFree(s.solid, from.p, p, room)) steps.push_back({p, yaw, ToGo(s, p), from.decisions + std::abs(turns) + 1, parent, turns, last});
+      if (IsFree(s.solid, from.p, p, room))
+        steps.push_back({p, yaw, ToGo(s, p), from.decisions + std::abs(turns) + 1, parent, turns, last});
     };
     const int half = static_cast<int>(std::lround(kPi / sizes.turn));
     for (int turns = 1 - half; turns <= half; ++turns) add({sizes.forward, 0, 0}, turns, Preset::kForward);

@@ -34,7 +34,8 @@ Decision OneMove(const VlnSituation& s, double azimuth, double distance) {
   }
   // Turns, then steps.
   const PresetSizes& sizes = s.flight.spec().presets;
-  const auto turns = static_cast<int64_t>(std::lround(std::abs(azimuth) / sizes.turn)), steps = static_cast<int64_t>(distance / sizes.forward);
+  const auto turns = static_cast<int64_t>(std::lround(std::abs(azimuth) / sizes.turn)),
+             steps = static_cast<int64_t>(distance / sizes.forward);
   if (s.step < turns) return {{PresetAction{azimuth > 0 ? Preset::kTurnRight : Preset::kTurnLeft}}};
   if (s.step < turns + steps && FreeAhead(s, 0, 0, sizes.forward) >= sizes.forward - 0.01) return {{PresetAction{Preset::kForward}}};
   return {{.stop = true}};
@@ -42,7 +43,9 @@ Decision OneMove(const VlnSituation& s, double azimuth, double distance) {
 
 class ForwardAgent : public VlnAgent {
  public:
-  Decision Decide(VlnSituation& s) override { return OneMove(s, 0, s.decisions == Decisions::kDiscrete ? kStraight : FreeAhead(s, 0, 0, kStraight)); }
+  Decision Decide(VlnSituation& s) override {
+    return OneMove(s, 0, s.decisions == Decisions::kDiscrete ? kStraight : FreeAhead(s, 0, 0, kStraight));
+  }
 };
 
 class HeuristicAgent : public VlnAgent {
@@ -59,9 +62,19 @@ class HeuristicAgent : public VlnAgent {
       double azimuth;
     };
     // The first that is found counts: longer ones before those that they hold.
-    static constexpr Words kWords[] = {{"right rear", 135}, {"left rear", -135},  {"rear right", 135}, {"rear left", -135}, {"behind", 180},
-                                       {"ahead and to your left", -45}, {"ahead to your left", -45}, {"ahead and to your right", 45},
-                                       {"ahead to your right", 45}, {"on your right", 90}, {"on your left", -90}, {"turn right", 90}, {"left side", -45}};
+    static constexpr Words kWords[] = {{"right rear", 135},
+                                       {"left rear", -135},
+                                       {"rear right", 135},
+                                       {"rear left", -135},
+                                       {"behind", 180},
+                                       {"ahead and to your left", -45},
+                                       {"ahead to your left", -45},
+                                       {"ahead and to your right", 45},
+                                       {"ahead to your right", 45},
+                                       {"on your right", 90},
+                                       {"on your left", -90},
+                                       {"turn right", 90},
+                                       {"left side", -45}};
     for (const Words& words : kWords)
       if (text.find(words.text) != std::string::npos) return words.azimuth * kDegree;
     return 0;
@@ -75,15 +88,17 @@ class RandomAgent : public VlnAgent {
   Decision Decide(VlnSituation& s) override {
     constexpr double kStop = 0.05;  // chance of a stop at each decision
     if (s.decisions == Decisions::kYomo)
-      return {{RelativeGoalAction{.azimuth = random_.Uniform(-180, 180) * kDegree, .elevation = random_.Uniform(-5, 15) * kDegree,
+      return {{RelativeGoalAction{.azimuth = random_.Uniform(-180, 180) * kDegree,
+                                  .elevation = random_.Uniform(-5, 15) * kDegree,
                                   .distance = random_.Uniform(5, 80)},
                true}};
     if (random_.Chance(kStop)) return {{.stop = true}};
     if (s.decisions == Decisions::kWaypoints) {
       const double azimuth = random_.Uniform(-180, 180) * kDegree, distance = random_.Uniform(5, 30);
-      return {{WaypointsAction{.points = {{distance * std::cos(azimuth), -distance * std::sin(azimuth), random_.Uniform(-1, 2)}}, .body_frame = true}}};
+      return {{WaypointsAction{.points = {{distance * std::cos(azimuth), -distance * std::sin(azimuth), random_.Uniform(-1, 2)}},
+                               .body_frame = true}}};
     }
-    static constexpr Preset kPresets[] = {Preset::kForward, Preset::kForward, Preset::kForward, Preset::kLeft,     Preset::kRight,
+    static constexpr Preset kPresets[] = {Preset::kForward, Preset::kForward, Preset::kForward,  Preset::kLeft,     Preset::kRight,
                                           Preset::kUp,      Preset::kDown,    Preset::kTurnLeft, Preset::kTurnRight};
     return {{PresetAction{kPresets[random_.Index(std::size(kPresets))]}}};
   }

@@ -18,7 +18,7 @@ struct VlnSituation {
   Decisions decisions;
   int64_t step = 0, steps_left = 0;  ///< decisions taken, and left
   double radius = 20;                ///< of success
-  const RayTracer& solid;   ///< what a drone can touch
+  const RayTracer& solid;            ///< what a drone can touch
   Eyes& eyes;
   std::string told = {};  ///< of the last decision: what went wrong with it; "" = nothing
 

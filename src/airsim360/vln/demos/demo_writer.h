@@ -13,16 +13,16 @@
 
 namespace airsim360::internal {
 
-inline constexpr double kDemoRate = 10;      // steps a second
-inline constexpr size_t kDemoAhead = 10;     // steps that a waypoint lies ahead
+inline constexpr double kDemoRate = 10;   // steps a second
+inline constexpr size_t kDemoAhead = 10;  // steps that a waypoint lies ahead
 
 /// One tenth of a second: the state at its beginning, and what is done in it.
 struct DemoStep {
   int64_t t_ns = 0;
   Kinematics motion;
-  std::vector<float> rotor_speeds = {};    ///< rad/s
-  std::array<float, 4> velocity{};    ///< mean until the next step: metres a second forward, left, up; yaw rate, rad/s, positive to the left
-  std::array<float, 4> waypoint{};    ///< where it is a second later: metres forward, left, up; turn, rad
+  std::vector<float> rotor_speeds = {};  ///< rad/s
+  std::array<float, 4> velocity{};  ///< mean until the next step: metres a second forward, left, up; yaw rate, rad/s, positive to the left
+  std::array<float, 4> waypoint{};  ///< where it is a second later: metres forward, left, up; turn, rad
   std::vector<float> rotor_commands = {};  ///< rad/s asked of the rotors
 
   /// x, y, z, qw, qx, qy, qz, vx, vy, vz in W; wx, wy, wz in B.

@@ -14,8 +14,8 @@ inline constexpr const char* kDemoLayouts[] = {"jsonl", "rlds", "lerobot"};
 
 struct DemoOptions {
   std::vector<std::string> layouts = {"jsonl"};
-  int width = 512;     ///< of panoramas, pixels
-  int64_t limit = 0;   ///< episodes; 0 = all
+  int width = 512;    ///< of panoramas, pixels
+  int64_t limit = 0;  ///< episodes; 0 = all
   RenderSettings picture = {};
   std::filesystem::path out = {};  ///< a folder that does not exist or is empty
   /// Opens a world with its people.

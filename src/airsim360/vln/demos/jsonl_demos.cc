@@ -20,7 +20,8 @@ class JsonlDemos : public DemoWriter {
 
   void Begin(const LanguageEpisode&) override {
     name_ = "videos/" + Numbered(count_) + ".mp4";
-    video_ = std::make_unique<VideoWriter>(folder_.Place("jsonl/" + name_), shape_.width, shape_.height, VideoOptions{.frame_rate = kDemoRate});
+    video_ =
+        std::make_unique<VideoWriter>(folder_.Place("jsonl/" + name_), shape_.width, shape_.height, VideoOptions{.frame_rate = kDemoRate});
   }
   void AddPicture(const Image<Rgb8>& picture, int64_t t_ns) override { video_->Add(picture, t_ns); }
 
@@ -65,6 +66,8 @@ class JsonlDemos : public DemoWriter {
 
 }  // namespace
 
-std::unique_ptr<DemoWriter> MakeJsonlDemos(ExportFolder& folder, const DemoShape& shape) { return std::make_unique<JsonlDemos>(folder, shape); }
+std::unique_ptr<DemoWriter> MakeJsonlDemos(ExportFolder& folder, const DemoShape& shape) {
+  return std::make_unique<JsonlDemos>(folder, shape);
+}
 
 }  // namespace airsim360::internal

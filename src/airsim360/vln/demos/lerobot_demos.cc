@@ -34,6 +34,8 @@ class LeRobotDemos : public DemoWriter {
 
 }  // namespace
 
-std::unique_ptr<DemoWriter> MakeLeRobotDemos(ExportFolder& folder, const DemoShape& shape) { return std::make_unique<LeRobotDemos>(folder, shape); }
+std::unique_ptr<DemoWriter> MakeLeRobotDemos(ExportFolder& folder, const DemoShape& shape) {
+  return std::make_unique<LeRobotDemos>(folder, shape);
+}
 
 }  // namespace airsim360::internal

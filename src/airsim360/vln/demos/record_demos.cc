@@ -60,7 +60,8 @@ class DemoRecorder {
       Fly(episodes[i]);
       bar.Update(static_cast<int64_t>(i + 1));
     }
-    if (summary_.episodes == 0) throw RuntimeError("no episode was flown well: " + summary_.left_out.front().first + ": " + summary_.left_out.front().second);
+    if (summary_.episodes == 0)
+      throw RuntimeError("no episode was flown well: " + summary_.left_out.front().first + ": " + summary_.left_out.front().second);
     for (auto& writer : writers_) writer->Finish();
     folder_.Commit();
     return std::move(summary_);
@@ -126,8 +127,9 @@ class DemoRecorder {
   // A level panorama in the heading of the drone, as agents see.
   const Image<Rgb8>& Draw(const LanguageEpisode& episode, const Episode& flight) {
     if (!renderer_ || weather_ != episode.weather) {
-      renderer_ = episode.weather.empty() ? stage_->NewRenderer(options_.picture.tier)
-                                          : stage_->NewRenderer(options_.picture.tier, ApplyFlags({.weather = episode.weather}, stage_->environment()));
+      renderer_ = episode.weather.empty()
+                      ? stage_->NewRenderer(options_.picture.tier)
+                      : stage_->NewRenderer(options_.picture.tier, ApplyFlags({.weather = episode.weather}, stage_->environment()));
       weather_ = episode.weather;
     }
     const RigidTransform& X_WB = flight.vehicle().motion.X_WB;

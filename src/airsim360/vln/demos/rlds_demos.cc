@@ -18,7 +18,8 @@ VlnJson Tensor(const char* type, const std::vector<int>& shape) {
   VlnJson dimensions = VlnJson::array();
   for (const int n : shape) dimensions.push_back(std::to_string(n));
   const VlnJson size = shape.empty() ? VlnJson::object() : VlnJson{{"dimensions", dimensions}};
-  return {{"pythonClassName", shape.empty() ? "tensorflow_datasets.core.features.scalar.Scalar" : "tensorflow_datasets.core.features.tensor_feature.Tensor"},
+  return {{"pythonClassName",
+           shape.empty() ? "tensorflow_datasets.core.features.scalar.Scalar" : "tensorflow_datasets.core.features.tensor_feature.Tensor"},
           {"tensor", {{"shape", size}, {"dtype", type}, {"encoding", "none"}}}};
 }
 VlnJson Text() { return {{"pythonClassName", "tensorflow_datasets.core.features.text_feature.Text"}, {"text", VlnJson::object()}}; }
@@ -32,8 +33,10 @@ VlnJson FeaturesJson(const DemoShape& shape) {
                           {{"shape", {{"dimensions", {std::to_string(shape.height), std::to_string(shape.width), "3"}}}},
                            {"dtype", "uint8"},
                            {"encodingFormat", "jpeg"}}}};
-  const VlnJson observation = Dict({{"image", image}, {"state", Tensor("float32", {13})}, {"rotor_speeds", Tensor("float32", {shape.rotors})}});
-  const VlnJson action = Dict({{"velocity", Tensor("float32", {4})}, {"waypoint", Tensor("float32", {4})}, {"rotor", Tensor("float32", {shape.rotors})}});
+  const VlnJson observation =
+      Dict({{"image", image}, {"state", Tensor("float32", {13})}, {"rotor_speeds", Tensor("float32", {shape.rotors})}});
+  const VlnJson action =
+      Dict({{"velocity", Tensor("float32", {4})}, {"waypoint", Tensor("float32", {4})}, {"rotor", Tensor("float32", {shape.rotors})}});
   const VlnJson step = Dict({{"observation", observation},
                              {"action", action},
                              {"reward", Tensor("float32", {})},
@@ -43,7 +46,9 @@ VlnJson FeaturesJson(const DemoShape& shape) {
                              {"is_terminal", Tensor("bool", {})},
                              {"language_instruction", Text()}});
   const VlnJson metadata = Dict({{"id", Text()}, {"world", Text()}, {"weather", Text()}, {"world_seed", Tensor("int64", {})}});
-  return Dict({{"steps", {{"pythonClassName", "tensorflow_datasets.core.features.dataset_feature.Dataset"}, {"sequence", {{"feature", step}, {"length", "-1"}}}}},
+  return Dict({{"steps",
+                {{"pythonClassName", "tensorflow_datasets.core.features.dataset_feature.Dataset"},
+                 {"sequence", {{"feature", step}, {"length", "-1"}}}}},
                {"episode_metadata", metadata}});
 }
 
@@ -99,7 +104,8 @@ class RldsDemos : public DemoWriter {
     if (!keep) return;
     const std::string split = episode.split.empty() ? "train" : episode.split;
     auto& shard = shards_[split];
-    if (!shard.file) shard.file = std::make_unique<GrowingFile>(folder_, std::string(kFolder) + "airsim360_vln-" + split + ".tfrecord-00000-of-00001");
+    if (!shard.file)
+      shard.file = std::make_unique<GrowingFile>(folder_, std::string(kFolder) + "airsim360_vln-" + split + ".tfrecord-00000-of-00001");
     shard.file->Append(TfRecord(ExampleOf(episode, steps, pictures_)));
     ++shard.episodes;
   }
@@ -136,6 +142,8 @@ class RldsDemos : public DemoWriter {
 
 }  // namespace
 
-std::unique_ptr<DemoWriter> MakeRldsDemos(ExportFolder& folder, const DemoShape& shape) { return std::make_unique<RldsDemos>(folder, shape); }
+std::unique_ptr<DemoWriter> MakeRldsDemos(ExportFolder& folder, const DemoShape& shape) {
+  return std::make_unique<RldsDemos>(folder, shape);
+}
 
 }  // namespace airsim360::internal

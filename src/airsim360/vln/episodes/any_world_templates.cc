@@ -14,11 +14,11 @@ constexpr size_t kMostNouns = 24;
 
 // "furniture/seating/bench/wood" is a wood bench to people.
 std::string WordOf(const std::string& path) {
-  static const std::map<std::string, std::string> kWords = {{"wood", "wooden bench"},       {"generic", "broadleaf tree"}, {"narrowleaf", "narrow-leaved tree"},
-                                                            {"pine", "pine tree"},          {"usa", "American flag"},      {"maple", "maple tree"},
-                                                            {"amur_cork", "cork tree"},     {"modular", "pavement"},       {"barrier", "barrier"},
-                                                            {"car_pillar", "bollard"},      {"road_column", "bollard"},    {"type_a", "lamp post"},
-                                                            {"type_b", "lamp post"},        {"pot", "plant pot"},          {"green_pot", "green plant pot"}};
+  static const std::map<std::string, std::string> kWords = {
+      {"wood", "wooden bench"}, {"generic", "broadleaf tree"}, {"narrowleaf", "narrow-leaved tree"}, {"pine", "pine tree"},
+      {"usa", "American flag"}, {"maple", "maple tree"},       {"amur_cork", "cork tree"},           {"modular", "pavement"},
+      {"barrier", "barrier"},   {"car_pillar", "bollard"},     {"road_column", "bollard"},           {"type_a", "lamp post"},
+      {"type_b", "lamp post"},  {"pot", "plant pot"},          {"green_pot", "green plant pot"}};
   std::string word = path.substr(path.rfind('/') + 1);
   if (const auto found = kWords.find(word); found != kWords.end()) return found->second;
   std::ranges::replace(word, '_', ' ');
@@ -26,8 +26,9 @@ std::string WordOf(const std::string& path) {
 }
 
 bool IsNameable(const std::string& path) {
-  for (const char* no : {"ground", "sky", "nature", "human", "uav", "animal", "construction/building", "construction/wall", "construction/ceiling",
-                         "vegetation/grass_tuft", "vegetation/plant", "vegetation/climber", "furniture/misc", "object", "traffic/temporary/tube"})
+  for (const char* no :
+       {"ground", "sky", "nature", "human", "uav", "animal", "construction/building", "construction/wall", "construction/ceiling",
+        "vegetation/grass_tuft", "vegetation/plant", "vegetation/climber", "furniture/misc", "object", "traffic/temporary/tube"})
     if (path.starts_with(no)) return false;
   return true;
 }
@@ -39,10 +40,14 @@ Predicate Nearest() { return {.kind = PredicateKind::kNearest}; }
 
 // Words of a sector, as the paper's instructions say it.
 const char* Said(const std::string& sector) {
-  static const std::map<std::string, const char*> kSaid = {{"ahead", "straight ahead"},       {"right", "on your right"},
-                                                           {"behind", "behind you"},          {"left", "on your left"},
-                                                           {"ahead_left", "ahead to your left"}, {"ahead_right", "ahead to your right"},
-                                                           {"rear_right", "on your right rear"}, {"rear_left", "on your left rear"}};
+  static const std::map<std::string, const char*> kSaid = {{"ahead", "straight ahead"},
+                                                           {"right", "on your right"},
+                                                           {"behind", "behind you"},
+                                                           {"left", "on your left"},
+                                                           {"ahead_left", "ahead to your left"},
+                                                           {"ahead_right", "ahead to your right"},
+                                                           {"rear_right", "on your right rear"},
+                                                           {"rear_left", "on your left rear"}};
   return kSaid.at(sector);
 }
 
@@ -69,9 +74,11 @@ std::vector<InstructionTemplate> OfNoun(const Noun& noun) {
               " count. Choose the one of them that is nearest to where you are now, fly to it without touching anything, and stop beside it.",
           {noun, {Bearing(sector.name), Nearest()}}, sector.name);
   }
-  add("4", "Turn until you find the " + word + " that is nearest to you, fly to it, keep a few metres away, and stop there.", {noun, {Nearest()}}, "any");
-  InstructionTemplate& second = add("3/second", "Fly straight ahead and stop when you reach the second " + word + ".",
-                            {noun, {{.kind = PredicateKind::kAlong, .width = 10}, {.kind = PredicateKind::kOrdinal, .k = 2}}}, "ahead");
+  add("4", "Turn until you find the " + word + " that is nearest to you, fly to it, keep a few metres away, and stop there.",
+      {noun, {Nearest()}}, "any");
+  InstructionTemplate& second =
+      add("3/second", "Fly straight ahead and stop when you reach the second " + word + ".",
+          {noun, {{.kind = PredicateKind::kAlong, .width = 10}, {.kind = PredicateKind::kOrdinal, .k = 2}}}, "ahead");
   second.farthest = 90;
   return made;
 }
@@ -81,7 +88,8 @@ InstructionTemplate OneThenTheOther(const Noun& first, const Noun& second, const
   std::string id = "any/" + first.word + "/then/" + second.word + "/" + sector;
   std::ranges::replace(id, ' ', '_');
   return {.id = std::move(id),
-          .text = "Fly straight to the nearest " + first.word + ". Still facing the way you flew, go on to the nearest " + second.word + " " + Said(sector) + " and stop beside it.",
+          .text = "Fly straight to the nearest " + first.word + ". Still facing the way you flew, go on to the nearest " + second.word +
+                  " " + Said(sector) + " and stop beside it.",
           .query = {first, {Nearest()}},
           .then = {{.query = {second, {Bearing(sector), Nearest()}}}}};
 }
@@ -109,7 +117,8 @@ std::vector<InstructionTemplate> AnyWorldTemplates(const Scene& scene) {
     by_word[WordOf(path)].insert(path);
     ++count[WordOf(path)];
   }
-  if (by_word.empty()) throw InputError("world '" + scene.name + "' names nothing that an instruction could send a drone to: label it (docs/guide/labels.md)");
+  if (by_word.empty())
+    throw InputError("world '" + scene.name + "' names nothing that an instruction could send a drone to: label it (docs/guide/labels.md)");
   // Rare things first: they are landmarks.
   std::vector<std::string> words;
   for (const auto& [word, categories] : by_word) words.push_back(word);

@@ -13,9 +13,9 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kFree = 0.45;     // metres around the way
-constexpr double kSame = 2e-3;     // metres: points of a file are rounded
-constexpr double kAtThing = 12;    // metres from a goal to the thing that it belongs to
+constexpr double kFree = 0.45;   // metres around the way
+constexpr double kSame = 2e-3;   // metres: points of a file are rounded
+constexpr double kAtThing = 12;  // metres from a goal to the thing that it belongs to
 
 std::string NameOf(const Scene& scene, const std::vector<EntityId>& entities) {
   return "'" + scene.entity(entities.front()).name + "' (entity " + std::to_string(entities.front()) + ")";
@@ -43,12 +43,15 @@ class Checker {
     const Scene& scene = stage_->scene();
     if (!IsBound(e)) return "not unique: it was imported, and no query says what is meant";
     for (const EntityId id : e.entities)
-      if (id > scene.entities.size()) return "entity " + std::to_string(id) + " is not in the world, which has " + std::to_string(scene.entities.size());
+      if (id > scene.entities.size())
+        return "entity " + std::to_string(id) + " is not in the world, which has " + std::to_string(scene.entities.size());
     if (!e.before.empty() && !e.turn) return "it has several parts, but 'turn' is missing";
-    if (!e.before.empty() && std::ranges::any_of(e.before.front().query.predicates, &Predicate::at_turn)) return "its first part is seen from a turn";
+    if (!e.before.empty() && std::ranges::any_of(e.before.front().query.predicates, &Predicate::at_turn))
+      return "its first part is seen from a turn";
     for (const EpisodePart& part : e.before)
       for (const EntityId id : part.entities)
-        if (id > scene.entities.size()) return "entity " + std::to_string(id) + " is not in the world, which has " + std::to_string(scene.entities.size());
+        if (id > scene.entities.size())
+          return "entity " + std::to_string(id) + " is not in the world, which has " + std::to_string(scene.entities.size());
     for (const Predicate& predicate : e.query.predicates)
       if (predicate.at_turn && !e.turn) return "a predicate is seen from where the instruction turns, but 'turn' is missing";
     std::string what = Uniqueness(e.query, {e.start, e.turn}, e.entities);
@@ -65,7 +68,8 @@ class Checker {
       for (size_t i = 0; i < std::min<size_t>(answers.size(), 4); ++i) names += (i ? ", " : "") + NameOf(stage_->scene(), answers[i]);
       return "not unique: " + std::to_string(answers.size()) + " compete: " + names;
     }
-    if (answers[0] != entities) return "not unique: the instruction means " + NameOf(stage_->scene(), answers[0]) + ", not " + NameOf(stage_->scene(), entities);
+    if (answers[0] != entities)
+      return "not unique: the instruction means " + NameOf(stage_->scene(), answers[0]) + ", not " + NameOf(stage_->scene(), entities);
     return "";
   }
 
@@ -76,9 +80,12 @@ class Checker {
     const Vec3d from = i == 0 ? e.start.p_W : e.before[i - 1].goal;
     const Viewpoint& after = i + 1 < e.before.size() ? e.before[i + 1].seen_from : *e.turn;
     const Vec3d flown = part.goal - from;
-    if (Norm(part.seen_from.p_W - from) > kSame || Norm(after.p_W - part.goal) > kSame) return which + "it is not seen from where the one before ended";
-    if (std::abs(std::remainder(after.yaw - std::atan2(flown.y, flown.x), 2 * std::numbers::pi)) > 1e-3) return which + "what follows is not seen in the direction of its flight";
-    if (std::ranges::none_of(e.ref, [&](Vec3d p) { return Norm(p - part.goal) <= kSame; })) return "not reachable: the way does not lead over " + NameOf(stage_->scene(), part.entities);
+    if (Norm(part.seen_from.p_W - from) > kSame || Norm(after.p_W - part.goal) > kSame)
+      return which + "it is not seen from where the one before ended";
+    if (std::abs(std::remainder(after.yaw - std::atan2(flown.y, flown.x), 2 * std::numbers::pi)) > 1e-3)
+      return which + "what follows is not seen in the direction of its flight";
+    if (std::ranges::none_of(e.ref, [&](Vec3d p) { return Norm(p - part.goal) <= kSame; }))
+      return "not reachable: the way does not lead over " + NameOf(stage_->scene(), part.entities);
     std::string what = Uniqueness(part.query, i == 0 ? Standpoint{e.start, {}} : Standpoint{e.start, part.seen_from}, part.entities);
     if (what.empty()) what = Place(part.entities, part.goal_kind, from, part.goal);
     return what;
@@ -89,13 +96,15 @@ class Checker {
     if (Norm(e.ref.back() - e.goal) > kSame) return "not reachable: the way does not end at the goal";
     for (size_t i = 1; i < e.ref.size(); ++i)
       if (!IsFree(*stage_->solid(), e.ref[i - 1], e.ref[i], kFree))
-        return "not reachable: leg " + std::to_string(i) + " of the way comes nearer than " + std::to_string(kFree).substr(0, 4) + " m to a surface";
+        return "not reachable: leg " + std::to_string(i) + " of the way comes nearer than " + std::to_string(kFree).substr(0, 4) +
+               " m to a surface";
     if (std::abs(PolylineLength(e.ref) - e.geodesic_length) > 0.01) return "geodesic_length is not the length of the way";
     return "";
   }
 
   std::string Place(const std::vector<EntityId>& entities, GoalKind kind, Vec3d from, Vec3d goal) {
-    const bool beyond = kind == GoalKind::kStreetBeyond || kind == GoalKind::kPathBeyond || kind == GoalKind::kFarEnd || kind == GoalKind::kOtherSide;
+    const bool beyond =
+        kind == GoalKind::kStreetBeyond || kind == GoalKind::kPathBeyond || kind == GoalKind::kFarEnd || kind == GoalKind::kOtherSide;
     if (beyond) return brute_.Passes(entities, from, goal) ? "" : "the goal is not beyond " + NameOf(stage_->scene(), entities);
     const double off = brute_.Distance(entities, goal);
     return off <= kAtThing ? "" : "the goal is " + std::to_string(off) + " m from " + NameOf(stage_->scene(), entities);

@@ -19,7 +19,8 @@ struct LongSide {
 LongSide LongSideOf(const Box3d& box) {
   const Vec3d size = box.max - box.min;
   const bool x = size.x >= size.y;
-  return {x ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0}, x ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}, 0.5 * (x ? size.x : size.y), 0.5 * (x ? size.y : size.x)};
+  return {x ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0}, x ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}, 0.5 * (x ? size.x : size.y),
+          0.5 * (x ? size.y : size.x)};
 }
 
 // At `at` seen from above, at a drawn height over open ground.
@@ -67,7 +68,8 @@ struct Draw {
     static const Noun kRoad{.word = "road", .categories = {"ground/road"}, .without = {"junction*", "outer streets*", "far *"}};
     std::vector<const Thing*> roads;
     for (const Thing& road : graph.Find(kRoad))
-      if (std::max(road.size().x, road.size().y) >= kLongRoad && PlanDistance(thing.center(), road.box).least < farthest) roads.push_back(&road);
+      if (std::max(road.size().x, road.size().y) >= kLongRoad && PlanDistance(thing.center(), road.box).least < farthest)
+        roads.push_back(&road);
     if (roads.empty()) return std::nullopt;
     const Thing& road = *roads[random.Index(static_cast<uint32_t>(roads.size()))];
     const LongSide side = LongSideOf(road.box);
@@ -91,7 +93,8 @@ struct Draw {
     auto stands = At(middle - ahead * back, quarter);
     if (!stands) return std::nullopt;
     const auto below = ground.Below(stands->start.p_W);
-    if (!below || !(ground.Is(below->entity, "ground/road") || ground.Is(below->entity, "ground/lane_marking") || ground.Is(below->entity, "ground/bike_lane")))
+    if (!below || !(ground.Is(below->entity, "ground/road") || ground.Is(below->entity, "ground/lane_marking") ||
+                    ground.Is(below->entity, "ground/bike_lane")))
       return std::nullopt;
     stands->turn = Viewpoint{{middle.x, middle.y, stands->start.p_W.z}, std::remainder(quarter, 2 * kPi)};
     return stands;
@@ -109,22 +112,24 @@ struct Draw {
   std::optional<Standpoint> Facing() const {
     const LongSide side = LongSideOf(thing.box);
     const Vec3d ahead = side.across * (random.Chance(0.5) ? 1.0 : -1.0);
-    const Vec3d place = thing.center() - ahead * random.Uniform(nearest, farthest) + side.along * (random.Uniform(-0.7, 0.7) * side.half_length);
+    const Vec3d place =
+        thing.center() - ahead * random.Uniform(nearest, farthest) + side.along * (random.Uniform(-0.7, 0.7) * side.half_length);
     return At(place, HeadingOf(ahead) + random.Uniform(-kLineJitter, kLineJitter));
   }
 
   std::optional<Standpoint> Beside() const {
     const LongSide side = LongSideOf(thing.box);
     const Vec3d ahead = side.along * (random.Chance(0.5) ? 1.0 : -1.0), left{-ahead.y, ahead.x, 0};
-    const Vec3d place = thing.center() + left * (side.half_width + random.Uniform(nearest, farthest)) + ahead * (random.Uniform(-0.6, 0.6) * side.half_length);
+    const Vec3d place = thing.center() + left * (side.half_width + random.Uniform(nearest, farthest)) +
+                        ahead * (random.Uniform(-0.6, 0.6) * side.half_length);
     return At(place, HeadingOf(ahead) + random.Uniform(-5, 5) * kLineJitter);
   }
 };
 
 }  // namespace
 
-std::optional<Standpoint> DrawStart(const VlnGround& ground, SceneGraph& graph, const InstructionTemplate& wanted, double nearest, double farthest,
-                                    RngStream& random) {
+std::optional<Standpoint> DrawStart(const VlnGround& ground, SceneGraph& graph, const InstructionTemplate& wanted, double nearest,
+                                    double farthest, RngStream& random) {
   const auto& things = graph.Find(wanted.query.noun);
   if (things.empty()) return std::nullopt;
   const Draw draw{ground, graph, wanted, nearest, farthest, random, things[random.Index(static_cast<uint32_t>(things.size()))]};

@@ -50,7 +50,8 @@ struct Record {
     First(name);
     std::vector<Vec3d> points;
     for (const VlnJson& row : At(name)) {
-      if (!row.is_array() || row.size() < 3) throw InputError(where + "." + name + "[" + std::to_string(points.size()) + "]: is no [x, y, z]");
+      if (!row.is_array() || row.size() < 3)
+        throw InputError(where + "." + name + "[" + std::to_string(points.size()) + "]: is no [x, y, z]");
       points.push_back(PointOf(VlnJson::array({row[0], row[1], row[2]}), where + "." + name));
     }
     return points;
@@ -59,7 +60,8 @@ struct Record {
     if (!quaternion.is_array() || quaternion.size() != 4) throw InputError(where + path + ": is no quaternion [w, x, y, z]");
     double q[4];
     for (size_t i = 0; i < 4; ++i) {
-      if (!quaternion[i].is_number() || !(std::abs(quaternion[i].get<double>()) <= 2)) throw InputError(where + path + ": is no quaternion [w, x, y, z]");
+      if (!quaternion[i].is_number() || !(std::abs(quaternion[i].get<double>()) <= 2))
+        throw InputError(where + path + ": is no quaternion [w, x, y, z]");
       q[i] = quaternion[i].get<double>();
     }
     return std::atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] * q[2] + q[3] * q[3]));
@@ -163,7 +165,8 @@ void ReadTravel(const Record& r, LanguageEpisode& e) {
   e.instruction = r.Text(r.At(r.First("conversations"), "value", ".conversations[0]"), ".conversations[0].value");
   for (const Vec3d& p : r.Path("trajectory_raw_detailed")) e.ref.push_back(Ned(p));
   e.goal = Ned(PointOf(r.At(r.At(r.At("mark"), "target", ".mark"), "position", ".mark.target"), r.where + ".mark.target.position"));
-  if (r.json["mark"].contains("object_name") && r.json["mark"]["object_name"].is_string()) e.name = r.json["mark"]["object_name"].get<std::string>().substr(0, 200);
+  if (r.json["mark"].contains("object_name") && r.json["mark"]["object_name"].is_string())
+    e.name = r.json["mark"]["object_name"].get<std::string>().substr(0, 200);
   double yaw = 0;
   if (r.json.contains("start_yaw") && r.json["start_yaw"].is_number()) yaw = r.json["start_yaw"].get<double>();
   e.start = {e.ref.front(), std::isfinite(yaw) ? NedYaw(std::remainder(yaw, 2 * kPi)) : 0};
@@ -233,7 +236,8 @@ std::string ExportEpisodes(const std::vector<LanguageEpisode>& episodes, const s
   return (*form.list ? VlnJson{{form.list, list}} : list).dump(1) + "\n";
 }
 
-std::vector<LanguageEpisode> ImportEpisodes(const std::string& text, const std::string& name, const std::string& format, const std::string& world) {
+std::vector<LanguageEpisode> ImportEpisodes(const std::string& text, const std::string& name, const std::string& format,
+                                            const std::string& world) {
   const Form& form = FindForm(format);
   const VlnJson json = internal::ParseVlnJson(text, name);
   const bool wrapped = *form.list && json.is_object() && json.contains(form.list);

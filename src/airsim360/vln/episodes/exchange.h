@@ -17,6 +17,7 @@ std::string ExportEpisodes(const std::vector<LanguageEpisode>& episodes, const s
 
 /// Episodes of a text of that form, in `world`, without entities, query or proof: `vln run` flies them, `vln check` says that
 /// nothing is proved. InputError "name: …" naming the record and the field.
-std::vector<LanguageEpisode> ImportEpisodes(const std::string& text, const std::string& name, const std::string& format, const std::string& world);
+std::vector<LanguageEpisode> ImportEpisodes(const std::string& text, const std::string& name, const std::string& format,
+                                            const std::string& world);
 
 }  // namespace airsim360

@@ -69,7 +69,8 @@ struct Finder {
     std::vector<Vec3d> places;
     constexpr int kGrid = 9;
     for (int i = 0; i < kGrid * kGrid; ++i) {
-      const double x = thing.box.min.x + thing.size().x * (i % kGrid + 0.5) / kGrid, y = thing.box.min.y + thing.size().y * (i / kGrid + 0.5) / kGrid;
+      const double x = thing.box.min.x + thing.size().x * (i % kGrid + 0.5) / kGrid,
+                   y = thing.box.min.y + thing.size().y * (i / kGrid + 0.5) / kGrid;
       const auto hit = ground.At(x, y);
       if (!hit) continue;
       const bool roof = highest && hit->z > thing.box.max.z - 4 && hit->z < thing.box.max.z + 2;

@@ -13,7 +13,9 @@ EntityId EntityAt(const Scene& scene, const SurfaceRef& surface) {
 }  // namespace
 
 VlnGround::VlnGround(std::shared_ptr<const RayTracer> tracer)
-    : tracer_(std::move(tracer)), box_(FlightBox(*tracer_)), top_(scene().sky_entity == kNoEntity ? box_.max.z - 0.01 : scene().bounds.max.z + 10.0) {}
+    : tracer_(std::move(tracer)),
+      box_(FlightBox(*tracer_)),
+      top_(scene().sky_entity == kNoEntity ? box_.max.z - 0.01 : scene().bounds.max.z + 10.0) {}
 
 std::optional<GroundHit> VlnGround::Below(Vec3d p) const {
   const auto hit = tracer_->Intersect(VecCast<float>(p), {0, 0, -1});

@@ -31,7 +31,8 @@ void ReadRange(VlnFields& fields, const char* name, double& low, double& high) {
   const VlnJson* found = fields.Find(name);
   if (found == nullptr) return;
   const bool numbers = found->is_array() && found->size() == 2 && (*found)[0].is_number() && (*found)[1].is_number();
-  if (!numbers || !((*found)[0].get<double>() >= 0 && (*found)[1].get<double>() >= (*found)[0].get<double>() && (*found)[1].get<double>() <= 1000))
+  if (!numbers ||
+      !((*found)[0].get<double>() >= 0 && (*found)[1].get<double>() >= (*found)[0].get<double>() && (*found)[1].get<double>() <= 1000))
     throw InputError(fields.where() + "." + name + ": " + found->dump().substr(0, 60) + " is not [least, most] within 0 … 1000 metres");
   low = (*found)[0].get<double>();
   high = (*found)[1].get<double>();
@@ -65,7 +66,8 @@ InstructionTemplate TemplateOf(const VlnJson& value, const std::string& where) {
   made.distance = fields.Number("goal_distance", 4, 0, 50);
   made.in_sight = fields.Flag("in_sight", false);
   if (const VlnJson* then = fields.Find("then")) {
-    if (!then->is_array() || then->size() > kMostParts) throw InputError(where + ".then: is not a list of at most " + std::to_string(kMostParts) + " parts");
+    if (!then->is_array() || then->size() > kMostParts)
+      throw InputError(where + ".then: is not a list of at most " + std::to_string(kMostParts) + " parts");
     const bool turns = made.frame == StartFrame::kTurn || std::ranges::any_of(made.query.predicates, &Predicate::at_turn);
     if (turns && !then->empty()) throw InputError(where + ".then: an instruction that turns at a junction has one part");
     for (size_t i = 0; i < then->size(); ++i) made.then.push_back(PartOf((*then)[i], where + ".then[" + std::to_string(i) + "]"));
@@ -84,7 +86,8 @@ std::vector<InstructionTemplate> ParseTemplates(const std::string& text, const s
   std::set<std::string> ids;
   for (size_t i = 0; i < list.size(); ++i) {
     templates.push_back(TemplateOf(list[i], name + "[" + std::to_string(i) + "]"));
-    if (!ids.insert(templates.back().id).second) throw InputError(name + "[" + std::to_string(i) + "].id: '" + templates.back().id + "' is there twice");
+    if (!ids.insert(templates.back().id).second)
+      throw InputError(name + "[" + std::to_string(i) + "].id: '" + templates.back().id + "' is there twice");
   }
   return templates;
 }

@@ -48,11 +48,11 @@ struct InstructionTemplate {
   std::string text;  ///< the instruction
   Query query;
   StartFrame frame = StartFrame::kAround;
-  std::string heading = "any";  ///< around: the sector that the thing is to be in, or any
+  std::string heading = "any";          ///< around: the sector that the thing is to be in, or any
   double nearest = 24, farthest = 150;  ///< metres between start and thing, seen from above
   double lowest = 2, highest = 8;       ///< metres of the start above what is below it
   GoalKind goal = GoalKind::kNear;
-  double distance = 4;  ///< metres that the goal keeps from the thing
+  double distance = 4;              ///< metres that the goal keeps from the thing
   bool in_sight = false;            ///< its words take for granted that one sees it: "the lake in front of you"
   std::vector<NextPart> then = {};  ///< in order; at most kMostParts
 };

@@ -35,7 +35,8 @@ std::vector<EntityId> EntitiesOf(const VlnJson& list, const std::string& where) 
   if (!list.is_array() || list.size() > 100'000) throw InputError(where + ": is not a list of entity ids");
   std::vector<EntityId> entities;
   for (const VlnJson& id : list) {
-    if (!id.is_number_unsigned() || id.get<uint64_t>() == 0 || id.get<uint64_t>() > UINT32_MAX) throw InputError(where + ": " + id.dump().substr(0, 40) + " is no entity id");
+    if (!id.is_number_unsigned() || id.get<uint64_t>() == 0 || id.get<uint64_t>() > UINT32_MAX)
+      throw InputError(where + ": " + id.dump().substr(0, 40) + " is no entity id");
     entities.push_back(id.get<EntityId>());
   }
   return entities;
@@ -52,7 +53,8 @@ WorldThings ThingsFrom(const VlnJson& value, const std::string& where) {
   VlnFields fields(value, where);
   const WorldThings things{static_cast<size_t>(fields.Number("count", 0, 1, UINT32_MAX)), fields.Text("sha256", "")};
   const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
-  if (things.sha256.size() != 64 || !std::ranges::all_of(things.sha256, is_hex)) throw InputError(where + ".sha256: is not 64 lower-case hexadecimal digits");
+  if (things.sha256.size() != 64 || !std::ranges::all_of(things.sha256, is_hex))
+    throw InputError(where + ".sha256: is not 64 lower-case hexadecimal digits");
   fields.Finish();
   return things;
 }
@@ -80,7 +82,8 @@ VlnJson PartsJson(const std::vector<EpisodePart>& parts) {
 }
 
 void ReadParts(LanguageEpisode& episode, const VlnJson& list, const std::string& where) {
-  if (!list.is_array() || list.size() > kMostParts) throw InputError(where + ": is not a list of at most " + std::to_string(kMostParts) + " parts");
+  if (!list.is_array() || list.size() > kMostParts)
+    throw InputError(where + ": is not a list of at most " + std::to_string(kMostParts) + " parts");
   for (size_t i = 0; i < list.size(); ++i) {
     VlnFields fields(list[i], where + "[" + std::to_string(i) + "]");
     EpisodePart part{.seen_from = ViewOf(fields.At("seen_from"), fields.where() + ".seen_from")};
@@ -124,37 +127,38 @@ bool IsBound(const LanguageEpisode& e) { return !e.query.noun.names.empty() || !
 std::string EpisodeLine(const LanguageEpisode& e) {
   VlnJson ref = VlnJson::array();
   for (const Vec3d& p : e.ref) ref.push_back(ToJson(p));
-  VlnJson json = {{"id", e.id},
-                  {"template", e.template_id},
-                  {"instruction", e.instruction},
-                  {"language", "en"},
-                  {"world", e.world},
-                  {"world_seed", e.world_seed},
-                  {"world_things", e.things.count == 0 ? VlnJson(nullptr) : VlnJson{{"count", e.things.count}, {"sha256", e.things.sha256}}},
-                  {"seed", e.seed},
-                  {"weather", e.weather},
-                  {"people", e.people},
-                  {"start", ViewJson(e.start)},
-                  {"before", PartsJson(e.before)},
-                  {"turn", e.turn ? ViewJson(*e.turn) : VlnJson(nullptr)},
-                  {"goal",
-                   {{"entities", e.entities},
-                    {"name", e.name},
-                    {"region", kGoalKindNames[static_cast<int>(e.goal_kind)]},
-                    {"position", ToJson(e.goal)},
-                    {"radius", e.radius}}},
-                  {"visible_at_start",
-                   {{"pixels", e.seen.pixels},
-                    {"azimuth_deg", Rounded(e.seen.azimuth_deg)},
-                    {"elevation_deg", Rounded(e.seen.elevation_deg)},
-                    {"range", Rounded(e.seen.range)}}},
-                  {"straight_length", Rounded(Norm(e.goal - e.start.p_W))},
-                  {"geodesic_length", Rounded(e.geodesic_length)},
-                  {"ref", ref},
-                  {"difficulty", e.difficulty},
-                  {"split", e.split},
-                  {"query", IsBound(e) ? ToJson(e.query) : VlnJson(nullptr)},
-                  {"proof", e.proof.empty() ? VlnJson(nullptr) : VlnJson::parse(e.proof)}};
+  VlnJson json = {
+      {"id", e.id},
+      {"template", e.template_id},
+      {"instruction", e.instruction},
+      {"language", "en"},
+      {"world", e.world},
+      {"world_seed", e.world_seed},
+      {"world_things", e.things.count == 0 ? VlnJson(nullptr) : VlnJson{{"count", e.things.count}, {"sha256", e.things.sha256}}},
+      {"seed", e.seed},
+      {"weather", e.weather},
+      {"people", e.people},
+      {"start", ViewJson(e.start)},
+      {"before", PartsJson(e.before)},
+      {"turn", e.turn ? ViewJson(*e.turn) : VlnJson(nullptr)},
+      {"goal",
+       {{"entities", e.entities},
+        {"name", e.name},
+        {"region", kGoalKindNames[static_cast<int>(e.goal_kind)]},
+        {"position", ToJson(e.goal)},
+        {"radius", e.radius}}},
+      {"visible_at_start",
+       {{"pixels", e.seen.pixels},
+        {"azimuth_deg", Rounded(e.seen.azimuth_deg)},
+        {"elevation_deg", Rounded(e.seen.elevation_deg)},
+        {"range", Rounded(e.seen.range)}}},
+      {"straight_length", Rounded(Norm(e.goal - e.start.p_W))},
+      {"geodesic_length", Rounded(e.geodesic_length)},
+      {"ref", ref},
+      {"difficulty", e.difficulty},
+      {"split", e.split},
+      {"query", IsBound(e) ? ToJson(e.query) : VlnJson(nullptr)},
+      {"proof", e.proof.empty() ? VlnJson(nullptr) : VlnJson::parse(e.proof)}};
   if (!e.source.empty()) json["source"] = VlnJson::parse(e.source);
   return json.dump(-1, ' ', false, VlnJson::error_handler_t::replace);
 }

@@ -18,12 +18,12 @@ namespace {
 using internal::VlnGround;
 
 constexpr int kDraws = 3000, kWays = 12, kLooks = 60;  // starts drawn for an episode; ways and things in sight looked for
-constexpr double kSpacing = 2.5;             // metres between points of the reference path, at most
-constexpr double kWayRadius = 0.6;           // metres free around the reference path
-constexpr double kOpenRadius = 20, kRoomRadius = 1;  // metres around the goal that count as there
-constexpr double kLeastWay = 1.25;           // radii between start and goal
-constexpr double kEasy = 50, kHard = 100;    // metres: shorter, longer ways
-constexpr double kStraight = 1.08;           // length of a flight by its straight line, that one can turn from by words
+constexpr double kSpacing = 2.5;                       // metres between points of the reference path, at most
+constexpr double kWayRadius = 0.6;                     // metres free around the reference path
+constexpr double kOpenRadius = 20, kRoomRadius = 1;    // metres around the goal that count as there
+constexpr double kLeastWay = 1.25;                     // radii between start and goal
+constexpr double kEasy = 50, kHard = 100;              // metres: shorter, longer ways
+constexpr double kStraight = 1.08;                     // length of a flight by its straight line, that one can turn from by words
 constexpr double kDegree = std::numbers::pi / 180;
 
 double Milli(double value) { return std::round(value * 1000) / 1000; }
@@ -81,8 +81,13 @@ std::string SplitOf(const LanguageEpisode& e, const VlnMakeOptions& options) {
 class Maker {
  public:
   Maker(const VlnMakeOptions& options, uint64_t world_seed)
-      : options_(options), world_seed_(world_seed), stage_(options.open(world_seed)), graph_(stage_->shared_scene()), ground_(stage_->solid()),
-        things_(ThingsOf(stage_->scene())), templates_(FindTemplates(options.templates, stage_->scene())) {}
+      : options_(options),
+        world_seed_(world_seed),
+        stage_(options.open(world_seed)),
+        graph_(stage_->shared_scene()),
+        ground_(stage_->solid()),
+        things_(ThingsOf(stage_->scene())),
+        templates_(FindTemplates(options.templates, stage_->scene())) {}
 
   int64_t count() const {
     const auto all = static_cast<int64_t>(templates_.size()) * options_.starts;
@@ -124,7 +129,8 @@ class Maker {
     std::vector<Hidden> hidden;
     for (int draw = 0; draw < kDraws && ways < kWays && looks < kLooks; ++draw) {
       const bool anywhere = draw > kDraws / 2 || looks > kLooks / 2;
-      auto stands = DrawStart(ground_, graph_, wanted, anywhere ? wanted.nearest : least, anywhere ? wanted.farthest : least * ratio, random);
+      auto stands =
+          DrawStart(ground_, graph_, wanted, anywhere ? wanted.nearest : least, anywhere ? wanted.farthest : least * ratio, random);
       if (!stands) continue;
       stands->start = Milli(stands->start);
       if (stands->turn) stands->turn = Milli(*stands->turn);
@@ -188,8 +194,10 @@ class Maker {
   std::string GoOn(Progress& at, const InstructionTemplate& wanted, const NextPart& part) {
     // Only a nearly straight flight has a direction that words can refer to.
     const Vec3d from = at.before.empty() ? at.stands.start.p_W : at.stands.turn->p_W, flown = at.goal - from;
-    if (PolylineLength(at.way) > kStraight * Norm(flown) + LengthBefore(at)) return "the way to '" + at.thing.name + "' is not straight enough to turn from";
-    at.before.push_back({at.before.empty() ? at.stands.start : *at.stands.turn, at.query, at.thing.entities, at.thing.name, at.goal_kind, at.goal, at.proof});
+    if (PolylineLength(at.way) > kStraight * Norm(flown) + LengthBefore(at))
+      return "the way to '" + at.thing.name + "' is not straight enough to turn from";
+    at.before.push_back({at.before.empty() ? at.stands.start : *at.stands.turn, at.query, at.thing.entities, at.thing.name, at.goal_kind,
+                         at.goal, at.proof});
     at.stands.turn = Milli(Viewpoint{at.goal, std::atan2(flown.y, flown.x)});
     at.query = part.query;
     for (Predicate& predicate : at.query.predicates) predicate.at_turn = true;
@@ -222,7 +230,8 @@ class Maker {
     return 0;
   }
 
-  std::optional<LanguageEpisode> Finish(const InstructionTemplate& wanted, int k, const Standpoint& stands, const Verdict& verdict, Vec3d goal, std::string& why) {
+  std::optional<LanguageEpisode> Finish(const InstructionTemplate& wanted, int k, const Standpoint& stands, const Verdict& verdict,
+                                        Vec3d goal, std::string& why) {
     const ShortestWay way = FindShortestWay(ground_.tracer(), stands.start.p_W, goal, kWayRadius);
     if (!way.found) {
       why = "no way was found to '" + verdict.answers[0].name + "'";
@@ -232,7 +241,8 @@ class Maker {
     for (const NextPart& part : wanted.then)
       if (why = GoOn(at, wanted, part); !why.empty()) return std::nullopt;
     LanguageEpisode e;
-    e.id = options_.world.substr(options_.world.rfind('/') + 1) + "/" + std::to_string(world_seed_) + "/" + wanted.id + "/" + std::to_string(k);
+    e.id = options_.world.substr(options_.world.rfind('/') + 1) + "/" + std::to_string(world_seed_) + "/" + wanted.id + "/" +
+           std::to_string(k);
     e.template_id = wanted.id;
     e.instruction = wanted.text;
     e.world = options_.world;
@@ -273,7 +283,8 @@ class Maker {
 VlnMade MakeEpisodes(const VlnMakeOptions& options) {
   const auto in = [](const char* flag, int64_t value, int64_t low, int64_t high) {
     if (value < low || value > high)
-      throw InputError(std::string(flag) + ": " + std::to_string(value) + " is not in " + std::to_string(low) + " … " + std::to_string(high));
+      throw InputError(std::string(flag) + ": " + std::to_string(value) + " is not in " + std::to_string(low) + " … " +
+                       std::to_string(high));
   };
   in("--starts", options.starts, 1, 1000);
   in("--seeds", options.seeds, 1, 1000);

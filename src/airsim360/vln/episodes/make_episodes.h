@@ -18,10 +18,10 @@ struct VlnMakeOptions {
   std::string world = {}, templates = "paper37";
   uint64_t seed = 0;  ///< worlds of `seeds` seeds from this one on
   int starts = 3, seeds = 1;
-  int64_t people = 0;          ///< in episodes when they are flown
-  std::string weather = {};    ///< of pictures; "mix": of every episode one of `kMixedWeathers`
-  int64_t limit = 0;           ///< episodes of a seed; 0 = all
-  std::string split = {};      ///< of all episodes; "" = by seeds and ids
+  int64_t people = 0;        ///< in episodes when they are flown
+  std::string weather = {};  ///< of pictures; "mix": of every episode one of `kMixedWeathers`
+  int64_t limit = 0;         ///< episodes of a seed; 0 = all
+  std::string split = {};    ///< of all episodes; "" = by seeds and ids
   /// Opens the world of a seed, without people.
   std::function<std::shared_ptr<Stage>(uint64_t seed)> open = {};
 };

@@ -13,8 +13,8 @@ inline constexpr double kStartRoom = 1.0, kGoalRoom = 0.7;  // metres free aroun
 
 /// One draw of a start, between two distances from one of the things; nullopt: the draw was none (blocked, on a roof, no
 /// road). Whether the instruction makes sense there is for Decide to say.
-std::optional<Standpoint> DrawStart(const VlnGround& ground, SceneGraph& graph, const InstructionTemplate& wanted, double nearest, double farthest,
-                                    RngStream& random);
+std::optional<Standpoint> DrawStart(const VlnGround& ground, SceneGraph& graph, const InstructionTemplate& wanted, double nearest,
+                                    double farthest, RngStream& random);
 
 /// The place to stop at for a thing that was meant; nullopt: there is no free one.
 std::optional<Vec3d> FindGoal(const VlnGround& ground, const InstructionTemplate& wanted, const Thing& thing, const Viewpoint& start);

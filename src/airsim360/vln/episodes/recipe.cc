@@ -27,7 +27,8 @@ std::vector<VlnMakeOptions> VlnRecipe(const std::string& name, std::span<const s
     if (IsOneOf(world, kNoWorlds)) continue;
     const std::string split = IsOneOf(world, kUnseen) ? "val_unseen" : "";
     all.push_back({.world = world, .templates = "any", .starts = 3, .seeds = 1, .weather = "mix", .split = split});
-    if (IsOneOf(world, kCities)) all.push_back({.world = world, .templates = "paper37", .starts = 3, .seeds = 3, .weather = "mix", .split = split});
+    if (IsOneOf(world, kCities))
+      all.push_back({.world = world, .templates = "paper37", .starts = 3, .seeds = 3, .weather = "mix", .split = split});
   }
   return all;
 }

@@ -13,7 +13,8 @@ namespace airsim360 {
 namespace {
 
 std::vector<std::string> Known() {
-  return {"apartment", "box_room", "building", "downtown_west", "new_york_city", "office", "rome", "roof", "sunlit_room", "town", "warehouse"};
+  return {"apartment", "box_room", "building",    "downtown_west", "new_york_city", "office",
+          "rome",      "roof",     "sunlit_room", "town",          "warehouse"};
 }
 
 TEST(VlnRecipe, UnseenWorldsAreInNoOtherSplitAndTestRoomsInNone) {
@@ -32,8 +33,10 @@ TEST(VlnRecipe, ThePapersInstructionsAreForItsTwoCitiesInThreeTownsEach) {
   for (const VlnMakeOptions& part : VlnRecipe("omni360-vln", Known())) {
     EXPECT_EQ(part.starts, 3);
     EXPECT_EQ(part.weather, "mix");
-    if (part.templates == "paper37") seeds[part.world] += static_cast<int>(part.seeds);
-    else EXPECT_EQ(part.templates, "any");
+    if (part.templates == "paper37")
+      seeds[part.world] += static_cast<int>(part.seeds);
+    else
+      EXPECT_EQ(part.templates, "any");
   }
   EXPECT_EQ(seeds, (std::map<std::string, int>{{"downtown_west", 3}, {"new_york_city", 3}}));
 }

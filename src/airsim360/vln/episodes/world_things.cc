@@ -12,7 +12,8 @@ WorldThings ThingsOf(const Scene& scene, size_t count) {
   std::string text;
   for (size_t i = 0; i < count; ++i) {
     const Entity& entity = scene.entities[i];
-    const float box[6] = {entity.bounds.min.x, entity.bounds.min.y, entity.bounds.min.z, entity.bounds.max.x, entity.bounds.max.y, entity.bounds.max.z};
+    const float box[6] = {entity.bounds.min.x, entity.bounds.min.y, entity.bounds.min.z,
+                          entity.bounds.max.x, entity.bounds.max.y, entity.bounds.max.z};
     char bytes[sizeof(box)];
     std::memcpy(bytes, box, sizeof(box));
     text.append(entity.name).push_back('\0');
@@ -26,8 +27,9 @@ std::string ThingsDiffer(const WorldThings& made_in, const Scene& scene) {
   if (made_in.count == 0) return "";
   const WorldThings now = ThingsOf(scene, made_in.count);
   if (now == made_in) return "";
-  const std::string what = now.count < made_in.count ? "it had " + std::to_string(made_in.count) + " things and has " + std::to_string(now.count)
-                                                     : "the names, categories or boxes of its first " + std::to_string(now.count) + " things are others";
+  const std::string what = now.count < made_in.count
+                               ? "it had " + std::to_string(made_in.count) + " things and has " + std::to_string(now.count)
+                               : "the names, categories or boxes of its first " + std::to_string(now.count) + " things are others";
   return "the world has changed since it was made: " + what;
 }
 

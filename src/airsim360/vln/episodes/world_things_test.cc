@@ -30,7 +30,8 @@ TEST(WorldThings, TheSameWorldBuiltAgainIsTheSame) {
 
 TEST(WorldThings, ANameACategoryABoxOrAThingLessIsAnotherWorld) {
   const WorldThings made_in = ThingsOf(*Town());
-  for (const Change& change : {Change{.name = "seat"}, Change{.category = "furniture/mail/post_box"}, Change{.x = 5.001f}, Change{.height = 1.001f}, Change{.less = true}})
+  for (const Change& change : {Change{.name = "seat"}, Change{.category = "furniture/mail/post_box"}, Change{.x = 5.001f},
+                               Change{.height = 1.001f}, Change{.less = true}})
     EXPECT_NE(ThingsDiffer(made_in, *Town(change)), "") << change.name << change.category << change.x << change.height;
 }
 

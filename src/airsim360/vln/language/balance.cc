@@ -5,11 +5,11 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr size_t kMostWaiting = 8;    // of one key and answer
-constexpr size_t kMostReady = 4096;   // groups of one type
-constexpr int64_t kFirst = 3;         // rounds until items are given: by then most types have some
-constexpr double kMostShare = 0.25;   // of all items, that one type may be; more where there are few types
-constexpr size_t kCounts = 3;         // 0 … kCounts are asked for with every word
+constexpr size_t kMostWaiting = 8;   // of one key and answer
+constexpr size_t kMostReady = 4096;  // groups of one type
+constexpr int64_t kFirst = 3;        // rounds until items are given: by then most types have some
+constexpr double kMostShare = 0.25;  // of all items, that one type may be; more where there are few types
+constexpr size_t kCounts = 3;        // 0 … kCounts are asked for with every word
 
 template <class List>
 void Shuffle(List& list, RngStream& random) {
@@ -94,7 +94,8 @@ std::vector<Placed> Balance::TakeAbout(bool level) {
         type = &name;
       }
     }
-    if (next == nullptr || (level && static_cast<double>(given_[*type]) > static_cast<double>(slack_) + share * static_cast<double>(all))) return taken;
+    if (next == nullptr || (level && static_cast<double>(given_[*type]) > static_cast<double>(slack_) + share * static_cast<double>(all)))
+      return taken;
     for (Placed& item : next->front()) taken.push_back(std::move(item));
     const auto size = static_cast<int64_t>(next->front().size());
     given_[*type] += size;

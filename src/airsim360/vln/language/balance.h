@@ -26,7 +26,8 @@ class Balance {
  public:
   /// `matched`: items come in groups of one text with each of its answers; otherwise one by one, choices shuffled. At most
   /// `count` items come out.
-  Balance(bool matched, int64_t count, uint64_t seed) : matched_(matched), left_(count), slack_(count / 40 + 4), random_(seed, "language balance") {}
+  Balance(bool matched, int64_t count, uint64_t seed)
+      : matched_(matched), left_(count), slack_(count / 40 + 4), random_(seed, "language balance") {}
 
   void Add(Placed placed);
   /// To be called after each round of drafts. What is ready, first of the types that have given least; none runs beyond a quarter
@@ -49,9 +50,9 @@ class Balance {
   int64_t left_, slack_;
   int64_t round_ = 0;
   RngStream random_;
-  std::map<std::string, Waiting> waiting_;                             // by key
-  std::map<std::string, std::deque<std::vector<Placed>>> ready_;       // by type
-  std::map<std::string, int64_t> given_;                               // items by type
+  std::map<std::string, Waiting> waiting_;                        // by key
+  std::map<std::string, std::deque<std::vector<Placed>>> ready_;  // by type
+  std::map<std::string, int64_t> given_;                          // items by type
 };
 
 }  // namespace airsim360::internal

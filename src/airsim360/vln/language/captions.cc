@@ -27,8 +27,10 @@ struct Clause {
 class Teller {
  public:
   Teller(const Speaker& speaker, RngStream& random, size_t picture) : speaker_(speaker), random_(random), picture_(picture) {
-    if (picture == 0) places_.assign(std::begin(kAround), std::end(kAround));
-    else places_.assign(std::begin(kAcross), std::end(kAcross));
+    if (picture == 0)
+      places_.assign(std::begin(kAround), std::end(kAround));
+    else
+      places_.assign(std::begin(kAcross), std::end(kAcross));
   }
 
   void Tell(std::vector<Draft>& drafts) {
@@ -129,7 +131,8 @@ class Teller {
   bool IsTrue(const std::vector<Clause>& clauses) const {
     return std::ranges::all_of(clauses, [&](const Clause& clause) {
       const auto& clear = speaker_.groups(picture_)[clause.word].clear;
-      return std::ranges::count_if(clear, [&](const Seen* s) { return PlaceOf(*s) == clause.place; }) == static_cast<std::ptrdiff_t>(clause.count);
+      return std::ranges::count_if(clear, [&](const Seen* s) { return PlaceOf(*s) == clause.place; }) ==
+             static_cast<std::ptrdiff_t>(clause.count);
     });
   }
 
@@ -140,7 +143,8 @@ class Teller {
       things.push_back(Figures(*s, speaker_.scene()));
     }
     if (std::ranges::find(d.words, clause.word) == d.words.end()) d.words.push_back(clause.word);
-    d.query["clauses"].push_back({{"word", speaker_.lexicon().words()[clause.word].one}, {"count", clause.count}, {"place", places_[clause.place].name}});
+    d.query["clauses"].push_back(
+        {{"word", speaker_.lexicon().words()[clause.word].one}, {"count", clause.count}, {"place", places_[clause.place].name}});
     d.proof["clauses"].push_back(things);
   }
 

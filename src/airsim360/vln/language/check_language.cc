@@ -21,9 +21,9 @@ using internal::SecondLook;
 using internal::VlnJson;
 
 constexpr double kPi = std::numbers::pi;
-constexpr int64_t kThere = 25;          // rays that show a thing
-constexpr double kLargest = 30.5;       // metres: larger ones are several things
-constexpr double kSame = 1.02;          // ranges nearer to each other than that are equal
+constexpr int64_t kThere = 25;     // rays that show a thing
+constexpr double kLargest = 30.5;  // metres: larger ones are several things
+constexpr double kSame = 1.02;     // ranges nearer to each other than that are equal
 
 std::string Quoted(const std::string& text) { return "'" + text + "'"; }
 
@@ -59,7 +59,8 @@ class Auditor {
     std::set<std::string> choices;
     for (const VlnJson& choice : item.choices)
       if (!choices.insert(choice.dump()).second) throw Wrong{"the choice " + choice.dump() + " is there twice"};
-    if (item.choices[item.answer_index] != item.answer) throw Wrong{"answer_index names " + item.choices[item.answer_index].dump() + ", not the answer"};
+    if (item.choices[item.answer_index] != item.answer)
+      throw Wrong{"answer_index names " + item.choices[item.answer_index].dump() + ", not the answer"};
     for (const auto& [word, noun] : item.nouns.items()) {
       const std::string text = item.kind == "caption" ? item.answer.get<std::string>() : item.text + item.choices.dump();
       if (text.find(word) == std::string::npos && text.find(noun.at("plural").get<std::string>()) == std::string::npos)
@@ -85,8 +86,10 @@ class Auditor {
       if (glimpse.rays < kThere) continue;
       const Entity& of = look_.scene().entity(entity);
       const bool named = BruteForceNames(look_.scene(), of, noun) && look_.Extent(entity) <= kLargest;
-      if (named) found.push_back(entity);
-      else if (alike != nullptr && !looks.categories.empty() && BruteForceNames(look_.scene(), of, looks)) alike->push_back(entity);
+      if (named)
+        found.push_back(entity);
+      else if (alike != nullptr && !looks.categories.empty() && BruteForceNames(look_.scene(), of, looks))
+        alike->push_back(entity);
     }
     return found;
   }
@@ -99,7 +102,9 @@ class Auditor {
     return found;
   }
 
-  std::string NameOf(EntityId entity) const { return Quoted(look_.scene().entity(entity).name) + " (entity " + std::to_string(entity) + ")"; }
+  std::string NameOf(EntityId entity) const {
+    return Quoted(look_.scene().entity(entity).name) + " (entity " + std::to_string(entity) + ")";
+  }
 
   // Degrees clockwise from the heading, and above the horizon.
   double Azimuth(const Glimpse& g, size_t picture) const {
@@ -123,11 +128,15 @@ class Auditor {
     const auto word = name.at("word").get<std::string>(), where = name.at("where").get<std::string>();
     std::vector<EntityId> alike, found = InSight(word, picture, &alike);
     found.insert(found.end(), alike.begin(), alike.end());
-    if (where == "nearest") KeepNearest(found, picture);
-    else if (where != "only") std::erase_if(found, [&](EntityId e) { return Sector(Azimuth(Picture(picture).at(e), picture)) != where; });
+    if (where == "nearest")
+      KeepNearest(found, picture);
+    else if (where != "only")
+      std::erase_if(found, [&](EntityId e) { return Sector(Azimuth(Picture(picture).at(e), picture)) != where; });
     if (found.empty()) throw Wrong{"absent: no " + word + " (" + where + ") is in sight"};
-    if (found.size() > 1) throw Wrong{"not unique: " + NameOf(found[0]) + " and " + NameOf(found[1]) + " compete for the " + word + " (" + where + ")"};
-    if (std::ranges::find(item_->entities, found[0]) == item_->entities.end()) throw Wrong{"the " + word + " is " + NameOf(found[0]) + ", of which it does not speak"};
+    if (found.size() > 1)
+      throw Wrong{"not unique: " + NameOf(found[0]) + " and " + NameOf(found[1]) + " compete for the " + word + " (" + where + ")"};
+    if (std::ranges::find(item_->entities, found[0]) == item_->entities.end())
+      throw Wrong{"the " + word + " is " + NameOf(found[0]) + ", of which it does not speak"};
     return found[0];
   }
 
@@ -135,7 +144,10 @@ class Auditor {
     const auto word = name.at("word").get<std::string>(), where = name.at("where").get<std::string>();
     if (where == "nearest") return "the nearest " + word;
     if (where == "any") return (std::string("aeio").find(word[0]) != std::string::npos ? "an " : "a ") + word;
-    const std::string said = where == "front" ? " in front of you" : where == "behind" ? " behind you" : where == "only" ? "" : " on your " + where;
+    const std::string said = where == "front"    ? " in front of you"
+                             : where == "behind" ? " behind you"
+                             : where == "only"   ? ""
+                                                 : " on your " + where;
     return "the " + word + said;
   }
 
@@ -252,8 +264,10 @@ class Auditor {
     std::vector<VlnJson> holds;
     for (const VlnJson& name : of) {
       const auto word = name.at("word").get<std::string>();
-      if (InSight(word, 0).empty() && !InSight(word, 1).empty()) holds.push_back(TextOf(name));
-      else if (InSight(word, 0).empty()) throw Wrong{"no " + word + " is in either picture"};
+      if (InSight(word, 0).empty() && !InSight(word, 1).empty())
+        holds.push_back(TextOf(name));
+      else if (InSight(word, 0).empty())
+        throw Wrong{"no " + word + " is in either picture"};
     }
     return holds;
   }
@@ -285,12 +299,17 @@ class Auditor {
       const EntityId anchor = where == "beside" ? Named(q.at("anchor")) : kNoEntity;
       for (const EntityId e : found) {
         const double column = Picture(0).at(e).column / static_cast<double>(Picture(0).at(e).rays);
-        order.emplace_back(where == "nearest" ? Range(e) : where == "beside" ? look_.Apart(anchor, e) : q.at("side") == "left" ? column : -column, e);
+        order.emplace_back(where == "nearest"       ? Range(e)
+                           : where == "beside"      ? look_.Apart(anchor, e)
+                           : q.at("side") == "left" ? column
+                                                    : -column,
+                           e);
       }
       std::ranges::sort(order);
       const size_t k = where == "row" ? q.at("k").get<size_t>() - 1 : 0;
       if (k >= order.size()) return "absent: there are only " + std::to_string(order.size());
-      if (k + 1 < order.size() && order[k + 1].first - order[k].first < 0.01) return "not unique: " + NameOf(order[k].second) + " and " + NameOf(order[k + 1].second) + " compete";
+      if (k + 1 < order.size() && order[k + 1].first - order[k].first < 0.01)
+        return "not unique: " + NameOf(order[k].second) + " and " + NameOf(order[k + 1].second) + " compete";
       found = {order[k].second};
     } else if (where != "only") {
       std::erase_if(found, [&](EntityId e) { return Sector(Azimuth(Picture(0).at(e), 0)) != where; });
@@ -344,9 +363,10 @@ class Auditor {
   }
 
   static std::string PlaceOf(const std::string& said) {
-    for (const auto& [words, place] : {std::pair("In front of you", "front"), std::pair("Behind you", "behind"), std::pair("On your left", "left"),
-                                       std::pair("On your right", "right"), std::pair("On the left", "left"), std::pair("On the right", "right"),
-                                       std::pair("In the middle", "middle")})
+    for (const auto& [words, place] :
+         {std::pair("In front of you", "front"), std::pair("Behind you", "behind"), std::pair("On your left", "left"),
+          std::pair("On your right", "right"), std::pair("On the left", "left"), std::pair("On the right", "right"),
+          std::pair("In the middle", "middle")})
       if (said == words) return place;
     throw Wrong{Quoted(said) + " is no place"};
   }
@@ -378,7 +398,8 @@ class Auditor {
 
 }  // namespace
 
-LanguageCheck CheckLanguage(const std::filesystem::path& items, const std::function<std::shared_ptr<Stage>(const std::string& world, uint64_t seed)>& open) {
+LanguageCheck CheckLanguage(const std::filesystem::path& items,
+                            const std::function<std::shared_ptr<Stage>(const std::string& world, uint64_t seed)>& open) {
   LanguageCheck check;
   // All is read once before a world is opened.
   std::set<std::pair<std::string, uint64_t>> worlds;

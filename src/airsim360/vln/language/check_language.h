@@ -23,6 +23,7 @@ struct LanguageCheck {
 /// Looks at every picture again with rays between the centres of its pixels, measures things by their triangles, and lists all
 /// answers of each item: exactly the one that it gives must hold. Shares nothing with what makes items but the reading of
 /// words. `open`: a world and its seed; asked for one after another.
-LanguageCheck CheckLanguage(const std::filesystem::path& items, const std::function<std::shared_ptr<Stage>(const std::string& world, uint64_t seed)>& open);
+LanguageCheck CheckLanguage(const std::filesystem::path& items,
+                            const std::function<std::shared_ptr<Stage>(const std::string& world, uint64_t seed)>& open);
 
 }  // namespace airsim360

@@ -18,8 +18,8 @@ struct Draft {
   std::string type;  ///< "nearer"
   /// Drafts of one key have the same texts and the same answers; only which answer is right differs.
   std::string key;
-  size_t picture = 0;  ///< 0 panorama, from 1 on cameras, kFlight: the panoramas before and after a flight
-  int quarters = 0;    ///< of the panorama: how often its heading is turned to the left by 90 degrees
+  size_t picture = 0;              ///< 0 panorama, from 1 on cameras, kFlight: the panoramas before and after a flight
+  int quarters = 0;                ///< of the panorama: how often its heading is turned to the left by 90 degrees
   std::vector<std::string> texts;  ///< ways to say it
   std::string answer_type;         ///< "yes/no", "number", "direction", "thing", "distance", "box", "caption"
   std::vector<VlnJson> answers;    ///< all that it could be, in a fixed order

@@ -9,7 +9,8 @@
 
 namespace airsim360 {
 
-void DrawPictures(Stage& stage, const std::vector<LanguagePicture>& pictures, const RenderSettings& settings, const std::filesystem::path& folder) {
+void DrawPictures(Stage& stage, const std::vector<LanguagePicture>& pictures, const RenderSettings& settings,
+                  const std::filesystem::path& folder) {
   constexpr int kQuality = 90;
   ProgressBar bar("language pictures", static_cast<int64_t>(pictures.size()));
   Renderer& renderer = stage.renderer(settings.tier);

@@ -64,7 +64,8 @@ class Pointer {
     return CompressRle(EncodeMask(inside, pixels.width(), pixels.height()));
   }
 
-  void Add(const char* type, size_t picture, std::string text, const Seen& target, uint16_t word, VlnJson query, VlnJson proof, const Name* anchor = nullptr) {
+  void Add(const char* type, size_t picture, std::string text, const Seen& target, uint16_t word, VlnJson query, VlnJson proof,
+           const Name* anchor = nullptr) {
     if (target.cut && picture == 0) return;  // a box does not go round
     Draft& d = drafts_.emplace_back();
     d.type = type;
@@ -99,7 +100,8 @@ class Pointer {
     const bool only = name.where == "only";
     if (only && speaker_.names(picture).size() < 2) return;
     const Sighted& sighted = speaker_.groups(picture)[name.word];
-    Add(only ? "only" : "direction", picture, name.text, *name.thing, name.word, {{"where", name.where}}, {{"competitors", Competitors(sighted, *name.thing)}});
+    Add(only ? "only" : "direction", picture, name.text, *name.thing, name.word, {{"where", name.where}},
+        {{"competitors", Competitors(sighted, *name.thing)}});
   }
 
   void PointNearest(size_t picture, uint16_t word, const Sighted& sighted) {
@@ -128,7 +130,8 @@ class Pointer {
         if (k + 1 < row.size() && std::abs(row[k + 1]->x - row[k]->x) < gap) break;
         if (k > 0 && random_.Chance(0.5)) continue;
         const std::string side = left ? "left" : "right";
-        const std::string text = k == 0 ? "the " + side + "most " + One(word) : std::string("the ") + kOrder[k + 1] + One(word) + " from the " + side;
+        const std::string text =
+            k == 0 ? "the " + side + "most " + One(word) : std::string("the ") + kOrder[k + 1] + One(word) + " from the " + side;
         VlnJson columns = VlnJson::array();
         for (const Seen* s : row) columns.push_back(Rounded(s->x));
         Add("row", picture, text, *row[k], word, {{"where", "row"}, {"side", side}, {"k", k + 1}}, {{"columns", columns}});

@@ -30,10 +30,12 @@ LanguagePicture PictureOf(const VlnJson& value, const std::string& where) {
   LanguagePicture picture;
   picture.file = Needed(fields, "file");
   const std::filesystem::path path(picture.file);
-  if (path.is_absolute() || std::ranges::find(path, "..") != path.end()) throw InputError(where + ".file: '" + picture.file + "' is not below the items' folder");
+  if (path.is_absolute() || std::ranges::find(path, "..") != path.end())
+    throw InputError(where + ".file: '" + picture.file + "' is not below the items' folder");
   const std::string projection = Needed(fields, "projection");
   const std::vector<std::string> known = {"equirectangular", "perspective"};
-  if (std::ranges::find(known, projection) == known.end()) throw InputError(where + ".projection: " + UnknownChoiceMessage("projection", projection, known));
+  if (std::ranges::find(known, projection) == known.end())
+    throw InputError(where + ".projection: " + UnknownChoiceMessage("projection", projection, known));
   picture.panorama = projection == known[0];
   picture.width = static_cast<int>(fields.Number("width", 0, 64, 8192));
   picture.height = static_cast<int>(fields.Number("height", 0, 64, 8192));
@@ -54,7 +56,8 @@ LanguageItem ParseLanguageItem(const std::string& line, const std::string& where
   item.id = Needed(fields, "id");
   item.kind = Needed(fields, "kind");
   const std::vector<std::string> kinds(std::begin(kLanguageKinds), std::end(kLanguageKinds));
-  if (std::ranges::find(kinds, item.kind) == kinds.end()) throw InputError(where + ".kind: " + UnknownChoiceMessage("kind", item.kind, kinds));
+  if (std::ranges::find(kinds, item.kind) == kinds.end())
+    throw InputError(where + ".kind: " + UnknownChoiceMessage("kind", item.kind, kinds));
   item.type = Needed(fields, "type");
   item.world = Needed(fields, "world");
   const VlnJson& seed = fields.At("world_seed");
@@ -72,7 +75,8 @@ LanguageItem ParseLanguageItem(const std::string& line, const std::string& where
   item.answer_type = Needed(fields, "answer_type");
   item.answer = fields.At("answer");
   item.choices = fields.At("choices");
-  if (!item.choices.is_array() || item.choices.empty() || item.choices.size() > kMostChoices) throw InputError(where + ".choices: is not a list of 1 … 16");
+  if (!item.choices.is_array() || item.choices.empty() || item.choices.size() > kMostChoices)
+    throw InputError(where + ".choices: is not a list of 1 … 16");
   item.answer_index = static_cast<size_t>(fields.Number("answer_index", 0, 0, static_cast<double>(item.choices.size() - 1)));
   const VlnJson& entities = fields.At("entities");
   if (!entities.is_array() || entities.size() > kMostEntities) throw InputError(where + ".entities: is not a list of at most 256");

@@ -35,10 +35,11 @@ std::shared_ptr<const Scene> Town() {
       Vec3f size;
       int count;
     };
-    for (const Kind& kind : {Kind{"bus", "vehicle/bus", {8, 2.5f, 3}, 5}, Kind{"taxi", "vehicle/car", {4, 1.8f, 1.5f}, 6}, Kind{"van", "vehicle/van", {4, 2, 2}, 3},
-                             Kind{"bench", "furniture/seating/bench", {1.6f, 0.6f, 0.9f}, 10}, Kind{"fountain", "construction/fountain", {3, 3, 1.5f}, 4},
-                             Kind{"booth", "construction/phone_booth", {1, 1, 2.3f}, 8}, Kind{"sign", "signage/traffic_sign", {0.7f, 0.2f, 2.5f}, 12},
-                             Kind{"tree", "vegetation/tree", {2.5f, 2.5f, 6}, 10}}) {
+    for (const Kind& kind :
+         {Kind{"bus", "vehicle/bus", {8, 2.5f, 3}, 5}, Kind{"taxi", "vehicle/car", {4, 1.8f, 1.5f}, 6},
+          Kind{"van", "vehicle/van", {4, 2, 2}, 3}, Kind{"bench", "furniture/seating/bench", {1.6f, 0.6f, 0.9f}, 10},
+          Kind{"fountain", "construction/fountain", {3, 3, 1.5f}, 4}, Kind{"booth", "construction/phone_booth", {1, 1, 2.3f}, 8},
+          Kind{"sign", "signage/traffic_sign", {0.7f, 0.2f, 2.5f}, 12}, Kind{"tree", "vegetation/tree", {2.5f, 2.5f, 6}, 10}}) {
       for (int i = 0; i < kind.count; ++i) {
         // On the cross of streets or around the houses.
         const float along = static_cast<float>(random.Uniform(-62, 62)), off = static_cast<float>(random.Uniform(-14, 14));
@@ -85,9 +86,15 @@ TEST(Lexicon, ACabIsACarAndAVanMayBeTakenForOne) {
   };
   const auto is = [](std::span<const uint16_t> list, uint16_t w) { return std::ranges::find(list, w) != list.end(); };
   for (const Entity& e : Town()->entities) {
-    if (e.name.starts_with("taxi")) { EXPECT_TRUE(is(lexicon.NamedBy(e.id), word("cab")) && is(lexicon.NamedBy(e.id), word("car"))); }
-    if (e.name.starts_with("van")) { EXPECT_TRUE(is(lexicon.NamedBy(e.id), word("van")) && is(lexicon.MistakenFor(e.id), word("car"))); }
-    if (e.name.starts_with("house")) { EXPECT_TRUE(lexicon.NamedBy(e.id).empty()); }
+    if (e.name.starts_with("taxi")) {
+      EXPECT_TRUE(is(lexicon.NamedBy(e.id), word("cab")) && is(lexicon.NamedBy(e.id), word("car")));
+    }
+    if (e.name.starts_with("van")) {
+      EXPECT_TRUE(is(lexicon.NamedBy(e.id), word("van")) && is(lexicon.MistakenFor(e.id), word("car")));
+    }
+    if (e.name.starts_with("house")) {
+      EXPECT_TRUE(lexicon.NamedBy(e.id).empty());
+    }
   }
 }
 
@@ -181,7 +188,8 @@ TEST(Language, TheSecondMethodNamesWhatCompetes) {
     item["query"]["where"] = "only";
     const auto complaints = Complaints({item.dump()});
     ASSERT_EQ(complaints.size(), 1U);
-    EXPECT_TRUE(complaints[0].what.starts_with("not unique") && complaints[0].what.find("compete") != std::string::npos) << complaints[0].what;
+    EXPECT_TRUE(complaints[0].what.starts_with("not unique") && complaints[0].what.find("compete") != std::string::npos)
+        << complaints[0].what;
     return;
   }
   FAIL() << "no expression of that type";
@@ -208,8 +216,14 @@ TEST(Language, AWorldThatGivesTooLittleSaysSo) {
 
 TEST(Language, LinesThatAreNoItemsAreRefusedByFieldAndLine) {
   const std::string good = Questions()[0];
-  for (const auto& [field, value] : std::vector<std::pair<std::string, VlnJson>>{
-           {"kind", "poem"}, {"answer_index", 99}, {"choices", VlnJson::array()}, {"pictures", 3}, {"world_seed", -1}, {"query", 1}, {"entities", {-4}}, {"nonsense", 1}}) {
+  for (const auto& [field, value] : std::vector<std::pair<std::string, VlnJson>>{{"kind", "poem"},
+                                                                                 {"answer_index", 99},
+                                                                                 {"choices", VlnJson::array()},
+                                                                                 {"pictures", 3},
+                                                                                 {"world_seed", -1},
+                                                                                 {"query", 1},
+                                                                                 {"entities", {-4}},
+                                                                                 {"nonsense", 1}}) {
     VlnJson item = VlnJson::parse(good);
     item[field] = value;
     const auto path = Written("bad.jsonl", {item.dump()});

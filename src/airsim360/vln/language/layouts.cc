@@ -44,7 +44,8 @@ std::vector<std::filesystem::path> WriteVqa(const std::filesystem::path& items, 
     VlnJson choices = VlnJson::array(), files = VlnJson::array();
     for (const VlnJson& choice : item.choices) choices.push_back(SaidOf(choice));
     for (const LanguagePicture& picture : item.pictures) files.push_back(picture.file);
-    questions.push_back({{"image_id", image}, {"image_files", files}, {"question", item.text}, {"multiple_choices", choices}, {"question_id", id}});
+    questions.push_back(
+        {{"image_id", image}, {"image_files", files}, {"question", item.text}, {"multiple_choices", choices}, {"question_id", id}});
     // Ten annotators agree: the answer is exact.
     VlnJson answers = VlnJson::array();
     for (int k = 1; k <= 10; ++k) answers.push_back({{"answer", SaidOf(item.answer)}, {"answer_confidence", "yes"}, {"answer_id", k}});
@@ -56,7 +57,8 @@ std::vector<std::filesystem::path> WriteVqa(const std::filesystem::path& items, 
                            {"answer_type", known ? item.answer_type : "other"},
                            {"question_id", id}});
   });
-  const VlnJson head = {{"info", Info("visual question answering")}, {"license", VlnJson::object()}, {"data_type", "airsim360"}, {"data_subtype", "train"}};
+  const VlnJson head = {
+      {"info", Info("visual question answering")}, {"license", VlnJson::object()}, {"data_type", "airsim360"}, {"data_subtype", "train"}};
   VlnJson asked = head, answered = head;
   asked["task_type"] = "Multiple-Choice";
   asked["num_choices"] = 4;
@@ -101,8 +103,10 @@ std::vector<std::filesystem::path> WriteLlava(const std::filesystem::path& items
 std::vector<std::string> WordsOf(const std::string& text) {
   std::vector<std::string> words(1);
   for (const char c : text) {
-    if (c == ' ') words.emplace_back();
-    else words.back() += c;
+    if (c == ' ')
+      words.emplace_back();
+    else
+      words.back() += c;
   }
   return words;
 }
@@ -113,7 +117,8 @@ class RefCoco {
     const LanguagePicture& picture = item.pictures[0];
     const auto image = images_.Of(picture.file);
     if (image == static_cast<int64_t>(pictures_.size()))
-      pictures_.push_back({{"id", image}, {"file_name", picture.file}, {"width", picture.width}, {"height", picture.height}, {"license", 1}});
+      pictures_.push_back(
+          {{"id", image}, {"file_name", picture.file}, {"width", picture.width}, {"height", picture.height}, {"license", 1}});
     const std::string word = item.query.value("word", "thing");
     const auto category = categories_.try_emplace(word, static_cast<int64_t>(categories_.size()) + 1).first->second;
     // One annotation a thing and picture; each expression is a sentence of its ref.
@@ -130,7 +135,11 @@ class RefCoco {
     VlnJson categories = VlnJson::array();
     for (const auto& [word, id] : categories_) categories.push_back({{"id", id}, {"name", word}, {"supercategory", "thing"}});
     const VlnJson licences = VlnJson::array({{{"id", 1}, {"name", "as of the world"}, {"url", ""}}});
-    const VlnJson instances = {{"info", Info("referring expressions")}, {"licenses", licences}, {"images", pictures_}, {"annotations", annotations_}, {"categories", categories}};
+    const VlnJson instances = {{"info", Info("referring expressions")},
+                               {"licenses", licences},
+                               {"images", pictures_},
+                               {"annotations", annotations_},
+                               {"categories", categories}};
     const std::filesystem::path a = stem.string() + "_instances.json", b = stem.string() + "_refs.p";
     WriteFileAtomically(a, instances.dump() + "\n");
     WriteFileAtomically(b, internal::PickleOf(refs_));
@@ -186,7 +195,8 @@ void CheckLanguageLayout(const std::string& layout, const std::string& kind) {
   if (layout == "vqa" && kind != "vqa") throw InputError("--layout: vqa holds items of kind vqa, not of " + kind);
 }
 
-std::vector<std::filesystem::path> WriteLanguageLayout(const std::filesystem::path& items, const std::string& layout, const std::filesystem::path& stem) {
+std::vector<std::filesystem::path> WriteLanguageLayout(const std::filesystem::path& items, const std::string& layout,
+                                                       const std::filesystem::path& stem) {
   if (layout == "vqa") return WriteVqa(items, stem);
   if (layout == "llava") return WriteLlava(items, stem);
   return WriteRefCoco(items, stem);

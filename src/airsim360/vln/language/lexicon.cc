@@ -37,10 +37,16 @@ const std::vector<Row>& Rows() {
       {"bench", "benches", {"furniture/seating/bench"}, {"furniture/seating/chair", "furniture/sofa"}},
       {"shelf", "shelves", {"furniture/shelf"}, {"furniture/cabinet", "furniture/bookcase", "furniture/rack"}},
       {"bookcase", "bookcases", {"furniture/bookcase"}, {"furniture/shelf", "furniture/cabinet", "furniture/rack"}},
-      {"cabinet", "cabinets", {"furniture/cabinet"}, {"furniture/shelf", "furniture/wardrobe", "furniture/chest_of_drawers", "furniture/counter"}},
+      {"cabinet",
+       "cabinets",
+       {"furniture/cabinet"},
+       {"furniture/shelf", "furniture/wardrobe", "furniture/chest_of_drawers", "furniture/counter"}},
       {"wardrobe", "wardrobes", {"furniture/wardrobe"}, {"furniture/cabinet", "furniture/bookcase"}},
       {"washing machine", "washing machines", {"furniture/electronics/washing_machine"}, {"furniture/kitchen", "furniture/electronics"}},
-      {"refrigerator", "refrigerators", {"furniture/electronics/refrigerator"}, {"furniture/wardrobe", "furniture/cabinet", "furniture/vending"}},
+      {"refrigerator",
+       "refrigerators",
+       {"furniture/electronics/refrigerator"},
+       {"furniture/wardrobe", "furniture/cabinet", "furniture/vending"}},
       {"television", "televisions", {"furniture/electronics/television"}, {"furniture/electronics", "furniture/painting"}},
       {"vending machine", "vending machines", {"furniture/vending/machine"}, {"furniture/electronics/refrigerator"}},
       {"toilet", "toilets", {"furniture/toilet"}},
@@ -57,7 +63,10 @@ const std::vector<Row>& Rows() {
       {"rug", "rugs", {"furniture/rug"}},
       {"vase", "vases", {"furniture/vase"}, {"furniture/planter"}},
       {"lamp", "lamps", {"furniture/lighting/lamp"}},
-      {"street lamp", "street lamps", {"furniture/lighting/lamp_post", "furniture/lighting/street_light"}, {"construction/mast", "traffic/control/traffic_light"}},
+      {"street lamp",
+       "street lamps",
+       {"furniture/lighting/lamp_post", "furniture/lighting/street_light"},
+       {"construction/mast", "traffic/control/traffic_light"}},
       {"mailbox", "mailboxes", {"furniture/mail/post_box"}, {"furniture/misc", "furniture/utility/electric_box", "furniture/waste"}},
       {"parasol", "parasols", {"furniture/shade/umbrella"}, {"furniture/shade/tarp", "object/umbrella"}},
       {"plant pot", "plant pots", {"furniture/planter"}, {"furniture/vase", "vegetation/flower"}},
@@ -66,7 +75,10 @@ const std::vector<Row>& Rows() {
       {"fire hydrant", "fire hydrants", {"furniture/utility/fire_hydrant"}, {"traffic/bollard"}},
       {"parking meter", "parking meters", {"furniture/utility/parking_meter", "traffic/control/parking_meter"}, {"traffic/bollard"}},
       {"hot dog cart", "hot dog carts", {"furniture/vending/hotdog_cart"}, {"furniture/vending/food_cart", "furniture/vending/food_stall"}},
-      {"market stall", "market stalls", {"furniture/vending/food_stall"}, {"furniture/vending/hotdog_cart", "furniture/vending/food_cart", "furniture/shade"}},
+      {"market stall",
+       "market stalls",
+       {"furniture/vending/food_stall"},
+       {"furniture/vending/hotdog_cart", "furniture/vending/food_cart", "furniture/shade"}},
       {"trash can", "trash cans", {"furniture/waste/trash_can"}, {"furniture/waste", "furniture/misc", "furniture/mail"}},
       {"wheelie bin", "wheelie bins", {"furniture/waste/trash"}, {"furniture/waste/recycle_bin", "furniture/waste/trash_can"}},
       {"rock", "rocks", {"nature/rock"}},
@@ -76,7 +88,10 @@ const std::vector<Row>& Rows() {
       {"traffic sign", "traffic signs", {"signage/traffic_sign"}, {"signage/poster_stand"}},
       {"concrete block", "concrete blocks", {"traffic/barrier/concrete_block"}, {"traffic/barrier"}},
       {"barricade", "barricades", {"traffic/barrier/metal_barricade"}, {"traffic/barrier", "barrier"}},
-      {"bollard", "bollards", {"traffic/bollard"}, {"traffic/temporary/tube", "furniture/utility/fire_hydrant", "barrier/rope_bollard", "furniture/lighting/lamp_post"}},
+      {"bollard",
+       "bollards",
+       {"traffic/bollard"},
+       {"traffic/temporary/tube", "furniture/utility/fire_hydrant", "barrier/rope_bollard", "furniture/lighting/lamp_post"}},
       {"traffic light", "traffic lights", {"traffic/control/traffic_light"}},
       {"traffic cone", "traffic cones", {"traffic/temporary/cone"}, {"traffic/temporary"}},
       {"traffic barrel", "traffic barrels", {"traffic/temporary/traffic_barrel"}, {"traffic/temporary"}},
@@ -137,7 +152,8 @@ std::string WithArticle(const std::string& word) {
 
 Lexicon::Lexicon(const Scene& scene) : named_(scene.entities.size() + 1), mistaken_(scene.entities.size() + 1) {
   for (const Row& row : Rows())
-    words_.push_back({row.one, row.many, {.word = row.one, .categories = row.categories, .names = row.names, .without = Merged()}, row.alike});
+    words_.push_back(
+        {row.one, row.many, {.word = row.one, .categories = row.categories, .names = row.names, .without = Merged()}, row.alike});
   AddOwnWords(scene, words_);
   std::set<uint16_t> used;
   for (const Entity& entity : scene.entities) {

@@ -12,8 +12,8 @@ namespace airsim360 {
 
 /// A word of language data.
 struct Word {
-  std::string one, many;           ///< "bus", "buses"
-  Noun noun;                       ///< what it stands for
+  std::string one, many;                ///< "bus", "buses"
+  Noun noun;                            ///< what it stands for
   std::vector<std::string> alike = {};  ///< categories that look much the same: where one is in sight, the word is no certain name
 };
 

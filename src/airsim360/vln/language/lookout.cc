@@ -9,10 +9,10 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr int kDraws = 400, kOpenDraws = 300;     // places tried; of these only such below the open sky
-constexpr double kRoom = 0.6;                     // metres free around a place
+constexpr int kDraws = 400, kOpenDraws = 300;         // places tried; of these only such below the open sky
+constexpr double kRoom = 0.6;                         // metres free around a place
 constexpr double kFlightShort = 6, kFlightLong = 24;  // metres ahead
-constexpr size_t kLeastWords = 3;                 // words with something clearly in sight
+constexpr size_t kLeastWords = 3;                     // words with something clearly in sight
 constexpr double kRight = std::numbers::pi / 180;
 
 double Milli(double value) { return std::round(value * 1000) / 1000; }
@@ -53,14 +53,18 @@ std::optional<Viewpoint> FlyAhead(const VlnGround& ground, const Viewpoint& from
   const double shortest = indoors ? 2 : kFlightShort, length = indoors ? random.Uniform(2, 5) : random.Uniform(kFlightShort, kFlightLong);
   double free = 0;
   for (double d = 0; d <= length; d += kRoom)
-    if (ground.IsFree(Ahead(from, d), kRoom)) free = d;
-    else break;
+    if (ground.IsFree(Ahead(from, d), kRoom))
+      free = d;
+    else
+      break;
   if (free < shortest) return std::nullopt;
   return Viewpoint{Ahead(from, free), from.yaw};
 }
 
 Glance Shoot(const Picture& picture, Renderer& renderer, Frame& frame, bool keep_pixels) {
-  renderer.Render(MakeRequest(picture.camera(), picture.X_WC(), Tier::kLabels, {.rgb = false, .range = true, .semantic = false, .entity = true}), frame);
+  renderer.Render(
+      MakeRequest(picture.camera(), picture.X_WC(), Tier::kLabels, {.rgb = false, .range = true, .semantic = false, .entity = true}),
+      frame);
   Glance glance{picture, Look(picture, frame)};
   if (keep_pixels) glance.pixels = frame.entity;
   return glance;
@@ -68,12 +72,14 @@ Glance Shoot(const Picture& picture, Renderer& renderer, Frame& frame, bool keep
 
 bool ShowsEnough(const Lexicon& lexicon, const std::vector<Seen>& seen) {
   const auto groups = Group(lexicon, seen);
-  return static_cast<size_t>(std::ranges::count_if(groups, [](const Sighted& s) { return !s.clear.empty(); })) >= std::min(kLeastWords, lexicon.in_use());
+  return static_cast<size_t>(std::ranges::count_if(groups, [](const Sighted& s) { return !s.clear.empty(); })) >=
+         std::min(kLeastWords, lexicon.in_use());
 }
 
 }  // namespace
 
-std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexicon, Renderer& renderer, uint64_t number, const LookoutOptions& options) {
+std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexicon, Renderer& renderer, uint64_t number,
+                                   const LookoutOptions& options) {
   RngStream random(options.seed, "language lookout", number);
   Frame frame;
   int looks = 0;
@@ -91,8 +97,8 @@ std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexic
     Lookout lookout{number, {std::move(around)}, {}};
     for (int i = 0; i < options.cameras; ++i) {
       const double towards = clear[random.Index(static_cast<uint32_t>(clear.size()))] + random.Uniform(-25, 25);
-      lookout.glances.push_back(
-          Shoot({false, Milli(std::remainder(towards, 360)), *place, options.width / 2, options.width / 2}, renderer, frame, options.masks));
+      lookout.glances.push_back(Shoot({false, Milli(std::remainder(towards, 360)), *place, options.width / 2, options.width / 2}, renderer,
+                                      frame, options.masks));
     }
     const auto then = options.later ? FlyAhead(ground, *place, random) : std::nullopt;
     if (then) lookout.later = Shoot({true, 0, *then, options.width, options.width / 2}, renderer, frame, false);

@@ -26,7 +26,7 @@ struct Lookout {
 
 struct LookoutOptions {
   uint64_t seed = 0;
-  int width = 1024;    ///< of panoramas
+  int width = 1024;  ///< of panoramas
   int cameras = 1;
   bool later = false;  ///< whether to fly ahead
   bool masks = false;
@@ -34,6 +34,7 @@ struct LookoutOptions {
 
 /// A free place of that number with things of the lexicon in sight; nullopt: its draws found none. A pure function of the world,
 /// the options and the number. `renderer`: of labels.
-std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexicon, Renderer& renderer, uint64_t number, const LookoutOptions& options);
+std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexicon, Renderer& renderer, uint64_t number,
+                                   const LookoutOptions& options);
 
 }  // namespace airsim360::internal

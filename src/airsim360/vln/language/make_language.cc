@@ -22,10 +22,10 @@ using internal::Placed;
 using internal::VlnGround;
 using internal::VlnJson;
 
-constexpr int64_t kBatch = 32;        // lookouts at a time
+constexpr int64_t kBatch = 32;          // lookouts at a time
 constexpr int64_t kMostFruitless = 15;  // batches in a row without an item: the world gives no more
-constexpr int kCameras = 3;           // at each place
-constexpr size_t kMostOfType = 24;    // drafts of one type and place: more would be too alike
+constexpr int kCameras = 3;             // at each place
+constexpr size_t kMostOfType = 24;      // drafts of one type and place: more would be too alike
 
 double Degrees(double rad) { return rad * 180 / std::numbers::pi; }
 
@@ -41,7 +41,11 @@ void Thin(std::vector<Draft>& drafts, const Balance& balance, RngStream& random)
 class Maker {
  public:
   Maker(Stage& stage, const LanguageOptions& options)
-      : stage_(stage), options_(options), lexicon_(stage.scene()), ground_(stage.solid()), balance_(options.kind == "vqa", options.count, stage.seed()) {
+      : stage_(stage),
+        options_(options),
+        lexicon_(stage.scene()),
+        ground_(stage.solid()),
+        balance_(options.kind == "vqa", options.count, stage.seed()) {
     if (lexicon_.in_use() == 0)
       throw InputError("world '" + stage.name() + "' names nothing that language data could speak of: label it (docs/guide/labels.md)");
     for (int i = 0; i < std::min(ThreadCount(), 16); ++i) renderers_.push_back(stage.NewRenderer(Tier::kLabels));
@@ -61,8 +65,9 @@ class Maker {
     }
     Write(balance_.TakeRest(), line);
     if (summary_.items < options_.count)
-      throw RuntimeError("--count: world '" + stage_.name() + "' gives only " + std::to_string(summary_.items) + " of " + std::to_string(options_.count) +
-                         " items of kind " + options_.kind + ": too little is in sight there, or too much that looks alike" +
+      throw RuntimeError("--count: world '" + stage_.name() + "' gives only " + std::to_string(summary_.items) + " of " +
+                         std::to_string(options_.count) + " items of kind " + options_.kind +
+                         ": too little is in sight there, or too much that looks alike" +
                          (options_.kind == "vqa" ? ", or every question has always the same answer" : ""));
     summary_.by_type.assign(by_type_.begin(), by_type_.end());
     summary_.pictures = static_cast<int64_t>(pictures_.size());
@@ -85,9 +90,12 @@ class Maker {
 
   std::vector<Placed> At(uint64_t number, Renderer& renderer) const {
     const bool vqa = options_.kind == "vqa";
-    const auto lookout = internal::DrawLookout(
-        ground_, lexicon_, renderer, number,
-        {.seed = stage_.seed(), .width = options_.width, .cameras = kCameras, .later = vqa && number % 2 == 0, .masks = options_.kind == "refer"});
+    const auto lookout = internal::DrawLookout(ground_, lexicon_, renderer, number,
+                                               {.seed = stage_.seed(),
+                                                .width = options_.width,
+                                                .cameras = kCameras,
+                                                .later = vqa && number % 2 == 0,
+                                                .masks = options_.kind == "refer"});
     if (!lookout) return {};
     RngStream random(stage_.seed(), "language drafts " + options_.kind, number);
     const internal::Speaker speaker(stage_.scene(), lexicon_, *lookout);
@@ -103,8 +111,10 @@ class Maker {
     for (Draft& d : drafts) {
       Placed& item = placed.emplace_back(Placed{number, {}, std::move(d)});
       const size_t shown = item.draft.picture;
-      if (shown == 0 || shown == internal::kFlight) item.pictures.push_back(PanoramaOf(speaker, item.draft.quarters));
-      else item.pictures.emplace_back("camera" + std::to_string(shown), speaker.glance(shown).picture);
+      if (shown == 0 || shown == internal::kFlight)
+        item.pictures.push_back(PanoramaOf(speaker, item.draft.quarters));
+      else
+        item.pictures.emplace_back("camera" + std::to_string(shown), speaker.glance(shown).picture);
       if (shown == internal::kFlight) item.pictures.emplace_back("later", speaker.glance(shown).picture);
     }
     return placed;
@@ -121,7 +131,8 @@ class Maker {
 
   std::string FileOf(const Placed& item, const std::string& which) const {
     const std::string world = World();
-    return "pictures/" + world.substr(0, world.rfind('.')) + "_" + std::to_string(stage_.seed()) + "_" + std::to_string(item.lookout) + "_" + which + ".jpg";
+    return "pictures/" + world.substr(0, world.rfind('.')) + "_" + std::to_string(stage_.seed()) + "_" + std::to_string(item.lookout) +
+           "_" + which + ".jpg";
   }
 
   static VlnJson PictureJson(std::string file, const Picture& picture) {
@@ -139,7 +150,11 @@ class Maker {
     VlnJson nouns = VlnJson::object();
     for (const uint16_t i : d.words) {
       const Word& word = lexicon_.words()[i];
-      nouns[word.one] = {{"plural", word.many}, {"categories", word.noun.categories}, {"names", word.noun.names}, {"without", word.noun.without}, {"alike", word.alike}};
+      nouns[word.one] = {{"plural", word.many},
+                         {"categories", word.noun.categories},
+                         {"names", word.noun.names},
+                         {"without", word.noun.without},
+                         {"alike", word.alike}};
     }
     return nouns;
   }
@@ -156,7 +171,9 @@ class Maker {
                     {"type", d.type},
                     {"world", stage_.name()},
                     {"world_seed", stage_.seed()},
-                    {"split", part == 0 ? "test" : part == 1 ? "validation" : "train"},
+                    {"split", part == 0   ? "test"
+                              : part == 1 ? "validation"
+                                          : "train"},
                     {"pictures", std::move(pictures)},
                     {options_.kind == "refer" ? "expression" : "question", d.texts[item.text]},
                     {"answer_type", d.answer_type},
@@ -202,8 +219,10 @@ class Maker {
 
 void CheckLanguageOptions(const LanguageOptions& options) {
   const std::vector<std::string> kinds(std::begin(kLanguageKinds), std::end(kLanguageKinds));
-  if (std::ranges::find(kinds, options.kind) == kinds.end()) throw InputError("--kind: " + UnknownChoiceMessage("kind", options.kind, kinds));
-  if (options.count < 1 || options.count > 100'000'000) throw InputError("--count: " + std::to_string(options.count) + " is not in 1 … 100000000");
+  if (std::ranges::find(kinds, options.kind) == kinds.end())
+    throw InputError("--kind: " + UnknownChoiceMessage("kind", options.kind, kinds));
+  if (options.count < 1 || options.count > 100'000'000)
+    throw InputError("--count: " + std::to_string(options.count) + " is not in 1 … 100000000");
   if (options.width < 512 || options.width > 4096 || options.width % 4 != 0)
     throw InputError("--width: " + std::to_string(options.width) + " is not in 512 … 4096 or no multiple of 4");
 }

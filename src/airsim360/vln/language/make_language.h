@@ -46,6 +46,7 @@ struct LanguagePicture {
 /// All pictures that the items of a file name, each once, in their order. InputError "FILE:LINE.field: …".
 std::vector<LanguagePicture> PicturesOf(const std::filesystem::path& items);
 /// Draws them below `folder` as JPEG files; what is there already stays. `jpeg`: of one picture.
-void DrawPictures(Stage& stage, const std::vector<LanguagePicture>& pictures, const RenderSettings& settings, const std::filesystem::path& folder);
+void DrawPictures(Stage& stage, const std::vector<LanguagePicture>& pictures, const RenderSettings& settings,
+                  const std::filesystem::path& folder);
 
 }  // namespace airsim360

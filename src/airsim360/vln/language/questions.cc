@@ -8,14 +8,14 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr int kAbsent = 10;                      // words drawn to ask for, most of them of things that are not there
-constexpr size_t kMostPairs = 100;               // pairs of named things that are compared in one picture
-constexpr int kThirds = 3;                       // third things drawn for each pair
+constexpr int kAbsent = 10;                               // words drawn to ask for, most of them of things that are not there
+constexpr size_t kMostPairs = 100;                        // pairs of named things that are compared in one picture
+constexpr int kThirds = 3;                                // third things drawn for each pair
 constexpr double kFartherShare = 1.25, kFartherBy = 1.0;  // what is surely farther than another thing: share and metres
-constexpr size_t kMostCounted = 8;               // more are not counted at a glance
-constexpr double kLeastTurn = 25, kMostTurn = 145;  // degrees between two things so that a turn has a clear side
-constexpr double kGapColumns = 0.03;             // share of a picture's width between two things that lie side by side
-constexpr double kFarthest = 90;                 // metres: distances beyond are not compared
+constexpr size_t kMostCounted = 8;                        // more are not counted at a glance
+constexpr double kLeastTurn = 25, kMostTurn = 145;        // degrees between two things so that a turn has a clear side
+constexpr double kGapColumns = 0.03;                      // share of a picture's width between two things that lie side by side
+constexpr double kFarthest = 90;                          // metres: distances beyond are not compared
 
 const char* At(size_t picture) { return picture == 0 ? "" : " in this picture"; }
 
@@ -79,8 +79,10 @@ class Asker {
   void AskOfPair(size_t picture, const Name& a, const Name& b) {
     AskNearer(picture, a, b);
     AskBehind(picture, a, b);
-    if (picture == 0) AskFacing(a, b);
-    else AskSide(picture, a, b);
+    if (picture == 0)
+      AskFacing(a, b);
+    else
+      AskSide(picture, a, b);
     for (int i = 0; i < kThirds; ++i) {
       const Name c = speaker_.Turned(Pick(speaker_.names(picture)), quarters_);
       if (!AreTwo(a, c) || !AreTwo(b, c)) continue;
@@ -173,7 +175,8 @@ class Asker {
     Draft& d = Add("count", picture, One(word), {}, {{"word", One(word)}});
     d.words = {word};
     d.texts = picture == 0 ? std::vector<std::string>{"How many " + many + " do you see from here?", "How many " + many + " are in sight?"}
-                           : std::vector<std::string>{"How many " + many + " does this picture show?", "How many " + many + " are there in this picture?"};
+                           : std::vector<std::string>{"How many " + many + " does this picture show?",
+                                                      "How many " + many + " are there in this picture?"};
     d.answer_type = "number";
     d.answer = sighted.clear.size();  // balance.cc says which numbers are asked for
     ProveCount(d, sighted);
@@ -186,7 +189,8 @@ class Asker {
     if (sector == kAnswers.end()) return;
     for (quarters_ = 0; quarters_ < 4; ++quarters_) {
       Draft& d = Add("direction", 0, a.text, {&a}, {});
-      d.texts = {"In which direction is " + a.text + ": in front of you, on your right, behind you or on your left?", "Which way would you turn to face " + a.text + "?"};
+      d.texts = {"In which direction is " + a.text + ": in front of you, on your right, behind you or on your left?",
+                 "Which way would you turn to face " + a.text + "?"};
       d.answer_type = "direction";
       d.answers = kAnswers;
       d.answer = (static_cast<size_t>(sector - kAnswers.begin()) + static_cast<size_t>(quarters_)) % kAnswers.size();
@@ -217,7 +221,8 @@ class Asker {
     Between(d, a, b, order < 0);
     const std::string choice = d.answers[0].get<std::string>() + " or " + d.answers[1].get<std::string>();
     const std::string turned = d.answers[1].get<std::string>() + " or " + d.answers[0].get<std::string>();
-    d.texts = {"Which is nearer to you, " + choice + "?", "Which is nearer to you, " + turned + "?", "Which is closer" + std::string(At(picture)) + ", " + choice + "?",
+    d.texts = {"Which is nearer to you, " + choice + "?", "Which is nearer to you, " + turned + "?",
+               "Which is closer" + std::string(At(picture)) + ", " + choice + "?",
                "Which is closer" + std::string(At(picture)) + ", " + turned + "?"};
     ProveRanges(d, picture, {&a, &b});
   }
@@ -325,7 +330,8 @@ class Asker {
     Draft& d = Add("near_to", picture, a.text + "|" + KeyOf(b, c), {&a, &b, &c}, {});
     Between(d, b, c, b_is);
     const auto first = d.answers[0].get<std::string>(), second = d.answers[1].get<std::string>();
-    d.texts = {"Which is nearer to " + a.text + ", " + first + " or " + second + "?", "Which is nearer to " + a.text + ", " + second + " or " + first + "?"};
+    d.texts = {"Which is nearer to " + a.text + ", " + first + " or " + second + "?",
+               "Which is nearer to " + a.text + ", " + second + " or " + first + "?"};
     d.proof["metres_between"] = {{Rounded(to_b.least), Rounded(to_b.most)}, {Rounded(to_c.least), Rounded(to_c.most)}};
   }
 
@@ -335,7 +341,8 @@ class Asker {
     for (size_t i = 0; i < std::size(kMetres); ++i) {
       if (range.least < kMetres[i] / 1.4 || range.most > kMetres[i] * 1.4) continue;
       Draft& d = Add("distance", picture, a.text, {&a}, {});
-      d.texts = {"About how far away is " + a.text + std::string(At(picture)) + ": 4 m, 12 m or 36 m?", "Roughly what is the distance to " + a.text + std::string(At(picture)) + ", 4 m, 12 m or 36 m?"};
+      d.texts = {"About how far away is " + a.text + std::string(At(picture)) + ": 4 m, 12 m or 36 m?",
+                 "Roughly what is the distance to " + a.text + std::string(At(picture)) + ", 4 m, 12 m or 36 m?"};
       d.answer_type = "distance";
       d.answers = {"4 m", "12 m", "36 m"};
       d.answer = i;

@@ -63,8 +63,8 @@ class FlightAsker {
 
   static bool WasPassed(const Pair& a) {
     const double before = a.before->azimuth_deg, after = a.after->azimuth_deg;
-    return std::abs(before) < kAhead && std::abs(after) > kPast && (before > 0) == (after > 0) && std::abs(before) > 3 && std::abs(after) < 177 &&
-           a.after->nearest < kBeside && std::abs(a.after->elevation_deg) < 50;
+    return std::abs(before) < kAhead && std::abs(after) > kPast && (before > 0) == (after > 0) && std::abs(before) > 3 &&
+           std::abs(after) < 177 && a.after->nearest < kBeside && std::abs(a.after->elevation_deg) < 50;
   }
   static bool WasNotPassed(const Pair& a) { return std::abs(a.after->azimuth_deg) < kNever && std::abs(a.before->azimuth_deg) < kNever; }
 
@@ -76,15 +76,16 @@ class FlightAsker {
     d.answers = {std::min(x, y), std::max(x, y)};
     d.answer = x < y ? 0 : 1;
     for (int turned : {0, 1})
-      d.texts.push_back("You fly straight ahead from the first panorama to the second. What do you pass, " + d.answers[turned].get<std::string>() + " or " +
-                        d.answers[1 - turned].get<std::string>() + "?");
+      d.texts.push_back("You fly straight ahead from the first panorama to the second. What do you pass, " +
+                        d.answers[turned].get<std::string>() + " or " + d.answers[1 - turned].get<std::string>() + "?");
   }
 
   void AskSide(const Pair& a) {
     if (!WasPassed(a)) return;
     Draft& d = Add("passed_side", The(a), {&a});
-    d.texts = {"You fly straight ahead from the first panorama to the second. On which side of you does " + The(a) + " pass, left or right?",
-               "Between the two panoramas you flew straight ahead. Did " + The(a) + " pass you on the left or on the right?"};
+    d.texts = {
+        "You fly straight ahead from the first panorama to the second. On which side of you does " + The(a) + " pass, left or right?",
+        "Between the two panoramas you flew straight ahead. Did " + The(a) + " pass you on the left or on the right?"};
     d.answer_type = "direction";
     d.answers = {"left", "right"};
     d.answer = a.before->azimuth_deg < 0 ? 0 : 1;
@@ -92,7 +93,8 @@ class FlightAsker {
 
   // By what surely holds of the whole thing, not only of what is seen of it.
   void AskApproach(const Pair& a) {
-    const DistanceBounds before = speaker_.Range(*a.before, speaker_.glance(0).picture), after = speaker_.Range(*a.after, speaker_.glance(kFlight).picture);
+    const DistanceBounds before = speaker_.Range(*a.before, speaker_.glance(0).picture),
+                         after = speaker_.Range(*a.after, speaker_.glance(kFlight).picture);
     const bool nearer = after.most + kBy < before.least * kNearer, farther = before.most + kBy < after.least * kNearer;
     if (nearer == farther) return;
     Draft& d = Add("approach", The(a), {&a});
@@ -112,8 +114,8 @@ class FlightAsker {
     d.answers = {std::min(a, b), std::max(a, b)};
     d.answer = a < b ? 0 : 1;
     for (int turned : {0, 1})
-      d.texts.push_back("What can you see in the second panorama that you could not see in the first, " + d.answers[turned].get<std::string>() + " or " +
-                        d.answers[1 - turned].get<std::string>() + "?");
+      d.texts.push_back("What can you see in the second panorama that you could not see in the first, " +
+                        d.answers[turned].get<std::string>() + " or " + d.answers[1 - turned].get<std::string>() + "?");
   }
 
   const Speaker& speaker_;

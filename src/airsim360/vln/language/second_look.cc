@@ -76,7 +76,9 @@ void CastRow(const RayTracer& tracer, const LanguagePicture& picture, int row, s
       const Instance& instance = scene.instances[surface.instance];
       EntityId entity = instance.entity;
       for (const MeshPart& part : scene.meshes[instance.mesh].parts)
-        if (part.entity != kNoEntity && surface.triangle >= part.first_triangle && surface.triangle < part.first_triangle + part.triangle_count) entity = part.entity;
+        if (part.entity != kNoEntity && surface.triangle >= part.first_triangle &&
+            surface.triangle < part.first_triangle + part.triangle_count)
+          entity = part.entity;
       entities[x + i] = entity;
     }
   }
@@ -87,7 +89,8 @@ void CastRow(const RayTracer& tracer, const LanguagePicture& picture, int row, s
 SecondLook::SecondLook(std::shared_ptr<const RayTracer> tracer) : tracer_(std::move(tracer)), parts_(scene().entities.size() + 1) {
   for (uint32_t i = 0; i < scene().instances.size(); ++i) {
     const auto& parts = scene().meshes[scene().instances[i].mesh].parts;
-    for (uint32_t k = 0; k < parts.size(); ++k) parts_[parts[k].entity != kNoEntity ? parts[k].entity : scene().instances[i].entity].emplace_back(i, k);
+    for (uint32_t k = 0; k < parts.size(); ++k)
+      parts_[parts[k].entity != kNoEntity ? parts[k].entity : scene().instances[i].entity].emplace_back(i, k);
   }
 }
 

@@ -16,10 +16,10 @@ namespace airsim360::internal {
 /// Rays of one thing in one picture.
 struct Glimpse {
   int64_t rays = 0;
-  Vec3d sum;                                   // of unit directions: east, north, up as in W
-  double column = 0;                           // sum
+  Vec3d sum;                                                  // of unit directions: east, north, up as in W
+  double column = 0;                                          // sum
   double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;  // columns and rows
-  std::vector<double> azimuths;                // degrees, clockwise from the heading
+  std::vector<double> azimuths;                               // degrees, clockwise from the heading
 };
 
 using Glimpses = std::map<EntityId, Glimpse>;

@@ -29,7 +29,8 @@ Columns ColumnsOf(const Picture& picture) {
   const int w = picture.width;
   Columns columns{std::vector<double>(w), std::vector<Vec2d>(w + 1)};
   for (int x = 0; x < w; ++x) {
-    const double azimuth = picture.panorama ? 360 * ((x + 0.5) / w - 0.5) : picture.azimuth_deg + std::atan((x + 0.5 - w / 2.0) / (w / 2.0)) / kDegree;
+    const double azimuth =
+        picture.panorama ? 360 * ((x + 0.5) / w - 0.5) : picture.azimuth_deg + std::atan((x + 0.5 - w / 2.0) / (w / 2.0)) / kDegree;
     columns.azimuths[x] = azimuth;
     columns.ways[x + 1] = columns.ways[x] + Vec2d{std::cos(azimuth * kDegree), -std::sin(azimuth * kDegree)};
   }
@@ -108,7 +109,8 @@ std::vector<Seen> Look(const Picture& picture, const Frame& frame) {
     const EntityId* row = &frame.entity(0, y);
     for (int from = 0, to = 0; from < picture.width; from = to) {
       while (to < picture.width && row[to] == row[from]) ++to;
-      if (row[from] != kNoEntity) AddRun(tallies[row[from]], columns, y, from, to, DirectionOf(picture, columns, y, from, to), &frame.range(0, y));
+      if (row[from] != kNoEntity)
+        AddRun(tallies[row[from]], columns, y, from, to, DirectionOf(picture, columns, y, from, to), &frame.range(0, y));
     }
   }
   std::vector<Seen> all;
@@ -124,7 +126,8 @@ std::vector<Sighted> Group(const Lexicon& lexicon, const std::vector<Seen>& seen
   std::vector<Sighted> groups(lexicon.words().size());
   for (const Seen& thing : seen) {
     if (thing.pixels <= kUnseen) continue;
-    for (const uint16_t word : lexicon.NamedBy(thing.entity)) (thing.pixels >= kClear ? groups[word].clear : groups[word].doubtful).push_back(&thing);
+    for (const uint16_t word : lexicon.NamedBy(thing.entity))
+      (thing.pixels >= kClear ? groups[word].clear : groups[word].doubtful).push_back(&thing);
     for (const uint16_t word : lexicon.MistakenFor(thing.entity)) groups[word].doubtful.push_back(&thing);
   }
   return groups;

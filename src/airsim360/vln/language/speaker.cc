@@ -13,7 +13,8 @@ struct Side {
   const char *name, *said;
   double azimuth;
 };
-constexpr Side kSides[] = {{"front", "in front of you", 0}, {"right", "on your right", 90}, {"behind", "behind you", 180}, {"left", "on your left", -90}};
+constexpr Side kSides[] = {
+    {"front", "in front of you", 0}, {"right", "on your right", 90}, {"behind", "behind you", 180}, {"left", "on your left", -90}};
 
 constexpr double kNearestShare = 1.25, kNearestBy = 0.75;  // share and metres by which the nearest is nearer than the next
 
@@ -107,7 +108,8 @@ const Seen* Speaker::NearestOf(const Sighted& sighted, const Picture& from) cons
 void Speaker::AddNearest(Said& said, const Picture& from) {
   for (uint16_t word = 0; word < said.groups.size(); ++word) {
     if (said.groups[word].only() != nullptr) continue;
-    if (const Seen* nearest = NearestOf(said.groups[word], from)) said.names.push_back({"the nearest " + lexicon_.words()[word].one, word, "nearest", nearest});
+    if (const Seen* nearest = NearestOf(said.groups[word], from))
+      said.names.push_back({"the nearest " + lexicon_.words()[word].one, word, "nearest", nearest});
   }
 }
 

@@ -203,8 +203,7 @@ BruteForce::BruteForce(std::shared_ptr<const Scene> scene) : scene_(std::move(sc
   for (uint32_t i = 0; i < scene_->instances.size(); ++i) {
     const Instance& instance = scene_->instances[i];
     const auto& parts = scene_->meshes[instance.mesh].parts;
-    for (uint32_t k = 0; k < parts.size(); ++k)
-      parts_[parts[k].entity != kNoEntity ? parts[k].entity : instance.entity].emplace_back(i, k);
+    for (uint32_t k = 0; k < parts.size(); ++k) parts_[parts[k].entity != kNoEntity ? parts[k].entity : instance.entity].emplace_back(i, k);
   }
 }
 
@@ -281,7 +280,8 @@ bool BruteForce::StandsOn(const Shape& shape, const Noun& of) {
   const Plan foot = OnPlan(shape.middle);
   constexpr double kWalls = 15;  // metres from a place on a roof to a wall of its building
   for (const Shape* other : All(of)) {
-    if (other == &shape || std::abs(OnPlan(other->middle) - foot) > 200 || other->Least(foot) > kWalls || other->Distance(foot) > kWalls) continue;
+    if (other == &shape || std::abs(OnPlan(other->middle) - foot) > 200 || other->Least(foot) > kWalls || other->Distance(foot) > kWalls)
+      continue;
     high = high || other->low <= shape.low - 3;
     for (const double z : other->HeightsAt(foot)) roof = roof || std::abs(z - shape.low) <= 1.2;
   }
@@ -314,7 +314,9 @@ bool BruteForce::IsSurrounded(const Shape& shape, const Predicate& predicate) {
       const Plan at = middle + r * along;
       const double off = shape.Distance(at);
       if (off > predicate.within) break;
-      const auto covers = [&](const Shape* o) { return o != &shape && o->triangles.size() < 4000 && o->Least(at) <= 0 && o->Distance(at) == 0; };
+      const auto covers = [&](const Shape* o) {
+        return o != &shape && o->triangles.size() < 4000 && o->Least(at) <= 0 && o->Distance(at) == 0;
+      };
       covered[d] = off > 0.2 && std::ranges::any_of(others, covers);
     }
   }
@@ -332,7 +334,8 @@ bool BruteForce::Holds(const Predicate& predicate, const Noun& noun, const Shape
     case PredicateKind::kOppositeSide:
       return shape.Distance(eye) > 0.5;
     case PredicateKind::kSideOf:
-      return predicate.side_of_axis ? shape.HasOnSide(eye, ahead, predicate.sector == "left") : shape.LiesOnSide(eye, ahead, predicate.sector == "left");
+      return predicate.side_of_axis ? shape.HasOnSide(eye, ahead, predicate.sector == "left")
+                                    : shape.LiesOnSide(eye, ahead, predicate.sector == "left");
     case PredicateKind::kAcross:
       return shape.IsEntered(eye, ahead);
     case PredicateKind::kAlong:
@@ -342,8 +345,8 @@ bool BruteForce::Holds(const Predicate& predicate, const Noun& noun, const Shape
     case PredicateKind::kStorey:
       return IsInOneStorey(shape, predicate.of);
     case PredicateKind::kSurroundedBy: {
-      const std::string key = std::to_string(shape.entities.front()) + "/" + predicate.of.word + "/" + std::to_string(predicate.share) + "/" +
-                              std::to_string(predicate.within);
+      const std::string key = std::to_string(shape.entities.front()) + "/" + predicate.of.word + "/" + std::to_string(predicate.share) +
+                              "/" + std::to_string(predicate.within);
       const auto found = surrounded_.find(key);
       return found != surrounded_.end() ? found->second : (surrounded_[key] = IsSurrounded(shape, predicate));
     }

@@ -13,8 +13,8 @@ namespace {
 using internal::Candidate;
 
 constexpr size_t kMostCompetitors = 4;
-constexpr double kNearer = 0.5;       // metres by which the nearest must be nearer
-constexpr double kApart = 1.5;        // metres between one and the next on the way
+constexpr double kNearer = 0.5;  // metres by which the nearest must be nearer
+constexpr double kApart = 1.5;   // metres between one and the next on the way
 constexpr size_t kMostNamed = 3;
 
 std::string Text(double value) {
@@ -41,8 +41,8 @@ void Keep(ProofStep& step, std::vector<Competitor> calls) {
 
 // Drops what does not hold; what is too close to tell stays as a competitor.
 ProofStep Filter(std::vector<Candidate>& candidates, const Predicate& predicate, const internal::ValueOf& value_of) {
-  ProofStep step{kPredicateNames[static_cast<int>(predicate.kind)], value_of.unit, static_cast<int>(candidates.size()), 0, 0, 1e9,
-                 value_of.needed};
+  ProofStep step{
+      kPredicateNames[static_cast<int>(predicate.kind)], value_of.unit, static_cast<int>(candidates.size()), 0, 0, 1e9, value_of.needed};
   std::vector<Competitor> calls;
   std::vector<Candidate> kept;
   for (Candidate& candidate : candidates) {
@@ -122,8 +122,8 @@ void Conclude(Verdict& verdict, std::vector<Candidate> candidates, const Query& 
   if (candidates.empty()) {
     const bool none = verdict.steps.empty() || verdict.steps.front().before == 0;
     verdict.why = none ? "the world has no " + query.noun.word
-                       : "no " + query.noun.word + " passes '" + verdict.steps.back().predicate + "'; closest: " +
-                             NamesOf(verdict.steps.back().competitors, verdict.steps.back().unit);
+                       : "no " + query.noun.word + " passes '" + verdict.steps.back().predicate +
+                             "'; closest: " + NamesOf(verdict.steps.back().competitors, verdict.steps.back().unit);
   } else if (candidates.size() > 1) {
     verdict.why = std::to_string(candidates.size()) + " compete: " + NamesOf(rest, "");
   } else if (!candidates[0].sure) {

@@ -95,8 +95,7 @@ ValueOf SideOf(const Predicate& predicate, const Viewpoint& view) {
   return {"m", 1, [=](const Thing& thing) {
             double least = std::numeric_limits<double>::infinity();
             for (const double x : {thing.box.min.x, thing.box.max.x})
-              for (const double y : {thing.box.min.y, thing.box.max.y})
-                least = std::min(least, sign * InHeading(view, {x, y, 0}).y);
+              for (const double y : {thing.box.min.y, thing.box.max.y}) least = std::min(least, sign * InHeading(view, {x, y, 0}).y);
             return least;
           }};
 }

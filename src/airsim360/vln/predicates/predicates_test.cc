@@ -173,7 +173,9 @@ TEST(Decide, SidesAreThoseOfTheLineAheadOrOfALongAxis) {
   const EntityId left = town.Box("box", kBox, {20, 10, 0}, {1, 1, 1}), right = town.Box("box", kBox, {20, -10, 0}, {1, 1, 1});
   const EntityId bridge = town.Box("bridge", "construction/bridge", {0, 100, 0}, {60, 4, 1});
   const auto scene = town.Build();
-  const auto side = [](const char* name, bool axis) { return Predicate{.kind = PredicateKind::kSideOf, .sector = name, .side_of_axis = axis}; };
+  const auto side = [](const char* name, bool axis) {
+    return Predicate{.kind = PredicateKind::kSideOf, .sector = name, .side_of_axis = axis};
+  };
   EXPECT_EQ(Meant(scene, {Named("box"), {side("left", false)}}, {{{0, 0, 1}, 0}}), left);
   EXPECT_EQ(Meant(scene, {Named("box"), {side("right", false)}}, {{{0, 0, 1}, 0}}), right);
   // Heading east, north of the bridge is its left; heading west, its right.
@@ -192,7 +194,8 @@ TEST(Decide, AWideThingWhoseBoxIsMetNearItsEndMayBeCrossedAndDecidesNothing) {
   TestTown town;
   town.Box("fence", "barrier/fence/wood_fence", {25, 4.6f, 0}, {0.1f, 11.6f, 1.5f});
   town.Box("fence", "barrier/fence/wood_fence", {250, -9, 0}, {0.1f, 28, 1.9f});
-  EXPECT_EQ(Meant(town.Build(), {Named("fence"), {Is(PredicateKind::kAcross), Is(PredicateKind::kNearest)}}, {{{0, 0, 2}, -0.037}}), kNoEntity);
+  EXPECT_EQ(Meant(town.Build(), {Named("fence"), {Is(PredicateKind::kAcross), Is(PredicateKind::kNearest)}}, {{{0, 0, 2}, -0.037}}),
+            kNoEntity);
 }
 
 // Towns of many boxes of one name: wherever the first method decides, the second finds the same single thing; and it decides
@@ -260,7 +263,8 @@ TEST(QueryJson, MistakesNameTheFieldAndTheNearest) {
   };
   EXPECT_NE(message(R"({"noun": {"names": ["a"]}, "predicates": [{"is": "nearst"}]})").find("nearest"), std::string::npos);
   EXPECT_NE(message(R"({"noun": {"name": ["a"]}, "predicates": []})").find("names"), std::string::npos);
-  EXPECT_NE(message(R"({"noun": {"names": ["a"]}, "predicates": [{"is": "ordinal", "k": 1e308}]})").find("predicates[0].k"), std::string::npos);
+  EXPECT_NE(message(R"({"noun": {"names": ["a"]}, "predicates": [{"is": "ordinal", "k": 1e308}]})").find("predicates[0].k"),
+            std::string::npos);
   EXPECT_NE(message(R"({"predicates": []})").find("noun"), std::string::npos);
   EXPECT_NE(message(R"([])").find("not an object"), std::string::npos);
 }

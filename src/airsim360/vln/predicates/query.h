@@ -23,17 +23,16 @@ enum class PredicateKind {
   kStorey,          ///< within one storey of a building
   kSurroundedBy,    ///< things of another noun are around it, in a share of all directions
 };
-inline constexpr const char* kPredicateNames[] = {"nearest", "ordinal", "bearing", "height_quantile", "opposite_side", "side_of",
-                                                  "across",  "along",   "on_top_of", "storey",       "surrounded_by"};
+inline constexpr const char* kPredicateNames[] = {"nearest", "ordinal", "bearing",   "height_quantile", "opposite_side", "side_of",
+                                                  "across",  "along",   "on_top_of", "storey",          "surrounded_by"};
 
 /// Directions from the heading, degrees, positive to the right; `above` and `below` are elevations.
 struct Sector {
   const char* name;
   double azimuth, half_width;
 };
-inline constexpr Sector kSectors[] = {{"ahead", 0, 45},       {"right", 90, 45},       {"behind", 180, 45},
-                                      {"left", -90, 45},      {"ahead_left", -45, 40}, {"ahead_right", 45, 40},
-                                      {"rear_right", 135, 40}, {"rear_left", -135, 40}};
+inline constexpr Sector kSectors[] = {{"ahead", 0, 45},        {"right", 90, 45},       {"behind", 180, 45},     {"left", -90, 45},
+                                      {"ahead_left", -45, 40}, {"ahead_right", 45, 40}, {"rear_right", 135, 40}, {"rear_left", -135, 40}};
 inline constexpr double kAboveElevation = 8;  ///< degrees: higher is "above", lower than its negative "below"
 
 struct Predicate {
@@ -74,10 +73,10 @@ struct Competitor {
 /// it; nearest and ordinal compare values.
 struct ProofStep {
   std::string predicate, unit;
-  int before = 0, after = 0;  ///< candidates
-  double value = 0;           ///< of the answer
-  double margin = 0;          ///< by which the closest call was decided
-  double needed = 0;          ///< less than this is no proof
+  int before = 0, after = 0;                 ///< candidates
+  double value = 0;                          ///< of the answer
+  double margin = 0;                         ///< by which the closest call was decided
+  double needed = 0;                         ///< less than this is no proof
   std::vector<Competitor> competitors = {};  ///< the closest calls, at most 4
 };
 

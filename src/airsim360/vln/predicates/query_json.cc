@@ -20,7 +20,8 @@ std::string Shown(const VlnJson& value) {
 
 Noun NounOf(const VlnJson& value, const std::string& where) {
   VlnFields fields(value, where);
-  Noun noun{fields.Text("word", ""), fields.Texts("categories"), fields.Texts("names"), fields.Texts("without"), fields.Flag("whole", false)};
+  Noun noun{fields.Text("word", ""), fields.Texts("categories"), fields.Texts("names"), fields.Texts("without"),
+            fields.Flag("whole", false)};
   fields.Finish();
   if (noun.categories.empty() && noun.names.empty()) throw InputError(where + ": a noun needs 'categories' or 'names'");
   return noun;
@@ -118,8 +119,7 @@ double VlnFields::Number(const char* name, double otherwise, double low, double 
   if (found == nullptr) return otherwise;
   if (!found->is_number()) Refuse(name, Shown(*found) + " is not a number");
   const double value = found->get<double>();
-  if (!(value >= low && value <= high))
-    Refuse(name, Shown(*found) + " is not in " + VlnJson(low).dump() + " … " + VlnJson(high).dump());
+  if (!(value >= low && value <= high)) Refuse(name, Shown(*found) + " is not in " + VlnJson(low).dump() + " … " + VlnJson(high).dump());
   return value;
 }
 
@@ -167,7 +167,8 @@ std::vector<Vec3d> VlnFields::Points(const char* name, size_t most) {
 void VlnFields::Finish() const {
   for (const auto& [key, value] : value_.items()) {
     if (std::ranges::find(known_, key) == known_.end())
-      throw InputError(where_ + ": unknown field '" + key.substr(0, kLongestShown) + "'" + DidYouMean(key.substr(0, kLongestShown), known_));
+      throw InputError(where_ + ": unknown field '" + key.substr(0, kLongestShown) + "'" +
+                       DidYouMean(key.substr(0, kLongestShown), known_));
   }
 }
 
@@ -194,7 +195,8 @@ VlnJson ToJson(const Verdict& verdict) {
   VlnJson steps = VlnJson::array();
   for (const ProofStep& step : verdict.steps) {
     VlnJson competitors = VlnJson::array();
-    for (const Competitor& c : step.competitors) competitors.push_back({{"entity", c.entity}, {"name", c.name}, {"value", Rounded(c.value)}});
+    for (const Competitor& c : step.competitors)
+      competitors.push_back({{"entity", c.entity}, {"name", c.name}, {"value", Rounded(c.value)}});
     steps.push_back({{"predicate", step.predicate},
                      {"unit", step.unit},
                      {"before", step.before},

@@ -55,8 +55,10 @@ std::string Draw(Renderer& renderer, const VlnResult& r, const LanguageEpisode& 
 
 }  // namespace
 
-FailurePictures DrawFailures(const std::vector<VlnRun>& runs, const std::vector<LanguageEpisode>& episodes, const FailurePictureOptions& options) {
-  if (options.width < 64 || options.width > 4096 || options.width % 2 != 0) throw InputError("--width: " + std::to_string(options.width) + " is no even number in 64 … 4096");
+FailurePictures DrawFailures(const std::vector<VlnRun>& runs, const std::vector<LanguageEpisode>& episodes,
+                             const FailurePictureOptions& options) {
+  if (options.width < 64 || options.width > 4096 || options.width % 2 != 0)
+    throw InputError("--width: " + std::to_string(options.width) + " is no even number in 64 … 4096");
   CheckRenderSettings(options.picture, "--");
   if (options.picture.tier == Tier::kLabels) throw InputError("--tier: labels has no pictures; choices: fast, high, reference");
   std::map<std::string, const LanguageEpisode*> by_id;
@@ -84,8 +86,9 @@ FailurePictures DrawFailures(const std::vector<VlnRun>& runs, const std::vector<
   for (const auto& [world, wanted] : by_world) {
     const auto& [name, seed, people, weather] = world;
     const auto stage = options.open(name, seed, people);
-    const auto renderer = weather.empty() ? stage->NewRenderer(options.picture.tier)
-                                          : stage->NewRenderer(options.picture.tier, ApplyFlags({.weather = weather}, stage->environment()));
+    const auto renderer = weather.empty()
+                              ? stage->NewRenderer(options.picture.tier)
+                              : stage->NewRenderer(options.picture.tier, ApplyFlags({.weather = weather}, stage->environment()));
     for (const Wanted& w : wanted) {
       pictures[{w.run->name, w.result->id}] = Draw(*renderer, *w.result, *w.episode, options, stage->StartState());
       bar.Update(++done);

@@ -19,6 +19,7 @@ struct FailurePictureOptions {
 
 /// A level panorama, JPEG, for the first failures of each run: at the last place, in the direction of the last move, with a ring where
 /// the goal is. By run and episode. Failures whose episode is not in `episodes` have none.
-FailurePictures DrawFailures(const std::vector<VlnRun>& runs, const std::vector<LanguageEpisode>& episodes, const FailurePictureOptions& options);
+FailurePictures DrawFailures(const std::vector<VlnRun>& runs, const std::vector<LanguageEpisode>& episodes,
+                             const FailurePictureOptions& options);
 
 }  // namespace airsim360

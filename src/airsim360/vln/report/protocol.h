@@ -11,11 +11,11 @@ namespace airsim360 {
 
 struct FlightRules {
   const char* name;
-  const char* scores;    ///< FindVlnProtocol
-  double radius;         ///< metres of success; 0 = each episode's own
-  bool collision_ends;   ///< touching anything ends the episode
-  int64_t steps;         ///< decisions at most
-  Decisions decisions;   ///< unless asked otherwise
+  const char* scores;                           ///< FindVlnProtocol
+  double radius;                                ///< metres of success; 0 = each episode's own
+  bool collision_ends;                          ///< touching anything ends the episode
+  int64_t steps;                                ///< decisions at most
+  Decisions decisions;                          ///< unless asked otherwise
   double forward, lateral, vertical, turn_deg;  ///< of steps; metres, degrees
   const char* source;
 };

@@ -26,7 +26,8 @@ VlnJson PointsJson(const std::vector<Vec3d>& points) {
 VlnJson LogJson(const std::vector<VlnStep>& log) {
   VlnJson list = VlnJson::array();
   for (const VlnStep& step : log) {
-    VlnJson& said = list.emplace_back(VlnJson{{"t", Rounded(step.t)}, {"p", internal::ToJson(step.p)}, {"yaw_deg", Rounded(step.yaw_deg)}, {"said", step.said}});
+    VlnJson& said = list.emplace_back(
+        VlnJson{{"t", Rounded(step.t)}, {"p", internal::ToJson(step.p)}, {"yaw_deg", Rounded(step.yaw_deg)}, {"said", step.said}});
     if (!step.told.empty()) said["told"] = step.told;
   }
   return list;
@@ -52,8 +53,10 @@ std::vector<VlnStep> ReadLog(const VlnJson& list, const std::string& where) {
 std::vector<double> ReadHeadings(const VlnJson& list, size_t count, const std::string& where) {
   std::vector<double> headings;
   if (list.is_array())
-    for (const VlnJson& value : list) headings.push_back(value.is_number() && std::abs(value.get<double>()) <= 360 ? value.get<double>() : 1e9);
-  if (headings.size() != count || std::ranges::count(headings, 1e9) > 0) throw InputError(where + ": is no list of an angle in degrees for each place of 'pred'");
+    for (const VlnJson& value : list)
+      headings.push_back(value.is_number() && std::abs(value.get<double>()) <= 360 ? value.get<double>() : 1e9);
+  if (headings.size() != count || std::ranges::count(headings, 1e9) > 0)
+    throw InputError(where + ": is no list of an angle in degrees for each place of 'pred'");
   return headings;
 }
 
@@ -61,32 +64,32 @@ std::vector<double> ReadHeadings(const VlnJson& list, size_t count, const std::s
 
 std::string ResultLine(const VlnResult& r) {
   VlnJson json = {{"id", r.id},
-                        {"template", r.template_id},
-                        {"world", r.world},
-                        {"difficulty", r.difficulty},
-                        {"agent", r.agent},
-                        {"view", r.view},
-                        {"decisions_by", r.decisions_by},
-                        {"protocol", r.protocol},
-                        {"radius", r.radius},
-                        {"end", r.end},
-                        {"explanation", r.explanation},
-                        {"success", r.success},
-                        {"oracle_success", r.oracle_success},
-                        {"collided", r.collided},
-                        {"stopped", r.stopped},
-                        {"distance", Rounded(r.distance)},
-                        {"path_length", Rounded(r.path_length)},
-                        {"geodesic_length", Rounded(r.geodesic_length)},
-                        {"straight_length", Rounded(r.straight_length)},
-                        {"decisions", r.decisions},
-                        {"moves", r.moves},
-                        {"faults", r.faults},
-                        {"yaw_turned_deg", Rounded(r.yaw_turned_deg)},
-                        {"seconds", Rounded(r.seconds)},
-                        {"parts", PointsJson(r.parts)},
-                        {"ref", PointsJson(r.ref)},
-                        {"pred", PointsJson(r.pred)}};
+                  {"template", r.template_id},
+                  {"world", r.world},
+                  {"difficulty", r.difficulty},
+                  {"agent", r.agent},
+                  {"view", r.view},
+                  {"decisions_by", r.decisions_by},
+                  {"protocol", r.protocol},
+                  {"radius", r.radius},
+                  {"end", r.end},
+                  {"explanation", r.explanation},
+                  {"success", r.success},
+                  {"oracle_success", r.oracle_success},
+                  {"collided", r.collided},
+                  {"stopped", r.stopped},
+                  {"distance", Rounded(r.distance)},
+                  {"path_length", Rounded(r.path_length)},
+                  {"geodesic_length", Rounded(r.geodesic_length)},
+                  {"straight_length", Rounded(r.straight_length)},
+                  {"decisions", r.decisions},
+                  {"moves", r.moves},
+                  {"faults", r.faults},
+                  {"yaw_turned_deg", Rounded(r.yaw_turned_deg)},
+                  {"seconds", Rounded(r.seconds)},
+                  {"parts", PointsJson(r.parts)},
+                  {"ref", PointsJson(r.ref)},
+                  {"pred", PointsJson(r.pred)}};
   if (!r.heading_deg.empty()) json["heading_deg"] = r.heading_deg;
   if (!r.log.empty()) json["log"] = LogJson(r.log);
   return json.dump(-1, ' ', false, VlnJson::error_handler_t::replace);
@@ -124,7 +127,8 @@ VlnResult ParseResultLine(const std::string& line, const std::string& where) {
   if (const VlnJson* parts = fields.Find("parts"); parts != nullptr) r.parts = fields.Points("parts", kMostParts);
   r.ref = fields.Points("ref", 100'000);
   r.pred = fields.Points("pred", 1'000'000);
-  if (const VlnJson* headings = fields.Find("heading_deg"); headings != nullptr) r.heading_deg = ReadHeadings(*headings, r.pred.size(), where + ".heading_deg");
+  if (const VlnJson* headings = fields.Find("heading_deg"); headings != nullptr)
+    r.heading_deg = ReadHeadings(*headings, r.pred.size(), where + ".heading_deg");
   if (const VlnJson* log = fields.Find("log"); log != nullptr) r.log = ReadLog(*log, where + ".log");
   fields.Finish();
   if (r.ref.empty() || r.pred.empty()) throw InputError(where + ": 'ref' and 'pred' need a point each");

@@ -22,11 +22,11 @@ namespace airsim360 {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kSpeed = 5;            // m/s
-constexpr double kLongestFlight = 1800;  // simulated seconds
-constexpr int64_t kYomoTurns = 8;       // decisions of a flight of one move
+constexpr double kSpeed = 5;                                         // m/s
+constexpr double kLongestFlight = 1800;                              // simulated seconds
+constexpr int64_t kYomoTurns = 8;                                    // decisions of a flight of one move
 constexpr size_t kPathStep = kPathEveryNs / Episode::kPathPeriodNs;  // every so many places of a flight are written
-constexpr size_t kMostExplained = 3;    // faults told in an explanation
+constexpr size_t kMostExplained = 3;                                 // faults told in an explanation
 
 // As files hold it.
 Vec3d Milli(Vec3d p) { return {std::round(p.x * 1000) / 1000, std::round(p.y * 1000) / 1000, std::round(p.z * 1000) / 1000}; }
@@ -42,7 +42,8 @@ std::unique_ptr<VlnAgent> MakeAgent(const VlnRunOptions& options, const Language
   if (name == "mask") return MakeMaskAgent();
   if (name == "exec") return MakeExecAgent(options.exec);
   if (name == "openai") return MakeChatAgent(options.chat, transcript);
-  throw InputError("--agent: " + UnknownChoiceMessage("agent", name, std::vector<std::string>(std::begin(kAgentNames), std::end(kAgentNames))));
+  throw InputError("--agent: " +
+                   UnknownChoiceMessage("agent", name, std::vector<std::string>(std::begin(kAgentNames), std::end(kAgentNames))));
 }
 
 EpisodeSpec SpecOf(const LanguageEpisode& e, const FlightRules& protocol, double radius) {
@@ -97,9 +98,15 @@ AgentAction Straightened(const AgentAction& action, Vec3d p, double yaw) {
 // Flies one episode.
 class Flight {
  public:
-  Flight(const VlnRunOptions& options, const FlightRules& protocol, std::shared_ptr<AgentWorld> world, Eyes& eyes, const LanguageEpisode& episode)
-      : options_(options), protocol_(protocol), eyes_(eyes), episode_(episode), radius_(protocol.radius > 0 ? protocol.radius : episode.radius),
-        decisions_(options.decisions.value_or(protocol.decisions)), solid_(world->stage().solid()),
+  Flight(const VlnRunOptions& options, const FlightRules& protocol, std::shared_ptr<AgentWorld> world, Eyes& eyes,
+         const LanguageEpisode& episode)
+      : options_(options),
+        protocol_(protocol),
+        eyes_(eyes),
+        episode_(episode),
+        radius_(protocol.radius > 0 ? protocol.radius : episode.radius),
+        decisions_(options.decisions.value_or(protocol.decisions)),
+        solid_(world->stage().solid()),
         flight_(std::move(world), SpecOf(episode, protocol, radius_)) {
     flight_.Watch([this](const Episode& flight) {
       headings_.push_back(HeadingOfBody(flight.vehicle().motion.X_WB));
@@ -145,7 +152,8 @@ class Flight {
     const std::string said = decision.said.empty() ? AnswerText(decision.answer) : decision.said;
     std::string faults;
     for (const std::string& fault : decision.faults) faults += (faults.empty() ? "" : " | ") + fault;
-    result_.log.push_back({flight_.seconds(), Milli(X_WB.p), Degrees(HeadingOfBody(X_WB)), internal::Tame(said, kLongestSaid), internal::Tame(faults, kLongestSaid)});
+    result_.log.push_back({flight_.seconds(), Milli(X_WB.p), Degrees(HeadingOfBody(X_WB)), internal::Tame(said, kLongestSaid),
+                           internal::Tame(faults, kLongestSaid)});
   }
 
   void Note(const std::string& fault) {
@@ -213,7 +221,9 @@ class Flight {
     char where[160];
     std::snprintf(where, sizeof(where), "%.1f m from the goal (radius %.0f m)", result_.distance, radius_);
     if (result_.end == "collision") return "touched something " + std::string(where);
-    if (result_.end == "stopped") return result_.collided && FindVlnProtocol(protocol_.scores).collision_fails ? "touched something on the way" : "stopped " + std::string(where);
+    if (result_.end == "stopped")
+      return result_.collided && FindVlnProtocol(protocol_.scores).collision_fails ? "touched something on the way"
+                                                                                   : "stopped " + std::string(where);
     if (result_.end == "gave_up") return "gave up without answers " + std::string(where);
     return "ran out of " + std::string(result_.end == "max_steps" ? "decisions " : "time ") + where;
   }
@@ -262,20 +272,27 @@ std::vector<VlnResult> Resume(const std::filesystem::path& file) {
   return done;
 }
 
-void CheckSame(const VlnResult& r, const LanguageEpisode& e, const VlnRunOptions& options, const FlightRules& protocol, const std::string& file) {
+void CheckSame(const VlnResult& r, const LanguageEpisode& e, const VlnRunOptions& options, const FlightRules& protocol,
+               const std::string& file) {
   const std::string decisions = kDecisionNames[static_cast<int>(options.decisions.value_or(protocol.decisions))];
   if (r.id == e.id && r.agent == options.agent && r.protocol == protocol.name && r.decisions_by == decisions &&
       r.view == kViewNames[static_cast<int>(options.view)])
     return;
-  throw InputError("--out: " + file + " holds results of another run (" + r.id + ", " + r.agent + ", " + r.view + ", " + r.decisions_by + ", " + r.protocol +
-                   "); give another file");
+  throw InputError("--out: " + file + " holds results of another run (" + r.id + ", " + r.agent + ", " + r.view + ", " + r.decisions_by +
+                   ", " + r.protocol + "); give another file");
 }
 
 // Workers take episodes in order; lines are written in order too.
 class Crew {
  public:
   Crew(const std::vector<LanguageEpisode>& episodes, size_t first, size_t count, const VlnRunOptions& options, const FlightRules& protocol)
-      : episodes_(episodes), options_(options), protocol_(protocol), transcript_(TranscriptFile(options)), next_(first), count_(count), written_(first),
+      : episodes_(episodes),
+        options_(options),
+        protocol_(protocol),
+        transcript_(TranscriptFile(options)),
+        next_(first),
+        count_(count),
+        written_(first),
         bar_("vln run", static_cast<int64_t>(count)) {
     if (!options.out.empty()) out_.open(options.out, std::ios::app | std::ios::binary);
     if (!options.out.empty() && !out_) throw RuntimeError("cannot write " + options.out.string());
@@ -404,8 +421,10 @@ double ProcessFidelity(const VlnResult& r) {
 
 std::vector<VlnResult> RunEpisodes(const std::vector<LanguageEpisode>& episodes, const VlnRunOptions& options) {
   const FlightRules& protocol = FindFlightRules(options.protocol);
-  if (options.workers < 1 || options.workers > 256) throw InputError("--workers: " + std::to_string(options.workers) + " is not in 1 … 256");
-  if (options.width < 64 || options.width > 4096 || options.width % 2 != 0) throw InputError("--width: " + std::to_string(options.width) + " is no even number in 64 … 4096");
+  if (options.workers < 1 || options.workers > 256)
+    throw InputError("--workers: " + std::to_string(options.workers) + " is not in 1 … 256");
+  if (options.width < 64 || options.width > 4096 || options.width % 2 != 0)
+    throw InputError("--width: " + std::to_string(options.width) + " is no even number in 64 … 4096");
   if (options.limit < 0) throw InputError("--limit: " + std::to_string(options.limit) + " is below 0");
   size_t count = episodes.size();
   if (options.limit > 0) count = std::min(count, static_cast<size_t>(options.limit));

@@ -19,10 +19,10 @@ struct VlnRunOptions {
   VlnView view = VlnView::kErp;
   std::optional<Decisions> decisions = {};  ///< none: the protocol's
   std::string protocol = "ours";
-  int64_t limit = 0;   ///< of episodes; 0 = all
-  int workers = 1;     ///< episodes at a time
+  int64_t limit = 0;      ///< of episodes; 0 = all
+  int workers = 1;        ///< episodes at a time
   bool realtime = false;  ///< what an agent takes to think passes in its episode
-  int width = 1024;    ///< of panoramas, pixels
+  int width = 1024;       ///< of panoramas, pixels
   RenderSettings picture = {};
   ExecOptions exec = {};
   ChatOptions chat = {};
@@ -35,10 +35,10 @@ struct VlnRunOptions {
 
 /// A decision of a flight.
 struct VlnStep {
-  double t = 0;             ///< simulated seconds
-  Vec3d p;                  ///< where it was taken
-  double yaw_deg = 0;       ///< heading there, counter-clockwise from +X
-  std::string said, told;   ///< by the agent (kLongestSaid bytes at most, printable); of what went wrong, "" = nothing
+  double t = 0;            ///< simulated seconds
+  Vec3d p;                 ///< where it was taken
+  double yaw_deg = 0;      ///< heading there, counter-clockwise from +X
+  std::string said, told;  ///< by the agent (kLongestSaid bytes at most, printable); of what went wrong, "" = nothing
 };
 inline constexpr size_t kLongestSaid = 1000;
 inline constexpr int64_t kPathEveryNs = 500'000'000;  ///< between two places of `pred`
@@ -53,8 +53,8 @@ struct VlnResult {
   double path_length = 0, geodesic_length = 0, straight_length = 0;
   int64_t decisions = 0, faults = 0, moves = 0;
   double yaw_turned_deg = 0, seconds = 0;
-  std::vector<Vec3d> parts = {};  ///< goals of the parts of the instruction before the last
-  std::vector<Vec3d> ref, pred;  ///< the way that was meant; the one flown, every kPathEveryNs and the end
+  std::vector<Vec3d> parts = {};         ///< goals of the parts of the instruction before the last
+  std::vector<Vec3d> ref, pred;          ///< the way that was meant; the one flown, every kPathEveryNs and the end
   std::vector<double> heading_deg = {};  ///< at each place of `pred`; empty in files of versions that did not write it
   std::vector<VlnStep> log = {};         ///< as well
 };

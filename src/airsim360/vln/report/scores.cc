@@ -14,14 +14,16 @@ using internal::VlnJson;
 
 constexpr int kReplicates = 2000;
 constexpr uint64_t kSeed = 360;
-constexpr const char* kCosts[] = {"process_fidelity", "collision_rate", "decisions", "moves", "yaw_turned_deg", "seconds", "faults", "path_over_geodesic"};
+constexpr const char* kCosts[] = {"process_fidelity", "collision_rate", "decisions", "moves",
+                                  "yaw_turned_deg",   "seconds",        "faults",    "path_over_geodesic"};
 
 // The figures of one result: those of eval, then what it cost.
 std::vector<double> FiguresOf(const VlnResult& r) {
   const auto figures = Figures(ScoreOf(r));
   std::vector<double> values(figures.begin(), figures.end());
-  for (const double cost : {ProcessFidelity(r), r.collided ? 1.0 : 0.0, static_cast<double>(r.decisions), static_cast<double>(r.moves), r.yaw_turned_deg, r.seconds,
-                            static_cast<double>(r.faults), r.geodesic_length > 0 ? r.path_length / r.geodesic_length : 1.0})
+  for (const double cost :
+       {ProcessFidelity(r), r.collided ? 1.0 : 0.0, static_cast<double>(r.decisions), static_cast<double>(r.moves), r.yaw_turned_deg,
+        r.seconds, static_cast<double>(r.faults), r.geodesic_length > 0 ? r.path_length / r.geodesic_length : 1.0})
     values.push_back(cost);
   return values;
 }
@@ -65,7 +67,7 @@ std::vector<const VlnResult*> Pointers(const std::vector<VlnResult>& results) {
   return pointers;
 }
 
-std::map<std::string, std::vector<const VlnResult*>> GroupBy(const std::vector<VlnResult>& results, std::string VlnResult::* field) {
+std::map<std::string, std::vector<const VlnResult*>> GroupBy(const std::vector<VlnResult>& results, std::string VlnResult::*field) {
   std::map<std::string, std::vector<const VlnResult*>> groups;
   for (const VlnResult& r : results) groups[r.*field].push_back(&r);
   return groups;

@@ -32,7 +32,8 @@ std::string TextOf(const VlnJson& json, const char* name) {
 // What a result says of itself and what its path says.
 void Rescore(const VlnResult& r, std::vector<std::string>& problems) {
   const VlnScore score = ScoreOf(r);
-  if (r.success != (score.success > 0)) problems.push_back(r.id + ": says " + (r.success ? "success" : "failure") + ", its path says otherwise");
+  if (r.success != (score.success > 0))
+    problems.push_back(r.id + ": says " + (r.success ? "success" : "failure") + ", its path says otherwise");
   if (std::abs(r.distance - score.error) > 1e-3) problems.push_back(r.id + ": its distance to the goal is not that of its path");
 }
 
@@ -41,7 +42,8 @@ void CompareScores(const VlnJson& said, const std::vector<VlnResult>& results, s
   for (const auto name : kVlnFigures) {
     const std::string key(name);
     const bool there = said.is_object() && said.contains(key) && said[key].is_number();
-    if (!there || !(std::abs(said[key].get<double>() - now[key].get<double>()) <= kSame)) problems.push_back("score " + key + " is not what the results give");
+    if (!there || !(std::abs(said[key].get<double>() - now[key].get<double>()) <= kSame))
+      problems.push_back("score " + key + " is not what the results give");
   }
 }
 
@@ -54,8 +56,8 @@ VlnResult WithoutLog(VlnResult result) {
 
 }  // namespace
 
-std::string PackSubmission(const std::filesystem::path& episodes, const std::filesystem::path& results, const std::filesystem::path& transcript,
-                           const SubmissionFacts& facts) {
+std::string PackSubmission(const std::filesystem::path& episodes, const std::filesystem::path& results,
+                           const std::filesystem::path& transcript, const SubmissionFacts& facts) {
   const std::vector<VlnResult> list = ReadResults(results);
   std::map<std::string, bool> known;
   for (const LanguageEpisode& e : ReadEpisodes(episodes)) known[e.id] = true;
@@ -79,15 +81,18 @@ std::string PackSubmission(const std::filesystem::path& episodes, const std::fil
   return json.dump() + "\n";
 }
 
-std::vector<std::string> VerifySubmission(const std::filesystem::path& submission, const std::filesystem::path& episodes, const std::string& signer,
-                                          const std::function<std::vector<VlnResult>(const std::vector<LanguageEpisode>&, const VlnResult& like)>& fly) {
+std::vector<std::string> VerifySubmission(
+    const std::filesystem::path& submission, const std::filesystem::path& episodes, const std::string& signer,
+    const std::function<std::vector<VlnResult>(const std::vector<LanguageEpisode>&, const VlnResult& like)>& fly) {
   const VlnJson json = internal::ParseVlnJson(ReadTextFile(submission, uint64_t{8} << 30), submission.string());
-  if (!json.is_object() || TextOf(json, "format") != kFormat || !json.contains("results") || !json["results"].is_array() || json["results"].empty())
+  if (!json.is_object() || TextOf(json, "format") != kFormat || !json.contains("results") || !json["results"].is_array() ||
+      json["results"].empty())
     throw InputError(submission.string() + ": is no '" + kFormat + "'");
   std::vector<std::string> problems;
   if (TextOf(json, "seal") != SealOf(json)) problems.push_back("the seal does not fit: the file was changed after it was packed");
   const std::string key = TextOf(json, "public_key");
-  if (!key.empty() && !IsSignedBy(key, TextOf(json, "seal"), TextOf(json, "signature"))) problems.push_back("the signature is not that of its public key");
+  if (!key.empty() && !IsSignedBy(key, TextOf(json, "seal"), TextOf(json, "signature")))
+    problems.push_back("the signature is not that of its public key");
   if (!signer.empty() && key != signer) problems.push_back("it is signed by " + (key.empty() ? "nobody" : key) + ", not by " + signer);
   if (TextOf(json, "episodes_sha256") != Sha256HexOfFile(episodes)) problems.push_back("the episodes are not those of the submission");
   const std::vector<LanguageEpisode> list = ReadEpisodes(episodes);
@@ -108,12 +113,14 @@ std::vector<std::string> VerifySubmission(const std::filesystem::path& submissio
     flown.push_back(*found->second);
   }
   if (results.size() != list.size())
-    problems.push_back(std::to_string(results.size()) + " results of " + std::to_string(list.size()) + " episodes: the scores leave some out");
+    problems.push_back(std::to_string(results.size()) + " results of " + std::to_string(list.size()) +
+                       " episodes: the scores leave some out");
   CompareScores(json.value("scores", VlnJson()), results, problems);
   if (!fly || !problems.empty()) return problems;
   const std::vector<VlnResult> again = fly(flown, results.front());
   for (size_t i = 0; i < results.size(); ++i)
-    if (ResultLine(results[i].log.empty() ? WithoutLog(again[i]) : again[i]) != ResultLine(results[i])) problems.push_back(results[i].id + ": flown again it gives another result");
+    if (ResultLine(results[i].log.empty() ? WithoutLog(again[i]) : again[i]) != ResultLine(results[i]))
+      problems.push_back(results[i].id + ": flown again it gives another result");
   return problems;
 }
 

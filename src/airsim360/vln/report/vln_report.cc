@@ -30,13 +30,20 @@ struct Sheet {
 std::string Escaped(const std::string& text, bool html) {
   std::string out;
   for (const char c : text) {
-    if (html && c == '<') out += "&lt;";
-    else if (html && c == '>') out += "&gt;";
-    else if (html && c == '&') out += "&amp;";
-    else if (html && c == '"') out += "&quot;";
-    else if (!html && c == '|') out += "\\|";
-    else if (c == '\n') out += ' ';
-    else out += c;
+    if (html && c == '<')
+      out += "&lt;";
+    else if (html && c == '>')
+      out += "&gt;";
+    else if (html && c == '&')
+      out += "&amp;";
+    else if (html && c == '"')
+      out += "&quot;";
+    else if (!html && c == '|')
+      out += "\\|";
+    else if (c == '\n')
+      out += ' ';
+    else
+      out += c;
   }
   return out;
 }
@@ -68,24 +75,27 @@ size_t Column(const std::string& name) {
 std::string Cell(const ScoreTable& table, const char* name, int digits) {
   const size_t i = Column(name);
   if (table.means.empty()) return "—";
-  return Number(table.means[i], digits) + " [" + Number(table.intervals[i].low, digits) + ", " + Number(table.intervals[i].high, digits) + "]";
+  return Number(table.means[i], digits) + " [" + Number(table.intervals[i].low, digits) + ", " + Number(table.intervals[i].high, digits) +
+         "]";
 }
 
 Sheet MainTable(const std::vector<VlnRun>& runs) {
-  Sheet sheet{{"run", "agent", "view", "decisions by", "protocol", "episodes", "SR", "OSR", "SPL", "SPL straight", "NE (m)", "nDTW", "SDTW", "CLS", "process",
-               "collisions", "decisions", "yaw turned (deg)", "path / geodesic"}, {}};
+  Sheet sheet{{"run", "agent", "view", "decisions by", "protocol", "episodes", "SR", "OSR", "SPL", "SPL straight", "NE (m)", "nDTW", "SDTW",
+               "CLS", "process", "collisions", "decisions", "yaw turned (deg)", "path / geodesic"},
+              {}};
   for (const VlnRun& run : runs) {
     const ScoreTable table = internal::TableOf(internal::Pointers(run.results));
     const VlnResult& first = run.results.front();
-    sheet.rows.push_back({run.name, first.agent, first.view, first.decisions_by, first.protocol, std::to_string(table.episodes), Cell(table, "sr", 3),
-                          Cell(table, "osr", 3), Cell(table, "spl", 3), Cell(table, "spl_straight", 3), Cell(table, "ne", 1), Cell(table, "ndtw", 3),
-                          Cell(table, "sdtw", 3), Cell(table, "cls", 3), Cell(table, "process_fidelity", 3), Cell(table, "collision_rate", 3), Cell(table, "decisions", 1),
+    sheet.rows.push_back({run.name, first.agent, first.view, first.decisions_by, first.protocol, std::to_string(table.episodes),
+                          Cell(table, "sr", 3), Cell(table, "osr", 3), Cell(table, "spl", 3), Cell(table, "spl_straight", 3),
+                          Cell(table, "ne", 1), Cell(table, "ndtw", 3), Cell(table, "sdtw", 3), Cell(table, "cls", 3),
+                          Cell(table, "process_fidelity", 3), Cell(table, "collision_rate", 3), Cell(table, "decisions", 1),
                           Cell(table, "yaw_turned_deg", 0), Cell(table, "path_over_geodesic", 2)});
   }
   return sheet;
 }
 
-Sheet GroupTable(const std::vector<VlnRun>& runs, std::string VlnResult::* field, const char* name) {
+Sheet GroupTable(const std::vector<VlnRun>& runs, std::string VlnResult::*field, const char* name) {
   std::set<std::string> keys;
   for (const VlnRun& run : runs)
     for (const VlnResult& r : run.results) keys.insert(r.*field);
@@ -99,7 +109,9 @@ Sheet GroupTable(const std::vector<VlnRun>& runs, std::string VlnResult::* field
         all += r.*field == key;
         good += r.*field == key && r.success;
       }
-      row.push_back(all == 0 ? "—" : std::to_string(good) + " / " + std::to_string(all) + " (" + Number(100.0 * static_cast<double>(good) / static_cast<double>(all), 0) + " %)");
+      row.push_back(all == 0 ? "—"
+                             : std::to_string(good) + " / " + std::to_string(all) + " (" +
+                                   Number(100.0 * static_cast<double>(good) / static_cast<double>(all), 0) + " %)");
     }
     sheet.rows.push_back(row);
   }
@@ -127,8 +139,10 @@ Sheet Failures(const std::vector<VlnRun>& runs, size_t& left_out) {
   for (const VlnRun& run : runs) {
     for (const VlnResult& r : run.results) {
       if (r.success) continue;
-      if (sheet.rows.size() >= kMostFailures) ++left_out;
-      else sheet.rows.push_back({run.name, r.id, r.end, r.explanation});
+      if (sheet.rows.size() >= kMostFailures)
+        ++left_out;
+      else
+        sheet.rows.push_back({run.name, r.id, r.end, r.explanation});
     }
   }
   return sheet;
@@ -157,9 +171,11 @@ std::string Map(const std::vector<const VlnResult*>& results) {
     return "<polyline points=\"" + points + "\" " + style + "/>\n";
   };
   const auto dot = [&](Vec3d p, const char* colour, double radius) {
-    return "<circle cx=\"" + Number(p.x - low.x + margin, 2) + "\" cy=\"" + Number(high.y - p.y + margin, 2) + "\" r=\"" + Number(radius * unit, 3) + "\" fill=\"" + colour + "\"/>\n";
+    return "<circle cx=\"" + Number(p.x - low.x + margin, 2) + "\" cy=\"" + Number(high.y - p.y + margin, 2) + "\" r=\"" +
+           Number(radius * unit, 3) + "\" fill=\"" + colour + "\"/>\n";
   };
-  std::string svg = "<svg viewBox=\"0 0 " + Number(width, 2) + " " + Number(height, 2) + "\" style=\"max-width:900px;width:100%;background:#fafafa\" role=\"img\">\n";
+  std::string svg = "<svg viewBox=\"0 0 " + Number(width, 2) + " " + Number(height, 2) +
+                    "\" style=\"max-width:900px;width:100%;background:#fafafa\" role=\"img\">\n";
   size_t drawn = 0;
   for (const VlnResult* r : results) {
     if (++drawn > kMostPaths) break;
@@ -176,7 +192,8 @@ std::string Maps(const std::vector<VlnRun>& runs) {
   for (const VlnRun& run : runs) {
     for (const auto& [world, group] : internal::GroupBy(run.results, &VlnResult::world)) {
       out += "<h3>" + Escaped(run.name + ": " + world, true) + "</h3>\n" + Map(group);
-      if (group.size() > kMostPaths) out += "<p>The first " + std::to_string(kMostPaths) + " of " + std::to_string(group.size()) + " flights.</p>\n";
+      if (group.size() > kMostPaths)
+        out += "<p>The first " + std::to_string(kMostPaths) + " of " + std::to_string(group.size()) + " flights.</p>\n";
     }
   }
   return out;
@@ -189,8 +206,9 @@ std::string Panoramas(const std::vector<VlnRun>& runs, const FailurePictures& pi
     for (const VlnResult& r : run.results) {
       const auto found = pictures.find({run.name, r.id});
       if (found == pictures.end()) continue;
-      out += "<figure><img style=\"width:100%\" alt=\"panorama at the end of the flight\" src=\"data:image/jpeg;base64," + Base64(found->second) + "\"><figcaption>" +
-             Escaped(run.name + ", " + r.id + ": " + r.explanation, true) + "</figcaption></figure>\n";
+      out += "<figure><img style=\"width:100%\" alt=\"panorama at the end of the flight\" src=\"data:image/jpeg;base64," +
+             Base64(found->second) + "\"><figcaption>" + Escaped(run.name + ", " + r.id + ": " + r.explanation, true) +
+             "</figcaption></figure>\n";
     }
   }
   return out;
@@ -201,15 +219,20 @@ std::string Pages(const std::vector<VlnRun>& runs, bool html, const FailurePictu
   out += Heading("Scores", html) + Paragraph("Means with 95 % bootstrap intervals over episodes.", html) + Show(MainTable(runs), html);
   out += Heading("Success by difficulty", html) + Show(GroupTable(runs, &VlnResult::difficulty, "difficulty"), html);
   out += Heading("You only move once", html) +
-         Paragraph("Share of all episodes that were successes with at most so many decisions: a turn counts as one.", html) + Show(DecisionsTable(runs), html);
+         Paragraph("Share of all episodes that were successes with at most so many decisions: a turn counts as one.", html) +
+         Show(DecisionsTable(runs), html);
   out += Heading("Success by instruction", html) + Show(GroupTable(runs, &VlnResult::template_id, "instruction"), html);
-  if (html) out += Heading("Maps", true) + Paragraph("Blue: start; black: goal; grey: reference; green: success; red: failure. North is up.", true) + Maps(runs);
+  if (html)
+    out += Heading("Maps", true) +
+           Paragraph("Blue: start; black: goal; grey: reference; green: success; red: failure. North is up.", true) + Maps(runs);
   size_t left_out = 0;
   const Sheet failures = Failures(runs, left_out);
   out += Heading("Failures", html) + Show(failures, html);
   if (left_out > 0) out += Paragraph(std::to_string(left_out) + " more failures are in the files.", html);
   if (html && !pictures.empty())
-    out += Heading("Where flights failed", true) + Paragraph("The panorama at the last place, in the direction of the last move. The ring is around the goal.", true) + Panoramas(runs, pictures);
+    out += Heading("Where flights failed", true) +
+           Paragraph("The panorama at the last place, in the direction of the last move. The ring is around the goal.", true) +
+           Panoramas(runs, pictures);
   return out;
 }
 

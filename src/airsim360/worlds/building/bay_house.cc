@@ -29,9 +29,15 @@ BayShape ShapeOf(const BayHouse& h) {
 class HousePen {
  public:
   HousePen(FacadeContext& context, const BayHouse& house)
-      : h_(house), pen_(context.mesh, context.surfaces), mesh_(context.mesh), surfaces_(context.surfaces), rng_(house.seed, "bay house"),
-        dress_{house.wall, house.trim, house.frame, house.garage, S::kGlassDark, house.wall, S::kFarWalls1, 0}, bay_(ShapeOf(house)),
-        top_(house.height()), rim_(house.kind == Kind::kGabled ? top_ : top_ + kParapet) {
+      : h_(house),
+        pen_(context.mesh, context.surfaces),
+        mesh_(context.mesh),
+        surfaces_(context.surfaces),
+        rng_(house.seed, "bay house"),
+        dress_{house.wall, house.trim, house.frame, house.garage, S::kGlassDark, house.wall, S::kFarWalls1, 0},
+        bay_(ShapeOf(house)),
+        top_(house.height()),
+        rim_(house.kind == Kind::kGabled ? top_ : top_ + kParapet) {
     pen_.SetScale(0, 1, 1);
   }
 
@@ -76,8 +82,10 @@ class HousePen {
       for (int i = 0; i < 4; ++i) {
         const float x = x0 + 0.65f * static_cast<float>(i) + 0.07f;
         pen_.Use(row == 3 ? S::kGlassDark : h_.garage);
-        if (row == 3) pen_.Front(x, x + 0.51f, z, z + up, 0.385f);
-        else pen_.Bar(x, x + 0.51f, z, z + up, 0.37f, 0.4f);
+        if (row == 3)
+          pen_.Front(x, x + 0.51f, z, z + up, 0.385f);
+        else
+          pen_.Bar(x, x + 0.51f, z, z + up, 0.37f, 0.4f);
       }
     }
     pen_.Use(h_.trim);
@@ -116,14 +124,16 @@ class HousePen {
     const int steps = std::clamp(static_cast<int>(std::ceil(rise / 0.18f)), 4, static_cast<int>(run / 0.22f));
     const float tread = std::min(0.29f, run / static_cast<float>(steps)), x0 = m - 0.74f, x1 = m + 0.74f;
     for (int i = 0; i < steps; ++i) {
-      const float z = rise * static_cast<float>(i + 1) / static_cast<float>(steps) - fall, y = kRecess - tread * static_cast<float>(steps - i);
+      const float z = rise * static_cast<float>(i + 1) / static_cast<float>(steps) - fall,
+                  y = kRecess - tread * static_cast<float>(steps - i);
       pen_.Use(S::kTrimStone);
       pen_.Bar(x0, x1, -h_.foot, z, y, i + 1 == steps ? kRecess : y + tread, true, false);
       if (y > -tread) continue;
       pen_.Use(h_.wall);
       for (float x : {x0 - 0.2f, x1}) {
         pen_.Bar(x, x + 0.2f, -h_.foot, z + 0.32f, y, y + tread, true, false);
-        pen_.mesh().Quad({x, y + tread, -h_.foot}, {x, y + tread, z + 0.32f}, {x + 0.2f, y + tread, z + 0.32f}, {x + 0.2f, y + tread, -h_.foot});
+        pen_.mesh().Quad({x, y + tread, -h_.foot}, {x, y + tread, z + 0.32f}, {x + 0.2f, y + tread, z + 0.32f},
+                         {x + 0.2f, y + tread, -h_.foot});
       }
     }
     const float y0 = kRecess - tread * static_cast<float>(steps) + 0.1f;
@@ -132,7 +142,8 @@ class HousePen {
     pen_.Use(S::kIronBlack);
     for (float x : {x0 - 0.1f, x1 + 0.1f}) {
       pen_.mesh().Beam({x, y0, z0 + 0.62f}, {x, 0, z0 + 0.62f - y0 * slope}, 0.045f);
-      for (float y = y0; y < -0.1f; y += 0.3f) pen_.mesh().Beam({x, y, z0 - 0.1f + (y - y0) * slope}, {x, y, z0 + 0.62f + (y - y0) * slope}, 0.02f);
+      for (float y = y0; y < -0.1f; y += 0.3f)
+        pen_.mesh().Beam({x, y, z0 - 0.1f + (y - y0) * slope}, {x, y, z0 + 0.62f + (y - y0) * slope}, 0.02f);
     }
   }
 
@@ -203,10 +214,15 @@ class HousePen {
     // Underside with a taper, and a lid.
     SetFront();
     pen_.Use(h_.trim);
-    const Vec2f low[4] = {{bay_.x0 + 0.25f, 0}, {bay_.x0 + bay_.cant + 0.1f, -bay_.out * 0.55f}, {bay_.x1 - bay_.cant - 0.1f, -bay_.out * 0.55f}, {bay_.x1 - 0.25f, 0}};
+    const Vec2f low[4] = {{bay_.x0 + 0.25f, 0},
+                          {bay_.x0 + bay_.cant + 0.1f, -bay_.out * 0.55f},
+                          {bay_.x1 - bay_.cant - 0.1f, -bay_.out * 0.55f},
+                          {bay_.x1 - 0.25f, 0}};
     for (int i = 0; i < 3; ++i)
-      mesh_.Quad({low[i].x, low[i].y, foot - 0.35f}, {low[i + 1].x, low[i + 1].y, foot - 0.35f}, {p[i + 1].x, p[i + 1].y, foot}, {p[i].x, p[i].y, foot});
-    mesh_.Quad({low[3].x, low[3].y, foot - 0.35f}, {low[2].x, low[2].y, foot - 0.35f}, {low[1].x, low[1].y, foot - 0.35f}, {low[0].x, low[0].y, foot - 0.35f});
+      mesh_.Quad({low[i].x, low[i].y, foot - 0.35f}, {low[i + 1].x, low[i + 1].y, foot - 0.35f}, {p[i + 1].x, p[i + 1].y, foot},
+                 {p[i].x, p[i].y, foot});
+    mesh_.Quad({low[3].x, low[3].y, foot - 0.35f}, {low[2].x, low[2].y, foot - 0.35f}, {low[1].x, low[1].y, foot - 0.35f},
+               {low[0].x, low[0].y, foot - 0.35f});
     pen_.Use(S::kRoofBitumen);
     mesh_.Quad({p[0].x, p[0].y, rim}, {p[1].x, p[1].y, rim}, {p[2].x, p[2].y, rim}, {p[3].x, p[3].y, rim});
   }
@@ -216,7 +232,8 @@ class HousePen {
     if (x1 - x0 < 0.1f) return;
     if (h_.kind == Kind::kStucco) {
       pen_.Use(S::kRoofTile);
-      mesh_.Quad({x0 - 0.05f, -0.36f, rim_ - 0.5f}, {x1 + 0.05f, -0.36f, rim_ - 0.5f}, {x1 + 0.05f, 0.1f, rim_ - 0.02f}, {x0 - 0.05f, 0.1f, rim_ - 0.02f});
+      mesh_.Quad({x0 - 0.05f, -0.36f, rim_ - 0.5f}, {x1 + 0.05f, -0.36f, rim_ - 0.5f}, {x1 + 0.05f, 0.1f, rim_ - 0.02f},
+                 {x0 - 0.05f, 0.1f, rim_ - 0.02f});
       pen_.Use(h_.trim);
       pen_.Down(x0 - 0.05f, x1 + 0.05f, -0.36f, 0, rim_ - 0.5f);
       pen_.Bar(x0, x1, rim_ - 0.72f, rim_ - 0.56f, -0.08f, 0);
@@ -291,7 +308,8 @@ void HousePen::Deck(EntityId building, EntityId roof) {
   mesh_.SetMaterial(surfaces_[h_.wall]);
   const std::vector<Vec2f> turned(in.rbegin(), in.rend());
   mesh_.Walls(turned, top_, rim_);
-  constexpr unsigned kSides = MeshBuilder::kLeft | MeshBuilder::kRight | MeshBuilder::kFront | MeshBuilder::kBack, kOpen = kSides | MeshBuilder::kTop;
+  constexpr unsigned kSides = MeshBuilder::kLeft | MeshBuilder::kRight | MeshBuilder::kFront | MeshBuilder::kBack,
+                     kOpen = kSides | MeshBuilder::kTop;
   const auto box = [&](S surface, float x, float y, float hx, float hy, float height) {
     mesh_.SetMaterial(surfaces_[surface]);
     mesh_.Box({x - hx, y - hy, top_}, {x + hx, y + hy, top_ + height}, kOpen);
@@ -316,8 +334,10 @@ void HousePen::Gable(EntityId building, EntityId roof) {
   mesh_.SetEntity(roof);
   mesh_.SetMaterial(surfaces_[S::kRoofSlate]);
   const float run = std::hypot(m, m * kPitch);
-  mesh_.QuadUv({w, -kOver, top_ + e}, {w, d + kOver, top_ + e}, {m, d + kOver, ridge + e}, {m, -kOver, ridge + e}, {0, run}, {d + 2 * kOver, run}, {d + 2 * kOver, 0}, {0, 0});
-  mesh_.QuadUv({0, d + kOver, top_ + e}, {0, -kOver, top_ + e}, {m, -kOver, ridge + e}, {m, d + kOver, ridge + e}, {0, run}, {d + 2 * kOver, run}, {d + 2 * kOver, 0}, {0, 0});
+  mesh_.QuadUv({w, -kOver, top_ + e}, {w, d + kOver, top_ + e}, {m, d + kOver, ridge + e}, {m, -kOver, ridge + e}, {0, run},
+               {d + 2 * kOver, run}, {d + 2 * kOver, 0}, {0, 0});
+  mesh_.QuadUv({0, d + kOver, top_ + e}, {0, -kOver, top_ + e}, {m, -kOver, ridge + e}, {m, d + kOver, ridge + e}, {0, run},
+               {d + 2 * kOver, run}, {d + 2 * kOver, 0}, {0, 0});
   // Undersides of the overhang.
   mesh_.SetMaterial(surfaces_[h_.trim]);
   for (float y0 : {-kOver, d}) {

@@ -15,12 +15,12 @@ struct BayHouse {
   };
   Kind kind = Kind::kItalianate;
   float width = 7.6f, depth = 15;
-  int floors = 2;                         ///< above the garage
-  bool door_right = true;                 ///< seen from the street; else the door is at the left
-  float fall_left = 0, fall_right = 0;    ///< how far below z = 0 the ground lies at both front corners, >= 0
-  float foot = 0.5f;                      ///< how far all walls reach below z = 0
-  float hidden_left = 0, hidden_right = 0;  ///< a neighbour hides that side up to this height
-  float rear_ground = 0;                  ///< of the yard behind the house over z = 0: no windows below it
+  int floors = 2;                              ///< above the garage
+  bool door_right = true;                      ///< seen from the street; else the door is at the left
+  float fall_left = 0, fall_right = 0;         ///< how far below z = 0 the ground lies at both front corners, >= 0
+  float foot = 0.5f;                           ///< how far all walls reach below z = 0
+  float hidden_left = 0, hidden_right = 0;     ///< a neighbour hides that side up to this height
+  float rear_ground = 0;                       ///< of the yard behind the house over z = 0: no windows below it
   bool open_left = false, open_right = false;  ///< that side looks at a street: windows
   Surface wall = Surface::kStuccoWhite, trim = Surface::kTrimWhite, frame = Surface::kFrameWhite, door = Surface::kDoorWood,
           garage = Surface::kShutterGreen;

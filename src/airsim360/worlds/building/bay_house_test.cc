@@ -44,7 +44,8 @@ class EveryBayHouse : public testing::TestWithParam<std::tuple<Kind, bool>> {
   BayHouse house() const { return OnSlope(std::get<0>(GetParam()), std::get<1>(GetParam())); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Houses, EveryBayHouse, testing::Combine(testing::Values(Kind::kItalianate, Kind::kGabled, Kind::kStucco), testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(Houses, EveryBayHouse,
+                         testing::Combine(testing::Values(Kind::kItalianate, Kind::kGabled, Kind::kStucco), testing::Bool()));
 
 // Rays from the street, from both sides and from the yard end at the house.
 TEST_P(EveryBayHouse, HasNoHoleInItsWalls) {

@@ -17,8 +17,8 @@ using internal::DressOf;
 // Bays of equal width along a wall: at least one.
 int CountBays(float length, float bay) { return std::max(1, static_cast<int>(std::lround(length / bay))); }
 
-void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan& plan, const Dress& dress,
-                      EntityId entity, EdgeKind kind, RngStream& rng) {
+void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan& plan, const Dress& dress, EntityId entity, EdgeKind kind,
+                      RngStream& rng) {
   const float height = MetricsOf(plan.style).ground_height, length = pen.length();
   pen.UseEntity(entity);
   if (kind == EdgeKind::kStreet && plan.style == FacadeStyle::kBrownstone) {
@@ -28,11 +28,9 @@ void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan
   if (kind == EdgeKind::kStreet && plan.shops && length > 2.6f) {
     const internal::GroundFloor floor{plan, entity, height, dress.wall, dress.trim, dress.frame};
     const bool office = plan.style == FacadeStyle::kCurtainWall || plan.style == FacadeStyle::kRibbon ||
-                        plan.style == FacadeStyle::kConcreteGrid ||
-                        plan.style == FacadeStyle::kClassicStone || plan.style == FacadeStyle::kDeco ||
-                        plan.style == FacadeStyle::kBracedGlass;
-    const int shops = CountBays(length, 4.9f),
-              lobby = office && plan.canopies && length > 9 && rng.Chance(0.6) ? shops / 2 : -1;
+                        plan.style == FacadeStyle::kConcreteGrid || plan.style == FacadeStyle::kClassicStone ||
+                        plan.style == FacadeStyle::kDeco || plan.style == FacadeStyle::kBracedGlass;
+    const int shops = CountBays(length, 4.9f), lobby = office && plan.canopies && length > 9 && rng.Chance(0.6) ? shops / 2 : -1;
     for (int i = 0; i < shops; ++i) {
       const float w = length / static_cast<float>(shops), x0 = w * static_cast<float>(i);
       if (i == lobby) {
@@ -50,8 +48,7 @@ void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan
     if (i % 3 == 1) {
       internal::DoorOpening(pen, dress, x0, x0 + w, height, middle);
     } else {
-      internal::SimpleOpening(pen, dress, x0, x0 + w, 0, height, middle - 0.75f, middle + 0.75f, 1.1f,
-                              height - 1.1f, 0.15f, rng);
+      internal::SimpleOpening(pen, dress, x0, x0 + w, 0, height, middle - 0.75f, middle + 0.75f, 1.1f, height - 1.1f, 0.15f, rng);
     }
   }
   pen.Use(dress.trim);
@@ -83,8 +80,8 @@ void BuildBands(FacadePen& pen, const BuildingPlan& plan, const Dress& dress, Ed
   }
 }
 
-void BuildStoreys(FacadeContext& context, FacadePen& pen, const BuildingPlan& plan, const Dress& dress,
-                  EdgeKind kind, FacadeDetail detail, RngStream& rng) {
+void BuildStoreys(FacadeContext& context, FacadePen& pen, const BuildingPlan& plan, const Dress& dress, EdgeKind kind, FacadeDetail detail,
+                  RngStream& rng) {
   const StyleMetrics& metrics = MetricsOf(plan.style);
   const int bays = CountBays(pen.length(), metrics.bay);
   const float w = pen.length() / static_cast<float>(bays);
@@ -118,7 +115,8 @@ void WearPartyWall(FacadePen& pen, const std::vector<float>& closed, float w, fl
     float z = from + uniform(0.6f, 3.0f);
     while (z < top - 2.2f && rng.Chance(0.75)) {
       static constexpr S kRepairs[] = {S::kConcrete, S::kBrickBrown, S::kBrickRed, S::kConcrete};
-      const float wide = uniform(0.35f, 1.0f) * half, tall = std::min(uniform(0.7f, 2.6f), top - 0.6f - z), at = m + uniform(-1, 1) * (half - wide);
+      const float wide = uniform(0.35f, 1.0f) * half, tall = std::min(uniform(0.7f, 2.6f), top - 0.6f - z),
+                  at = m + uniform(-1, 1) * (half - wide);
       pen.Use(kRepairs[rng.Index(4)]);
       pen.Front(at - wide, at + wide, z, z + tall, -0.010f);
       z += tall + uniform(1.5f, 6.0f);
@@ -137,16 +135,13 @@ void WearPartyWall(FacadePen& pen, const std::vector<float>& closed, float w, fl
 }
 
 // The wall above a lower neighbour: bare, with a few columns of small windows where it is high.
-void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress, float from, bool windows, bool wear,
-                    RngStream& rng) {
+void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress, float from, bool windows, bool wear, RngStream& rng) {
   const StyleMetrics& metrics = MetricsOf(plan.style);
   const float top = plan.height() + ParapetHeight(plan), L = pen.length();
   if (from >= top) return;
   Dress bare = dress;
   bare.wall = dress.party;
-  const int first =
-      std::clamp(static_cast<int>(std::ceil((from + 0.4f - plan.first_storey()) / metrics.floor_height)), 0,
-                 plan.floors);
+  const int first = std::clamp(static_cast<int>(std::ceil((from + 0.4f - plan.first_storey()) / metrics.floor_height)), 0, plan.floors);
   const float start = std::max(from, plan.first_storey() + metrics.floor_height * static_cast<float>(first));
   pen.Use(bare.wall);
   pen.Front(0, L, from, start, 0);
@@ -158,11 +153,9 @@ void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress
     const bool open = rng.Chance(0.55) && windows;
     closed.push_back(open ? -1.0f : m);
     for (int f = first; f < plan.floors; ++f) {
-      const float z0 = plan.first_storey() + metrics.floor_height * static_cast<float>(f),
-                  z1 = z0 + metrics.floor_height;
+      const float z0 = plan.first_storey() + metrics.floor_height * static_cast<float>(f), z1 = z0 + metrics.floor_height;
       if (open) {
-        internal::SimpleOpening(pen, bare, x0, x0 + w, z0, z1, m - 0.5f, m + 0.5f, z0 + 1.0f, z0 + 2.4f,
-                                0.15f, rng);
+        internal::SimpleOpening(pen, bare, x0, x0 + w, z0, z1, m - 0.5f, m + 0.5f, z0 + 1.0f, z0 + 2.4f, 0.15f, rng);
       } else if (f == first) {
         pen.Use(bare.wall);
         pen.Front(x0, x0 + w, z0, plan.height(), 0);
@@ -176,8 +169,7 @@ void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress
 
 }  // namespace
 
-void BuildFacades(FacadeContext& context, const BuildingPlan& plan, EntityId entity,
-                  const std::vector<FacadeDetail>& detail) {
+void BuildFacades(FacadeContext& context, const BuildingPlan& plan, EntityId entity, const std::vector<FacadeDetail>& detail) {
   FacadePen pen(context.mesh, context.surfaces);
   pen.SetScale(context.base, context.stretch, context.reach);
   const Dress dress = DressOf(plan);
@@ -187,8 +179,8 @@ void BuildFacades(FacadeContext& context, const BuildingPlan& plan, EntityId ent
     pen.SetWall(plan.outline[e], plan.outline[(e + 1) % plan.outline.size()]);
     pen.UseEntity(entity);
     if (plan.edges[e] == EdgeKind::kParty) {
-      BuildPartyWall(pen, plan, dress, std::max(plan.base, plan.party_height[e]),
-                     static_cast<int>(e) != plan.mural_edge, context.reach >= 1, rng);
+      BuildPartyWall(pen, plan, dress, std::max(plan.base, plan.party_height[e]), static_cast<int>(e) != plan.mural_edge,
+                     context.reach >= 1, rng);
     } else if (detail[e] == FacadeDetail::kFlat) {
       pen.Use(dress.far);
       pen.Front(0, pen.length(), plan.base, plan.height() + ParapetHeight(plan), 0);
@@ -198,8 +190,7 @@ void BuildFacades(FacadeContext& context, const BuildingPlan& plan, EntityId ent
       BuildStoreys(context, pen, plan, dress, plan.edges[e], detail[e], rng);
       pen.UseEntity(entity);
       BuildBands(pen, plan, dress, plan.edges[e]);
-      if (plan.edges[e] == EdgeKind::kStreet && detail[e] == FacadeDetail::kFull)
-        internal::BuildWallExtras(context, pen, plan, rng);
+      if (plan.edges[e] == EdgeKind::kStreet && detail[e] == FacadeDetail::kFull) internal::BuildWallExtras(context, pen, plan, rng);
     }
   }
   context.mesh.SetTransform({});

@@ -23,20 +23,19 @@ struct FacadeContext {
   SceneBuilder& builder;
   const Surfaces& surfaces;
   MeshBuilder& mesh;
-  MeshId balcony;     ///< instanced railing of 1 m, scaled along x: iron balcony of a French window
-  MeshId window_box;  ///< instanced air conditioner in a window
+  MeshId balcony;                                         ///< instanced railing of 1 m, scaled along x: iron balcony of a French window
+  MeshId window_box;                                      ///< instanced air conditioner in a window
   std::optional<std::array<MeshId, 2>> fire_escape = {};  ///< a storey of one, both ways; without: none
-  EntityId building = kNoEntity;  ///< the one being built
-  int next_sign = 0;              ///< picture of the last shop sign, so that neighbours differ
-  float base = 0, stretch = 1, reach = 1;  ///< of the building: z of its ground, factors of FacadePen::SetScale
+  EntityId building = kNoEntity;                          ///< the one being built
+  int next_sign = 0;                                      ///< picture of the last shop sign, so that neighbours differ
+  float base = 0, stretch = 1, reach = 1;                 ///< of the building: z of its ground, factors of FacadePen::SetScale
   AffineTransform X_WB = {};  ///< where what is built in the mesh will lie: instances beside it go there at once
   AffineTransform Place(const AffineTransform& X) const { return X_WB == AffineTransform{} ? X : X_WB * X; }
 };
 
 /// Walls of one building on all its edges, as `entity`; awnings and shop signs become entities of their own.
 /// `detail` says how much each edge gets.
-void BuildFacades(FacadeContext& context, const BuildingPlan& building, EntityId entity,
-                  const std::vector<FacadeDetail>& detail);
+void BuildFacades(FacadeContext& context, const BuildingPlan& building, EntityId entity, const std::vector<FacadeDetail>& detail);
 
 /// The surface of a building's plain walls.
 Surface WallSurfaceOf(const BuildingPlan& building);

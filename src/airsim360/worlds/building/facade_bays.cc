@@ -106,8 +106,7 @@ void Wall(FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o) {
   pen.Reveal(o.x0, o.x1, o.z0, o.z1, 0, o.depth);
 }
 
-void BrickBay(FacadeContext& context, FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o,
-              RngStream& rng) {
+void BrickBay(FacadeContext& context, FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o, RngStream& rng) {
   FacadePen::Sash sash{.t = 0.07f, .nx = 0, .nz = 1, .frame = dress.frame, .glass = dress.glass};
   Furnish(sash, rng);
   pen.Window(o.x0, o.x1, o.z0, o.z1, o.depth, sash);
@@ -143,13 +142,11 @@ void ClassicBay(FacadeContext& context, FacadePen& pen, const Dress& dress, cons
   pen.Use(dress.wall);
   pen.Bar(b.x0 - 0.16f, b.x0 + 0.16f, b.z0, b.z1, -0.10f, 0, true, false);
   pen.Use(dress.trim);
-  if (b.floor > 0 && b.floor % 3 == 1)
-    pen.Bar(b.x0 - 0.01f, b.x1 + 0.01f, b.z0 - 0.06f, b.z0 + 0.16f, -0.18f, 0);
+  if (b.floor > 0 && b.floor % 3 == 1) pen.Bar(b.x0 - 0.01f, b.x1 + 0.01f, b.z0 - 0.06f, b.z0 + 0.16f, -0.18f, 0);
   HangCooler(context, pen, o, 0.05, rng);
 }
 
-void StuccoBay(FacadeContext& context, FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o,
-               RngStream& rng) {
+void StuccoBay(FacadeContext& context, FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o, RngStream& rng) {
   FacadePen::Sash sash{.t = 0.07f, .nx = 1, .nz = 2, .frame = dress.frame, .glass = dress.glass};
   Furnish(sash, rng);
   pen.Window(o.x0, o.x1, o.z0, o.z1, o.depth, sash);
@@ -168,8 +165,7 @@ void StuccoBay(FacadeContext& context, FacadePen& pen, const Dress& dress, const
   if (!rng.Chance(b.floor == 0 ? 0.8 : 0.45)) return;
   AffineTransform X{{}, {b.middle(), 0, o.z0 - 0.02f}};
   X.A.m[0][0] = 1.75f;
-  const EntityId entity =
-      context.builder.AddEntity("balcony", context.builder.tree().At("construction/balcony"));
+  const EntityId entity = context.builder.AddEntity("balcony", context.builder.tree().At("construction/balcony"));
   context.builder.AddInstance({context.balcony, context.Place(pen.X_WF() * X), entity});
 }
 
@@ -230,17 +226,12 @@ Dress DressOf(const BuildingPlan& plan) {
   }
   const bool modern = plan.style == FacadeStyle::kCurtainWall || plan.style == FacadeStyle::kRibbon ||
                       plan.style == FacadeStyle::kConcreteGrid || plan.style == FacadeStyle::kBracedGlass;
-  Dress dress{row->wall,     row->trim,      row->frame,    row->shutter,
-              S::kGlassDark, S::kBrickBrown, S::kFarWalls1, 0};
+  Dress dress{row->wall, row->trim, row->frame, row->shutter, S::kGlassDark, S::kBrickBrown, S::kFarWalls1, 0};
   if (plan.style == FacadeStyle::kCurtainWall || (modern && plan.seed % 2 == 0)) dress.glass = S::kGlassBlue;
-  dress.party = modern               ? S::kConcrete
-                : IsBrick(row->wall) ? row->wall
-                : plan.seed % 3 == 0 ? S::kBrickBrown
-                                     : row->wall;
+  dress.party = modern ? S::kConcrete : IsBrick(row->wall) ? row->wall : plan.seed % 3 == 0 ? S::kBrickBrown : row->wall;
   dress.far = modern ? S::kFarWalls2 : IsBrick(row->wall) ? S::kFarWalls0 : S::kFarWalls1;
   if (plan.style == FacadeStyle::kClassicStone) dress.cornice = 1.35f;
-  if (plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kBrickLoft ||
-      plan.style == FacadeStyle::kBrownstone)
+  if (plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kBrickLoft || plan.style == FacadeStyle::kBrownstone)
     dress.cornice = 0.9f;
   if (plan.style == FacadeStyle::kDeco) dress.cornice = plan.palette < 2 ? 1.2f : 0.7f;
   if (plan.style == FacadeStyle::kBracedGlass) dress.glass = S::kGlassBlack;
@@ -248,8 +239,8 @@ Dress DressOf(const BuildingPlan& plan) {
   return dress;
 }
 
-void SimpleOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float z0, float z1, float ox0,
-                   float ox1, float oz0, float oz1, float depth, RngStream& rng) {
+void SimpleOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float z0, float z1, float ox0, float ox1, float oz0, float oz1,
+                   float depth, RngStream& rng) {
   pen.Use(dress.wall);
   pen.WallAround(x0, x1, z0, z1, ox0, ox1, oz0, oz1);
   pen.Reveal(ox0, ox1, oz0, oz1, 0, depth);
@@ -285,11 +276,9 @@ void BuildSimpleBay(FacadePen& pen, FacadeStyle style, const Dress& dress, const
   SimpleOpening(pen, dress, bay.x0, bay.x1, bay.z0, bay.z1, o.x0, o.x1, o.z0, o.z1, o.depth, rng);
 }
 
-void BuildBay(FacadeContext& context, FacadePen& pen, FacadeStyle style, const Dress& dress, const Bay& bay,
-              RngStream& rng) {
+void BuildBay(FacadeContext& context, FacadePen& pen, FacadeStyle style, const Dress& dress, const Bay& bay, RngStream& rng) {
   const Opening o = OpeningOf(style, bay);
-  if (style == FacadeStyle::kCurtainWall || style == FacadeStyle::kBracedGlass)
-    return CurtainBay(pen, dress, bay, o, rng);
+  if (style == FacadeStyle::kCurtainWall || style == FacadeStyle::kBracedGlass) return CurtainBay(pen, dress, bay, o, rng);
   if (style == FacadeStyle::kDeco) return BuildDecoBay(pen, dress, bay, rng);
   Wall(pen, dress, bay, o);
   switch (style) {

@@ -28,14 +28,13 @@ Opening OpeningOf(FacadeStyle style, const Bay& bay);
 /// What hangs behind a pane: blind, curtain, light, nothing.
 void Furnish(FacadePen::Sash& sash, RngStream& rng);
 
-void BuildBay(FacadeContext& context, FacadePen& pen, FacadeStyle style, const Dress& dress, const Bay& bay,
-              RngStream& rng);
+void BuildBay(FacadeContext& context, FacadePen& pen, FacadeStyle style, const Dress& dress, const Bay& bay, RngStream& rng);
 /// Recessed opening with frame and pane, no ornament.
 void BuildSimpleBay(FacadePen& pen, FacadeStyle style, const Dress& dress, const Bay& bay, RngStream& rng);
 /// A rear door in a bay of the ground floor.
 void DoorOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float height, float middle);
-void SimpleOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float z0, float z1, float ox0,
-                   float ox1, float oz0, float oz1, float depth, RngStream& rng);
+void SimpleOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float z0, float z1, float ox0, float ox1, float oz0, float oz1,
+                   float depth, RngStream& rng);
 
 /// Bays of the New York styles; the wall around a brownstone's opening stands already.
 void BuildDecoBay(FacadePen& pen, const Dress& dress, const Bay& bay, RngStream& rng);

@@ -100,15 +100,13 @@ void BuildStoop(FacadePen& pen, const Dress& dress, float door) {
   pen.Use(dress.trim);
   constexpr int kSteps = 7;
   for (int i = 0; i < kSteps; ++i) {
-    const float z = sill * static_cast<float>(i + 1) / kSteps,
-                y = -1.9f + 1.9f * static_cast<float>(i) / kSteps;
+    const float z = sill * static_cast<float>(i + 1) / kSteps, y = -1.9f + 1.9f * static_cast<float>(i) / kSteps;
     pen.Bar(door - 0.75f, door + 0.75f, 0, z, y, i + 1 == kSteps ? 0.35f : y + 0.29f, false, false);
   }
   for (float side : {-1.0f, 1.0f}) {
     const float x = door + side * 0.86f;
     for (int i = 0; i < kSteps; ++i) {
-      const float z = sill * static_cast<float>(i + 1) / kSteps + 0.12f,
-                  y = -1.9f + 1.9f * static_cast<float>(i) / kSteps;
+      const float z = sill * static_cast<float>(i + 1) / kSteps + 0.12f, y = -1.9f + 1.9f * static_cast<float>(i) / kSteps;
       pen.Use(dress.trim);
       pen.Bar(x - 0.11f, x + 0.11f, 0, z, y, y + 1.9f / kSteps, true, false);
       pen.Use(S::kIronBlack);
@@ -143,8 +141,9 @@ namespace {
 
 // Down pipes from the gutter to the shops' fascia, with brackets; some walls have a second, or a cable beside it.
 void BuildDownPipes(FacadePen& pen, const BuildingPlan& plan, RngStream& rng) {
-  const bool old = plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kBrickLoft || plan.style == FacadeStyle::kBrownstone ||
-                   plan.style == FacadeStyle::kStuccoShutters || plan.style == FacadeStyle::kClassicStone;
+  const bool old = plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kBrickLoft ||
+                   plan.style == FacadeStyle::kBrownstone || plan.style == FacadeStyle::kStuccoShutters ||
+                   plan.style == FacadeStyle::kClassicStone;
   if (!old || plan.base > 0 || pen.length() < 6 || !rng.Chance(0.7)) return;
   static constexpr S kPipes[] = {S::kTrimDark, S::kMetal, S::kFrameGreen, S::kBronze};
   const float from = plan.first_storey() + 0.05f, to = plan.height() - 0.35f;
@@ -188,12 +187,9 @@ void BuildWallExtras(FacadeContext& context, FacadePen& pen, const BuildingPlan&
   // A stack of landings; the lowest hangs over the shops.
   const float x = L * static_cast<float>(rng.Uniform(0.3, 0.7));
   for (int f = 0; f < plan.floors; ++f) {
-    AffineTransform X{{},
-                      {std::clamp(x, 2.4f, L - 2.4f), 0,
-                       plan.first_storey() + metrics.floor_height * static_cast<float>(f)}};
+    AffineTransform X{{}, {std::clamp(x, 2.4f, L - 2.4f), 0, plan.first_storey() + metrics.floor_height * static_cast<float>(f)}};
     X.A.m[2][2] = metrics.floor_height / 3.2f;
-    context.builder.AddInstance(
-        {(*context.fire_escape)[static_cast<size_t>(f % 2)], context.Place(pen.X_WF() * X), context.building});
+    context.builder.AddInstance({(*context.fire_escape)[static_cast<size_t>(f % 2)], context.Place(pen.X_WF() * X), context.building});
   }
 }
 

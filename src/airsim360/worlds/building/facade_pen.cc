@@ -13,29 +13,25 @@ void FacadePen::SetWall(Vec2f a, Vec2f b) {
 
 void FacadePen::Front(float x0, float x1, float z0, float z1, float y) {
   y = Out(y);
-  mesh_.QuadUv({x0, y, z0}, {x1, y, z0}, {x1, y, z1}, {x0, y, z1}, {x0, -z0}, {x1, -z0}, {x1, -z1},
-               {x0, -z1});
+  mesh_.QuadUv({x0, y, z0}, {x1, y, z0}, {x1, y, z1}, {x0, y, z1}, {x0, -z0}, {x1, -z0}, {x1, -z1}, {x0, -z1});
 }
 
 void FacadePen::Left(float x, float y0, float y1, float z0, float z1) {
   y0 = Out(y0);
   y1 = Out(y1);
-  mesh_.QuadUv({x, y1, z0}, {x, y0, z0}, {x, y0, z1}, {x, y1, z1}, {y1, -z0}, {y0, -z0}, {y0, -z1},
-               {y1, -z1});
+  mesh_.QuadUv({x, y1, z0}, {x, y0, z0}, {x, y0, z1}, {x, y1, z1}, {y1, -z0}, {y0, -z0}, {y0, -z1}, {y1, -z1});
 }
 
 void FacadePen::Right(float x, float y0, float y1, float z0, float z1) {
   y0 = Out(y0);
   y1 = Out(y1);
-  mesh_.QuadUv({x, y0, z0}, {x, y1, z0}, {x, y1, z1}, {x, y0, z1}, {y0, -z0}, {y1, -z0}, {y1, -z1},
-               {y0, -z1});
+  mesh_.QuadUv({x, y0, z0}, {x, y1, z0}, {x, y1, z1}, {x, y0, z1}, {y0, -z0}, {y1, -z0}, {y1, -z1}, {y0, -z1});
 }
 
 void FacadePen::Up(float x0, float x1, float y0, float y1, float z) {
   y0 = Out(y0);
   y1 = Out(y1);
-  mesh_.QuadUv({x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}, {x0, -y0}, {x1, -y0}, {x1, -y1},
-               {x0, -y1});
+  mesh_.QuadUv({x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}, {x0, -y0}, {x1, -y0}, {x1, -y1}, {x0, -y1});
 }
 
 void FacadePen::Down(float x0, float x1, float y0, float y1, float z) {
@@ -65,8 +61,7 @@ void FacadePen::Reveal(float x0, float x1, float z0, float z1, float y0, float y
   Down(x0, x1, y0, y1, z1);
 }
 
-void FacadePen::WallAround(float x0, float x1, float z0, float z1, float ox0, float ox1, float oz0,
-                           float oz1) {
+void FacadePen::WallAround(float x0, float x1, float z0, float z1, float ox0, float ox1, float oz0, float oz1) {
   if (oz0 > z0) Front(x0, x1, z0, oz0, 0);
   if (oz1 < z1) Front(x0, x1, oz1, z1, 0);
   if (ox0 > x0) Front(x0, ox0, oz0, oz1, 0);

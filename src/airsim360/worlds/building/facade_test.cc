@@ -18,17 +18,15 @@ constexpr float kDeepest = 1.25f;  // metres behind the wall: doors of shops are
 constexpr float kProud = 2.0f;     // metres before it: the stoop of a brownstone
 
 const std::set<MaterialId>& Panes() {
-  static const std::set<MaterialId> panes{
-      TestMaterial(Surface::kGlassDark),      TestMaterial(Surface::kGlassBlue),
-      TestMaterial(Surface::kGlassBlind),     TestMaterial(Surface::kGlassLit),
-      TestMaterial(Surface::kGlassBlack),     TestMaterial(Surface::kGlassCurtain),
-      TestMaterial(Surface::kGlassRedCurtain)};
+  static const std::set<MaterialId> panes{TestMaterial(Surface::kGlassDark),      TestMaterial(Surface::kGlassBlue),
+                                          TestMaterial(Surface::kGlassBlind),     TestMaterial(Surface::kGlassLit),
+                                          TestMaterial(Surface::kGlassBlack),     TestMaterial(Surface::kGlassCurtain),
+                                          TestMaterial(Surface::kGlassRedCurtain)};
   return panes;
 }
 
 // A building of 21 x 15 m over the origin, all of its edges of one kind.
-BuildingPlan House(FacadeStyle style, EdgeKind kind = EdgeKind::kStreet, uint64_t seed = 5,
-                   float width = 21) {
+BuildingPlan House(FacadeStyle style, EdgeKind kind = EdgeKind::kStreet, uint64_t seed = 5, float width = 21) {
   BuildingPlan plan;
   plan.outline = {{0, 0}, {width, 0}, {width, 15}, {0, 15}};
   plan.edges.assign(4, kind);
@@ -49,8 +47,7 @@ Walls Build(const BuildingPlan& plan, FacadeDetail detail, Fitting fit = {}) {
   SceneBuilder builder("facade");
   const Surfaces surfaces = AddTestSurfaces(builder);
   MeshBuilder mesh;
-  FacadeContext context{builder, surfaces, mesh, AddBalconyMesh(builder, surfaces),
-                        AddWindowBoxMesh(builder, surfaces)};
+  FacadeContext context{builder, surfaces, mesh, AddBalconyMesh(builder, surfaces), AddWindowBoxMesh(builder, surfaces)};
   context.base = fit.base;
   context.stretch = fit.stretch;
   context.reach = fit.reach;
@@ -66,14 +63,13 @@ using Case = std::tuple<FacadeStyle, EdgeKind, FacadeDetail>;
 std::string NameOf(const Case& c) {
   static constexpr const char* kKinds[] = {"street", "rear", "party"};
   static constexpr const char* kDetails[] = {"full", "simple", "flat"};
-  return FacadeStyleNames()[static_cast<size_t>(std::get<0>(c))] + "_" +
-         kKinds[static_cast<size_t>(std::get<1>(c))] + "_" + kDetails[static_cast<size_t>(std::get<2>(c))];
+  return FacadeStyleNames()[static_cast<size_t>(std::get<0>(c))] + "_" + kKinds[static_cast<size_t>(std::get<1>(c))] + "_" +
+         kDetails[static_cast<size_t>(std::get<2>(c))];
 }
 
 std::vector<FacadeStyle> AllStyles() {
   std::vector<FacadeStyle> styles;
-  for (int i = 0; i < static_cast<int>(FacadeStyle::kCount); ++i)
-    styles.push_back(static_cast<FacadeStyle>(i));
+  for (int i = 0; i < static_cast<int>(FacadeStyle::kCount); ++i) styles.push_back(static_cast<FacadeStyle>(i));
   return styles;
 }
 
@@ -85,12 +81,11 @@ class EveryFacade : public testing::TestWithParam<Case> {
   BuildingPlan plan(uint64_t seed = 5) const { return House(style(), kind(), seed); }
 };
 
-INSTANTIATE_TEST_SUITE_P(
-    Facades, EveryFacade,
-    testing::Combine(testing::ValuesIn(AllStyles()),
-                     testing::Values(EdgeKind::kStreet, EdgeKind::kRear, EdgeKind::kParty),
-                     testing::Values(FacadeDetail::kFull, FacadeDetail::kSimple, FacadeDetail::kFlat)),
-    [](const auto& info) { return NameOf(info.param); });
+INSTANTIATE_TEST_SUITE_P(Facades, EveryFacade,
+                         testing::Combine(testing::ValuesIn(AllStyles()),
+                                          testing::Values(EdgeKind::kStreet, EdgeKind::kRear, EdgeKind::kParty),
+                                          testing::Values(FacadeDetail::kFull, FacadeDetail::kSimple, FacadeDetail::kFlat)),
+                         [](const auto& info) { return NameOf(info.param); });
 
 // Rays from the street, straight on and from both sides, end at the wall or in its openings.
 TEST_P(EveryFacade, HasNoHoleThatARayFromTheStreetGoesThrough) {
@@ -105,8 +100,7 @@ TEST_P(EveryFacade, HasNoHoleThatARayFromTheStreetGoesThrough) {
         const auto hit = walls.First(at - d * (12 / d.y), d, 30);
         const float y = hit ? hit->t * d.y - 12 : 1e9f;
         if (y >= -kProud && y <= kDeepest) continue;
-        if (++holes <= 5)
-          ADD_FAILURE() << "hole at x " << x << ", z " << z << ", slant " << slant << ", y " << y;
+        if (++holes <= 5) ADD_FAILURE() << "hole at x " << x << ", z " << z << ", slant " << slant << ", y " << y;
       }
     }
   }
@@ -136,8 +130,7 @@ TEST_P(EveryFacade, StaysWithinItsBuilding) {
 }
 
 TEST_P(EveryFacade, FollowsFromItsSeed) {
-  const Mesh one = Build(plan(5), detail()).mesh, again = Build(plan(5), detail()).mesh,
-             other = Build(plan(6), detail()).mesh;
+  const Mesh one = Build(plan(5), detail()).mesh, again = Build(plan(5), detail()).mesh, other = Build(plan(6), detail()).mesh;
   EXPECT_TRUE(SameBytes(one, again));
   const bool picture = detail() == FacadeDetail::kFlat && kind() != EdgeKind::kParty;
   EXPECT_EQ(SameBytes(one, other), picture);
@@ -169,9 +162,8 @@ TEST_P(EveryFacade, OfATierBeginsAtItsBase) {
 
 class EveryStyle : public testing::TestWithParam<FacadeStyle> {};
 
-INSTANTIATE_TEST_SUITE_P(Facades, EveryStyle, testing::ValuesIn(AllStyles()), [](const auto& info) {
-  return FacadeStyleNames()[static_cast<size_t>(info.param)];
-});
+INSTANTIATE_TEST_SUITE_P(Facades, EveryStyle, testing::ValuesIn(AllStyles()),
+                         [](const auto& info) { return FacadeStyleNames()[static_cast<size_t>(info.param)]; });
 
 TEST_P(EveryStyle, IsAsHighAsItsStoreys) {
   const StyleMetrics& metrics = MetricsOf(GetParam());
@@ -182,8 +174,7 @@ TEST_P(EveryStyle, IsAsHighAsItsStoreys) {
     plan.base = 33;
     EXPECT_FLOAT_EQ(plan.height(), 33 + static_cast<float>(floors) * metrics.floor_height);
   }
-  EXPECT_EQ(StylesOf({FacadeStyleNames()[static_cast<size_t>(GetParam())]}),
-            std::vector<FacadeStyle>{GetParam()});
+  EXPECT_EQ(StylesOf({FacadeStyleNames()[static_cast<size_t>(GetParam())]}), std::vector<FacadeStyle>{GetParam()});
 }
 
 // Twice as many bays have twice as much glass; twice as many storeys too.
@@ -213,8 +204,7 @@ TEST_P(EveryStyle, HasAsManyPalettesAsItSaysAndTheyDiffer) {
     std::set<MaterialId> used;
     for (const MeshPart& part : built.back().parts) used.insert(part.material);
     EXPECT_TRUE(used.contains(TestMaterial(WallSurfaceOf(plan))));
-    for (int other = 0; other < palette; ++other)
-      EXPECT_FALSE(SameBytes(built.back(), built[static_cast<size_t>(other)]));
+    for (int other = 0; other < palette; ++other) EXPECT_FALSE(SameBytes(built.back(), built[static_cast<size_t>(other)]));
   }
 }
 
@@ -267,15 +257,11 @@ TEST_P(EveryStyle, RedCurtainsHangInTheirStoreyAlone) {
   plan.curtain_floor = 2;
   const StyleMetrics& metrics = MetricsOf(GetParam());
   const float z0 = metrics.ground_height + 2 * metrics.floor_height;
-  const Mesh mesh = Build(plan, FacadeDetail::kFull).mesh,
-             bare = Build(House(GetParam()), FacadeDetail::kFull).mesh;
+  const Mesh mesh = Build(plan, FacadeDetail::kFull).mesh, bare = Build(House(GetParam()), FacadeDetail::kFull).mesh;
   const std::set<MaterialId> red{TestMaterial(Surface::kGlassRedCurtain), TestMaterial(Surface::kAwningRed)};
-  const auto storey = [&](const Mesh& m) {
-    return AreaOf(m, red, z0 - 0.01f, z0 + metrics.floor_height + 0.01f);
-  };
+  const auto storey = [&](const Mesh& m) { return AreaOf(m, red, z0 - 0.01f, z0 + metrics.floor_height + 0.01f); };
   EXPECT_GT(storey(mesh), storey(bare) + 5);
-  EXPECT_NEAR(AreaOf(mesh, red, metrics.ground_height) - storey(mesh),
-              AreaOf(bare, red, metrics.ground_height) - storey(bare), 1e-3);
+  EXPECT_NEAR(AreaOf(mesh, red, metrics.ground_height) - storey(mesh), AreaOf(bare, red, metrics.ground_height) - storey(bare), 1e-3);
 }
 
 enum class PenFace { kFront, kLeft, kRight, kUp, kDown };
@@ -283,8 +269,7 @@ enum class PenFace { kFront, kLeft, kRight, kUp, kDown };
 class EveryFaceOfThePen : public testing::TestWithParam<std::tuple<PenFace, int>> {};
 
 INSTANTIATE_TEST_SUITE_P(FacadePen, EveryFaceOfThePen,
-                         testing::Combine(testing::Values(PenFace::kFront, PenFace::kLeft, PenFace::kRight,
-                                                          PenFace::kUp, PenFace::kDown),
+                         testing::Combine(testing::Values(PenFace::kFront, PenFace::kLeft, PenFace::kRight, PenFace::kUp, PenFace::kDown),
                                           testing::Range(0, 8)));
 
 // Seen from outside, x runs to the right along any wall; every rectangle looks the way its name says.

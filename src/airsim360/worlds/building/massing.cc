@@ -44,12 +44,10 @@ FacadeStyle PickStyle(int floors, FacadeStyle before, RngStream& rng) {
   constexpr auto kStyles = static_cast<uint32_t>(FacadeStyle::kRibbon) + 1;  // the rest is New York's
   for (;;) {
     const auto style = static_cast<FacadeStyle>(rng.Index(kStyles));
-    const bool modern = style == FacadeStyle::kCurtainWall || style == FacadeStyle::kRibbon ||
-                        style == FacadeStyle::kConcreteGrid;
+    const bool modern = style == FacadeStyle::kCurtainWall || style == FacadeStyle::kRibbon || style == FacadeStyle::kConcreteGrid;
     if (style == before) continue;
     if (floors <= 4 && modern && !rng.Chance(0.15)) continue;
-    if (floors >= 10 && (style == FacadeStyle::kStuccoShutters || style == FacadeStyle::kBrickWalkUp))
-      continue;
+    if (floors >= 10 && (style == FacadeStyle::kStuccoShutters || style == FacadeStyle::kBrickWalkUp)) continue;
     return style;
   }
 }
@@ -64,9 +62,8 @@ int PickFloors(const Block& block, bool corner, RngStream& rng) {
 }
 
 RoofKind PickRoof(const BuildingPlan& building, RngStream& rng) {
-  const bool pitched =
-      building.floors <= 5 && building.outline.size() == 4 &&
-      (building.style == FacadeStyle::kStuccoShutters || building.style == FacadeStyle::kBrickWalkUp);
+  const bool pitched = building.floors <= 5 && building.outline.size() == 4 &&
+                       (building.style == FacadeStyle::kStuccoShutters || building.style == FacadeStyle::kBrickWalkUp);
   if (pitched && rng.Chance(0.75)) {
     return building.style == FacadeStyle::kStuccoShutters ? RoofKind::kHipTile : RoofKind::kHipSlate;
   }
@@ -76,8 +73,7 @@ RoofKind PickRoof(const BuildingPlan& building, RngStream& rng) {
 // Outline of a parcel of side `side`; edge 0 is the street edge (at the building line), edge 2 the rear.
 std::vector<Vec2f> ParcelOutline(const GroundRect& inner, int side, const Parcel& parcel) {
   const auto add = [](Vec2f origin, Vec2f u, float a, Vec2f v, float b) { return origin + u * a + v * b; };
-  const Vec2f origins[] = {
-      {inner.x0, inner.y0}, {inner.x1, inner.y0}, {inner.x1, inner.y1}, {inner.x0, inner.y1}};
+  const Vec2f origins[] = {{inner.x0, inner.y0}, {inner.x1, inner.y0}, {inner.x1, inner.y1}, {inner.x0, inner.y1}};
   const Vec2f along[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}}, inward[] = {{0, 1}, {-1, 0}, {0, -1}, {1, 0}};
   const auto at = [&](float s, float d) { return add(origins[side], along[side], s, inward[side], d); };
   return {at(parcel.from, 0), at(parcel.to, 0), at(parcel.to, kDepth), at(parcel.from, kDepth)};
@@ -121,8 +117,7 @@ void PlanBlock(const StreetPlan& plan, size_t index, uint64_t seed, std::vector<
                         parcel.alley_before ? EdgeKind::kRear : EdgeKind::kParty};
       building.floors = PickFloors(block, parcel.corner, rng);
       building.style = before = PickStyle(building.floors, before, rng);
-      building.palette =
-          static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(building.style).palettes)));
+      building.palette = static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(building.style).palettes)));
       building.seed = rng.Bits();
       if (parcel.corner) {
         // The outer side edge is a street too; the rear is shared with the column behind.
@@ -148,17 +143,16 @@ void HidePartyWalls(std::vector<BuildingPlan>& out, size_t first) {
       const Vec2f direction = (b - a) * (1 / std::hypot(b.x - a.x, b.y - a.y));
       const Vec2f probe = (a + b) * 0.5f + Vec2f{direction.y, -direction.x} * 0.5f;
       for (size_t k = first; k < out.size(); ++k) {
-        if (k != i && out[k].base == 0 && out[k].bounds().Contains(probe))
-          out[i].party_height[e] = out[k].height();
+        if (k != i && out[k].base == 0 && out[k].bounds().Contains(probe)) out[i].party_height[e] = out[k].height();
       }
     }
   }
 }
 
 const std::vector<std::string>& FacadeStyleNames() {
-  static const std::vector<std::string> names = {
-      "brick_walk_up", "classic_stone", "stucco_shutters", "concrete_grid", "curtain_wall", "brick_loft",
-      "ribbon",        "deco",          "brownstone",      "braced_glass"};
+  static const std::vector<std::string> names = {"brick_walk_up", "classic_stone", "stucco_shutters", "concrete_grid",
+                                                 "curtain_wall",  "brick_loft",    "ribbon",          "deco",
+                                                 "brownstone",    "braced_glass"};
   return names;
 }
 
@@ -188,9 +182,7 @@ const StyleMetrics& MetricsOf(FacadeStyle style) {
 
 float BuildingPlan::first_storey() const { return base > 0 ? base : MetricsOf(style).ground_height; }
 
-float BuildingPlan::height() const {
-  return first_storey() + static_cast<float>(floors) * MetricsOf(style).floor_height;
-}
+float BuildingPlan::height() const { return first_storey() + static_cast<float>(floors) * MetricsOf(style).floor_height; }
 
 GroundRect BuildingPlan::bounds() const {
   GroundRect box{outline[0].x, outline[0].y, outline[0].x, outline[0].y};

@@ -45,20 +45,20 @@ struct BuildingPlan {
   int palette = 0;
   RoofKind roof = RoofKind::kFlatGravel;
   uint64_t seed = 0;
-  float cornice = 1;            ///< scale of the cornice of its style
-  bool canopies = true;         ///< over its lobby
-  bool shops = true;            ///< on the ground floor towards streets; else windows and doors
-  size_t block = 0;             ///< index into StreetPlan::blocks
-  float base = 0;               ///< > 0: a tier on the roof of the plan before it, part of the same building
-  std::vector<Vec2f> upper;     ///< outline of the tier that stands on this roof; empty = none
-  GroundRect kept_free{};       ///< part of the deck where no machines stand; empty = none
-  int mural_edge = -1;          ///< party wall that is kept bare for a picture; -1 = none
-  bool fire_escapes = true;  ///< where its style has them
-  int curtain_floor = -1;       ///< storey whose windows all have red curtains; -1 = none
-  bool awnings = true;          ///< its shops may have some
-  std::string name;             ///< of the entity; empty = "building"
-  float first_storey() const;   ///< height of the first storey above the ground floor (or of the tier's foot)
-  float height() const;         ///< of the eaves or the roof deck, metres
+  float cornice = 1;           ///< scale of the cornice of its style
+  bool canopies = true;        ///< over its lobby
+  bool shops = true;           ///< on the ground floor towards streets; else windows and doors
+  size_t block = 0;            ///< index into StreetPlan::blocks
+  float base = 0;              ///< > 0: a tier on the roof of the plan before it, part of the same building
+  std::vector<Vec2f> upper;    ///< outline of the tier that stands on this roof; empty = none
+  GroundRect kept_free{};      ///< part of the deck where no machines stand; empty = none
+  int mural_edge = -1;         ///< party wall that is kept bare for a picture; -1 = none
+  bool fire_escapes = true;    ///< where its style has them
+  int curtain_floor = -1;      ///< storey whose windows all have red curtains; -1 = none
+  bool awnings = true;         ///< its shops may have some
+  std::string name;            ///< of the entity; empty = "building"
+  float first_storey() const;  ///< height of the first storey above the ground floor (or of the tier's foot)
+  float height() const;        ///< of the eaves or the roof deck, metres
   GroundRect bounds() const;
 };
 

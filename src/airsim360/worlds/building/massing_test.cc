@@ -14,13 +14,11 @@ TEST(Massing, BuildingsOfABlockDoNotOverlapAndKeepOffThePavement) {
   for (uint64_t seed : {0u, 1u, 7u}) {
     const std::vector<BuildingPlan> buildings = PlanBuildings(plan, seed);
     for (size_t i = 0; i < buildings.size(); ++i) {
-      const GroundRect a = buildings[i].bounds(),
-                       inner = plan.blocks[buildings[i].block].inner().Inset(-0.001f);
+      const GroundRect a = buildings[i].bounds(), inner = plan.blocks[buildings[i].block].inner().Inset(-0.001f);
       EXPECT_TRUE(inner.Contains({a.x0, a.y0}) && inner.Contains({a.x1, a.y1}));
       for (size_t k = i + 1; k < buildings.size() && buildings[k].block == buildings[i].block; ++k) {
         const GroundRect b = buildings[k].bounds();
-        const bool apart =
-            a.x1 <= b.x0 + 0.01f || b.x1 <= a.x0 + 0.01f || a.y1 <= b.y0 + 0.01f || b.y1 <= a.y0 + 0.01f;
+        const bool apart = a.x1 <= b.x0 + 0.01f || b.x1 <= a.x0 + 0.01f || a.y1 <= b.y0 + 0.01f || b.y1 <= a.y0 + 0.01f;
         EXPECT_TRUE(apart) << "seed " << seed << " buildings " << i << " and " << k;
       }
     }
@@ -33,8 +31,7 @@ TEST(Massing, OutlinesAreConvexCounterClockwiseWithAnEdgeKindEach) {
     ASSERT_EQ(building.edges.size(), n);
     ASSERT_EQ(building.party_height.size(), n);
     for (size_t i = 0; i < n; ++i) {
-      const Vec2f a = building.outline[i], b = building.outline[(i + 1) % n],
-                  c = building.outline[(i + 2) % n];
+      const Vec2f a = building.outline[i], b = building.outline[(i + 1) % n], c = building.outline[(i + 2) % n];
       EXPECT_GT((b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x), 0);
     }
   }

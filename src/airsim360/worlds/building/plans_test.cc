@@ -23,8 +23,7 @@ class EveryTownPlan : public testing::TestWithParam<Town> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Plans, EveryTownPlan,
-                         testing::Values(Town{"downtown_west", PlanDowntownWest},
-                                         Town{"new_york_city", PlanNewYorkCity}),
+                         testing::Values(Town{"downtown_west", PlanDowntownWest}, Town{"new_york_city", PlanNewYorkCity}),
                          [](const auto& info) { return info.param.name; });
 
 TEST_P(EveryTownPlan, BlocksLieBetweenTheKerbsOfTheirStreets) {
@@ -49,8 +48,7 @@ TEST_P(EveryTownPlan, BlocksAndStreetsTileTheGround) {
   // Half of the outermost streets lies beyond their centre lines.
   const auto inside = [](const std::vector<StreetLine>& lines) {
     double sum = 0;
-    for (size_t i = 0; i < lines.size(); ++i)
-      sum += static_cast<double>(lines[i].half_width) * (i == 0 || i + 1 == lines.size() ? 1 : 2);
+    for (size_t i = 0; i < lines.size(); ++i) sum += static_cast<double>(lines[i].half_width) * (i == 0 || i + 1 == lines.size() ? 1 : 2);
     return sum;
   };
   streets = inside(plan.north_south) * depth + inside(plan.east_west) * width;
@@ -61,8 +59,8 @@ TEST_P(EveryTownPlan, BlocksAndStreetsTileTheGround) {
 TEST_P(EveryTownPlan, ReachHoldsTheCoreAndNothingOfTheRing) {
   const GroundRect reach = plan.reach();
   for (const Block& block : plan.blocks) {
-    const bool core = block.column >= plan.first_core && block.column < plan.last_core &&
-                      block.row >= plan.first_core && block.row < plan.last_core;
+    const bool core =
+        block.column >= plan.first_core && block.column < plan.last_core && block.row >= plan.first_core && block.row < plan.last_core;
     EXPECT_EQ(core, block.kind != BlockKind::kBackdrop);
     const GroundRect inner = block.inner().Inset(0.01f);
     EXPECT_EQ(core, reach.Contains(inner.center()));
@@ -161,12 +159,10 @@ TEST_P(EverySeedOfPlans, CourtyardsAreOpen) {
 
 TEST_P(EverySeedOfPlans, FollowFromTheirSeed) {
   const auto same = [](const std::vector<BuildingPlan>& a, const std::vector<BuildingPlan>& b) {
-    return std::equal(
-        a.begin(), a.end(), b.begin(), b.end(), [](const BuildingPlan& x, const BuildingPlan& y) {
-          return x.outline == y.outline && x.edges == y.edges && x.party_height == y.party_height &&
-                 x.floors == y.floors && x.style == y.style && x.palette == y.palette && x.roof == y.roof &&
-                 x.seed == y.seed;
-        });
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const BuildingPlan& x, const BuildingPlan& y) {
+      return x.outline == y.outline && x.edges == y.edges && x.party_height == y.party_height && x.floors == y.floors &&
+             x.style == y.style && x.palette == y.palette && x.roof == y.roof && x.seed == y.seed;
+    });
   };
   EXPECT_TRUE(same(buildings, PlanBuildings(plan, seed())));
   EXPECT_FALSE(same(buildings, PlanBuildings(plan, seed() + 1)));
@@ -190,22 +186,19 @@ INSTANTIATE_TEST_SUITE_P(Plans, EveryConvexOutline, testing::Range(3, 12));
 TEST_P(EveryConvexOutline, LosesItsRimWhenMovedInwards) {
   std::vector<Vec2f> outline;
   for (int i = 0; i < GetParam(); ++i) {
-    const float a = 6.2831853f * (static_cast<float>(i) + 0.3f * std::sin(2.1f * static_cast<float>(i))) /
-                    static_cast<float>(GetParam());
+    const float a = 6.2831853f * (static_cast<float>(i) + 0.3f * std::sin(2.1f * static_cast<float>(i))) / static_cast<float>(GetParam());
     outline.push_back({9 * std::cos(a), 14 * std::sin(a)});
   }
   double perimeter = 0, tangents = 0;
   for (size_t i = 0; i < outline.size(); ++i) {
-    const Vec2f a = outline[i], b = outline[(i + 1) % outline.size()], c = outline[(i + 2) % outline.size()],
-                u = b - a, v = c - b;
+    const Vec2f a = outline[i], b = outline[(i + 1) % outline.size()], c = outline[(i + 2) % outline.size()], u = b - a, v = c - b;
     perimeter += std::hypot(u.x, u.y);
     const double turn = std::atan2(u.x * v.y - u.y * v.x, u.x * v.x + u.y * v.y);
     ASSERT_GT(turn, 0);
     tangents += std::tan(turn / 2);
   }
   for (float d : {0.3f, 1.0f, -0.5f}) {
-    const double expected =
-        Shoelace(outline) - perimeter * static_cast<double>(d) + static_cast<double>(d * d) * tangents;
+    const double expected = Shoelace(outline) - perimeter * static_cast<double>(d) + static_cast<double>(d * d) * tangents;
     EXPECT_NEAR(Shoelace(OffsetConvex(outline, d)), expected, 1e-3 * expected) << d;
   }
 }

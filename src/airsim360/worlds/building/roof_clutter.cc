@@ -12,8 +12,7 @@ namespace {
 
 constexpr float kQuarterTurn = 6.2831853f / 4;
 
-void Bulkhead(MeshBuilder& mesh, const Surfaces& surfaces, const BuildingPlan& plan, Vec2f at,
-              EntityId building) {
+void Bulkhead(MeshBuilder& mesh, const Surfaces& surfaces, const BuildingPlan& plan, Vec2f at, EntityId building) {
   const float z = plan.height();
   mesh.SetEntity(building);
   mesh.SetMaterial(surfaces[WallSurfaceOf(plan)]);
@@ -56,7 +55,8 @@ void HouseClutter(MeshBuilder& mesh, const Surfaces& surfaces, PropShelf& shelf,
   const Vec2f light{cx + uniform(-0.6f, 0.6f), r.y0 + third * (rng.Chance(0.5) ? 0.5f : 2.5f)};
   box(Surface::kMetal, light, {0.55f, 0.8f}, z, z + 0.3f, false);
   box(Surface::kGlassBlue, light, {0.5f, 0.75f}, z + 0.3f, z + 0.38f, true);
-  for (float t : {0.15f, 0.85f}) shelf.Place("roof_vent", {cx + uniform(-0.25f, 0.25f) * r.width(), r.y0 + r.depth() * t, z}, 0, rng.Index(3));
+  for (float t : {0.15f, 0.85f})
+    shelf.Place("roof_vent", {cx + uniform(-0.25f, 0.25f) * r.width(), r.y0 + r.depth() * t, z}, 0, rng.Index(3));
   if (rng.Chance(0.35)) shelf.Place("antenna", {r.x1 - 0.6f, r.y0 + third * 1.1f, z}, 0, rng.Index(3));
 }
 
@@ -98,9 +98,7 @@ bool Deck::Inside(Vec2f p) const {
   return true;
 }
 
-Vec2f Deck::Spot() {
-  return {static_cast<float>(rng_.Uniform(area_.x0, area_.x1)), static_cast<float>(rng_.Uniform(area_.y0, area_.y1))};
-}
+Vec2f Deck::Spot() { return {static_cast<float>(rng_.Uniform(area_.x0, area_.x1)), static_cast<float>(rng_.Uniform(area_.y0, area_.y1))}; }
 
 void Deck::Scatter(std::string_view kind, int count, float yaw) {
   const float r = FindPropKind(kind).footprint_radius;

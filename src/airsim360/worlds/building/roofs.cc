@@ -13,8 +13,7 @@ namespace {
 using internal::kParapetThickness;
 
 // Ring between two outlines of the same corner count at heights za and zb, facing up.
-void Ring(MeshBuilder& mesh, const std::vector<Vec2f>& outer, const std::vector<Vec2f>& inner, float za,
-          float zb) {
+void Ring(MeshBuilder& mesh, const std::vector<Vec2f>& outer, const std::vector<Vec2f>& inner, float za, float zb) {
   for (size_t i = 0; i < outer.size(); ++i) {
     const size_t k = (i + 1) % outer.size();
     const Vec3f a{outer[i].x, outer[i].y, za}, b{outer[k].x, outer[k].y, za};
@@ -28,13 +27,12 @@ std::vector<Vec2f> Reversed(std::vector<Vec2f> outline) {
   return outline;
 }
 
-void FlatDeck(MeshBuilder& mesh, const Surfaces& surfaces, const BuildingPlan& plan, EntityId building,
-              EntityId roof) {
+void FlatDeck(MeshBuilder& mesh, const Surfaces& surfaces, const BuildingPlan& plan, EntityId building, EntityId roof) {
   const float deck = plan.height(), top = deck + ParapetHeight(plan);
   const std::vector<Vec2f> inner = OffsetConvex(plan.outline, kParapetThickness);
   mesh.SetEntity(roof);
   // Some have a coat that throws the sun back.
-  mesh.SetMaterial(surfaces[plan.seed % 5 == 0                      ? Surface::kAsphaltPale
+  mesh.SetMaterial(surfaces[plan.seed % 5 == 0                   ? Surface::kAsphaltPale
                             : plan.roof == RoofKind::kFlatGravel ? Surface::kRoofGravel
                                                                  : Surface::kRoofBitumen]);
   mesh.Polygon(inner, deck);
@@ -42,8 +40,7 @@ void FlatDeck(MeshBuilder& mesh, const Surfaces& surfaces, const BuildingPlan& p
   mesh.SetMaterial(surfaces[Surface::kRoofBitumen]);
   Ring(mesh, OffsetConvex(inner, -0.001f), OffsetConvex(inner, 0.16f), deck + 0.18f, deck + 0.004f);
   mesh.SetMaterial(surfaces[Surface::kCoping]);
-  const std::vector<Vec2f> out = OffsetConvex(plan.outline, -0.06f),
-                           in = OffsetConvex(plan.outline, kParapetThickness + 0.05f);
+  const std::vector<Vec2f> out = OffsetConvex(plan.outline, -0.06f), in = OffsetConvex(plan.outline, kParapetThickness + 0.05f);
   mesh.Walls(out, top, top + 0.09f);
   Ring(mesh, out, in, top + 0.09f, top + 0.09f);
   Ring(mesh, plan.outline, out, top, top);
@@ -54,8 +51,7 @@ void FlatDeck(MeshBuilder& mesh, const Surfaces& surfaces, const BuildingPlan& p
 }
 
 // Hip roof over a rectangle, with overhanging eaves, a fascia and a chimney.
-void HipRoof(MeshBuilder& mesh, const Surfaces& surfaces, const BuildingPlan& plan, EntityId building,
-             EntityId roof) {
+void HipRoof(MeshBuilder& mesh, const Surfaces& surfaces, const BuildingPlan& plan, EntityId building, EntityId roof) {
   const float eaves = plan.height() + 0.05f, overhang = 0.45f;
   GroundRect r = plan.bounds().Inset(0);
   // Eaves hang over streets and yard, not over neighbours.
@@ -100,19 +96,17 @@ void HipRoof(MeshBuilder& mesh, const Surfaces& surfaces, const BuildingPlan& pl
   RngStream rng(plan.seed, "hip roof");
   mesh.SetEntity(building);
   mesh.SetMaterial(surfaces[Surface::kBrickBrown]);
-  const Vec3f at = p0 + (p1 - p0) * static_cast<float>(rng.Uniform(0.1, 0.9)) +
-                   Vec3f{long_x ? 0.0f : 1.5f, long_x ? 1.5f : 0.0f, 0};
+  const Vec3f at = p0 + (p1 - p0) * static_cast<float>(rng.Uniform(0.1, 0.9)) + Vec3f{long_x ? 0.0f : 1.5f, long_x ? 1.5f : 0.0f, 0};
   mesh.Box({at.x - 0.35f, at.y - 0.5f, ridge - 2}, {at.x + 0.35f, at.y + 0.5f, ridge + 0.9f},
            MeshBuilder::kAllSides & ~MeshBuilder::kBottom);
   mesh.SetMaterial(surfaces[Surface::kBrickRed]);
-  for (float dy : {-0.25f, 0.25f})
-    mesh.Tube({at.x, at.y + dy, ridge + 0.9f}, {at.x, at.y + dy, ridge + 1.3f}, 0.13f, 0.1f, 8, false, true);
+  for (float dy : {-0.25f, 0.25f}) mesh.Tube({at.x, at.y + dy, ridge + 0.9f}, {at.x, at.y + dy, ridge + 1.3f}, 0.13f, 0.1f, 8, false, true);
 }
 
 }  // namespace
 
-void BuildRoof(SceneBuilder&, MeshBuilder& mesh, const Surfaces& surfaces, PropShelf* shelf,
-               const BuildingPlan& building, EntityId building_entity, EntityId roof_entity) {
+void BuildRoof(SceneBuilder&, MeshBuilder& mesh, const Surfaces& surfaces, PropShelf* shelf, const BuildingPlan& building,
+               EntityId building_entity, EntityId roof_entity) {
   mesh.SetTransform({});
   if (building.roof == RoofKind::kHipTile || building.roof == RoofKind::kHipSlate) {
     HipRoof(mesh, surfaces, building, building_entity, roof_entity);

@@ -11,7 +11,7 @@ namespace airsim360 {
 
 /// The roof of a building into `mesh`; parapet backs and bulkheads belong to the building. `shelf` gives the
 /// clutter, or null for a bare roof.
-void BuildRoof(SceneBuilder& builder, MeshBuilder& mesh, const Surfaces& surfaces, PropShelf* shelf,
-               const BuildingPlan& building, EntityId building_entity, EntityId roof_entity);
+void BuildRoof(SceneBuilder& builder, MeshBuilder& mesh, const Surfaces& surfaces, PropShelf* shelf, const BuildingPlan& building,
+               EntityId building_entity, EntityId roof_entity);
 
 }  // namespace airsim360

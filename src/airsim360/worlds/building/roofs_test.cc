@@ -28,19 +28,15 @@ std::vector<RoofCase> RoofCases() {
                                                     {"bitumen", RoofKind::kFlatBitumen},
                                                     {"hip_tile", RoofKind::kHipTile},
                                                     {"hip_slate", RoofKind::kHipSlate}};
-  const std::tuple<const char*, float, float> sizes[] = {
-      {"wide", 18, 11}, {"deep", 6, 14.5f}, {"square", 12, 12}, {"narrow", 4.7f, 14.5f}};
-  const std::pair<const char*, std::vector<E>> sides[] = {
-      {"alone", {E::kStreet, E::kStreet, E::kStreet, E::kStreet}},
-      {"in_a_row", {E::kStreet, E::kParty, E::kRear, E::kParty}},
-      {"at_a_corner", {E::kStreet, E::kStreet, E::kParty, E::kParty}}};
+  const std::tuple<const char*, float, float> sizes[] = {{"wide", 18, 11}, {"deep", 6, 14.5f}, {"square", 12, 12}, {"narrow", 4.7f, 14.5f}};
+  const std::pair<const char*, std::vector<E>> sides[] = {{"alone", {E::kStreet, E::kStreet, E::kStreet, E::kStreet}},
+                                                          {"in_a_row", {E::kStreet, E::kParty, E::kRear, E::kParty}},
+                                                          {"at_a_corner", {E::kStreet, E::kStreet, E::kParty, E::kParty}}};
   for (const auto& [kind_name, kind] : kinds)
     for (const auto& [size_name, x, y] : sizes)
       for (const auto& [side_name, edges] : sides)
-        cases.push_back({std::string(kind_name) + "_" + size_name + "_" + side_name,
-                         kind,
-                         {{3, 2}, {3 + x, 2}, {3 + x, 2 + y}, {3, 2 + y}},
-                         edges});
+        cases.push_back(
+            {std::string(kind_name) + "_" + size_name + "_" + side_name, kind, {{3, 2}, {3 + x, 2}, {3 + x, 2 + y}, {3, 2 + y}}, edges});
   for (const auto& [kind_name, kind] : {kinds[0], kinds[1]})
     cases.push_back({std::string(kind_name) + "_chamfered",
                      kind,
@@ -61,9 +57,7 @@ class EveryRoof : public testing::TestWithParam<RoofCase> {
     plan.seed = seed;
     return plan;
   }
-  float overhang(size_t edge) const {
-    return hip() && GetParam().edges[edge] != EdgeKind::kParty ? 0.45f : 0.0f;
-  }
+  float overhang(size_t edge) const { return hip() && GetParam().edges[edge] != EdgeKind::kParty ? 0.45f : 0.0f; }
   struct Built {
     Mesh mesh;
     std::shared_ptr<const Scene> scene;
@@ -84,16 +78,14 @@ class EveryRoof : public testing::TestWithParam<RoofCase> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Roofs, EveryRoof, testing::ValuesIn(RoofCases()),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Roofs, EveryRoof, testing::ValuesIn(RoofCases()), [](const auto& info) { return info.param.name; });
 
 TEST_P(EveryRoof, LetsNoRainInAndLiesBetweenEavesAndRidge) {
   const BuildingPlan house = plan();
   const TestRays roof(Build(house, false).mesh, 0);
   const GroundRect box = house.bounds();
   const float eaves = house.height(), half = std::min(box.width(), box.depth()) / 2 + 0.45f;
-  const float top =
-      hip() ? eaves + 0.06f + 0.62f * half + 1.31f : eaves + ParapetHeight(house) + 0.1f;  // chimney, coping
+  const float top = hip() ? eaves + 0.06f + 0.62f * half + 1.31f : eaves + ParapetHeight(house) + 0.1f;  // chimney, coping
   for (float x = box.x0 + 0.021f; x < box.x1; x += 0.37f) {
     for (float y = box.y0 + 0.017f; y < box.y1; y += 0.41f) {
       const std::vector<Vec2f>& o = house.outline;
@@ -118,8 +110,8 @@ TEST_P(EveryRoof, HangsOverStreetAndYardButNotOverNeighbours) {
   for (size_t e = 0; e < house.outline.size(); ++e) {
     const Vec2f a = house.outline[e], b = house.outline[(e + 1) % house.outline.size()], v = b - a;
     if (std::abs(v.x) > 0.01f && std::abs(v.y) > 0.01f) continue;
-    const float beyond = std::abs(v.y) < 0.01f ? (v.x > 0 ? a.y - box.min.y : box.max.y - a.y)
-                                               : (v.y > 0 ? box.max.x - a.x : a.x - box.min.x);
+    const float beyond =
+        std::abs(v.y) < 0.01f ? (v.x > 0 ? a.y - box.min.y : box.max.y - a.y) : (v.y > 0 ? box.max.x - a.x : a.x - box.min.x);
     EXPECT_NEAR(beyond, hip() ? overhang(e) : 0.06f, 1e-3) << "edge " << e;
   }
 }

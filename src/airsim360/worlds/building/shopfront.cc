@@ -11,27 +11,24 @@ void BuildAwning(FacadeContext& context, FacadePen& pen, float x0, float x1, Rng
   // Striped, and as many of one dull colour.
   static constexpr Surface kCloths[] = {Surface::kAwningRed, Surface::kAwningGreen, Surface::kAwningBlue,   Surface::kAwningYellow,
                                         Surface::kTrimDark,  Surface::kFrameGreen,  Surface::kShutterGreen, Surface::kBrownstoneTrim};
-  const EntityId entity =
-      context.builder.AddEntity("awning", context.builder.tree().At("construction/awning"));
+  const EntityId entity = context.builder.AddEntity("awning", context.builder.tree().At("construction/awning"));
   const float out = -static_cast<float>(rng.Uniform(1.1, 1.5)), top = kSignFrom - 0.02f, low = top - 0.62f;
   pen.UseEntity(entity);
   pen.Use(kCloths[rng.Index(8)]);
   // Cloth, valance and cheeks; two layers so that both sides show.
   MeshBuilder& mesh = pen.mesh();
   const float w = x1 - x0;
-  mesh.QuadUv({x0, out, low}, {x1, out, low}, {x1, -0.03f, top}, {x0, -0.03f, top}, {0, 1.6f}, {w, 1.6f},
-              {w, 0}, {0, 0});
-  mesh.QuadUv({x0, -0.03f, top - 0.03f}, {x1, -0.03f, top - 0.03f}, {x1, out, low - 0.03f},
-              {x0, out, low - 0.03f}, {0, 0}, {w, 0}, {w, 1.6f}, {0, 1.6f});
+  mesh.QuadUv({x0, out, low}, {x1, out, low}, {x1, -0.03f, top}, {x0, -0.03f, top}, {0, 1.6f}, {w, 1.6f}, {w, 0}, {0, 0});
+  mesh.QuadUv({x0, -0.03f, top - 0.03f}, {x1, -0.03f, top - 0.03f}, {x1, out, low - 0.03f}, {x0, out, low - 0.03f}, {0, 0}, {w, 0},
+              {w, 1.6f}, {0, 1.6f});
   pen.Front(x0, x1, low - 0.22f, low, out);
-  mesh.QuadUv({x1, out + 0.02f, low - 0.22f}, {x0, out + 0.02f, low - 0.22f}, {x0, out + 0.02f, low},
-              {x1, out + 0.02f, low}, {w, 0.2f}, {0, 0.2f}, {0, 0}, {w, 0});
+  mesh.QuadUv({x1, out + 0.02f, low - 0.22f}, {x0, out + 0.02f, low - 0.22f}, {x0, out + 0.02f, low}, {x1, out + 0.02f, low}, {w, 0.2f},
+              {0, 0.2f}, {0, 0}, {w, 0});
   mesh.Triangle({x0, -0.03f, low}, {x0, out, low}, {x0, -0.03f, top}, {0, 0}, {0.1f, 0}, {0, 0.1f});
   mesh.Triangle({x1, out, low}, {x1, -0.03f, low}, {x1, -0.03f, top}, {0, 0}, {0.1f, 0}, {0, 0.1f});
   // Arms.
   pen.Use(Surface::kFrameDark);
-  for (float x : {x0 + 0.05f, x1 - 0.05f})
-    mesh.Beam({x, -0.02f, low - 0.5f}, {x, out + 0.05f, low - 0.05f}, 0.03f);
+  for (float x : {x0 + 0.05f, x1 - 0.05f}) mesh.Beam({x, -0.02f, low - 0.5f}, {x, out + 0.05f, low - 0.05f}, 0.03f);
 }
 
 void BuildSign(FacadeContext& context, FacadePen& pen, float x0, float x1) {
@@ -60,8 +57,7 @@ struct Shop {
 
 Shop PlanShop(float x0, float x1, RngStream& rng) {
   static constexpr Surface kInsides[] = {Surface::kShopInside0, Surface::kShopInside1, Surface::kShopInside2};
-  static constexpr Surface kDoors[] = {Surface::kDoorGreen, Surface::kDoorRed, Surface::kDoorWood,
-                                       Surface::kFrameDark};
+  static constexpr Surface kDoors[] = {Surface::kDoorGreen, Surface::kDoorRed, Surface::kDoorWood, Surface::kFrameDark};
   Shop shop;
   shop.inside = kInsides[rng.Index(3)];
   shop.door = kDoors[rng.Index(4)];
@@ -143,8 +139,7 @@ void BuildDoor(FacadePen& pen, const GroundFloor& floor, const Shop& shop) {
 
 }  // namespace
 
-void BuildShop(FacadeContext& context, FacadePen& pen, const GroundFloor& floor, float x0, float x1,
-               RngStream& rng) {
+void BuildShop(FacadeContext& context, FacadePen& pen, const GroundFloor& floor, float x0, float x1, RngStream& rng) {
   const Shop shop = PlanShop(x0, x1, rng);
   pen.UseEntity(floor.entity);
   BuildPiers(pen, floor, shop);

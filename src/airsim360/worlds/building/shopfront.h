@@ -15,8 +15,7 @@ struct GroundFloor {
 };
 
 /// One shop between x0 and x1 of the pen's wall.
-void BuildShop(FacadeContext& context, FacadePen& pen, const GroundFloor& floor, float x0, float x1,
-               RngStream& rng);
+void BuildShop(FacadeContext& context, FacadePen& pen, const GroundFloor& floor, float x0, float x1, RngStream& rng);
 /// A glazed lobby with a canopy.
 void BuildLobby(FacadePen& pen, const GroundFloor& floor, float x0, float x1);
 

@@ -31,8 +31,7 @@ class EveryShopFront : public testing::TestWithParam<ShopCase> {
     SceneBuilder builder("shop");
     const Surfaces surfaces = AddTestSurfaces(builder);
     MeshBuilder mesh;
-    FacadeContext context{builder, surfaces, mesh, AddBalconyMesh(builder, surfaces),
-                          AddWindowBoxMesh(builder, surfaces)};
+    FacadeContext context{builder, surfaces, mesh, AddBalconyMesh(builder, surfaces), AddWindowBoxMesh(builder, surfaces)};
     FacadePen pen(mesh, surfaces);
     BuildingPlan plan;
     Built built;
@@ -40,8 +39,7 @@ class EveryShopFront : public testing::TestWithParam<ShopCase> {
     const float w = std::get<0>(GetParam());
     pen.SetWall({0, 0}, {3 * w, 0});
     pen.UseEntity(built.house);
-    const GroundFloor floor{
-        plan, built.house, kHeight, Surface::kBrickRed, Surface::kTrimStone, Surface::kFrameDark};
+    const GroundFloor floor{plan, built.house, kHeight, Surface::kBrickRed, Surface::kTrimStone, Surface::kFrameDark};
     RngStream rng(seed, "shops");
     for (int i = 0; i < 3; ++i) {
       const float x = w * static_cast<float>(i);
@@ -57,14 +55,11 @@ class EveryShopFront : public testing::TestWithParam<ShopCase> {
     for (const Entity& entity : scene->entities) built.paths[entity.id] = scene->tree[entity.category].path;
     return built;
   }
-  Built Build(bool lobby = false) const {
-    return Build(lobby, static_cast<uint64_t>(std::get<1>(GetParam())));
-  }
+  Built Build(bool lobby = false) const { return Build(lobby, static_cast<uint64_t>(std::get<1>(GetParam()))); }
   float end() const { return 3 * std::get<0>(GetParam()); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Shops, EveryShopFront,
-                         testing::Combine(testing::Values(2.7f, 3.4f, 4.9f, 7.3f), testing::Range(1, 7)),
+INSTANTIATE_TEST_SUITE_P(Shops, EveryShopFront, testing::Combine(testing::Values(2.7f, 3.4f, 4.9f, 7.3f), testing::Range(1, 7)),
                          [](const auto& info) {
                            return std::to_string(static_cast<int>(100 * std::get<0>(info.param))) + "cm_" +
                                   std::to_string(std::get<1>(info.param));

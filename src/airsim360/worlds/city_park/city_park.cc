@@ -16,9 +16,7 @@ AffineTransform PlaceTilted(Vec3f p, Vec3f up, float yaw, float scale) {
 
 }  // namespace park
 
-std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options) {
-  return BuildCityPark(options, nullptr);
-}
+std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options) { return BuildCityPark(options, nullptr); }
 
 std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options, std::vector<Placement>* placements) {
   using namespace park;

@@ -9,8 +9,8 @@
 #include "airsim360/base/hash.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/worlds/built_in.h"
-#include "airsim360/worlds/props/placer.h"
 #include "airsim360/worlds/city_park/layout.h"
+#include "airsim360/worlds/props/placer.h"
 
 namespace airsim360 {
 namespace {
@@ -76,15 +76,13 @@ TEST(CityPark, HasThePapersCategoriesAndAnnouncesExactlyWhatItHas) {
   // The floor that a park of 80 hectares needs; the lengths are those of main road, pavements and paths.
   EXPECT_GE(internal::CityParkInfo().area_m2, 800000);
   EXPECT_GE(groups.at("construction/building").size(), 40u);
-  EXPECT_GE(groups.at("furniture/lighting/lamp_post").size() +
-                groups.at("furniture/lighting/lamp_post/type_b").size(),
-            400u);
+  EXPECT_GE(groups.at("furniture/lighting/lamp_post").size() + groups.at("furniture/lighting/lamp_post/type_b").size(), 400u);
   EXPECT_GE(groups.at("vehicle/car").size(), 150u);
   size_t trees = 0, meshes = 0;
   for (const auto& [path, entities] : groups) {
     if (!path.starts_with("vegetation/tree/")) continue;
-    trees += static_cast<size_t>(std::count_if(
-        entities.begin(), entities.end(), [](const Entity* e) { return !e->name.starts_with("wood of"); }));
+    trees += static_cast<size_t>(
+        std::count_if(entities.begin(), entities.end(), [](const Entity* e) { return !e->name.starts_with("wood of"); }));
     ++meshes;
   }
   EXPECT_GE(trees, 3000u);
@@ -119,8 +117,7 @@ std::string HashOf(const Scene& scene) {
     add(&entity.category, 1);
     add(&entity.bounds, 1);
   }
-  for (const Texture& texture : scene.textures)
-    add(texture.levels[0].pixels().data(), texture.levels[0].size());
+  for (const Texture& texture : scene.textures) add(texture.levels[0].pixels().data(), texture.levels[0].size());
   return Sha256Hex(bytes);
 }
 
@@ -145,8 +142,7 @@ TEST(CityPark, NothingFloatsSharesGroundOrStandsInTheSpawn) {
     for (size_t k = i + 1; k < placements.size(); ++k) {
       const Footprint &a = placements[i].footprint, &b = placements[k].footprint;
       if (std::abs(a.center.x - b.center.x) > 12 || std::abs(a.center.y - b.center.y) > 12) continue;
-      EXPECT_FALSE(a.Overlaps(b)) << placements[i].kind << " and " << placements[k].kind << " at "
-                                  << a.center.x << " " << a.center.y;
+      EXPECT_FALSE(a.Overlaps(b)) << placements[i].kind << " and " << placements[k].kind << " at " << a.center.x << " " << a.center.y;
     }
   }
   // Trees have their foot off roads, paths and water; nothing is within 3 m of the spawn.

@@ -13,9 +13,8 @@ Curve::Curve(std::span<const Vec2f> control, float step) {
     const int n = std::max(1, static_cast<int>(std::hypot(c.x - b.x, c.y - b.y) / step));
     for (int k = 0; k < n; ++k) {
       const float t = static_cast<float>(k) / static_cast<float>(n);
-      points_.push_back((b * 2.0f + (c - a) * t + (a * 2.0f - b * 5.0f + c * 4.0f - d) * (t * t) +
-                         (b * 3.0f - a - c * 3.0f + d) * (t * t * t)) *
-                        0.5f);
+      points_.push_back(
+          (b * 2.0f + (c - a) * t + (a * 2.0f - b * 5.0f + c * 4.0f - d) * (t * t) + (b * 3.0f - a - c * 3.0f + d) * (t * t * t)) * 0.5f);
     }
   }
   points_.push_back(control.back());
@@ -41,8 +40,7 @@ void Curve::Index() {
     const size_t last = std::min(first + kRun, points_.size() - 1);
     const Vec2f center = (points_[first] + points_[last]) * 0.5f;
     float radius = 0;
-    for (size_t i = first; i <= last; ++i)
-      radius = std::max(radius, std::hypot(points_[i].x - center.x, points_[i].y - center.y));
+    for (size_t i = first; i <= last; ++i) radius = std::max(radius, std::hypot(points_[i].x - center.x, points_[i].y - center.y));
     chunks_.push_back({center, radius, first, last});
   }
 }
@@ -67,8 +65,7 @@ Curve::Nearest Curve::Find(Vec2f p) const {
 
 float Curve::Distance(Vec2f p, float limit) const {
   float best = limit;
-  const float outside_x = std::max({low_.x - p.x, 0.0f, p.x - high_.x}),
-              outside_y = std::max({low_.y - p.y, 0.0f, p.y - high_.y});
+  const float outside_x = std::max({low_.x - p.x, 0.0f, p.x - high_.x}), outside_y = std::max({low_.y - p.y, 0.0f, p.y - high_.y});
   if (outside_x * outside_x + outside_y * outside_y >= best * best) return best;
   for (const Chunk& chunk : chunks_) {
     const Vec2f to = p - chunk.center;
@@ -97,8 +94,7 @@ Vec2f Curve::Along(float s) const {
     const Vec2f v = points_[k + 1] - points_[k];
     return v * (1 / std::hypot(v.x, v.y));
   };
-  const Vec2f here = direction(i), before = direction(i > 0 ? i - 1 : 0),
-              after = direction(std::min(i + 1, points_.size() - 2));
+  const Vec2f here = direction(i), before = direction(i > 0 ? i - 1 : 0), after = direction(std::min(i + 1, points_.size() - 2));
   const float t = std::clamp((s - s_[i]) / (s_[i + 1] - s_[i]), 0.0f, 1.0f);
   const Vec2f a = (before + here) * 0.5f, b = (here + after) * 0.5f, v = a + (b - a) * t;
   return v * (1 / std::hypot(v.x, v.y));

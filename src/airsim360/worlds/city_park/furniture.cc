@@ -48,8 +48,7 @@ void FurnishRoad(Park& park, const Curve& road, float half) {
   Kerbside side(park, road, half);
   constexpr float kBed = 0.12f, kWalk = 0.168f;
   int lamp = 0;
-  for (float s = 16; s < side.length(); s += 28)
-    side.Put("crook_lamp", s, 0.9f, ++lamp % 2 ? 1.0f : -1.0f, kBed);
+  for (float s = 16; s < side.length(); s += 28) side.Put("crook_lamp", s, 0.9f, ++lamp % 2 ? 1.0f : -1.0f, kBed);
   for (float s = 8; s < side.length(); s += 11) {
     side.Put("bollard_lamp", s, 1.45f, 1, kBed);
     side.Put("bollard_lamp", s + 4, 1.45f, -1, kBed);
@@ -65,8 +64,7 @@ void FurnishRoad(Park& park, const Curve& road, float half) {
 // Signs, cars at the kerb and in the lanes.
 void PutTraffic(Park& park, const Curve& road, float half, bool parking, RngStream& rng) {
   Kerbside side(park, road, half);
-  for (float s = 60; s < road.length(); s += 96)
-    side.Put("traffic_sign", s, 0.75f, s > 200 ? 1.0f : -1.0f, 0.12f);
+  for (float s = 60; s < road.length(); s += 96) side.Put("traffic_sign", s, 0.75f, s > 200 ? 1.0f : -1.0f, 0.12f);
   const auto car = [&](float s, float d, bool forward) {
     const Vec2f p = road.At(s, d), v = road.Along(s);
     const float z = park.layout.Base(p) + (parking ? 0.02f : 0.04f);
@@ -83,8 +81,7 @@ void PutTraffic(Park& park, const Curve& road, float half, bool parking, RngStre
     // Traffic keeps to the right; none near the spawn.
     const float middle = road.Find({0, 0}).s;
     for (float lane : {-5.0f, -2.2f, 2.2f, 5.0f}) {
-      for (float s = 30 + 20 * static_cast<float>(rng.Uniform()); s < road.length() - 20;
-           s += static_cast<float>(rng.Uniform(28, 85))) {
+      for (float s = 30 + 20 * static_cast<float>(rng.Uniform()); s < road.length() - 20; s += static_cast<float>(rng.Uniform(28, 85))) {
         if (std::abs(s - middle) > 62) car(s, lane, lane < 0);
       }
     }
@@ -124,11 +121,9 @@ void FurnishPath(Park& park, const Curve& path, RngStream& rng) {
   };
   float hand = 1;
   for (float s = 9; s < path.length() - 4; s += 17, hand = -hand) put("bollard_lamp", s, hand * 1.75f);
-  for (float s = 16; s < path.length() - 4; s += 33, hand = -hand)
-    put("bench_wood", s, hand * 2.15f, "furniture/seating/bench");
+  for (float s = 16; s < path.length() - 4; s += 33, hand = -hand) put("bench_wood", s, hand * 2.15f, "furniture/seating/bench");
   for (float s = 30; s < path.length() - 4; s += 66) put("trash_can", s, -1.9f);
-  for (float s = 48; s < path.length() - 4; s += 52, hand = -hand)
-    put("picnic_table", s, hand * static_cast<float>(rng.Uniform(4.5, 8)));
+  for (float s = 48; s < path.length() - 4; s += 52, hand = -hand) put("picnic_table", s, hand * static_cast<float>(rng.Uniform(4.5, 8)));
 }
 
 // Tables with chairs and umbrellas, stalls and flower beds on the lawn behind the lake.
@@ -139,8 +134,7 @@ void BuildCafe(Park& park, RngStream& rng) {
     park.placer.shelf().PlaceAs(entity, kind, PlaceUpright(park.OnGround(p, 0.02f), yaw), variant);
   };
   for (int i = 0; i < 8; ++i) {
-    const Vec2f p =
-        middle + Vec2f{4.2f * static_cast<float>(i % 4) - 6.3f, 4.6f * static_cast<float>(i / 4) - 2.3f};
+    const Vec2f p = middle + Vec2f{4.2f * static_cast<float>(i % 4) - 6.3f, 4.6f * static_cast<float>(i / 4) - 2.3f};
     park.placer.Reserve({p, {1.5f, 1.5f}, 0});
     const auto turn = static_cast<float>(rng.Uniform(0, kTau));
     stand("dining_table", p, turn, "furniture/table/cafe_table", rng.Index(4));
@@ -149,16 +143,14 @@ void BuildCafe(Park& park, RngStream& rng) {
       const Vec2f out{std::cos(a), std::sin(a)};
       stand("dining_chair", p + out * 0.85f, FacingYaw(out * -1.0f), "furniture/seating/chair", rng.Index(4));
     }
-    if (i % 2 == 0)
-      stand("umbrella", p + Vec2f{0.25f, 1.25f}, turn, "furniture/shade/umbrella", rng.Index(4));
+    if (i % 2 == 0) stand("umbrella", p + Vec2f{0.25f, 1.25f}, turn, "furniture/shade/umbrella", rng.Index(4));
   }
   // Stalls with their umbrellas.
   for (uint32_t i = 0; i < 4; ++i) {
     const Vec2f p = middle + Vec2f{4.0f * static_cast<float>(i) - 6, -8.5f};
     const EntityId stall = park.AddEntity("food stall", "furniture/vending/food_stall");
     park.placer.Reserve({p, {1.6f, 1.0f}, 0});
-    park.builder.AddInstance(
-        {AddStallMesh(park.builder, park.surfaces, i), PlaceUpright(park.OnGround(p, 0.03f), 0), stall});
+    park.builder.AddInstance({AddStallMesh(park.builder, park.surfaces, i), PlaceUpright(park.OnGround(p, 0.03f), 0), stall});
     stand("umbrella", p + Vec2f{0, 0.85f}, 0, "furniture/shade/umbrella", i);
   }
   for (int i = 0; i < 7; ++i) {
@@ -171,8 +163,7 @@ void BuildCafe(Park& park, RngStream& rng) {
 void BuildPlayground(Park& park) {
   const Vec2f middle{-26, -54};
   for (uint32_t i = 0; i < 6; ++i) {
-    const Vec2f p =
-        middle + Vec2f{7.0f * static_cast<float>(i % 3) - 7, 7.5f * static_cast<float>(i / 3) - 4};
+    const Vec2f p = middle + Vec2f{7.0f * static_cast<float>(i % 3) - 7, 7.5f * static_cast<float>(i / 3) - 4};
     park.placer.Try("playground", park.OnGround(p, 0.06f), 0.3f * static_cast<float>(i), 1, {1, 1, 1}, i);
   }
 }
@@ -187,8 +178,7 @@ void CloseLane(Park& park) {
   for (int i = 0; i < 5; ++i) {
     const float s = 262 + 3.4f * static_cast<float>(i);
     const Vec2f v = road.Along(s);
-    park.placer.Try("road_block", at(s, -0.4f), FacingYaw({v.y, -v.x}), 1, {1, 1, 1},
-                    static_cast<uint32_t>(i % 2));
+    park.placer.Try("road_block", at(s, -0.4f), FacingYaw({v.y, -v.x}), 1, {1, 1, 1}, static_cast<uint32_t>(i % 2));
   }
   for (int i = 0; i < 7; ++i) {
     const float s = 254 + 4.2f * static_cast<float>(i);

@@ -51,8 +51,7 @@ constexpr PatchShape kFar{"lawn far", 2.3f, 1500, 0.06f, 0.15f, 0.030f};
 constexpr PatchShape kTuft{"tuft", 0.13f, 70, 0.12f, 0.34f, 0.008f};
 
 Vec2f OnDisc(float radius, RngStream& rng) {
-  const float r = radius * std::sqrt(static_cast<float>(rng.Uniform())),
-              a = kTau * static_cast<float>(rng.Uniform());
+  const float r = radius * std::sqrt(static_cast<float>(rng.Uniform())), a = kTau * static_cast<float>(rng.Uniform());
   return {r * std::cos(a), r * std::sin(a)};
 }
 
@@ -107,24 +106,22 @@ Model MakeClover(uint64_t seed) {
   layers[2].material.name = "daisy heart";
   for (int i = 0; i < 210; ++i) {
     const Vec2f p = OnDisc(0.40f, rng);
-    const auto h = static_cast<float>(rng.Uniform(0.035, 0.085)),
-               a = kTau * static_cast<float>(rng.Uniform());
+    const auto h = static_cast<float>(rng.Uniform(0.035, 0.085)), a = kTau * static_cast<float>(rng.Uniform());
     for (int k = 0; k < 3; ++k) {
       const float b = a + kTau * static_cast<float>(k) / 3;
-      AddLeaf(layers[0], {p.x, p.y, h}, Normalized(Vec3f{std::cos(b), std::sin(b), 0.12f}), {0, 0, 1},
-              {0.026f, 0.022f, 0.1f, 0.1f}, static_cast<int>(rng.Index(kLeafCells - 1)), {0, 0, 0.4f});
+      AddLeaf(layers[0], {p.x, p.y, h}, Normalized(Vec3f{std::cos(b), std::sin(b), 0.12f}), {0, 0, 1}, {0.026f, 0.022f, 0.1f, 0.1f},
+              static_cast<int>(rng.Index(kLeafCells - 1)), {0, 0, 0.4f});
     }
     if (i % 13) continue;
     const Vec3f head{p.x, p.y, h + 0.035f};
     for (int k = 0; k < 8; ++k) {
       const float b = a + kTau * static_cast<float>(k) / 8;
-      AddLeaf(layers[1], head, Normalized(Vec3f{std::cos(b), std::sin(b), 0.2f}), {0, 0, 1},
-              {0.015f, 0.008f, 0, 0}, 0);
+      AddLeaf(layers[1], head, Normalized(Vec3f{std::cos(b), std::sin(b), 0.2f}), {0, 0, 1}, {0.015f, 0.008f, 0, 0}, 0);
     }
     for (int k = 0; k < 4; ++k) {
       const float b = a + kTau * static_cast<float>(k) / 4;
-      AddLeaf(layers[2], head + Vec3f{0, 0, 0.002f}, Normalized(Vec3f{std::cos(b), std::sin(b), 0.1f}),
-              {0, 0, 1}, {0.006f, 0.006f, 0, 0}, 0);
+      AddLeaf(layers[2], head + Vec3f{0, 0, 0.002f}, Normalized(Vec3f{std::cos(b), std::sin(b), 0.1f}), {0, 0, 1}, {0.006f, 0.006f, 0, 0},
+              0);
     }
   }
   return JoinLayers("clover", layers);
@@ -139,23 +136,21 @@ Model MakeReeds(uint64_t seed) {
     const Vec2f p = OnDisc(0.7f, rng);
     const auto a = kTau * static_cast<float>(rng.Uniform());
     const Vec3f lean = Vec3f{std::cos(a), std::sin(a), 0} * static_cast<float>(rng.Uniform(0.05, 0.5));
-    AddBlade(layers[0], {p.x, p.y, -0.1f}, static_cast<float>(rng.Uniform(0.7, 1.7)),
-             static_cast<float>(rng.Uniform(0.012, 0.024)), lean, a + 1.57f,
-             static_cast<int>(rng.Index(kLeafCells - 1)));
+    AddBlade(layers[0], {p.x, p.y, -0.1f}, static_cast<float>(rng.Uniform(0.7, 1.7)), static_cast<float>(rng.Uniform(0.012, 0.024)), lean,
+             a + 1.57f, static_cast<int>(rng.Index(kLeafCells - 1)));
   }
   return JoinLayers("reeds", layers);
 }
 
 // Bark chips: flat boxes heaped at random.
 Model MakeChips(uint64_t seed) {
-  static const Texture tones =
-      Texture::FromImage("bark chips",
-                         Shade(64, 8,
-                               [](float u, float v) {
-                                 const float r = TileNoise(u * 16, v, 16, 1, 77);
-                                 return Mix(Vec3f{0.12f, 0.07f, 0.045f}, Vec3f{0.33f, 0.23f, 0.16f}, r * r);
-                               }),
-                         true);
+  static const Texture tones = Texture::FromImage("bark chips",
+                                                  Shade(64, 8,
+                                                        [](float u, float v) {
+                                                          const float r = TileNoise(u * 16, v, 16, 1, 77);
+                                                          return Mix(Vec3f{0.12f, 0.07f, 0.045f}, Vec3f{0.33f, 0.23f, 0.16f}, r * r);
+                                                        }),
+                                                  true);
   RngStream rng(seed, "chips");
   PlantLayer layer;
   layer.material = Stone({1, 1, 1}, 0.9f);
@@ -163,13 +158,11 @@ Model MakeChips(uint64_t seed) {
   layer.texture = &tones;
   for (int i = 0; i < 150; ++i) {
     const Vec2f p = OnDisc(0.42f, rng);
-    const Vec3f half{static_cast<float>(rng.Uniform(0.012, 0.036)),
-                     static_cast<float>(rng.Uniform(0.006, 0.014)),
+    const Vec3f half{static_cast<float>(rng.Uniform(0.012, 0.036)), static_cast<float>(rng.Uniform(0.006, 0.014)),
                      static_cast<float>(rng.Uniform(0.003, 0.009))};
-    const Vec3f up = Normalized(
-        Vec3f{0.35f * static_cast<float>(rng.Normal()), 0.35f * static_cast<float>(rng.Normal()), 1});
-    const AffineTransform X = PlaceTilted({p.x, p.y, static_cast<float>(rng.Uniform(0.0, 0.02))}, up,
-                                          kTau * static_cast<float>(rng.Uniform()), 1);
+    const Vec3f up = Normalized(Vec3f{0.35f * static_cast<float>(rng.Normal()), 0.35f * static_cast<float>(rng.Normal()), 1});
+    const AffineTransform X =
+        PlaceTilted({p.x, p.y, static_cast<float>(rng.Uniform(0.0, 0.02))}, up, kTau * static_cast<float>(rng.Uniform()), 1);
     const Vec2f uv{static_cast<float>(rng.Uniform(0.01, 0.99)), 0.5f};
     // Five faces; the lowest is never seen.
     for (int axis = 0; axis < 3; ++axis) {
@@ -246,8 +239,7 @@ class Grower {
           const Vec3f p = at(kVergeEnd + static_cast<float>(rng.Uniform(0.02, 0.30)), jitter(), 0.13f);
           if (!park_.lawns.IsLawn({p.x, p.y}) && park_.layout.PathDistance({p.x, p.y}, 3) < 1.4f) continue;
           if (park_.layout.BeyondRoad({p.x, p.y}) < 0.01f) continue;
-          Raw(k < 3 ? near_ : tufts_, p, rng, k < 3 ? 0.35f : 0.3f + 0.5f * static_cast<float>(rng.Uniform()),
-              out);
+          Raw(k < 3 ? near_ : tufts_, p, rng, k < 3 ? 0.35f : 0.3f + 0.5f * static_cast<float>(rng.Uniform()), out);
         }
         const float weeds = Fractal(s * 0.3f, hand, 2, 93);
         if (rng.Chance(0.5) && weeds > 0.5f) {
@@ -300,8 +292,7 @@ class Grower {
  private:
   // A place of radius r all on the lawn, free of what stands there.
   bool Fits(Vec2f p, float r) const {
-    return park_.lawns.IsLawn(p) && park_.layout.BeyondRoad(p) > r + 0.1f &&
-           park_.layout.PathDistance(p, r + 3) > kPathHalf + r &&
+    return park_.lawns.IsLawn(p) && park_.layout.BeyondRoad(p) > r + 0.1f && park_.layout.PathDistance(p, r + 3) > kPathHalf + r &&
            park_.occupancy.IsFree({p, {0.05f, 0.05f}, 0});
   }
 
@@ -316,30 +307,23 @@ class Grower {
       Put(tufts_, p, rng, 0.5f + 0.5f * static_cast<float>(rng.Uniform()), out);
   }
 
-  void Put(const std::vector<MeshId>& meshes, Vec2f p, RngStream& rng, float scale,
-           std::vector<Instance>& out, bool own_color = false) {
-    const AffineTransform X = PlaceTilted(park_.OnGround(p), park_.layout.Normal(p),
-                                          kTau * static_cast<float>(rng.Uniform()), scale);
+  void Put(const std::vector<MeshId>& meshes, Vec2f p, RngStream& rng, float scale, std::vector<Instance>& out, bool own_color = false) {
+    const AffineTransform X = PlaceTilted(park_.OnGround(p), park_.layout.Normal(p), kTau * static_cast<float>(rng.Uniform()), scale);
     const float tone = 1.16f + 0.26f * static_cast<float>(rng.Uniform());
     const Vec3f tint = own_color ? Vec3f{tone, tone, tone} : park_.layout.LawnCoarse(p) * tone;
     out.push_back({meshes[rng.Index(static_cast<uint32_t>(meshes.size()))], X, park_.lawns.At(p), tint});
   }
-  void Raw(const std::vector<MeshId>& meshes, Vec3f p, RngStream& rng, float scale,
-           std::vector<Instance>& out) {
+  void Raw(const std::vector<MeshId>& meshes, Vec3f p, RngStream& rng, float scale, std::vector<Instance>& out) {
     Raw(meshes, p, rng, scale, out, park_.layout.LawnCoarse({p.x, p.y}));
   }
   // In beds and on the shore: tufts and reeds are plants of the place they stand on.
-  void Raw(const std::vector<MeshId>& meshes, Vec3f p, RngStream& rng, float scale,
-           std::vector<Instance>& out, Vec3f tint) {
+  void Raw(const std::vector<MeshId>& meshes, Vec3f p, RngStream& rng, float scale, std::vector<Instance>& out, Vec3f tint) {
     const AffineTransform X = PlaceUpright(p, kTau * static_cast<float>(rng.Uniform()), scale);
-    out.push_back(
-        {meshes[rng.Index(static_cast<uint32_t>(meshes.size()))], X, EntityAt(meshes, {p.x, p.y}), tint});
+    out.push_back({meshes[rng.Index(static_cast<uint32_t>(meshes.size()))], X, EntityAt(meshes, {p.x, p.y}), tint});
   }
   void Litter(Vec3f p, float scale, RngStream& rng) {
     if (litter_ == kNoEntity) litter_ = park_.AddEntity("fallen leaves", "vegetation/plant");
-    park_.placer.shelf().PlaceAs(litter_, "leaf_litter",
-                                 PlaceUpright(p, kTau * static_cast<float>(rng.Uniform()), scale),
-                                 rng.Index(12));
+    park_.placer.shelf().PlaceAs(litter_, "leaf_litter", PlaceUpright(p, kTau * static_cast<float>(rng.Uniform()), scale), rng.Index(12));
   }
   bool OnBed(Vec3f p) const {
     // Not on the mouths of side roads, where the kerb line leaves the main road.
@@ -368,8 +352,7 @@ class Grower {
     const int n = static_cast<int>(r1 / cell) + 1;
     std::vector<std::vector<Instance>> rows(static_cast<size_t>(2 * n + 1));
     ParallelFor(2 * n + 1, [&](int64_t row) {
-      RngStream rng(park_.seed, "lawn rows",
-                    static_cast<uint64_t>(row) * 1000 + static_cast<uint64_t>(cell * 100));
+      RngStream rng(park_.seed, "lawn rows", static_cast<uint64_t>(row) * 1000 + static_cast<uint64_t>(cell * 100));
       for (int i = -n; i <= n; ++i) {
         const Vec2f p{cell * (static_cast<float>(i) + static_cast<float>(rng.Uniform(-0.5, 0.5))),
                       cell * (static_cast<float>(row - n) + static_cast<float>(rng.Uniform(-0.5, 0.5)))};

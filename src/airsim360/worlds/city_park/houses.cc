@@ -39,8 +39,7 @@ class HouseBuilder {
     // The floor lies over the highest corner of the ground.
     float floor = -1e9f;
     for (float x : {-1.0f, 0.0f, 1.0f})
-      for (float y : {-1.0f, 0.0f, 1.0f})
-        floor = std::max(floor, park_.layout.Ground(World(x * h.half_x, y * h.half_y)));
+      for (float y : {-1.0f, 0.0f, 1.0f}) floor = std::max(floor, park_.layout.Ground(World(x * h.half_x, y * h.half_y)));
     mesh_.SetTransform(PlaceUpright({h.at.x, h.at.y, floor}, h.yaw));
     base_ = floor;
     mesh_.SetEntity(park_.AddEntity("house", "construction/building"));
@@ -64,16 +63,14 @@ class HouseBuilder {
   void Walls() {
     const float x = house_.half_x, y = house_.half_y;
     Use(style_.wall);
-    mesh_.Box({-x, -y, 0.35f}, {x, y, eaves_},
-              MeshBuilder::kLeft | MeshBuilder::kRight | MeshBuilder::kFront | MeshBuilder::kBack);
+    mesh_.Box({-x, -y, 0.35f}, {x, y, eaves_}, MeshBuilder::kLeft | MeshBuilder::kRight | MeshBuilder::kFront | MeshBuilder::kBack);
     for (float side : {-1.0f, 1.0f}) {
       const Vec3f a{side * x, -side * y, eaves_}, b{side * x, side * y, eaves_}, c{side * x, 0, ridge_};
       mesh_.Triangle(a, b, c, {0, 0}, {2 * y, 0}, {y, eaves_ - ridge_});
     }
     Use(Surface::kConcrete);
     mesh_.Box({-x - 0.04f, -y - 0.04f, kWallStart}, {x + 0.04f, y + 0.04f, 0.35f},
-              MeshBuilder::kLeft | MeshBuilder::kRight | MeshBuilder::kFront | MeshBuilder::kBack |
-                  MeshBuilder::kTop);
+              MeshBuilder::kLeft | MeshBuilder::kRight | MeshBuilder::kFront | MeshBuilder::kBack | MeshBuilder::kTop);
   }
 
   // Windows on a long side (-1 front, with the door), storey by storey.
@@ -124,9 +121,8 @@ class HouseBuilder {
     const float x = house_.half_x + kOverhang, y = house_.half_y + kOverhang;
     const float low = eaves_ - kOverhang * 0.62f + 0.05f, high = ridge_ + 0.05f, t = 0.16f;
     for (float side : {-1.0f, 1.0f}) {
-      const Vec3f p0{side < 0 ? x : -x, side < 0 ? y : -y, low},
-          p1{side < 0 ? -x : x, side < 0 ? y : -y, low}, p2{side < 0 ? -x : x, 0, high},
-          p3{side < 0 ? x : -x, 0, high};
+      const Vec3f p0{side < 0 ? x : -x, side < 0 ? y : -y, low}, p1{side < 0 ? -x : x, side < 0 ? y : -y, low},
+          p2{side < 0 ? -x : x, 0, high}, p3{side < 0 ? x : -x, 0, high};
       const Vec3f up{0, 0, t};
       mesh_.Quad(p0 + up, p1 + up, p2 + up, p3 + up);
       mesh_.Quad(p1, p0, p3, p2);
@@ -149,8 +145,7 @@ void GrowIvy(Park& park, const HouseBuilder& builder, const House& h, RngStream&
     const float x = h.half_x * (-0.75f + 0.7f * static_cast<float>(i));
     const Vec2f p = builder.World(x, -h.half_y - 0.02f);
     const EntityId ivy = park.AddEntity("ivy", "vegetation/climber/ivy");
-    park.placer.shelf().PlaceAs(ivy, "ivy", PlaceUpright({p.x, p.y, builder.base() - 0.1f}, h.yaw, 1.1f),
-                                rng.Index(3));
+    park.placer.shelf().PlaceAs(ivy, "ivy", PlaceUpright({p.x, p.y, builder.base() - 0.1f}, h.yaw, 1.1f), rng.Index(3));
   }
 }
 
@@ -160,12 +155,10 @@ void BuildHouses(Park& park) {
   RngStream rng(park.seed, "park houses");
   std::vector<House> houses;
   // Beyond the lake and along the edges of the lawns, seen from the spawn.
-  constexpr float fixed[][4] = {{-30, 150, 9, 0.2f},   {-72, 146, 11, -0.3f}, {-8, 168, 8, 0.5f},
-                                {60, 190, 12, 0.1f},   {196, 84, 11, 0.6f},   {-170, 62, 12, 0.3f},
-                                {104, 166, 10, 0.7f},  {-262, 62, 12, 0.1f},  {330, 160, 13, 0.5f},
-                                {-120, 168, 10, 0.0f}, {30, 206, 11, -0.2f},  {-210, 110, 10, 0.4f}};
-  for (const auto& f : fixed)
-    houses.push_back({{f[0], f[1]}, f[2], 4.8f, f[3], rng.Chance(0.35) ? 2 : 1, rng.Index(5)});
+  constexpr float fixed[][4] = {{-30, 150, 9, 0.2f},  {-72, 146, 11, -0.3f}, {-8, 168, 8, 0.5f},   {60, 190, 12, 0.1f},
+                                {196, 84, 11, 0.6f},  {-170, 62, 12, 0.3f},  {104, 166, 10, 0.7f}, {-262, 62, 12, 0.1f},
+                                {330, 160, 13, 0.5f}, {-120, 168, 10, 0.0f}, {30, 206, 11, -0.2f}, {-210, 110, 10, 0.4f}};
+  for (const auto& f : fixed) houses.push_back({{f[0], f[1]}, f[2], 4.8f, f[3], rng.Chance(0.35) ? 2 : 1, rng.Index(5)});
   // Along the side roads, facing them.
   for (const Curve& road : park.layout.side_roads()) {
     for (float s = 70; s < road.length() - 20; s += 30) {
@@ -173,10 +166,9 @@ void BuildHouses(Park& park) {
         if (rng.Chance(0.35)) continue;
         const auto half_x = static_cast<float>(rng.Uniform(5.5, 9));
         const Vec2f v = road.Along(s), out = Vec2f{-v.y, v.x} * hand;
-        const Vec2f p =
-            road.At(s, hand * (kSideHalf + kVergeEnd + 9 + static_cast<float>(rng.Uniform(0, 4))));
-        houses.push_back({p, half_x, static_cast<float>(rng.Uniform(4, 5.2)), FacingYaw(out * -1.0f),
-                          rng.Chance(0.5) ? 2 : 1, rng.Index(5)});
+        const Vec2f p = road.At(s, hand * (kSideHalf + kVergeEnd + 9 + static_cast<float>(rng.Uniform(0, 4))));
+        houses.push_back(
+            {p, half_x, static_cast<float>(rng.Uniform(4, 5.2)), FacingYaw(out * -1.0f), rng.Chance(0.5) ? 2 : 1, rng.Index(5)});
       }
     }
   }
@@ -185,8 +177,8 @@ void BuildHouses(Park& park) {
   for (const House& h : houses) {
     const Footprint room{h.at, {h.half_x + 3, h.half_y + 3}, h.yaw};
     const float reach = std::hypot(h.half_x, h.half_y) + 1.5f;
-    if (park.layout.BeyondRoad(h.at) < h.half_y + 2 || park.layout.PathDistance(h.at, reach + 2) < reach ||
-        park.layout.Lake(h.at) < 1.5f || !park.occupancy.IsFree(room))
+    if (park.layout.BeyondRoad(h.at) < h.half_y + 2 || park.layout.PathDistance(h.at, reach + 2) < reach || park.layout.Lake(h.at) < 1.5f ||
+        !park.occupancy.IsFree(room))
       continue;
     builder.Build(h);
     if (rng.Chance(0.3)) GrowIvy(park, builder, h, rng);

@@ -16,11 +16,8 @@ constexpr size_t kSmallest = 60;  // cells; smaller pieces join the country arou
 
 }  // namespace
 
-Lawns::Lawns(SceneBuilder& builder, const Layout& layout)
-    : piece_(static_cast<size_t>(kSide) * kSide, kBlocked), layout_(layout) {
-  const auto add = [&](std::string name, const char* path) {
-    return builder.AddEntity(std::move(name), builder.tree().At(path));
-  };
+Lawns::Lawns(SceneBuilder& builder, const Layout& layout) : piece_(static_cast<size_t>(kSide) * kSide, kBlocked), layout_(layout) {
+  const auto add = [&](std::string name, const char* path) { return builder.AddEntity(std::move(name), builder.tree().At(path)); };
   for (int i = 0; i < kSectors; ++i) country_.push_back(add("country", "ground/terrain/landscape"));
   for (int i = 0; i < kSectors; ++i) country_.push_back(add("hills", "nature/hill"));
   lake_bed_ = add("lake bed", "ground/dirt");
@@ -28,8 +25,8 @@ Lawns::Lawns(SceneBuilder& builder, const Layout& layout)
   ParallelFor(kSide, [&](int64_t y) {
     for (int x = 0; x < kSide; ++x) {
       const Vec2f p{static_cast<float>(x - kHalf) + 0.5f, static_cast<float>(y - kHalf) + 0.5f};
-      if (std::hypot(p.x, p.y) > kParkRadius || (layout.Lake(p) < 1.02f && layout.Island(p) < 0.6f) ||
-          layout.BeyondRoad(p) < 0 || layout.PathDistance(p, 3) < kPathHalf)
+      if (std::hypot(p.x, p.y) > kParkRadius || (layout.Lake(p) < 1.02f && layout.Island(p) < 0.6f) || layout.BeyondRoad(p) < 0 ||
+          layout.PathDistance(p, 3) < kPathHalf)
         continue;
       piece_[static_cast<size_t>(y) * kSide + static_cast<size_t>(x)] = kFree;
     }
@@ -74,8 +71,7 @@ EntityId Lawns::At(Vec2f p) const {
     for (int k = 0; k < (reach > 0 ? 8 : 1); ++k) {
       const float a = std::numbers::pi_v<float> / 4 * static_cast<float>(k);
       const int cell = Cell({p.x + reach * std::cos(a), p.y + reach * std::sin(a)});
-      if (cell >= 0 && piece_[static_cast<size_t>(cell)] != kBlocked)
-        return entities_[piece_[static_cast<size_t>(cell)]];
+      if (cell >= 0 && piece_[static_cast<size_t>(cell)] != kBlocked) return entities_[piece_[static_cast<size_t>(cell)]];
     }
   }
   const float turn = std::atan2(p.y, p.x) / (2 * std::numbers::pi_v<float>)+0.5f;

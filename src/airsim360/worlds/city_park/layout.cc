@@ -10,22 +10,17 @@
 namespace airsim360::internal::park {
 namespace {
 
-constexpr Vec2f kMainRoad[] = {{-700, 140}, {-420, 62}, {-230, 6},  {-110, -15}, {-45, -13},
-                               {0, -3.2f},  {27, 11},   {44, 31},   {62, 58},    {92, 90},
-                               {150, 122},  {240, 150}, {400, 240}, {700, 330}};
+constexpr Vec2f kMainRoad[] = {{-700, 140}, {-420, 62}, {-230, 6}, {-110, -15}, {-45, -13}, {0, -3.2f}, {27, 11},
+                               {44, 31},    {62, 58},   {92, 90},  {150, 122},  {240, 150}, {400, 240}, {700, 330}};
 // Side roads from their junctions outwards; the first point is replaced by one on the main road.
-constexpr Vec2f kEastRoad[] = {{118, 106},  {137, 80},   {168, 40},   {190, -20},
-                               {180, -110}, {230, -240}, {330, -420}, {420, -620}};
-constexpr Vec2f kWestRoad[] = {{-262, 14},   {-268, -20},  {-280, -70}, {-240, -160},
-                               {-250, -280}, {-150, -430}, {-160, -640}};
+constexpr Vec2f kEastRoad[] = {{118, 106}, {137, 80}, {168, 40}, {190, -20}, {180, -110}, {230, -240}, {330, -420}, {420, -620}};
+constexpr Vec2f kWestRoad[] = {{-262, 14}, {-268, -20}, {-280, -70}, {-240, -160}, {-250, -280}, {-150, -430}, {-160, -640}};
 constexpr Vec2f kNorthRoad[] = {{232, 147}, {222, 180}, {190, 240}, {200, 330}, {140, 430}, {150, 620}};
 
-constexpr Vec2f kLakePath[] = {{-11, -2},  {-13.5f, 8}, {-14, 18}, {-22, 32},  {-16, 46},
-                               {6, 54},    {14, 72},    {6, 110},  {-30, 128}, {-80, 124},
-                               {-120, 90}, {-150, 40},  {-160, -4}};
+constexpr Vec2f kLakePath[] = {{-11, -2}, {-13.5f, 8}, {-14, 18},  {-22, 32},  {-16, 46},  {6, 54},   {14, 72},
+                               {6, 110},  {-30, 128},  {-80, 124}, {-120, 90}, {-150, 40}, {-160, -4}};
 constexpr Vec2f kHillPath[] = {{14, -6}, {30, -12}, {52, -14}, {74, -22}, {96, -50}, {140, -70}, {182, -66}};
-constexpr Vec2f kNorthPath[] = {{8, 106},   {50, 150},   {60, 220},   {10, 290},
-                                {-90, 300}, {-190, 240}, {-230, 150}, {-196, 20}};
+constexpr Vec2f kNorthPath[] = {{8, 106}, {50, 150}, {60, 220}, {10, 290}, {-90, 300}, {-190, 240}, {-230, 150}, {-196, 20}};
 constexpr Vec2f kSouthPath[] = {{-46, -20}, {-60, -60}, {-30, -120}, {40, -160}, {110, -150}, {140, -72}};
 constexpr Vec2f kFarPath[] = {{-32, -124}, {-90, -190}, {-160, -210}, {-238, -190}};
 constexpr Vec2f kBluffPath[] = {{40, -162}, {60, -240}, {20, -330}, {-80, -380}, {-170, -400}};
@@ -48,24 +43,23 @@ std::vector<Vec2f> FromMain(const Curve& main, std::span<const Vec2f> road, Junc
 }  // namespace
 
 Layout::Layout() : main_(kMainRoad, 0.8f) {
-  for (std::span<const Vec2f> road : {std::span<const Vec2f>(kEastRoad), std::span<const Vec2f>(kWestRoad),
-                                      std::span<const Vec2f>(kNorthRoad)}) {
+  for (std::span<const Vec2f> road :
+       {std::span<const Vec2f>(kEastRoad), std::span<const Vec2f>(kWestRoad), std::span<const Vec2f>(kNorthRoad)}) {
     Junction junction;
     const std::vector<Vec2f> control = FromMain(main_, road, junction);
     sides_.emplace_back(control, 0.8f);
     junctions_.push_back(junction);
   }
-  for (std::span<const Vec2f> path : {std::span<const Vec2f>(kLakePath), std::span<const Vec2f>(kHillPath),
-                                      std::span<const Vec2f>(kNorthPath), std::span<const Vec2f>(kSouthPath),
-                                      std::span<const Vec2f>(kFarPath), std::span<const Vec2f>(kBluffPath),
-                                      std::span<const Vec2f>(kMeadowPath)})
+  for (std::span<const Vec2f> path :
+       {std::span<const Vec2f>(kLakePath), std::span<const Vec2f>(kHillPath), std::span<const Vec2f>(kNorthPath),
+        std::span<const Vec2f>(kSouthPath), std::span<const Vec2f>(kFarPath), std::span<const Vec2f>(kBluffPath),
+        std::span<const Vec2f>(kMeadowPath)})
     paths_.emplace_back(path, 1.0f);
   Survey();
 }
 
 float Layout::FarField::LowerBound(Vec2f p) const {
-  const int x = static_cast<int>(std::floor(p.x / kCell)) + kHalf,
-            y = static_cast<int>(std::floor(p.y / kCell)) + kHalf;
+  const int x = static_cast<int>(std::floor(p.x / kCell)) + kHalf, y = static_cast<int>(std::floor(p.y / kCell)) + kHalf;
   if (x < 0 || y < 0 || x >= 2 * kHalf || y >= 2 * kHalf) return 0;
   return value[static_cast<size_t>(y * 2 * kHalf + x)] - kReach;
 }
@@ -92,9 +86,7 @@ float Layout::BeyondRoad(Vec2f p) const {
   return bound > 40 ? bound : ExactBeyondRoad(p);
 }
 
-float Layout::PathDistance(Vec2f p, float limit) const {
-  return paths_far_.LowerBound(p) > limit ? limit : ExactPathDistance(p, limit);
-}
+float Layout::PathDistance(Vec2f p, float limit) const { return paths_far_.LowerBound(p) > limit ? limit : ExactPathDistance(p, limit); }
 
 float Layout::ExactBeyondRoad(Vec2f p) const {
   float beyond = main_.Distance(p) - (kMainHalf + kVergeEnd);
@@ -132,12 +124,9 @@ float Layout::Hills(Vec2f p) const {
   const float r = std::hypot(p.x, p.y);
   // Rolling ground, four hills that frame the view from the spawn, then the country and far ridges.
   float h = (Fractal(p.x / 95 + 3, p.y / 95, 4, 21) - 0.40f) * 9 * Ramp(15, 60, r);
-  h += 7.5f * Bump(p, 62, -36, 26) + 7 * Bump(p, -70, -52, 30) + 1.5f * Bump(p, 5, 44, 20) +
-       5 * Bump(p, 120, 30, 30);
+  h += 7.5f * Bump(p, 62, -36, 26) + 7 * Bump(p, -70, -52, 30) + 1.5f * Bump(p, 5, 44, 20) + 5 * Bump(p, 120, 30, 30);
   if (r > 220) h += (Fractal(p.x / 900, p.y / 900, 4, 33) - 0.42f) * 90 * Ramp(220, 900, r);
-  if (r > 1100)
-    h += 150 * Ramp(1100, 3000, r) *
-         std::clamp(Fractal(p.x / 1300 + 5, p.y / 1300, 3, 35) - 0.25f, 0.0f, 1.0f);
+  if (r > 1100) h += 150 * Ramp(1100, 3000, r) * std::clamp(Fractal(p.x / 1300 + 5, p.y / 1300, 3, 35) - 0.25f, 0.0f, 1.0f);
   return h + (Noise(p.x / 7, p.y / 7, 5) - 0.5f) * 0.25f + (Noise(p.x / 1.9f, p.y / 1.9f, 6) - 0.5f) * 0.05f;
 }
 
@@ -162,9 +151,7 @@ Vec3f Layout::Normal(Vec2f p) const {
   return Normalized(Vec3f{h - Ground({p.x + e, p.y}), h - Ground({p.x, p.y + e}), e});
 }
 
-float Layout::PathBed(Vec2f p) const {
-  return 0.07f * Ramp(kPathHalf + 0.15f, kPathHalf - 0.35f, PathDistance(p, kPathHalf + 1));
-}
+float Layout::PathBed(Vec2f p) const { return 0.07f * Ramp(kPathHalf + 0.15f, kPathHalf - 0.35f, PathDistance(p, kPathHalf + 1)); }
 
 float Layout::Forest(Vec2f p) const {
   return Ramp(0.46f, 0.62f, Fractal(p.x / 60, p.y / 60, 3, 81)) * Ramp(30, 60, std::hypot(p.x, p.y - 30));
@@ -175,15 +162,12 @@ float Layout::Dry(Vec2f p) const { return Ramp(0.58f, 0.74f, Fractal(p.x / 8 + 9
 
 Vec3f Layout::LawnCoarse(Vec2f p) const {
   const float wide = Fractal(p.x / 23, p.y / 23, 4, 41), narrow = Fractal(p.x / 3.1f, p.y / 3.1f, 3, 43);
-  Vec3f c = Mix(Vec3f{0.093f, 0.134f, 0.027f}, Vec3f{0.163f, 0.178f, 0.042f},
-                Ramp(0.3f, 0.72f, 0.6f * wide + 0.4f * narrow));
+  Vec3f c = Mix(Vec3f{0.093f, 0.134f, 0.027f}, Vec3f{0.163f, 0.178f, 0.042f}, Ramp(0.3f, 0.72f, 0.6f * wide + 0.4f * narrow));
   c = Mix(c, Vec3f{0.072f, 0.138f, 0.032f}, 0.45f * Clover(p));
   return Mix(c, Vec3f{0.30f, 0.235f, 0.115f}, 0.7f * Dry(p));
 }
 
-Vec3f Layout::Lawn(Vec2f p) const {
-  return LawnCoarse(p) * (0.72f + 0.56f * Fractal(p.x / 0.55f, p.y / 0.55f, 2, 45));
-}
+Vec3f Layout::Lawn(Vec2f p) const { return LawnCoarse(p) * (0.72f + 0.56f * Fractal(p.x / 0.55f, p.y / 0.55f, 2, 45)); }
 
 Vec3f Layout::Soil(Vec2f p, float fine_detail) const {
   const float f = fine_detail > 0 ? Mix(0.5f, Fractal(p.x * 4, p.y * 4, 2, 31), fine_detail) : 0.5f;

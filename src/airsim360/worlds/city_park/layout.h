@@ -11,8 +11,7 @@ namespace airsim360::internal::park {
 
 /// Half width of a carriageway, and what lies beside it, measured outwards from the kerb's face.
 inline constexpr float kMainHalf = 7.0f, kSideHalf = 4.5f;
-inline constexpr float kKerbTop = 0.20f, kBedEnd = 1.75f, kEdgingEnd = 1.90f, kPavementEnd = 3.80f,
-                       kVergeEnd = 3.90f;
+inline constexpr float kKerbTop = 0.20f, kBedEnd = 1.75f, kEdgingEnd = 1.90f, kPavementEnd = 3.80f, kVergeEnd = 3.90f;
 inline constexpr float kPathHalf = 1.25f;
 /// The park that can be walked and flown is the disc of this radius around the spawn.
 inline constexpr float kParkRadius = 520;

@@ -49,8 +49,7 @@ TEST(Layout, ShortCutsFarFromRoadsNeverClaimMoreThanTheDistance) {
   for (int i = 0; i < 3000; ++i) {
     const Vec2f p{static_cast<float>(rng.Uniform(-900, 900)), static_cast<float>(rng.Uniform(-900, 900))};
     float exact = layout.main().Find(p).distance - kMainHalf - kVergeEnd;
-    for (const Curve& side : layout.side_roads())
-      exact = std::min(exact, side.Find(p).distance - kSideHalf - kVergeEnd);
+    for (const Curve& side : layout.side_roads()) exact = std::min(exact, side.Find(p).distance - kSideHalf - kVergeEnd);
     const float beyond = layout.BeyondRoad(p);
     EXPECT_LE(beyond, exact + 1e-2f);
     if (exact < 40) {
@@ -89,8 +88,7 @@ TEST(KerbLines, NeverStandOnACarriageway) {
   for (const KerbLine& kerb : lines) {
     for (Vec2f p : kerb.line.points()) {
       EXPECT_GT(layout.main().Distance(p), kMainHalf - 0.05f) << p.x << " " << p.y;
-      for (const Curve& side : layout.side_roads())
-        EXPECT_GT(side.Distance(p), kSideHalf - 0.05f) << p.x << " " << p.y;
+      for (const Curve& side : layout.side_roads()) EXPECT_GT(side.Distance(p), kSideHalf - 0.05f) << p.x << " " << p.y;
     }
   }
 }
@@ -140,8 +138,7 @@ TEST(Terrain, IsWatertight) {
 TEST(ParkTrees, KeepTheirShapeWithFewerTriangles) {
   for (int i = 0; i < static_cast<int>(ParkTree::kCount); ++i) {
     const auto species = static_cast<ParkTree>(i);
-    const Model full = MakeParkTree(species, TreeDetail::kFull, 0, 1),
-                middle = MakeParkTree(species, TreeDetail::kMiddle, 0, 1),
+    const Model full = MakeParkTree(species, TreeDetail::kFull, 0, 1), middle = MakeParkTree(species, TreeDetail::kMiddle, 0, 1),
                 far = MakeParkTree(species, TreeDetail::kFar, 0, 1);
     const auto name = InfoOf(species).name;
     EXPECT_GE(full.mesh.triangles.size(), 50'000u) << name;

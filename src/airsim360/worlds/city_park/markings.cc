@@ -42,8 +42,7 @@ class Painter {
         stretch = static_cast<int>(s / kStretch);
         Begin("dashes", "ground/lane_marking");
       }
-      for (int k = 0; k < 3; ++k)
-        Quad(s + static_cast<float>(k), s + static_cast<float>(k) + 1, d - w / 2, d + w / 2);
+      for (int k = 0; k < 3; ++k) Quad(s + static_cast<float>(k), s + static_cast<float>(k) + 1, d - w / 2, d + w / 2);
     }
   }
   // Slanting bars between -d and d, split on the crown.
@@ -59,8 +58,7 @@ class Painter {
       for (float e : {-d, 0.0f}) {
         const auto at = [&](float along, float across) { return At(s - kSlant * across + along, across); };
         const float f = e + d;
-        mesh_.QuadUv(at(0, e), at(kWidth, e), at(kWidth, f), at(0, f), {s, e}, {s + kWidth, e},
-                     {s + kWidth, f}, {s, f});
+        mesh_.QuadUv(at(0, e), at(kWidth, e), at(kWidth, f), at(0, f), {s, e}, {s + kWidth, e}, {s + kWidth, f}, {s, f});
       }
     }
   }
@@ -86,9 +84,7 @@ class Painter {
     for (float e : {-0.185f, 0.170f}) Quad(s - 0.03f, s + 0.505f, d + e, d + e + 0.015f);
     mesh_.SetMaterial(park_.surfaces[Surface::kPaintWhite]);
   }
-  void Finish(const char* name) {
-    park_.builder.AddInstance({park_.builder.AddMesh(mesh_.Finish(name)), {}, kNoEntity});
-  }
+  void Finish(const char* name) { park_.builder.AddInstance({park_.builder.AddMesh(mesh_.Finish(name)), {}, kNoEntity}); }
   Vec3f At(float s, float d) const {
     const Vec2f p = road_.At(s, d);
     return {p.x, p.y, park_.layout.Base(p) + CarriagewayZ(d, half_) + kLift};
@@ -157,13 +153,10 @@ void MarkRoads(Park& park) {
   RngStream rng(park.seed, "park manholes");
   const auto manhole = [&](const Curve& road, float half, float s, float d) {
     const Vec2f p = road.At(s, d), across = road.At(s, d + 0.4f), along = road.At(s + 0.4f, d);
-    const auto z = [&](Vec2f q, float e) {
-      return Vec3f{q.x, q.y, park.layout.Base(q) + CarriagewayZ(e, half)};
-    };
+    const auto z = [&](Vec2f q, float e) { return Vec3f{q.x, q.y, park.layout.Base(q) + CarriagewayZ(e, half)}; };
     const Vec3f a = z(p, d), up = Normalized(Cross(z(along, d) - a, z(across, d + 0.4f) - a));
     const EntityId entity = park.AddEntity("manhole", "ground/manhole");
-    park.placer.shelf().PlaceAs(
-        entity, "manhole", PlaceTilted(a, up, static_cast<float>(rng.Uniform(0, 6.28)), 1), rng.Index(2));
+    park.placer.shelf().PlaceAs(entity, "manhole", PlaceTilted(a, up, static_cast<float>(rng.Uniform(0, 6.28)), 1), rng.Index(2));
   };
   const Curve& main = park.layout.main();
   for (int i = 0; static_cast<float>(i) * 43 + 30 < main.length(); ++i)

@@ -30,8 +30,7 @@ Texture Paint(std::string name, int width, int height, const std::function<Vec3f
   ParallelFor(height, [&](int64_t y) {
     const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(height);
     for (int x = 0; x < width; ++x)
-      image(x, static_cast<int>(y)) =
-          Encode(color((static_cast<float>(x) + 0.5f) / static_cast<float>(width), v));
+      image(x, static_cast<int>(y)) = Encode(color((static_cast<float>(x) + 0.5f) / static_cast<float>(width), v));
   });
   return Texture::FromImage(std::move(name), std::move(image), true);
 }
@@ -50,35 +49,29 @@ int PatchAt(float s, float d) {
 // Worn asphalt at s metres along and d to the left of the middle: aggregate, wheel tracks, dust, oil,
 // patches, tar-sealed cracks. Albedo of dry aged asphalt 0.16 to 0.2.
 Vec3f RoadColor(float s, float d, float half) {
-  const float mottle = Fractal(s / 6, d / 6, 4, 11), fine = Noise(s * 38, d * 38, 1),
-              coarse = Noise(s * 11, d * 11, 2);
-  Vec3f c = Vec3f{0.205f, 0.198f, 0.188f} *
-            (0.74f + 0.26f * mottle + 0.20f * (fine - 0.5f) + 0.14f * (coarse - 0.5f));
+  const float mottle = Fractal(s / 6, d / 6, 4, 11), fine = Noise(s * 38, d * 38, 1), coarse = Noise(s * 11, d * 11, 2);
+  Vec3f c = Vec3f{0.205f, 0.198f, 0.188f} * (0.74f + 0.26f * mottle + 0.20f * (fine - 0.5f) + 0.14f * (coarse - 0.5f));
   // Two dark bands a lane where wheels run.
   const float across = std::abs(d);
   for (float wheel : {-0.8f, 0.8f}) {
     for (int k = 0; k < 2; ++k) {
       const float q = (across - 2.15f - 2.86f * static_cast<float>(k) - wheel) / 0.32f;
-      if (q * q < 8)
-        c = c * (1 - 0.17f * std::exp(-q * q) * (0.6f + 0.4f * Noise(s / 9, static_cast<float>(k), 3)));
+      if (q * q < 8) c = c * (1 - 0.17f * std::exp(-q * q) * (0.6f + 0.4f * Noise(s / 9, static_cast<float>(k), 3)));
     }
   }
   const float stone = Voronoi(s * 40, d * 40, 59).first;
   c = c * (0.84f + 0.36f * stone) * (0.88f + 0.24f * Fractal(s / 0.9f, d / 0.9f, 3, 62));
   // Dust blown in from the beds, more of it at the edges.
-  const float dust = Ramp(0.50f, 0.70f, Fractal(s / 14 + 4, d / 4, 4, 13)) *
-                     (0.55f + 0.9f * Fractal(s / 1.3f, d / 1.3f, 3, 54));
+  const float dust = Ramp(0.50f, 0.70f, Fractal(s / 14 + 4, d / 4, 4, 13)) * (0.55f + 0.9f * Fractal(s / 1.3f, d / 1.3f, 3, 54));
   const float edge = Ramp(half - 1.1f, half, across) * 0.5f;
-  c = Mix(c, Vec3f{0.200f, 0.152f, 0.100f} * (0.75f + 0.4f * mottle + 0.2f * (fine - 0.5f)),
-          std::min(0.8f, 0.62f * dust + edge));
+  c = Mix(c, Vec3f{0.200f, 0.152f, 0.100f} * (0.75f + 0.4f * mottle + 0.2f * (fine - 0.5f)), std::min(0.8f, 0.62f * dust + edge));
   const float oil = Ramp(0.66f, 0.78f, Fractal(s / 3.2f + 60, d / 1.4f, 3, 15));
   c = c * (1 - 0.6f * oil);
   if (const int patch = PatchAt(s, d)) c = c * (patch == 2 ? 0.45f : 0.74f);
   // Cracks along the borders of wandering cells, only in places.
   const float cracked = Ramp(0.42f, 0.56f, Fractal(s / 11, d / 11, 2, 19));
   if (cracked > 0) {
-    const float wx = 0.56f * Fractal(s * 0.7f, d * 0.7f, 3, 16),
-                wy = 0.56f * Fractal(s * 0.7f + 8, d * 0.7f, 3, 17);
+    const float wx = 0.56f * Fractal(s * 0.7f, d * 0.7f, 3, 16), wy = 0.56f * Fractal(s * 0.7f + 8, d * 0.7f, 3, 17);
     const Cells cell = Voronoi(s * 0.21f + wx, d * 0.21f + wy, 18);
     c = c * (1 - 0.62f * cracked * Ramp(0.0095f, 0.002f, cell.second - cell.first));
   }
@@ -86,9 +79,8 @@ Vec3f RoadColor(float s, float d, float half) {
 }
 
 Texture RoadPicture(std::string name, float half) {
-  Texture texture = Paint(std::move(name), 6144, 512, [=](float u, float v) {
-    return RoadColor(u * kRoadPictureLength, (1 - 2 * v) * half, half);
-  });
+  Texture texture =
+      Paint(std::move(name), 6144, 512, [=](float u, float v) { return RoadColor(u * kRoadPictureLength, (1 - 2 * v) * half, half); });
   texture.wrap_u = Wrap::kMirror;
   texture.wrap_v = Wrap::kClamp;
   return texture;
@@ -109,13 +101,10 @@ Chip ChipAt(float u, float v, int cells, int seed) {
       const uint32_t h = HashCell((a + cells) % cells, (b + cells) % cells, seed);
       const float height = 0.05f + 0.95f * Unit(Scramble(h + 7));
       if (height < top.height) continue;
-      const float dx = x - static_cast<float>(a) - Unit(h),
-                  dy = y - static_cast<float>(b) - Unit(Scramble(h + 1));
+      const float dx = x - static_cast<float>(a) - Unit(h), dy = y - static_cast<float>(b) - Unit(Scramble(h + 1));
       const float turn = 6.2832f * Unit(Scramble(h + 2)), c = std::cos(turn), s = std::sin(turn);
-      const float length = 0.45f + 0.45f * Unit(Scramble(h + 3)),
-                  width = 0.14f + 0.20f * Unit(Scramble(h + 4));
-      const float inside =
-          std::min(1 - std::abs(dx * c + dy * s) / length, 1 - std::abs(dy * c - dx * s) / width);
+      const float length = 0.45f + 0.45f * Unit(Scramble(h + 3)), width = 0.14f + 0.20f * Unit(Scramble(h + 4));
+      const float inside = std::min(1 - std::abs(dx * c + dy * s) / length, 1 - std::abs(dy * c - dx * s) / width);
       if (inside > 0) top = {height, inside, h};
     }
   }
@@ -130,8 +119,7 @@ Texel Mulch(float u, float v) {
   if (chip.height <= 0) return {Vec3f{0.045f, 0.030f, 0.022f}, 0, 0.95f};
   const float r = Unit(Scramble(chip.id + 11));
   Vec3f c = Mix(Vec3f{0.13f, 0.068f, 0.040f}, Vec3f{0.42f, 0.29f, 0.20f}, r * r);
-  c = c * ((0.45f + 0.65f * chip.height) * (0.72f + 0.28f * Ramp(0.0f, 0.25f, chip.edge)) *
-           (1 + 0.22f * TilingFbm(503, u, v, 4, 4)));
+  c = c * ((0.45f + 0.65f * chip.height) * (0.72f + 0.28f * Ramp(0.0f, 0.25f, chip.edge)) * (1 + 0.22f * TilingFbm(503, u, v, 4, 4)));
   return {c, (large ? 0.010f : 0.004f) * chip.height + 0.003f * Ramp(0.0f, 0.2f, chip.edge), 0.9f};
 }
 
@@ -155,9 +143,8 @@ Texel Slab(float u, float v) {
 Texel Gravel(float u, float v) {
   const WorleyResult stone = TilingWorley(521, u, v, 110), fine = TilingWorley(522, u, v, 230);
   const float soft = TilingFbm(523, u, v, 3, 5), tone = HashUnit(stone.cell, 1);
-  const Vec3f c =
-      Vec3f{0.27f, 0.235f, 0.185f} * ((0.72f + 0.5f * tone) * (1.1f - 0.35f * stone.first) *
-                                      (0.9f + 0.2f * HashUnit(fine.cell, 2)) * (1 + 0.22f * soft));
+  const Vec3f c = Vec3f{0.27f, 0.235f, 0.185f} *
+                  ((0.72f + 0.5f * tone) * (1.1f - 0.35f * stone.first) * (0.9f + 0.2f * HashUnit(fine.cell, 2)) * (1 + 0.22f * soft));
   return {c, 0.006f * (1 - stone.first) * (0.5f + tone), 0.88f};
 }
 
@@ -198,8 +185,7 @@ Vec3f GroundColor(const Layout& layout, Vec2f p, int level) {
   // Under trees: old leaves and bare earth.
   const float forest = layout.Forest(p);
   if (forest > 0) {
-    const Vec3f litter =
-        Mix(Vec3f{0.12f, 0.085f, 0.045f}, Vec3f{0.20f, 0.14f, 0.07f}, grain) * (0.6f + 0.7f * fine);
+    const Vec3f litter = Mix(Vec3f{0.12f, 0.085f, 0.045f}, Vec3f{0.20f, 0.14f, 0.07f}, grain) * (0.6f + 0.7f * fine);
     c = Mix(c, litter, 0.75f * forest * Ramp(0.35f, 0.65f, Fractal(p.x / 3, p.y / 3, 3, 34)));
   }
   if (level == 2) return c;
@@ -223,14 +209,12 @@ ParkMaterials AddParkMaterials(SceneBuilder& builder, const Layout& layout) {
       return GroundColor(layout, {(2 * u - 1) * half, (1 - 2 * v) * half}, level);
     });
     texture.wrap_u = texture.wrap_v = Wrap::kClamp;
-    m.ground[static_cast<size_t>(level)] =
-        AddPicture(builder, std::move(texture), 0.95f, level == 2 ? 0.10f : 0.0f);
+    m.ground[static_cast<size_t>(level)] = AddPicture(builder, std::move(texture), 0.95f, level == 2 ? 0.10f : 0.0f);
   }
   m.main_road = AddPicture(builder, RoadPicture("main road", kMainHalf), 0.82f, 0.10f);
   m.side_road = AddPicture(builder, RoadPicture("side road", kSideHalf), 0.82f, 0.12f);
-  const TextureRecipe recipes[3] = {{"bark mulch", 2, 0.120f, Mulch},
-                                    {"pavement slabs", 6, 0.185f, Slab},
-                                    {"crushed stone", 3, 0.215f, Gravel}};
+  const TextureRecipe recipes[3] = {
+      {"bark mulch", 2, 0.120f, Mulch}, {"pavement slabs", 6, 0.185f, Slab}, {"crushed stone", 3, 0.215f, Gravel}};
   m.mulch = AddTiling(builder, recipes[0], 1024, 0.12f);
   m.pavement = AddTiling(builder, recipes[1], 1024, 0.18f);
   m.gravel = AddTiling(builder, recipes[2], 1024, 0.12f);

@@ -12,8 +12,7 @@ float Noise(float x, float y, int seed) {
   const uint32_t s = Scramble(static_cast<uint32_t>(seed) * 83492791u + 17u);
   const uint32_t row0 = Scramble(j * 19349663u ^ s), row1 = Scramble((j + 1) * 19349663u ^ s);
   const uint32_t c0 = i * 73856093u, c1 = (i + 1) * 73856093u;
-  return Mix(Mix(Unit(Scramble(c0 ^ row0)), Unit(Scramble(c1 ^ row0)), u),
-             Mix(Unit(Scramble(c0 ^ row1)), Unit(Scramble(c1 ^ row1)), u), v);
+  return Mix(Mix(Unit(Scramble(c0 ^ row0)), Unit(Scramble(c1 ^ row0)), u), Mix(Unit(Scramble(c0 ^ row1)), Unit(Scramble(c1 ^ row1)), u), v);
 }
 
 float Fractal(float x, float y, int octaves, int seed) {
@@ -37,8 +36,7 @@ Cells Voronoi(float x, float y, int seed) {
   for (int b = j - 1; b <= j + 1; ++b) {
     for (int a = i - 1; a <= i + 1; ++a) {
       const uint32_t h = HashCell(a, b, seed);
-      const float dx = static_cast<float>(a) + Unit(h) - x,
-                  dy = static_cast<float>(b) + Unit(Scramble(h + 1)) - y;
+      const float dx = static_cast<float>(a) + Unit(h) - x, dy = static_cast<float>(b) + Unit(Scramble(h + 1)) - y;
       const float d = dx * dx + dy * dy;
       if (d < first) {
         second = first;

@@ -16,8 +16,7 @@ inline uint32_t Scramble(uint32_t h) {
 /// Well mixed hash of integers, and the same in [0, 1).
 inline uint32_t HashCell(int x, int y, int seed) {
   return Scramble(static_cast<uint32_t>(x) * 73856093u ^
-                  Scramble(static_cast<uint32_t>(y) * 19349663u ^
-                           Scramble(static_cast<uint32_t>(seed) * 83492791u + 17u)));
+                  Scramble(static_cast<uint32_t>(y) * 19349663u ^ Scramble(static_cast<uint32_t>(seed) * 83492791u + 17u)));
 }
 inline float Unit(uint32_t h) { return static_cast<float>(h >> 8) * 0x1p-24f; }
 

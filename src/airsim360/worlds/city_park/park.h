@@ -44,9 +44,7 @@ struct Park {
   Placer& placer;
   uint64_t seed;
 
-  EntityId AddEntity(std::string name, std::string_view path) {
-    return builder.AddEntity(std::move(name), builder.tree().At(path));
-  }
+  EntityId AddEntity(std::string name, std::string_view path) { return builder.AddEntity(std::move(name), builder.tree().At(path)); }
   Vec3f OnGround(Vec2f p, float sink = 0) const { return {p.x, p.y, layout.Ground(p) - sink}; }
 };
 

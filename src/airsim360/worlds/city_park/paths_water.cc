@@ -39,8 +39,7 @@ void LayPath(Park& park, MeshBuilder& mesh, const Curve& path, float lift) {
       mesh.SetEntity(park.AddEntity("gravel path", "ground/path/park_walkway"));
     }
     const auto a = Section(park.layout, path, s, lift), b = Section(park.layout, path, s + kStep, lift);
-    for (size_t k = 0; k < kAcross; ++k)
-      mesh.QuadUv(a[k], b[k], b[k + 1], a[k + 1], uv(a[k]), uv(b[k]), uv(b[k + 1]), uv(a[k + 1]));
+    for (size_t k = 0; k < kAcross; ++k) mesh.QuadUv(a[k], b[k], b[k + 1], a[k + 1], uv(a[k]), uv(b[k]), uv(b[k + 1]), uv(a[k + 1]));
   }
 }
 
@@ -76,8 +75,7 @@ void BuildLanding(Park& park, MeshBuilder& mesh, float a) {
   float top = kLakeZ + 0.35f;
   for (float x : {-kHalfX, 0.0f, kHalfX}) {
     for (float y : {-kHalfY, 0.0f, kHalfY}) {
-      const Vec2f p{middle.x + x * std::cos(yaw) - y * std::sin(yaw),
-                    middle.y + x * std::sin(yaw) + y * std::cos(yaw)};
+      const Vec2f p{middle.x + x * std::cos(yaw) - y * std::sin(yaw), middle.y + x * std::sin(yaw) + y * std::cos(yaw)};
       top = std::max(top, park.layout.Ground(p) + 0.22f);
     }
   }
@@ -91,8 +89,7 @@ void BuildLanding(Park& park, MeshBuilder& mesh, float a) {
   mesh.SetTransform({});
   park.placer.Reserve({middle, {kHalfX + 0.3f, kHalfY + 0.3f}, yaw});
   for (float x : {-2.4f, 2.4f}) {
-    const Vec2f p{middle.x + x * std::cos(yaw) - 1.6f * std::sin(yaw),
-                  middle.y + x * std::sin(yaw) + 1.6f * std::cos(yaw)};
+    const Vec2f p{middle.x + x * std::cos(yaw) - 1.6f * std::sin(yaw), middle.y + x * std::sin(yaw) + 1.6f * std::cos(yaw)};
     const EntityId bench = park.AddEntity("bench", "furniture/seating/bench");
     park.placer.shelf().PlaceAs(bench, "bench_wood", PlaceUpright({p.x, p.y, top}, yaw), 1);
   }

@@ -54,8 +54,7 @@ void AppendArc(std::vector<Vec2f>& line, Vec2f a, Vec2f corner, Vec2f b) {
 
 void AppendRun(std::vector<Vec2f>& line, const Curve& curve, float s0, float s1, float d) {
   const int n = std::max(1, static_cast<int>(std::abs(s1 - s0) / kRowStep));
-  for (int i = 0; i <= n; ++i)
-    line.push_back(curve.At(s0 + (s1 - s0) * static_cast<float>(i) / static_cast<float>(n), d));
+  for (int i = 0; i <= n; ++i) line.push_back(curve.At(s0 + (s1 - s0) * static_cast<float>(i) / static_cast<float>(n), d));
 }
 
 }  // namespace
@@ -75,9 +74,7 @@ std::vector<KerbLine> KerbLines(const Layout& layout) {
     std::vector<size_t> met;
     for (size_t i = 0; i < layout.junctions().size(); ++i)
       if (layout.junctions()[i].left == left) met.push_back(i);
-    std::sort(met.begin(), met.end(), [&](size_t a, size_t b) {
-      return hand * layout.junctions()[a].s < hand * layout.junctions()[b].s;
-    });
+    std::sort(met.begin(), met.end(), [&](size_t a, size_t b) { return hand * layout.junctions()[a].s < hand * layout.junctions()[b].s; });
     std::vector<Vec2f> line;
     float at = left ? 0.0f : main.length();
     for (size_t i : met) {
@@ -89,10 +86,8 @@ std::vector<KerbLine> KerbLines(const Layout& layout) {
       const size_t arc0 = line.size() - 1;
       AppendArc(line, main.At(s_main, hand * kMainHalf), near, side.At(s_side, kSideHalf));
       AppendRun(line, side, s_side, side.length(), kSideHalf);
-      lines.push_back({Curve(line),
-                       near,
-                       {line.begin() + static_cast<std::ptrdiff_t>(arc0),
-                        line.begin() + static_cast<std::ptrdiff_t>(arc0) + 13}});
+      lines.push_back(
+          {Curve(line), near, {line.begin() + static_cast<std::ptrdiff_t>(arc0), line.begin() + static_cast<std::ptrdiff_t>(arc0) + 13}});
       // … and back along the far one.
       line.clear();
       const Vec2f far = Corner(main, hand * kMainHalf, side, -kSideHalf);
@@ -101,9 +96,8 @@ std::vector<KerbLine> KerbLines(const Layout& layout) {
       const size_t arc1 = line.size() - 1;
       AppendArc(line, side.At(t_side, -kSideHalf), far, main.At(t_main, hand * kMainHalf));
       line.push_back(main.At(t_main, hand * kMainHalf));
-      lines.push_back({Curve(std::vector<Vec2f>(line.begin(), line.end())),
-                       far,
-                       {line.begin() + static_cast<std::ptrdiff_t>(arc1), line.end()}});
+      lines.push_back(
+          {Curve(std::vector<Vec2f>(line.begin(), line.end())), far, {line.begin() + static_cast<std::ptrdiff_t>(arc1), line.end()}});
       // The main road's kerb goes on from here, in a line of its own.
       line = {main.At(t_main, hand * kMainHalf)};
       at = t_main + hand * kRowStep;
@@ -216,8 +210,8 @@ class RoadMaker {
     const float v_scale = strip.kind == VergeStrip::kSlab ? 6 / 5.7f : 1.0f;
     const float v0 = strip.kind == VergeStrip::kSlab ? 0.0f : strip.o0 - strip.z0;
     const float v1 = v0 + v_scale * std::hypot(strip.o1 - strip.o0, strip.z1 - strip.z0);
-    mesh_.QuadUv(at(i, strip.o0, strip.z0), at(i + 1, strip.o0, strip.z0), at(i + 1, strip.o1, strip.z1),
-                 at(i, strip.o1, strip.z1), {s0, v0}, {s1, v0}, {s1, v1}, {s0, v1});
+    mesh_.QuadUv(at(i, strip.o0, strip.z0), at(i + 1, strip.o0, strip.z0), at(i + 1, strip.o1, strip.z1), at(i, strip.o1, strip.z1),
+                 {s0, v0}, {s1, v0}, {s1, v1}, {s0, v1});
   }
 
   Park& park_;
@@ -229,8 +223,7 @@ class RoadMaker {
 void LayRoads(Park& park) {
   RoadMaker maker(park);
   maker.Carriageway(park.layout.main(), kMainHalf, park.materials.main_road, 0, "road");
-  for (const Curve& side : park.layout.side_roads())
-    maker.Carriageway(side, kSideHalf, park.materials.side_road, 12, "side road");
+  for (const Curve& side : park.layout.side_roads()) maker.Carriageway(side, kSideHalf, park.materials.side_road, 12, "side road");
   for (const KerbLine& kerb : KerbLines(park.layout)) {
     maker.Verge(kerb);
     maker.CornerFill(kerb);

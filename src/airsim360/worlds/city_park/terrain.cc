@@ -19,26 +19,17 @@ constexpr int kRoot = 65536;  // 16,384 m
 struct Cell {
   int x, y, size;  // lower left corner and width
   Vec2f middle() const {
-    return Vec2f{static_cast<float>(x) + 0.5f * static_cast<float>(size),
-                 static_cast<float>(y) + 0.5f * static_cast<float>(size)} *
-           kUnit;
+    return Vec2f{static_cast<float>(x) + 0.5f * static_cast<float>(size), static_cast<float>(y) + 0.5f * static_cast<float>(size)} * kUnit;
   }
 };
 
-uint64_t KeyOf(int x, int y) {
-  return static_cast<uint64_t>(static_cast<uint32_t>(x)) << 32 | static_cast<uint32_t>(y);
-}
+uint64_t KeyOf(int x, int y) { return static_cast<uint64_t>(static_cast<uint32_t>(x)) << 32 | static_cast<uint32_t>(y); }
 
 // Width in metres that cells around p should have; `size` is that of the cell that asks.
 float WantedSize(const Layout& layout, Vec2f p, float size) {
   const float r = std::hypot(p.x, p.y), half = 0.71f * size;
   const float nearest = std::max(0.0f, r - half);
-  float wanted = nearest < 48     ? 1
-                 : nearest < 150  ? 2
-                 : nearest < 560  ? 4
-                 : nearest < 1500 ? 16
-                 : nearest < 4500 ? 64
-                                  : 128;
+  float wanted = nearest < 48 ? 1 : nearest < 150 ? 2 : nearest < 560 ? 4 : nearest < 1500 ? 16 : nearest < 4500 ? 64 : 128;
   if (nearest > 760) return wanted;
   const float lake = layout.Lake(p);
   if (std::abs(lake - 1.02f) * kLakeRy * 0.8f < 3.5f + half)
@@ -47,8 +38,7 @@ float WantedSize(const Layout& layout, Vec2f p, float size) {
     wanted = std::min(wanted, 2.0f);
   if (size > wanted && std::abs(layout.BeyondRoad(p) - 0.4f) < 1.6f + half)
     wanted = std::min(wanted, nearest < 150 ? 1.0f : nearest < 560 ? 2.0f : 4.0f);
-  if (size > wanted && nearest < 560 && layout.PathDistance(p, 3 + half) < kPathHalf + 0.9f + half)
-    wanted = std::min(wanted, 1.0f);
+  if (size > wanted && nearest < 560 && layout.PathDistance(p, 3 + half) < kPathHalf + 0.9f + half) wanted = std::min(wanted, 1.0f);
   return wanted;
 }
 
@@ -150,8 +140,8 @@ Mesh MeshOfLevel(const Park& park, size_t level, const std::vector<Vec3f>& point
   const float half = kGroundSquares[level];
   for (const auto& [key, triangles] : ground.parts) {
     if (key.first != level) continue;
-    mesh.parts.push_back({static_cast<uint32_t>(mesh.triangles.size()), static_cast<uint32_t>(triangles.size()),
-                          park.materials.ground[level], key.second});
+    mesh.parts.push_back(
+        {static_cast<uint32_t>(mesh.triangles.size()), static_cast<uint32_t>(triangles.size()), park.materials.ground[level], key.second});
     for (Vec3u t : triangles) {
       for (uint32_t* k : {&t.x, &t.y, &t.z}) {
         uint32_t& to = index[*k];

@@ -29,8 +29,7 @@ class Nursery {
     for (int detail = 0; detail < 3; ++detail) {
       for (int species = 0; species < static_cast<int>(ParkTree::kCount); ++species) {
         const auto tree = static_cast<ParkTree>(species);
-        for (int i = 0; i < InfoOf(tree).individuals[detail]; ++i)
-          jobs.push_back({tree, static_cast<TreeDetail>(detail), i});
+        for (int i = 0; i < InfoOf(tree).individuals[detail]; ++i) jobs.push_back({tree, static_cast<TreeDetail>(detail), i});
       }
     }
     std::vector<Model> models(jobs.size());
@@ -38,8 +37,7 @@ class Nursery {
       const Job& job = jobs[static_cast<size_t>(i)];
       models[static_cast<size_t>(i)] = MakeParkTree(job.species, job.detail, job.individual, seed);
     });
-    for (size_t i = 0; i < jobs.size(); ++i)
-      meshes_[{jobs[i].species, jobs[i].detail}].push_back(shelf.Add(std::move(models[i])));
+    for (size_t i = 0; i < jobs.size(); ++i) meshes_[{jobs[i].species, jobs[i].detail}].push_back(shelf.Add(std::move(models[i])));
   }
   MeshId Pick(ParkTree species, TreeDetail detail, uint32_t number) const {
     const auto& list = meshes_.at({species, detail});
@@ -80,8 +78,7 @@ class Spacing {
 
 class Planter {
  public:
-  explicit Planter(Park& park)
-      : park_(park), nursery_(park.placer.shelf(), park.seed), rng_(park.seed, "park trees") {}
+  explicit Planter(Park& park) : park_(park), nursery_(park.placer.shelf(), park.seed), rng_(park.seed, "park trees") {}
 
   // Room for a trunk with `margin` to roads and paths.
   bool IsFree(Vec2f p, float margin) const {
@@ -94,8 +91,7 @@ class Planter {
     const float r = std::hypot(p.x, p.y);
     const TreeDetail detail = r < kMiddleFrom ? TreeDetail::kFull : TreeDetail::kMiddle;
     const EntityId entity = park_.AddEntity(std::string(InfoOf(species).name), InfoOf(species).category);
-    const Vec3f up = Normalized(
-        Vec3f{0.03f * static_cast<float>(rng_.Normal()), 0.03f * static_cast<float>(rng_.Normal()), 1});
+    const Vec3f up = Normalized(Vec3f{0.03f * static_cast<float>(rng_.Normal()), 0.03f * static_cast<float>(rng_.Normal()), 1});
     Place(nursery_.Pick(species, detail, individual), p, up, scale, entity);
     park_.placer.Reserve({p, {0.55f * scale, 0.55f * scale}, 0});
     if (r < 95) near_.push_back(p);
@@ -108,8 +104,7 @@ class Planter {
       const Vec2f p{r * std::cos(a), r * std::sin(a)};
       const float woods = Fractal(p.x / 60, p.y / 60, 3, 81);
       // Two open lawns before the spawn.
-      if (std::hypot((p.x - 2) / 27, (p.y - 33) / 22) < 1 || std::hypot((p.x + 30) / 40, (p.y - 45) / 22) < 1)
-        continue;
+      if (std::hypot((p.x - 2) / 27, (p.y - 33) / 22) < 1 || std::hypot((p.x + 30) / 40, (p.y - 45) / 22) < 1) continue;
       // No shadow over the spawn: the low sun stands in the south-east.
       if (r < 36 && p.x > 0 && p.y < 0) continue;
       float wanted = 0.95f * Ramp(0.36f, 0.56f, woods) + 0.07f;
@@ -141,12 +136,9 @@ class Planter {
         if (q < 800 && park_.layout.BeyondRoad(p) < 4) continue;
         if (!park_.occupancy.IsFree({p, {1, 1}, 0})) continue;
         const ParkTree species = Species(p);
-        const auto cell = std::tuple(static_cast<int>(std::floor(p.x / 300)),
-                                     static_cast<int>(std::floor(p.y / 300)), species);
+        const auto cell = std::tuple(static_cast<int>(std::floor(p.x / 300)), static_cast<int>(std::floor(p.y / 300)), species);
         const auto [it, fresh] = patches.try_emplace(cell, kNoEntity);
-        if (fresh)
-          it->second =
-              park_.AddEntity("wood of " + std::string(InfoOf(species).name), InfoOf(species).category);
+        if (fresh) it->second = park_.AddEntity("wood of " + std::string(InfoOf(species).name), InfoOf(species).category);
         const float scale = static_cast<float>(rng_.Uniform(0.8, 1.25)) * (1 + 0.00018f * (q - kFarFrom));
         Place(nursery_.Pick(species, TreeDetail::kFar, rng_.Index(12)), p, {0, 0, 1}, scale, it->second);
       }
@@ -214,9 +206,7 @@ class Planter {
            : u < 0.95f ? ParkTree::kPine
                        : ParkTree::kPoplar;
   }
-  void Shrub(Vec2f p, float scale) {
-    park_.placer.Try("shrub", park_.OnGround(p, 0.05f), kTau * Uniform(), scale, LeafTint(rng_));
-  }
+  void Shrub(Vec2f p, float scale) { park_.placer.Try("shrub", park_.OnGround(p, 0.05f), kTau * Uniform(), scale, LeafTint(rng_)); }
   void Place(MeshId mesh, Vec2f p, Vec3f up, float scale, EntityId entity) {
     const AffineTransform X = PlaceTilted(park_.OnGround(p, 0.10f), up, kTau * Uniform(), scale);
     park_.builder.AddInstance({mesh, X, entity, LeafTint(rng_)});
@@ -235,11 +225,9 @@ std::vector<Vec2f> PlantTrees(Park& park) {
   Planter planter(park);
   planter.Solitary(ParkTree::kElm, {4, 19.5f}, 0.95f, 0, 9);
   uint32_t willow = 0;
-  for (Vec2f p : {Vec2f{-88, 70}, Vec2f{-86, 92}, Vec2f{-66, 57}, Vec2f{-8, 114}, Vec2f{6, 90},
-                  Vec2f{-60, 117}, Vec2f{-59, 88}}) {
+  for (Vec2f p : {Vec2f{-88, 70}, Vec2f{-86, 92}, Vec2f{-66, 57}, Vec2f{-8, 114}, Vec2f{6, 90}, Vec2f{-60, 117}, Vec2f{-59, 88}}) {
     // By the water, not in it.
-    while (park.layout.Lake(p) < 1.07f && park.layout.Island(p) < 0.6f)
-      p = kLakeCenter + (p - kLakeCenter) * 1.02f;
+    while (park.layout.Lake(p) < 1.07f && park.layout.Island(p) < 0.6f) p = kLakeCenter + (p - kLakeCenter) * 1.02f;
     planter.Solitary(ParkTree::kWillow, p, 0.9f + 0.3f * planter.Uniform(), willow++, 7);
   }
   planter.PlantPark();

@@ -8,16 +8,12 @@
 #include "airsim360/worlds/town/street_lanes.h"
 
 namespace airsim360::internal {
-std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options) {
-  return BuildDowntownWest(options, nullptr);
-}
+std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options) { return BuildDowntownWest(options, nullptr); }
 
-std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
-                                               std::vector<Placement>* placements) {
+std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options, std::vector<Placement>* placements) {
   SceneBuilder builder("downtown_west");
   builder.AddSky();
-  builder.environment() = {
-      .sun_azimuth_deg = 222, .sun_elevation_deg = 44, .turbidity = 2.6, .cloud_cover = 0.35};
+  builder.environment() = {.sun_azimuth_deg = 222, .sun_elevation_deg = 44, .turbidity = 2.6, .cloud_cover = 0.35};
   const Surfaces surfaces = AddSurfaces(builder);
   const StreetPlan plan = PlanDowntownWest();
   PropShelf shelf(builder, options.models, options.seed);
@@ -31,8 +27,7 @@ std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
   builder.SetRoads(std::make_shared<const RoadNetwork>(RoadsOf(plan)));
   for (const Block& block : plan.blocks) {
     const bool open = block.kind == BlockKind::kPlaza || block.kind == BlockKind::kPark;
-    LayPavement(ground, block, open ? Surface::kSlabsWarm : Surface::kSlabs, "ground/pavement/modular",
-                block.kind != BlockKind::kBackdrop);
+    LayPavement(ground, block, open ? Surface::kSlabsWarm : Surface::kSlabs, "ground/pavement/modular", block.kind != BlockKind::kBackdrop);
     if (block.kind == BlockKind::kPlaza) {
       PlaceDowntownLandmarks(district, block);
       BuildPlaza(district, block);
@@ -52,8 +47,7 @@ std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
 
   AddPlacedModels(builder, shelf, options.props);
   // Over the plaza, the fountain ahead to the east.
-  const auto plaza = std::find_if(plan.blocks.begin(), plan.blocks.end(),
-                                  [](const Block& b) { return b.kind == BlockKind::kPlaza; });
+  const auto plaza = std::find_if(plan.blocks.begin(), plan.blocks.end(), [](const Block& b) { return b.kind == BlockKind::kPlaza; });
   const Vec2f c = plaza->inner().center();
   builder.SetSpawn({c.x - 16.5f, c.y - 3, 6.5f});
   if (placements) *placements = placer.placements();
@@ -62,19 +56,74 @@ std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
 
 // What is there, by semantic path.
 constexpr const char* kCategories[] = {
-    "barrier/fence/wood_fence", "barrier/railing/pillar", "barrier/railing/rail", "construction/awning", "construction/balcony",
-    "construction/bridge", "construction/building", "construction/building/roof", "construction/fountain", "construction/phone_booth",
-    "construction/rooftop/air_conditioner", "construction/rooftop/antenna", "construction/rooftop/ventilation_tube",
-    "construction/rooftop/water_tank", "construction/stairs", "construction/wall", "furniture/curtain", "furniture/lighting/lamp_post",
-    "furniture/lighting/street_light", "furniture/mail/post_box", "furniture/planter/pot", "furniture/seating/bench/wood", "furniture/seating/chair",
-    "furniture/shade/tarp", "furniture/shade/tarp_post", "furniture/shade/umbrella", "furniture/table/dining_table", "furniture/transit/bus_stop",
-    "furniture/utility/electric_box", "furniture/utility/fire_hydrant", "furniture/utility/parking_meter", "furniture/vending/food_cart",
-    "furniture/vending/food_stall", "furniture/waste/recycle_bin", "furniture/waste/trash_can", "ground/bike_lane", "ground/crosswalk", "ground/kerb",
-    "ground/lane_marking", "ground/manhole", "ground/path/park_walkway", "ground/pavement/modular", "ground/road", "ground/terrain/landscape",
-    "nature/mountain", "nature/rock", "signage/billboard", "signage/flag/usa", "signage/poster_stand", "signage/shop_sign", "signage/traffic_sign",
-    "sky", "traffic/barrier/barrier", "traffic/bollard/car_pillar", "traffic/control/traffic_light", "vegetation/flower", "vegetation/hedge",
-    "vegetation/shrub/bush", "vegetation/tree/broadleaf/generic", "vegetation/tree/broadleaf/maple", "vegetation/tree/broadleaf/narrowleaf",
-    "vegetation/tree/conifer/pine", "vehicle/bicycle", "vehicle/bus", "vehicle/car", "vehicle/food_truck", "vehicle/van", "water/water_plane",
+    "barrier/fence/wood_fence",
+    "barrier/railing/pillar",
+    "barrier/railing/rail",
+    "construction/awning",
+    "construction/balcony",
+    "construction/bridge",
+    "construction/building",
+    "construction/building/roof",
+    "construction/fountain",
+    "construction/phone_booth",
+    "construction/rooftop/air_conditioner",
+    "construction/rooftop/antenna",
+    "construction/rooftop/ventilation_tube",
+    "construction/rooftop/water_tank",
+    "construction/stairs",
+    "construction/wall",
+    "furniture/curtain",
+    "furniture/lighting/lamp_post",
+    "furniture/lighting/street_light",
+    "furniture/mail/post_box",
+    "furniture/planter/pot",
+    "furniture/seating/bench/wood",
+    "furniture/seating/chair",
+    "furniture/shade/tarp",
+    "furniture/shade/tarp_post",
+    "furniture/shade/umbrella",
+    "furniture/table/dining_table",
+    "furniture/transit/bus_stop",
+    "furniture/utility/electric_box",
+    "furniture/utility/fire_hydrant",
+    "furniture/utility/parking_meter",
+    "furniture/vending/food_cart",
+    "furniture/vending/food_stall",
+    "furniture/waste/recycle_bin",
+    "furniture/waste/trash_can",
+    "ground/bike_lane",
+    "ground/crosswalk",
+    "ground/kerb",
+    "ground/lane_marking",
+    "ground/manhole",
+    "ground/path/park_walkway",
+    "ground/pavement/modular",
+    "ground/road",
+    "ground/terrain/landscape",
+    "nature/mountain",
+    "nature/rock",
+    "signage/billboard",
+    "signage/flag/usa",
+    "signage/poster_stand",
+    "signage/shop_sign",
+    "signage/traffic_sign",
+    "sky",
+    "traffic/barrier/barrier",
+    "traffic/bollard/car_pillar",
+    "traffic/control/traffic_light",
+    "vegetation/flower",
+    "vegetation/hedge",
+    "vegetation/shrub/bush",
+    "vegetation/tree/broadleaf/generic",
+    "vegetation/tree/broadleaf/maple",
+    "vegetation/tree/broadleaf/narrowleaf",
+    "vegetation/tree/conifer/pine",
+    "vehicle/bicycle",
+    "vehicle/bus",
+    "vehicle/car",
+    "vehicle/food_truck",
+    "vehicle/van",
+    "water/water_plane",
 };
 
 WorldInfo DowntownWestInfo() {

@@ -24,8 +24,7 @@ class DowntownWest : public ::testing::Test {
   // Entities by category path.
   static std::map<std::string, std::vector<const Entity*>> ByCategory() {
     std::map<std::string, std::vector<const Entity*>> groups;
-    for (const Entity& entity : scene_->entities)
-      groups[scene_->tree[entity.category].path].push_back(&entity);
+    for (const Entity& entity : scene_->entities) groups[scene_->tree[entity.category].path].push_back(&entity);
     return groups;
   }
   static int CountWithin(const std::vector<const Entity*>& entities, const GroundRect& rect) {
@@ -63,8 +62,7 @@ std::string HashOf(const Scene& scene) {
     add(&entity.category, 1);
     add(&entity.bounds, 1);
   }
-  for (const Texture& texture : scene.textures)
-    add(texture.levels[0].pixels().data(), texture.levels[0].size());
+  for (const Texture& texture : scene.textures) add(texture.levels[0].pixels().data(), texture.levels[0].size());
   return Sha256Hex(bytes);
 }
 
@@ -126,12 +124,10 @@ TEST_F(DowntownWest, ReachesTheStructuralFloor) {
   EXPECT_GE(within("furniture/lighting/lamp_post") + within("furniture/lighting/street_light"), 100);
   EXPECT_GE(within("vehicle/car"), 60);
   const auto& manholes = groups.at("ground/manhole");
-  EXPECT_GE(std::count_if(manholes.begin(), manholes.end(),
-                          [](const Entity* e) { return e->name.starts_with("manhole"); }),
-            30);
-  EXPECT_GE(within("vegetation/tree/broadleaf/generic") + within("vegetation/tree/broadleaf/narrowleaf") +
-                within("vegetation/tree/conifer/pine"),
-            150);
+  EXPECT_GE(std::count_if(manholes.begin(), manholes.end(), [](const Entity* e) { return e->name.starts_with("manhole"); }), 30);
+  EXPECT_GE(
+      within("vegetation/tree/broadleaf/generic") + within("vegetation/tree/broadleaf/narrowleaf") + within("vegetation/tree/conifer/pine"),
+      150);
   std::set<FacadeStyle> styles;
   for (const BuildingPlan& building : PlanBuildings(plan, 0)) {
     if (reach.Contains(building.bounds().center())) styles.insert(building.style);
@@ -174,8 +170,7 @@ TEST_F(DowntownWest, EveryEntityButTheSkyIsSomewhereInTheWorld) {
   for (const Entity& entity : scene_->entities) {
     if (entity.id == scene_->sky_entity) continue;
     ASSERT_FALSE(entity.bounds.empty()) << entity.name;
-    EXPECT_TRUE(scene_->bounds.Contains(entity.bounds.min) && scene_->bounds.Contains(entity.bounds.max))
-        << entity.name;
+    EXPECT_TRUE(scene_->bounds.Contains(entity.bounds.min) && scene_->bounds.Contains(entity.bounds.max)) << entity.name;
   }
 }
 
@@ -186,8 +181,7 @@ TEST_F(DowntownWest, NoTwoPropsShareGround) {
     for (size_t k = i + 1; k < placements_.size(); ++k) {
       const Footprint& b = placements_[k].footprint;
       if (std::hypot(a.center.x - b.center.x, a.center.y - b.center.y) > 20) continue;
-      EXPECT_FALSE(a.Overlaps(b)) << placements_[i].kind << " and " << placements_[k].kind << " at "
-                                  << a.center.x << " " << a.center.y;
+      EXPECT_FALSE(a.Overlaps(b)) << placements_[i].kind << " and " << placements_[k].kind << " at " << a.center.x << " " << a.center.y;
     }
   }
 }
@@ -237,21 +231,15 @@ class GroundColumns {
   };
   int width() const { return width_; }
   int height() const { return height_; }
-  Vec2f Center(int x, int y) const {
-    return {area_.x0 + static_cast<float>(x) + 0.503f, area_.y0 + static_cast<float>(y) + 0.507f};
-  }
+  Vec2f Center(int x, int y) const { return {area_.x0 + static_cast<float>(x) + 0.503f, area_.y0 + static_cast<float>(y) + 0.507f}; }
   /// Up-facing surfaces at a point, in no order.
-  const std::vector<Surface>& At(int x, int y) const {
-    return surfaces_[static_cast<size_t>(y) * width_ + x];
-  }
+  const std::vector<Surface>& At(int x, int y) const { return surfaces_[static_cast<size_t>(y) * width_ + x]; }
 
  private:
   void Add(Vec3f a, Vec3f b, Vec3f c, EntityId entity) {
     const Vec3f n = Cross(b - a, c - a);
     if (n.z <= 1e-9f) return;
-    const auto cross = [](Vec3f p, Vec3f q, Vec2f r) {
-      return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
-    };
+    const auto cross = [](Vec3f p, Vec3f q, Vec2f r) { return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x); };
     const int x0 = std::max(0, static_cast<int>(std::min({a.x, b.x, c.x}) - area_.x0) - 1);
     const int x1 = std::min(width_ - 1, static_cast<int>(std::max({a.x, b.x, c.x}) - area_.x0) + 1);
     const int y0 = std::max(0, static_cast<int>(std::min({a.y, b.y, c.y}) - area_.y0) - 1);
@@ -260,8 +248,7 @@ class GroundColumns {
       for (int x = x0; x <= x1; ++x) {
         const Vec2f p = Center(x, y);
         if (cross(a, b, p) < 0 || cross(b, c, p) < 0 || cross(c, a, p) < 0) continue;
-        surfaces_[static_cast<size_t>(y) * width_ + x].push_back(
-            {a.z - (n.x * (p.x - a.x) + n.y * (p.y - a.y)) / n.z, entity});
+        surfaces_[static_cast<size_t>(y) * width_ + x].push_back({a.z - (n.x * (p.x - a.x) + n.y * (p.y - a.y)) / n.z, entity});
       }
     }
   }
@@ -281,9 +268,7 @@ TEST_F(DowntownWest, GroundHasNoHoleAndTheAnnouncedArea) {
   for (int y = 0; y < columns.height(); ++y) {
     for (int x = 0; x < columns.width(); ++x) {
       const Vec2f p = columns.Center(x, y);
-      if (std::any_of(buildings.begin(), buildings.end(),
-                      [&](const BuildingPlan& b) { return b.bounds().Contains(p); }))
-        continue;
+      if (std::any_of(buildings.begin(), buildings.end(), [&](const BuildingPlan& b) { return b.bounds().Contains(p); })) continue;
       if (columns.At(x, y).empty()) {
         ++holes;
       } else {
@@ -306,8 +291,8 @@ TEST_F(DowntownWest, NoTwoGroundEntitiesShareASurface) {
         for (size_t k = i + 1; k < at.size(); ++k) {
           if (at[i].entity == at[k].entity) continue;
           EXPECT_GE(std::abs(at[i].z - at[k].z), 0.0019f)
-              << scene_->entity(at[i].entity).name << " and " << scene_->entity(at[k].entity).name << " at "
-              << columns.Center(x, y).x << " " << columns.Center(x, y).y;
+              << scene_->entity(at[i].entity).name << " and " << scene_->entity(at[k].entity).name << " at " << columns.Center(x, y).x
+              << " " << columns.Center(x, y).y;
         }
       }
     }

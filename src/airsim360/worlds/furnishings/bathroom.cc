@@ -41,10 +41,11 @@ Model MakeToilet(uint32_t variant, uint64_t) {
   UseCeramic(b);
   const bool hung = variant == 2;
   const float base = hung ? 0.16f : 0.0f;
-  const EggRing rings[] = {{0.105f, 0.17f, 0.24f, 0.05f, base},     {0.115f, 0.19f, 0.25f, 0.04f, base + 0.04f}, {0.125f, 0.22f, 0.25f, 0.0f, 0.24f},
-                           {0.165f, 0.29f, 0.25f, 0.0f, 0.34f},     {0.180f, 0.315f, 0.25f, 0.0f, 0.395f},       {0.172f, 0.305f, 0.24f, 0.0f, 0.402f},
-                           {0.135f, 0.265f, 0.20f, 0.0f, 0.400f},   {0.12f, 0.24f, 0.17f, -0.01f, 0.33f},        {0.06f, 0.12f, 0.10f, -0.02f, 0.22f},
-                           {0.001f, 0.001f, 0.001f, -0.02f, 0.215f}};
+  const EggRing rings[] = {{0.105f, 0.17f, 0.24f, 0.05f, base},   {0.115f, 0.19f, 0.25f, 0.04f, base + 0.04f},
+                           {0.125f, 0.22f, 0.25f, 0.0f, 0.24f},   {0.165f, 0.29f, 0.25f, 0.0f, 0.34f},
+                           {0.180f, 0.315f, 0.25f, 0.0f, 0.395f}, {0.172f, 0.305f, 0.24f, 0.0f, 0.402f},
+                           {0.135f, 0.265f, 0.20f, 0.0f, 0.400f}, {0.12f, 0.24f, 0.17f, -0.01f, 0.33f},
+                           {0.06f, 0.12f, 0.10f, -0.02f, 0.22f},  {0.001f, 0.001f, 0.001f, -0.02f, 0.215f}};
   Egg(b, rings);
   if (hung) {
     const EggRing under[] = {{0.001f, 0.001f, 0.001f, 0.05f, base}, {0.105f, 0.17f, 0.24f, 0.05f, base}};
@@ -161,7 +162,8 @@ Model MakeBathtub(uint32_t variant, uint64_t) {
   PropBuilder b("bathtub");
   const float x = variant == 1 ? 0.85f : 0.85f, y = variant == 1 ? 0.38f : 0.375f, top = 0.58f;
   const auto ring = [&](float inset, float z) {
-    auto flat = RoundedRectangle({-x + inset, -y + inset}, {x - inset, y - inset}, variant == 1 ? 0.34f - inset * 0.5f : std::max(0.15f, 0.02f + inset), 8);
+    auto flat = RoundedRectangle({-x + inset, -y + inset}, {x - inset, y - inset},
+                                 variant == 1 ? 0.34f - inset * 0.5f : std::max(0.15f, 0.02f + inset), 8);
     std::vector<Vec3f> out;
     for (Vec2f p : flat) out.push_back({p.x, p.y, z});
     return out;
@@ -200,8 +202,10 @@ Model MakeBathtub(uint32_t variant, uint64_t) {
     }
   }
   b.Use(Chrome());
-  const Vec3f spout[] = {
-      {-0.30f, y - 0.03f, top - 0.002f}, {-0.30f, y - 0.03f, top + 0.06f}, {-0.30f, y - 0.10f, top + 0.075f}, {-0.30f, y - 0.15f, top + 0.055f}};
+  const Vec3f spout[] = {{-0.30f, y - 0.03f, top - 0.002f},
+                         {-0.30f, y - 0.03f, top + 0.06f},
+                         {-0.30f, y - 0.10f, top + 0.075f},
+                         {-0.30f, y - 0.15f, top + 0.055f}};
   b.Bar(spout, 0.013f, 12);
   for (float s : {-0.09f, 0.09f}) {
     const Vec2f knob[] = {{0.018f, 0}, {0.018f, 0.02f}, {0.024f, 0.026f}, {0.022f, 0.05f}, {0, 0.052f}};
@@ -221,7 +225,8 @@ Model MakeShower(uint32_t variant, uint64_t) {
   const Vec2f drain[] = {{0.055f, 0.045f}, {0.05f, 0.049f}, {0, 0.05f}};
   b.Lathe(drain, 20, {0, 0.1f, 0});
   b.Use(variant == 1 ? Paint({0.02f, 0.02f, 0.022f}) : Chrome());
-  for (const Vec2f p : {Vec2f{-h + 0.012f, -h + 0.012f}, Vec2f{h - 0.012f, -h + 0.012f}, Vec2f{h - 0.012f, h - 0.012f}, Vec2f{-h + 0.012f, h - 0.012f}})
+  for (const Vec2f p :
+       {Vec2f{-h + 0.012f, -h + 0.012f}, Vec2f{h - 0.012f, -h + 0.012f}, Vec2f{h - 0.012f, h - 0.012f}, Vec2f{-h + 0.012f, h - 0.012f}})
     b.BevelBox({p.x - 0.012f, p.y - 0.012f, 0.045f}, {p.x + 0.012f, p.y + 0.012f, top}, 0.002f);
   for (float z : {0.045f, top - 0.03f}) {
     b.BevelBox({-h + 0.02f, -h + 0.002f, z}, {h - 0.02f, -h + 0.022f, z + 0.03f}, 0.002f);
@@ -240,14 +245,15 @@ Model MakeShower(uint32_t variant, uint64_t) {
   std::vector<Vec3f> hose;
   for (int i = 0; i <= 14; ++i) {
     const float t = static_cast<float>(i) / 14;
-    hose.push_back(
-        {-h + 0.075f + 0.04f * std::sin(3.1f * t), 0.03f - 0.03f * t + 0.10f * std::sin(3.14159f * t), 1.60f - 0.55f * t - 0.55f * std::sin(3.14159f * t)});
+    hose.push_back({-h + 0.075f + 0.04f * std::sin(3.1f * t), 0.03f - 0.03f * t + 0.10f * std::sin(3.14159f * t),
+                    1.60f - 0.55f * t - 0.55f * std::sin(3.14159f * t)});
   }
   b.Bar(hose, 0.006f, 6);
   b.Use(ClearGlass());
   b.mesh().Quad({-h + 0.02f, -h + 0.012f, 0.07f}, {h - 0.02f, -h + 0.012f, 0.07f}, {h - 0.02f, -h + 0.012f, top - 0.03f},
                 {-h + 0.02f, -h + 0.012f, top - 0.03f});
-  b.mesh().Quad({h - 0.012f, -h + 0.02f, 0.07f}, {h - 0.012f, h - 0.02f, 0.07f}, {h - 0.012f, h - 0.02f, top - 0.03f}, {h - 0.012f, -h + 0.02f, top - 0.03f});
+  b.mesh().Quad({h - 0.012f, -h + 0.02f, 0.07f}, {h - 0.012f, h - 0.02f, 0.07f}, {h - 0.012f, h - 0.02f, top - 0.03f},
+                {h - 0.012f, -h + 0.02f, top - 0.03f});
   b.Use(Metal());
   BowHandle(b, {h - 0.10f, 0.95f}, {h - 0.10f, 1.15f}, -h + 0.010f, 0.007f);
   return b.Finish();

@@ -84,7 +84,8 @@ void Bedding(PropBuilder& b, const BedLook& look, uint64_t seed) {
   for (int i = 0; i < places; ++i) {
     const float x = places == 1 ? 0.0f : (static_cast<float>(i) - 0.5f) * look.width * 0.49f;
     UseLinen(b, look.sheet);
-    Pillow(b, Turn(22, 0, 3.0f * static_cast<float>(i) - 2, {x, 0.66f, kMattress + 0.13f}), {0.70f, 0.52f}, 0.17f, seed + 11 + static_cast<uint64_t>(i));
+    Pillow(b, Turn(22, 0, 3.0f * static_cast<float>(i) - 2, {x, 0.66f, kMattress + 0.13f}), {0.70f, 0.52f}, 0.17f,
+           seed + 11 + static_cast<uint64_t>(i));
     UseLinen(b, look.duvet);
     Pillow(b, Turn(58, 0, 2 - 4.0f * static_cast<float>(i), {x * 1.04f, 0.86f, kMattress + 0.25f}), {0.66f, 0.50f}, 0.16f,
            seed + 21 + static_cast<uint64_t>(i));
@@ -115,17 +116,19 @@ Model MakeBed(const char* name, const BedLook& look, uint64_t seed) {
 }
 
 Model MakeBedDouble(uint32_t variant, uint64_t seed) {
-  const BedLook looks[4] = {{1.60f, 0, Timber::kOak, {}, {0.66f, 0.65f, 0.62f}, {0.74f, 0.73f, 0.71f}, {0.24f, 0.30f, 0.33f}},
-                            {1.80f, 1, Timber::kOak, {0.30f, 0.29f, 0.28f}, {0.30f, 0.36f, 0.42f}, {0.72f, 0.72f, 0.70f}, {0.46f, 0.36f, 0.22f}},
-                            {1.40f, 2, Timber::kPine, {}, {0.62f, 0.52f, 0.46f}, {0.72f, 0.70f, 0.66f}, {0.40f, 0.14f, 0.09f}},
-                            {1.60f, 0, Timber::kWalnut, {}, {0.25f, 0.30f, 0.24f}, {0.70f, 0.69f, 0.64f}, {0.60f, 0.55f, 0.45f}}};
+  const BedLook looks[4] = {
+      {1.60f, 0, Timber::kOak, {}, {0.66f, 0.65f, 0.62f}, {0.74f, 0.73f, 0.71f}, {0.24f, 0.30f, 0.33f}},
+      {1.80f, 1, Timber::kOak, {0.30f, 0.29f, 0.28f}, {0.30f, 0.36f, 0.42f}, {0.72f, 0.72f, 0.70f}, {0.46f, 0.36f, 0.22f}},
+      {1.40f, 2, Timber::kPine, {}, {0.62f, 0.52f, 0.46f}, {0.72f, 0.70f, 0.66f}, {0.40f, 0.14f, 0.09f}},
+      {1.60f, 0, Timber::kWalnut, {}, {0.25f, 0.30f, 0.24f}, {0.70f, 0.69f, 0.64f}, {0.60f, 0.55f, 0.45f}}};
   return MakeBed("bed_double", looks[variant], seed);
 }
 
 Model MakeBedSingle(uint32_t variant, uint64_t seed) {
-  const BedLook looks[3] = {{0.90f, 0, Timber::kPine, {}, {0.28f, 0.38f, 0.52f}, {0.72f, 0.72f, 0.72f}, {0.62f, 0.60f, 0.55f}},
-                            {0.90f, 2, Timber::kPine, {}, {0.68f, 0.66f, 0.62f}, {0.72f, 0.71f, 0.69f}, {0.50f, 0.32f, 0.08f}},
-                            {0.90f, 1, Timber::kOak, {0.20f, 0.26f, 0.30f}, {0.58f, 0.42f, 0.38f}, {0.74f, 0.73f, 0.71f}, {0.26f, 0.22f, 0.30f}}};
+  const BedLook looks[3] = {
+      {0.90f, 0, Timber::kPine, {}, {0.28f, 0.38f, 0.52f}, {0.72f, 0.72f, 0.72f}, {0.62f, 0.60f, 0.55f}},
+      {0.90f, 2, Timber::kPine, {}, {0.68f, 0.66f, 0.62f}, {0.72f, 0.71f, 0.69f}, {0.50f, 0.32f, 0.08f}},
+      {0.90f, 1, Timber::kOak, {0.20f, 0.26f, 0.30f}, {0.58f, 0.42f, 0.38f}, {0.74f, 0.73f, 0.71f}, {0.26f, 0.22f, 0.30f}}};
   return MakeBed("bed_single", looks[variant], seed);
 }
 

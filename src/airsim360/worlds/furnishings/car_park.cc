@@ -19,8 +19,9 @@ Model MakeWheelStop(uint32_t variant, uint64_t) {
   const auto piece = [&](float x0, float x1) {
     const auto at = [&](float u, float v) {
       const float y = d * (1 - 2 * v), s = std::abs(2 * v - 1);
-      return Vec3f{x0 + (x1 - x0) * u, y,
-                   h * (s < 0.55f ? 1.0f : std::sqrt(std::max(0.0f, 1 - std::pow((s - 0.55f) / 0.45f, 2.0f) * 0.92f)) * (s > 0.999f ? 0.0f : 1.0f))};
+      return Vec3f{
+          x0 + (x1 - x0) * u, y,
+          h * (s < 0.55f ? 1.0f : std::sqrt(std::max(0.0f, 1 - std::pow((s - 0.55f) / 0.45f, 2.0f) * 0.92f)) * (s > 0.999f ? 0.0f : 1.0f))};
     };
     b.Sheet(2, 20, [&](float u, float v) { return at(u, 1 - v); }, {x1 - x0, 0.3f});
   };
@@ -106,8 +107,8 @@ Model MakeParkingSign(uint32_t variant, uint64_t) {
   for (float x : {-0.45f, 0.45f}) b.mesh().Tube({x, 0, h}, {x, 0, h + 0.35f}, 0.009f, 0.009f, 8);
   b.Use(Paint({0.9f, 0.9f, 0.9f}, 0.35f), SignPicture(variant));
   for (float s : {1.0f, -1.0f})
-    b.Picture({-(half - 0.006f) * s, -0.0205f * s, 0.006f}, {(half - 0.006f) * s, -0.0205f * s, 0.006f}, {(half - 0.006f) * s, -0.0205f * s, h - 0.006f},
-              {-(half - 0.006f) * s, -0.0205f * s, h - 0.006f});
+    b.Picture({-(half - 0.006f) * s, -0.0205f * s, 0.006f}, {(half - 0.006f) * s, -0.0205f * s, 0.006f},
+              {(half - 0.006f) * s, -0.0205f * s, h - 0.006f}, {-(half - 0.006f) * s, -0.0205f * s, h - 0.006f});
   return b.Finish();
 }
 
@@ -137,11 +138,12 @@ Model MakeTicketMachine(uint32_t variant, uint64_t) {
   b.Use(Plastic({0.03f, 0.03f, 0.033f}, 0.5f));
   for (int i = 0; i < 9; ++i)
     b.mesh().Tube({-0.02f + 0.02f * static_cast<float>(i % 3), y, h * 0.47f + 0.02f * static_cast<float>(i / 3)},
-                  {-0.02f + 0.02f * static_cast<float>(i % 3), y - 0.002f, h * 0.47f + 0.02f * static_cast<float>(i / 3)}, 0.005f, 0.005f, 8, false);
+                  {-0.02f + 0.02f * static_cast<float>(i % 3), y - 0.002f, h * 0.47f + 0.02f * static_cast<float>(i / 3)}, 0.005f, 0.005f,
+                  8, false);
   if (variant == 0) {  // its guard hoop
     b.Use(Paint(kYellow, 0.4f));
-    b.Bar(std::array<Vec3f, 6>{Vec3f{-0.30f, -0.22f, 0}, Vec3f{-0.30f, -0.22f, 0.62f}, Vec3f{-0.24f, -0.22f, 0.70f}, Vec3f{0.24f, -0.22f, 0.70f},
-                               Vec3f{0.30f, -0.22f, 0.62f}, Vec3f{0.30f, -0.22f, 0}},
+    b.Bar(std::array<Vec3f, 6>{Vec3f{-0.30f, -0.22f, 0}, Vec3f{-0.30f, -0.22f, 0.62f}, Vec3f{-0.24f, -0.22f, 0.70f},
+                               Vec3f{0.24f, -0.22f, 0.70f}, Vec3f{0.30f, -0.22f, 0.62f}, Vec3f{0.30f, -0.22f, 0}},
           0.03f, 12);
   }
   return b.Finish();

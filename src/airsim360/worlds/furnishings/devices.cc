@@ -42,7 +42,8 @@ const Texture& Desktop(uint32_t kind) {
                            {0.29f + 0.08f * static_cast<float>(i), 0.9f}, inks[i % 3] * 0.9f);
         for (int i = 0; i < 12; ++i)
           canvas.Line({0.22f + 0.06f * static_cast<float>(i), 0.30f + 0.08f * std::sin(static_cast<float>(i))},
-                      {0.28f + 0.06f * static_cast<float>(i), 0.30f + 0.08f * std::sin(static_cast<float>(i + 1))}, 0.012f, {0.45f, 0.08f, 0.06f});
+                      {0.28f + 0.06f * static_cast<float>(i), 0.30f + 0.08f * std::sin(static_cast<float>(i + 1))}, 0.012f,
+                      {0.45f, 0.08f, 0.06f});
       }
       all[k] = canvas.Finish("desktop " + std::to_string(k));
     }
@@ -83,7 +84,8 @@ Model MakeComputer(uint32_t variant, uint64_t) {
   for (float x : {-w + 0.015f, w - 0.015f}) b.BevelBox({x - 0.012f, -d + 0.02f, 0}, {x + 0.012f, d - 0.03f, 0.014f}, 0.003f);
   b.Use(Plastic({0.012f, 0.012f, 0.013f}, 0.5f));
   for (int i = 0; i < 9; ++i)
-    b.BevelBox({-w * 0.75f, -d - 0.0008f, 0.05f + 0.014f * static_cast<float>(i)}, {w * 0.75f, -d + 0.002f, 0.056f + 0.014f * static_cast<float>(i)}, 0.0005f);
+    b.BevelBox({-w * 0.75f, -d - 0.0008f, 0.05f + 0.014f * static_cast<float>(i)},
+               {w * 0.75f, -d + 0.002f, 0.056f + 0.014f * static_cast<float>(i)}, 0.0005f);
   b.BevelBox({-w * 0.8f, -d - 0.001f, h - 0.07f}, {w * 0.8f, -d + 0.002f, h - 0.035f}, 0.001f);
   b.Use(Chrome());
   b.mesh().Tube({w * 0.55f, -d, h - 0.10f}, {w * 0.55f, -d - 0.003f, h - 0.10f}, 0.009f, 0.008f, 14, false);
@@ -96,7 +98,8 @@ Model MakeComputer(uint32_t variant, uint64_t) {
 // With a mouse on its right, and a mat under it in one variant.
 Model MakeKeyboard(uint32_t variant, uint64_t) {
   PropBuilder b("keyboard");
-  const Vec3f shell = variant == 1 ? Vec3f{0.62f, 0.63f, 0.64f} : kBlack, key = variant == 1 ? Vec3f{0.72f, 0.72f, 0.72f} : Vec3f{0.035f, 0.036f, 0.04f};
+  const Vec3f shell = variant == 1 ? Vec3f{0.62f, 0.63f, 0.64f} : kBlack,
+              key = variant == 1 ? Vec3f{0.72f, 0.72f, 0.72f} : Vec3f{0.035f, 0.036f, 0.04f};
   const float z0 = variant == 2 ? 0.003f : 0.0f;
   if (variant == 2) {
     UsePile(b, {0.035f, 0.04f, 0.05f});
@@ -190,7 +193,8 @@ Model MakePhone(uint32_t variant, uint64_t) {
 Model MakePrinter(uint32_t variant, uint64_t) {
   PropBuilder b("printer");
   const Vec3f shell{0.68f, 0.68f, 0.67f};
-  const float half = variant == 0 ? 0.30f : 0.21f, d = variant == 0 ? 0.32f : 0.19f, base = variant == 0 ? 0.56f : 0.12f, h = variant == 0 ? 1.08f : 0.30f;
+  const float half = variant == 0 ? 0.30f : 0.21f, d = variant == 0 ? 0.32f : 0.19f, base = variant == 0 ? 0.56f : 0.12f,
+              h = variant == 0 ? 1.08f : 0.30f;
   b.Use(Plastic(shell, 0.4f));
   b.BevelBox({-half, -d, variant == 0 ? 0.05f : 0.008f}, {half, d, base}, 0.008f);
   b.BevelBox({-half, -d + 0.02f, base + 0.004f}, {half, d, base + (h - base) * 0.45f}, 0.008f);
@@ -237,13 +241,15 @@ Model MakeWaterDispenser(uint32_t variant, uint64_t) {
   }
   if (variant == 0) {
     b.Use(ClearGlass({0.55f, 0.75f, 0.92f}));
-    const Vec2f bottle[] = {{0.03f, h - 0.01f},  {0.05f, h + 0.03f},  {0.132f, h + 0.08f}, {0.135f, h + 0.17f}, {0.128f, h + 0.18f}, {0.135f, h + 0.19f},
-                            {0.135f, h + 0.28f}, {0.128f, h + 0.29f}, {0.135f, h + 0.30f}, {0.132f, h + 0.38f}, {0.11f, h + 0.40f},  {0, h + 0.40f}};
+    const Vec2f bottle[] = {{0.03f, h - 0.01f},  {0.05f, h + 0.03f},  {0.132f, h + 0.08f}, {0.135f, h + 0.17f},
+                            {0.128f, h + 0.18f}, {0.135f, h + 0.19f}, {0.135f, h + 0.28f}, {0.128f, h + 0.29f},
+                            {0.135f, h + 0.30f}, {0.132f, h + 0.38f}, {0.11f, h + 0.40f},  {0, h + 0.40f}};
     b.Lathe(bottle, 28);
   } else {
     Material panel = Screen(80);
     b.Use(panel, Desktop(2));
-    b.Picture({-0.06f, -d - 0.0005f, h * 0.90f}, {0.06f, -d - 0.0005f, h * 0.90f}, {0.06f, -d - 0.0005f, h * 0.96f}, {-0.06f, -d - 0.0005f, h * 0.96f});
+    b.Picture({-0.06f, -d - 0.0005f, h * 0.90f}, {0.06f, -d - 0.0005f, h * 0.90f}, {0.06f, -d - 0.0005f, h * 0.96f},
+              {-0.06f, -d - 0.0005f, h * 0.96f});
   }
   return b.Finish();
 }

@@ -51,14 +51,15 @@ struct Flight {
 
 // Ribbed aluminium with yellow lines along the sides.
 const Texture& TreadTexture() {
-  static const Texture texture = Texture::FromImage("escalator tread",
-                                                    Shade(256, 64,
-                                                          [](float u, float v) {
-                                                            const float rib = std::fmod(u * 64, 1.0f) < 0.55f ? 1.0f : 0.25f;
-                                                            if (u < 0.035f || u > 0.965f || v > 0.93f) return Vec3f{0.72f, 0.48f, 0.03f} * (0.5f + 0.5f * rib);
-                                                            return Vec3f{0.36f, 0.36f, 0.37f} * rib * (0.9f + 0.15f * TileFractal(u, v, 4, 3, 3, 931));
-                                                          }),
-                                                    true);
+  static const Texture texture =
+      Texture::FromImage("escalator tread",
+                         Shade(256, 64,
+                               [](float u, float v) {
+                                 const float rib = std::fmod(u * 64, 1.0f) < 0.55f ? 1.0f : 0.25f;
+                                 if (u < 0.035f || u > 0.965f || v > 0.93f) return Vec3f{0.72f, 0.48f, 0.03f} * (0.5f + 0.5f * rib);
+                                 return Vec3f{0.36f, 0.36f, 0.37f} * rib * (0.9f + 0.15f * TileFractal(u, v, 4, 3, 3, 931));
+                               }),
+                         true);
   return texture;
 }
 
@@ -73,7 +74,9 @@ void Steps(PropBuilder& b, const Flight& f) {
     // The belt moves: seen at rest, the flat steps lie level with the plates.
     b.Picture({-kHalfStep, y0, z}, {kHalfStep, y0, z}, {kHalfStep, y1, z}, {-kHalfStep, y1, z});
     const float below = k ? height(k - 1) : z;
-    if (z > below) b.Picture({-kHalfStep, y0 + 0.004f, below}, {kHalfStep, y0 + 0.004f, below}, {kHalfStep, y0 + 0.004f, z}, {-kHalfStep, y0 + 0.004f, z});
+    if (z > below)
+      b.Picture({-kHalfStep, y0 + 0.004f, below}, {kHalfStep, y0 + 0.004f, below}, {kHalfStep, y0 + 0.004f, z},
+                {-kHalfStep, y0 + 0.004f, z});
   }
 }
 
@@ -149,7 +152,8 @@ void Side(PropBuilder& b, const Flight& f, float s, bool glass) {
       b.mesh().Triangle(middle, arc[i], arc[i + 1]);
       b.mesh().Triangle(middle, arc[i + 1], arc[i]);
     }
-    b.mesh().Box({pane - 0.004f, std::min(yc, yc + way * 0.30f), z + 0.08f}, {pane + 0.004f, std::max(yc, yc + way * 0.30f), z + kRail - 2 * kNewel + 0.02f});
+    b.mesh().Box({pane - 0.004f, std::min(yc, yc + way * 0.30f), z + 0.08f},
+                 {pane + 0.004f, std::max(yc, yc + way * 0.30f), z + kRail - 2 * kNewel + 0.02f});
   }
 }
 
@@ -170,10 +174,13 @@ Model MakeEscalator(uint32_t variant, uint64_t) {
     b.mesh().Quad({-wide, y[i + 1], std::max(0.0f, z1)}, {wide, y[i + 1], std::max(0.0f, z1)}, {wide, y[i], std::max(0.0f, z0)},
                   {-wide, y[i], std::max(0.0f, z0)});
   }
-  b.mesh().Quad({wide, f.y_end, f.rise - kTruss}, {-wide, f.y_end, f.rise - kTruss}, {-wide, f.y_end, f.rise + 0.002f}, {wide, f.y_end, f.rise + 0.002f});
+  b.mesh().Quad({wide, f.y_end, f.rise - kTruss}, {-wide, f.y_end, f.rise - kTruss}, {-wide, f.y_end, f.rise + 0.002f},
+                {wide, f.y_end, f.rise + 0.002f});
   b.Use(LampSurface(600, 2 * kTread * static_cast<float>(f.risers) * 0.02f, 4000, Burns::kAlways));  // lines of light over the skirts
   for (float s : {-1.0f, 1.0f})
-    Ribbon(b, {f.y_foot + 0.3f, f.y_head - 0.3f}, s * (kHalfStep + 0.008f), -s, [&](float v) { return Vec2f{f.Eased(v) + 0.045f, f.Eased(v) + 0.065f}; });
+    Ribbon(b, {f.y_foot + 0.3f, f.y_head - 0.3f}, s * (kHalfStep + 0.008f), -s, [&](float v) {
+      return Vec2f{f.Eased(v) + 0.045f, f.Eased(v) + 0.065f};
+    });
   return b.Finish();
 }
 
@@ -182,12 +189,14 @@ Model MakeLiftDoor(uint32_t variant, uint64_t) {
   PropBuilder b("lift_door");
   const float half = variant == 1 ? 0.45f : 0.55f, h = 2.10f, frame = 0.12f;
   UseBrushedSteel(b, 0.22f);
-  for (float s : {-1.0f, 1.0f}) b.BevelBox({s > 0 ? half : -half - frame, -0.05f, 0}, {s > 0 ? half + frame : -half, 0, h + frame + 0.18f}, 0.006f);
+  for (float s : {-1.0f, 1.0f})
+    b.BevelBox({s > 0 ? half : -half - frame, -0.05f, 0}, {s > 0 ? half + frame : -half, 0, h + frame + 0.18f}, 0.006f);
   b.BevelBox({-half, -0.05f, h}, {half, 0, h + frame + 0.18f}, 0.006f);
   UseBrushedSteel(b, 0.3f);
   const float split = variant == 1 ? -half * 0.0f : 0.0f;
   for (float s : {-1.0f, 1.0f})
-    b.BevelBox({s > 0 ? split + 0.0015f : -half, s > 0 && variant == 1 ? -0.022f : -0.028f, 0.006f}, {s > 0 ? half : split - 0.0015f, -0.004f, h}, 0.003f);
+    b.BevelBox({s > 0 ? split + 0.0015f : -half, s > 0 && variant == 1 ? -0.022f : -0.028f, 0.006f},
+               {s > 0 ? half : split - 0.0015f, -0.004f, h}, 0.003f);
   b.Use(Metal({0.45f, 0.45f, 0.44f}, 0.4f));
   b.BevelBox({-half - frame, -0.12f, 0}, {half + frame, 0, 0.006f}, 0.001f);
   b.Use(Plastic({0.012f, 0.012f, 0.014f}, 0.08f));

@@ -14,9 +14,9 @@ namespace {
 
 FurnishingRows AllRows() {
   FurnishingRows all;
-  for (auto family :
-       {BedRows,      StorageRows,  SofaRows,   TableRows,  MediaRows, KitchenRows,   BathroomRows, TextileRows, WallPieceRows, PlantRows,   SmallThingRows,
-        HomeLampRows, HallLampRows, OfficeRows, DeviceRows, RackRows,  WarehouseRows, ShopRows,     MallRows,    EscalatorRows, ServiceRows, CarParkRows}) {
+  for (auto family : {BedRows,       StorageRows, SofaRows,       TableRows,     MediaRows,    KitchenRows, BathroomRows, TextileRows,
+                      WallPieceRows, PlantRows,   SmallThingRows, HomeLampRows,  HallLampRows, OfficeRows,  DeviceRows,   RackRows,
+                      WarehouseRows, ShopRows,    MallRows,       EscalatorRows, ServiceRows,  CarParkRows}) {
     FurnishingRows rows = family();
     std::move(rows.begin(), rows.end(), std::back_inserter(all));
   }
@@ -52,6 +52,8 @@ const Furnishing& FindFurnishing(std::string_view kind) {
   throw InputError(UnknownChoiceMessage("furnishing", kind, names));
 }
 
-Box3f FurnishingBox(std::string_view kind, uint32_t variant) { return MakeProp(FindPropKind(FindFurnishing(kind).kind), variant, 0, nullptr).mesh.Bounds(); }
+Box3f FurnishingBox(std::string_view kind, uint32_t variant) {
+  return MakeProp(FindPropKind(FindFurnishing(kind).kind), variant, 0, nullptr).mesh.Bounds();
+}
 
 }  // namespace airsim360

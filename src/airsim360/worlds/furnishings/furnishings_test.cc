@@ -41,7 +41,8 @@ float Lumens(const Model& model) {
     double area = 0;
     for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
       const Vec3u t = model.mesh.triangles[k];
-      area += 0.5 * Norm(Cross(model.mesh.positions[t.y] - model.mesh.positions[t.x], model.mesh.positions[t.z] - model.mesh.positions[t.x]));
+      area +=
+          0.5 * Norm(Cross(model.mesh.positions[t.y] - model.mesh.positions[t.x], model.mesh.positions[t.z] - model.mesh.positions[t.x]));
     }
     sum += std::numbers::pi * area * Luminance(m.emission) / kNit;
   }
@@ -121,7 +122,8 @@ TEST(Furnishings, LieWhereTheirMountSays) {
   for (const Furnishing& f : Furnishings()) {
     for (uint32_t v = 0; v < Variants(f.kind); ++v) {
       const Box3f box = Make(f.kind, v).mesh.Bounds();
-      EXPECT_TRUE(f.kind == "escalator" || box.min.z >= -0.035f) << f.kind << " " << v << ": " << box.min.z;  // tilted feet and cushions at most
+      EXPECT_TRUE(f.kind == "escalator" || box.min.z >= -0.035f)
+          << f.kind << " " << v << ": " << box.min.z;  // tilted feet and cushions at most
       if (f.mount == Mount::kWall) {
         EXPECT_LE(box.max.y, 0.005f) << f.kind << " " << v;
         EXPECT_GE(box.max.y, -0.03f) << f.kind << " " << v;
@@ -150,10 +152,12 @@ TEST(Furnishings, SendOutTheFluxOfTheirDataSheets) {
     const char* kind;
     uint32_t variant;
     float lumens;
-  } lamps[] = {{"ceiling_panel", 0, 3600},  {"ceiling_panel", 1, 3600},  {"tube_light", 0, 5000},   {"tube_light", 1, 5000},  {"tube_light", 2, 5000},
-               {"high_bay_lamp", 0, 20000}, {"high_bay_lamp", 1, 20000}, {"downlight", 0, 900},     {"downlight", 3, 900},    {"floor_lamp", 0, 1055},
-               {"floor_lamp", 2, 806},      {"table_lamp", 0, 470},      {"pendant_lamp", 1, 1055}, {"pendant_lamp", 2, 1521}};
-  for (const auto& lamp : lamps) EXPECT_NEAR(Lumens(Make(lamp.kind, lamp.variant)) / lamp.lumens, 1, 0.04) << lamp.kind << " " << lamp.variant;
+  } lamps[] = {{"ceiling_panel", 0, 3600}, {"ceiling_panel", 1, 3600},  {"tube_light", 0, 5000},     {"tube_light", 1, 5000},
+               {"tube_light", 2, 5000},    {"high_bay_lamp", 0, 20000}, {"high_bay_lamp", 1, 20000}, {"downlight", 0, 900},
+               {"downlight", 3, 900},      {"floor_lamp", 0, 1055},     {"floor_lamp", 2, 806},      {"table_lamp", 0, 470},
+               {"pendant_lamp", 1, 1055},  {"pendant_lamp", 2, 1521}};
+  for (const auto& lamp : lamps)
+    EXPECT_NEAR(Lumens(Make(lamp.kind, lamp.variant)) / lamp.lumens, 1, 0.04) << lamp.kind << " " << lamp.variant;
 }
 
 TEST(Furnishings, ThatBurnByNightAreThoseOfHomes) {
@@ -163,8 +167,9 @@ TEST(Furnishings, ThatBurnByNightAreThoseOfHomes) {
       for (const Material& m : Make(f.kind, v).materials)
         if (m.emission != Vec3f{} && m.lamp && !FindPropKind(f.kind).category.starts_with("vehicle/"))
           evening.insert(std::string(f.kind) + " " + std::to_string(v));
-  const std::set<std::string> homes = {"downlight 2",    "downlight 3",    "floor_lamp 0", "floor_lamp 1", "floor_lamp 2", "pendant_lamp 0", "pendant_lamp 1",
-                                       "pendant_lamp 2", "pendant_lamp 3", "table_lamp 0", "table_lamp 1", "table_lamp 2", "table_lamp 3"};
+  const std::set<std::string> homes = {"downlight 2",    "downlight 3",    "floor_lamp 0",   "floor_lamp 1",   "floor_lamp 2",
+                                       "pendant_lamp 0", "pendant_lamp 1", "pendant_lamp 2", "pendant_lamp 3", "table_lamp 0",
+                                       "table_lamp 1",   "table_lamp 2",   "table_lamp 3"};
   EXPECT_EQ(evening, homes);
 }
 
@@ -175,7 +180,8 @@ TEST(Furnishings, LampsShineDownwardsFromCeilings) {
       if (model.materials[part.material].emission == Vec3f{}) continue;
       for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
         const Vec3u t = model.mesh.triangles[k];
-        EXPECT_LT(Cross(model.mesh.positions[t.y] - model.mesh.positions[t.x], model.mesh.positions[t.z] - model.mesh.positions[t.x]).z, 0) << kind;
+        EXPECT_LT(Cross(model.mesh.positions[t.y] - model.mesh.positions[t.x], model.mesh.positions[t.z] - model.mesh.positions[t.x]).z, 0)
+            << kind;
       }
     }
   }
@@ -228,7 +234,8 @@ TEST(Furnishings, AreTheSameWithAnyNumberOfThreads) {
     EXPECT_EQ(one->meshes[i].triangles, many->meshes[i].triangles);
   }
   ASSERT_EQ(one->textures.size(), many->textures.size());
-  for (size_t i = 0; i < one->textures.size(); ++i) EXPECT_EQ(one->textures[i].levels[0], many->textures[i].levels[0]) << one->textures[i].name;
+  for (size_t i = 0; i < one->textures.size(); ++i)
+    EXPECT_EQ(one->textures[i].levels[0], many->textures[i].levels[0]) << one->textures[i].name;
 }
 
 TEST(Furnishings, UnknownNameIsAnInputErrorWithTheNearest) {

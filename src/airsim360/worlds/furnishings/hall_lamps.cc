@@ -17,7 +17,9 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 
 // A rectangle that faces down, at height z.
-void FaceDown(PropBuilder& b, Vec2f lo, Vec2f hi, float z) { b.mesh().Quad({lo.x, hi.y, z}, {hi.x, hi.y, z}, {hi.x, lo.y, z}, {lo.x, lo.y, z}); }
+void FaceDown(PropBuilder& b, Vec2f lo, Vec2f hi, float z) {
+  b.mesh().Quad({lo.x, hi.y, z}, {hi.x, hi.y, z}, {hi.x, lo.y, z}, {lo.x, lo.y, z});
+}
 
 // Recessed: only its frame, 6 mm, hangs below the ceiling. Variant 1 is 1.2 x 0.3 m.
 Model MakeCeilingPanel(uint32_t variant, uint64_t) {
@@ -29,7 +31,8 @@ Model MakeCeilingPanel(uint32_t variant, uint64_t) {
     b.BevelBox({-half.x, s > 0 ? half.y - rim : -half.y, 0}, {half.x, s > 0 ? half.y : -half.y + rim, h}, 0.003f);
     b.BevelBox({s > 0 ? half.x - rim : -half.x, -half.y + rim, 0}, {s > 0 ? half.x : -half.x + rim, half.y - rim, h}, 0.003f);
   }
-  b.mesh().Quad({-half.x + rim, -half.y + rim, h}, {half.x - rim, -half.y + rim, h}, {half.x - rim, half.y - rim, h}, {-half.x + rim, half.y - rim, h});
+  b.mesh().Quad({-half.x + rim, -half.y + rim, h}, {half.x - rim, -half.y + rim, h}, {half.x - rim, half.y - rim, h},
+                {-half.x + rim, half.y - rim, h});
   const Vec2f inner{half.x - rim, half.y - rim};
   b.Use(LampSurface(3600, 4 * inner.x * inner.y, 4000, Burns::kAlways));
   FaceDown(b, inner * -1, inner, 0.004f);
@@ -73,7 +76,8 @@ Model MakeTubeLight(uint32_t variant, uint64_t) {
     for (float x : {-0.5f, 0.0f, 0.5f})
       for (float s : {-1.0f, 1.0f}) b.BevelBox({x - 0.012f, s * 0.047f - 0.006f, 0.035f}, {x + 0.012f, s * 0.047f + 0.006f, 0.09f}, 0.002f);
   } else {
-    for (float s : {-1.0f, 1.0f}) b.BevelBox({s * (half - 0.02f) - 0.012f, -0.02f, 0.0f}, {s * (half - 0.02f) + 0.012f, 0.02f, 0.06f}, 0.004f);
+    for (float s : {-1.0f, 1.0f})
+      b.BevelBox({s * (half - 0.02f) - 0.012f, -0.02f, 0.0f}, {s * (half - 0.02f) + 0.012f, 0.02f, 0.06f}, 0.004f);
     const float r = 0.013f;
     b.Use(LampSurface(5000, 2 * kPi * r * 2 * (half - 0.03f), 4000, Burns::kAlways));
     b.mesh().Tube({-half + 0.03f, 0, 0.022f}, {half - 0.03f, 0, 0.022f}, r, r, 14, false, false);
@@ -140,7 +144,9 @@ const Texture& ExitPicture(bool left) {
       const Vec3f white{0.85f, 0.87f, 0.85f};
       const auto x = [&](float u) { return k == 1 ? 1 - u : u; };
       const auto bar = [&](float u0, float v0, float u1, float v1, float t) { canvas.Line({x(u0), v0}, {x(u1), v1}, t, white); };
-      const auto box = [&](float u0, float v0, float u1, float v1) { canvas.Rectangle({std::min(x(u0), x(u1)), v0}, {std::max(x(u0), x(u1)), v1}, white); };
+      const auto box = [&](float u0, float v0, float u1, float v1) {
+        canvas.Rectangle({std::min(x(u0), x(u1)), v0}, {std::max(x(u0), x(u1)), v1}, white);
+      };
       box(0.56f, 0.14f, 0.60f, 0.88f);  // the door's frame
       box(0.56f, 0.14f, 0.86f, 0.20f);
       box(0.83f, 0.14f, 0.86f, 0.88f);

@@ -108,7 +108,8 @@ Model MakeTableLamp(uint32_t variant, uint64_t) {
     b.mesh().Tube({x, 0.10f, 0.03f}, elbow + Vec3f{x, 0, 0}, 0.005f, 0.005f, 8);
     b.mesh().Tube(elbow + Vec3f{x, 0, 0}, wrist + Vec3f{x, 0, 0}, 0.005f, 0.005f, 8);
   }
-  for (Vec3f p : {Vec3f{0, 0.10f, 0.035f}, elbow, wrist}) b.mesh().Tube(p - Vec3f{0.022f, 0, 0}, p + Vec3f{0.022f, 0, 0}, 0.014f, 0.014f, 12);
+  for (Vec3f p : {Vec3f{0, 0.10f, 0.035f}, elbow, wrist})
+    b.mesh().Tube(p - Vec3f{0.022f, 0, 0}, p + Vec3f{0.022f, 0, 0}, 0.014f, 0.014f, 12);
   b.Place(Turn(-28, 0, 0, wrist));
   const Vec2f shade[] = {{0.085f, -0.12f}, {0.075f, -0.07f}, {0.035f, -0.02f}, {0.03f, 0.02f}, {0, 0.025f}};
   b.Lathe(shade, 26);

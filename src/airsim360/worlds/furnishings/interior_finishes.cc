@@ -50,7 +50,8 @@ const Texture& TimberTexture(Timber timber) {
     std::array<Texture, 5> all;
     for (size_t i = 0; i < all.size(); ++i) {
       const WoodLook& wood = kWoods[i];
-      all[i] = Texture::FromImage(std::string("timber ") + wood.name, Shade(256, 512, [&](float u, float v) { return WoodColor(wood, u, v); }), true);
+      all[i] = Texture::FromImage(std::string("timber ") + wood.name,
+                                  Shade(256, 512, [&](float u, float v) { return WoodColor(wood, u, v); }), true);
     }
     return all;
   }();
@@ -73,32 +74,35 @@ Thread WeaveAt(float u, float v, int n, uint64_t seed) {
 }
 
 const Texture& WeaveTexture() {
-  static const Texture texture =
-      Texture::FromImage("weave",
-                         Shade(256, 256,
-                               [](float u, float v) {
-                                 const Thread t = WeaveAt(u, v, 32, 601);
-                                 const float tone = (0.62f + 0.38f * t.height) * (0.74f + 0.26f * t.id);
-                                 return Vec3f{1, 1, 1} * std::min(1.0f, tone * (0.97f + 0.12f * (TileFractal(u, v, 3, 3, 3, 602) - 0.5f)) * 1.12f);
-                               }),
-                         true);
+  static const Texture texture = Texture::FromImage(
+      "weave",
+      Shade(256, 256,
+            [](float u, float v) {
+              const Thread t = WeaveAt(u, v, 32, 601);
+              const float tone = (0.62f + 0.38f * t.height) * (0.74f + 0.26f * t.id);
+              return Vec3f{1, 1, 1} * std::min(1.0f, tone * (0.97f + 0.12f * (TileFractal(u, v, 3, 3, 3, 602) - 0.5f)) * 1.12f);
+            }),
+      true);
   return texture;
 }
 const Texture& WeaveNormals() {
-  static const Texture texture = NormalsFromHeight("weave normals", 256, 256, 1, [](float u, float v) { return 0.006f * WeaveAt(u, v, 32, 601).height; });
+  static const Texture texture =
+      NormalsFromHeight("weave normals", 256, 256, 1, [](float u, float v) { return 0.006f * WeaveAt(u, v, 32, 601).height; });
   return texture;
 }
 
-float CreaseHeight(float u, float v) { return 0.010f * std::abs(TileFractal(u, v, 4, 4, 3, 611) - 0.5f) + 0.0009f * TileFractal(u, v, 90, 90, 2, 612); }
+float CreaseHeight(float u, float v) {
+  return 0.010f * std::abs(TileFractal(u, v, 4, 4, 3, 611) - 0.5f) + 0.0009f * TileFractal(u, v, 90, 90, 2, 612);
+}
 const Texture& LinenTexture() {
-  static const Texture texture =
-      Texture::FromImage("linen",
-                         Shade(256, 256,
-                               [](float u, float v) {
-                                 const float slub = TileFractal(u, v, 6, 100, 2, 613) + TileFractal(u, v, 100, 6, 2, 614);
-                                 return Vec3f{1, 1, 1} * std::min(1.0f, 0.88f + 0.08f * slub - 2.0f * std::max(0.0f, 0.012f - CreaseHeight(u, v)));
-                               }),
-                         true);
+  static const Texture texture = Texture::FromImage(
+      "linen",
+      Shade(256, 256,
+            [](float u, float v) {
+              const float slub = TileFractal(u, v, 6, 100, 2, 613) + TileFractal(u, v, 100, 6, 2, 614);
+              return Vec3f{1, 1, 1} * std::min(1.0f, 0.88f + 0.08f * slub - 2.0f * std::max(0.0f, 0.012f - CreaseHeight(u, v)));
+            }),
+      true);
   return texture;
 }
 const Texture& LinenNormals() {
@@ -112,15 +116,15 @@ float GrainHeight(float u, float v) {
   return 0.0022f * std::min(1.0f, 3.5f * cell.edge) + 0.004f * TileFractal(u, v, 5, 5, 2, 622);
 }
 const Texture& LeatherTexture() {
-  static const Texture texture =
-      Texture::FromImage("leather",
-                         Shade(256, 256,
-                               [](float u, float v) {
-                                 static const CellPattern cells(64, 64, 0.9f, 621);
-                                 const float groove = std::min(1.0f, 3.5f * cells.At(u, v).edge);
-                                 return Vec3f{1, 1, 1} * std::min(1.0f, 0.66f + 0.16f * groove + 0.28f * (TileFractal(u, v, 3, 3, 4, 623) - 0.35f));
-                               }),
-                         true);
+  static const Texture texture = Texture::FromImage(
+      "leather",
+      Shade(256, 256,
+            [](float u, float v) {
+              static const CellPattern cells(64, 64, 0.9f, 621);
+              const float groove = std::min(1.0f, 3.5f * cells.At(u, v).edge);
+              return Vec3f{1, 1, 1} * std::min(1.0f, 0.66f + 0.16f * groove + 0.28f * (TileFractal(u, v, 3, 3, 4, 623) - 0.35f));
+            }),
+      true);
   return texture;
 }
 const Texture& LeatherNormals() {
@@ -130,13 +134,14 @@ const Texture& LeatherNormals() {
 
 float PileHeight(float u, float v) { return 0.012f * TileFractal(u, v, 60, 60, 2, 631) + 0.012f * TileFractal(u, v, 6, 6, 3, 632); }
 const Texture& PileTexture() {
-  static const Texture texture = Texture::FromImage("pile",
-                                                    Shade(256, 256,
-                                                          [](float u, float v) {
-                                                            const float tuft = TileFractal(u, v, 60, 60, 2, 631), soft = TileFractal(u, v, 5, 5, 3, 632);
-                                                            return Vec3f{1, 1, 1} * std::min(1.0f, 0.52f + 0.48f * tuft + 0.24f * (soft - 0.3f));
-                                                          }),
-                                                    true);
+  static const Texture texture =
+      Texture::FromImage("pile",
+                         Shade(256, 256,
+                               [](float u, float v) {
+                                 const float tuft = TileFractal(u, v, 60, 60, 2, 631), soft = TileFractal(u, v, 5, 5, 3, 632);
+                                 return Vec3f{1, 1, 1} * std::min(1.0f, 0.52f + 0.48f * tuft + 0.24f * (soft - 0.3f));
+                               }),
+                         true);
   return texture;
 }
 const Texture& PileNormals() {
@@ -145,13 +150,14 @@ const Texture& PileNormals() {
 }
 
 const Texture& BrushedTexture() {
-  static const Texture texture = Texture::FromImage(
-      "brushed",
-      Shade(128, 256,
-            [](float u, float v) {
-              return Vec3f{1, 1, 1} * std::min(1.0f, 0.80f + 0.16f * TileFractal(u, v, 1, 128, 2, 641) + 0.08f * TileFractal(u, v, 2, 3, 2, 642));
-            }),
-      true);
+  static const Texture texture =
+      Texture::FromImage("brushed",
+                         Shade(128, 256,
+                               [](float u, float v) {
+                                 return Vec3f{1, 1, 1} * std::min(1.0f, 0.80f + 0.16f * TileFractal(u, v, 1, 128, 2, 641) +
+                                                                            0.08f * TileFractal(u, v, 2, 3, 2, 642));
+                               }),
+                         true);
   return texture;
 }
 
@@ -159,7 +165,8 @@ const Texture& GraniteTexture() {
   static const Texture texture = Texture::FromImage("granite",
                                                     Shade(256, 256,
                                                           [](float u, float v) {
-                                                            const float fine = TileFractal(u, v, 90, 90, 2, 651), blot = TileFractal(u, v, 24, 24, 3, 652);
+                                                            const float fine = TileFractal(u, v, 90, 90, 2, 651),
+                                                                        blot = TileFractal(u, v, 24, 24, 3, 652);
                                                             const float crystal = fine > 0.60f ? 1.0f : fine < 0.40f ? 0.42f : 0.74f;
                                                             return Vec3f{1, 1, 1} * (crystal * (0.72f + 0.42f * blot));
                                                           }),
@@ -168,15 +175,15 @@ const Texture& GraniteTexture() {
 }
 
 const Texture& CardboardTexture() {
-  static const Texture texture =
-      Texture::FromImage("cardboard",
-                         Shade(256, 256,
-                               [](float u, float v) {
-                                 const float flute = 0.5f + 0.5f * std::cos(2 * kPi * 56 * u), fleck = TileFractal(u, v, 80, 80, 2, 661);
-                                 const float tone = 0.88f + 0.03f * flute + 0.10f * (TileFractal(u, v, 3, 3, 4, 662) - 0.5f) - (fleck > 0.72f ? 0.10f : 0.0f);
-                                 return Vec3f{0.46f, 0.30f, 0.165f} * tone;
-                               }),
-                         true);
+  static const Texture texture = Texture::FromImage(
+      "cardboard",
+      Shade(256, 256,
+            [](float u, float v) {
+              const float flute = 0.5f + 0.5f * std::cos(2 * kPi * 56 * u), fleck = TileFractal(u, v, 80, 80, 2, 661);
+              const float tone = 0.88f + 0.03f * flute + 0.10f * (TileFractal(u, v, 3, 3, 4, 662) - 0.5f) - (fleck > 0.72f ? 0.10f : 0.0f);
+              return Vec3f{0.46f, 0.30f, 0.165f} * tone;
+            }),
+      true);
   return texture;
 }
 
@@ -188,32 +195,33 @@ const Texture& RoughBoardTexture() {
               const float fibre = TileFractal(u, v, 40, 3, 3, 671), soft = TileFractal(u, v, 3, 2, 3, 672);
               const float saw = 0.5f + 0.5f * std::sin(2 * kPi * 90 * v + 4 * fibre), stain = TileFractal(u, v, 5, 6, 3, 673);
               const Vec3f fresh{0.46f, 0.32f, 0.19f}, grey{0.28f, 0.25f, 0.22f};
-              return Blend(fresh, grey, 1.5f * (soft - 0.25f)) * ((0.72f + 0.45f * fibre) * (0.97f + 0.05f * saw) * (stain > 0.66f ? 0.72f : 1.0f));
+              return Blend(fresh, grey, 1.5f * (soft - 0.25f)) *
+                     ((0.72f + 0.45f * fibre) * (0.97f + 0.05f * saw) * (stain > 0.66f ? 0.72f : 1.0f));
             }),
       true);
   return texture;
 }
 
 const Texture& ScuffedTexture() {
-  static const Texture texture =
-      Texture::FromImage("scuffed",
-                         Shade(256, 256,
-                               [](float u, float v) {
-                                 const float scuff = TileFractal(u, v, 40, 5, 3, 681), dirt = TileFractal(u, v, 3, 4, 4, 682);
-                                 return Vec3f{1, 1, 1} * std::clamp(0.93f + 0.10f * (dirt - 0.5f) - (scuff > 0.74f ? 0.14f : 0.0f), 0.0f, 1.0f);
-                               }),
-                         true);
+  static const Texture texture = Texture::FromImage(
+      "scuffed",
+      Shade(256, 256,
+            [](float u, float v) {
+              const float scuff = TileFractal(u, v, 40, 5, 3, 681), dirt = TileFractal(u, v, 3, 4, 4, 682);
+              return Vec3f{1, 1, 1} * std::clamp(0.93f + 0.10f * (dirt - 0.5f) - (scuff > 0.74f ? 0.14f : 0.0f), 0.0f, 1.0f);
+            }),
+      true);
   return texture;
 }
 
 const Texture& SatinTexture() {
-  static const Texture texture =
-      Texture::FromImage("satin",
-                         Shade(128, 128,
-                               [](float u, float v) {
-                                 return Vec3f{1, 1, 1} * (0.965f + 0.03f * TileFractal(u, v, 3, 3, 4, 685) + 0.01f * TileFractal(u, v, 40, 40, 1, 686));
-                               }),
-                         true);
+  static const Texture texture = Texture::FromImage(
+      "satin",
+      Shade(128, 128,
+            [](float u, float v) {
+              return Vec3f{1, 1, 1} * (0.965f + 0.03f * TileFractal(u, v, 3, 3, 4, 685) + 0.01f * TileFractal(u, v, 40, 40, 1, 686));
+            }),
+      true);
   return texture;
 }
 
@@ -239,13 +247,19 @@ void UseTimber(PropBuilder& b, Timber timber, Grain grain) {
   b.Use(m, TimberTexture(timber), along ? Vec2f{1.5f, 0.36f} : Vec2f{0.36f, 1.5f});
 }
 
-void UseLacquer(PropBuilder& b, Vec3f color, float roughness) { b.Use(MakeFinish("lacquer", color, roughness), SatinTexture(), {0.9f, 0.9f}); }
+void UseLacquer(PropBuilder& b, Vec3f color, float roughness) {
+  b.Use(MakeFinish("lacquer", color, roughness), SatinTexture(), {0.9f, 0.9f});
+}
 
-void UseWeave(PropBuilder& b, Vec3f color) { b.Use(MakeFinish("upholstery", color, 0.95f), WeaveTexture(), {0.10f, 0.10f}, &WeaveNormals()); }
+void UseWeave(PropBuilder& b, Vec3f color) {
+  b.Use(MakeFinish("upholstery", color, 0.95f), WeaveTexture(), {0.10f, 0.10f}, &WeaveNormals());
+}
 
 void UseLinen(PropBuilder& b, Vec3f color) { b.Use(MakeFinish("linen", color, 0.9f), LinenTexture(), {0.55f, 0.55f}, &LinenNormals()); }
 
-void UseLeather(PropBuilder& b, Vec3f color) { b.Use(MakeFinish("leather", color, 0.38f), LeatherTexture(), {0.16f, 0.16f}, &LeatherNormals()); }
+void UseLeather(PropBuilder& b, Vec3f color) {
+  b.Use(MakeFinish("leather", color, 0.38f), LeatherTexture(), {0.16f, 0.16f}, &LeatherNormals());
+}
 
 void UsePile(PropBuilder& b, Vec3f color) { b.Use(MakeFinish("pile", color, 0.98f), PileTexture(), {0.30f, 0.30f}, &PileNormals()); }
 
@@ -265,11 +279,15 @@ void UseSheerCloth(PropBuilder& b, Vec3f color, float open) {
 
 void UseCeramic(PropBuilder& b, Vec3f color) { b.Use(MakeFinish("ceramic", color, 0.07f)); }
 
-void UseBrushedSteel(PropBuilder& b, float roughness) { b.Use(MakeFinish("brushed steel", {0.64f, 0.64f, 0.63f}, roughness, 1), BrushedTexture(), {0.4f, 0.2f}); }
+void UseBrushedSteel(PropBuilder& b, float roughness) {
+  b.Use(MakeFinish("brushed steel", {0.64f, 0.64f, 0.63f}, roughness, 1), BrushedTexture(), {0.4f, 0.2f});
+}
 
 void UseStoneTop(PropBuilder& b, Vec3f color) { b.Use(MakeFinish("stone top", color, 0.14f), GraniteTexture(), {0.6f, 0.6f}); }
 
-void UseCardboard(PropBuilder& b, float shade) { b.Use(MakeFinish("cardboard", Vec3f{0.9f, 0.9f, 0.9f} * shade, 0.85f), CardboardTexture(), {0.4f, 0.4f}); }
+void UseCardboard(PropBuilder& b, float shade) {
+  b.Use(MakeFinish("cardboard", Vec3f{0.9f, 0.9f, 0.9f} * shade, 0.85f), CardboardTexture(), {0.4f, 0.4f});
+}
 
 void UseRoughBoards(PropBuilder& b, Grain grain) {
   const bool along = grain == Grain::kAlongX;
@@ -278,7 +296,9 @@ void UseRoughBoards(PropBuilder& b, Grain grain) {
   b.Use(m, RoughBoardTexture(), along ? Vec2f{1.2f, 0.25f} : Vec2f{0.25f, 1.2f});
 }
 
-void UseCoatedSteel(PropBuilder& b, Vec3f color, float roughness) { b.Use(MakeFinish("coated steel", color, roughness), ScuffedTexture(), {0.7f, 0.7f}); }
+void UseCoatedSteel(PropBuilder& b, Vec3f color, float roughness) {
+  b.Use(MakeFinish("coated steel", color, roughness), ScuffedTexture(), {0.7f, 0.7f});
+}
 
 void UseGalvanised(PropBuilder& b) { b.Use(MakeFinish("galvanised", {0.60f, 0.61f, 0.62f}, 0.38f, 0.9f), SpangleTexture(), {0.5f, 0.5f}); }
 

@@ -124,7 +124,8 @@ Model MakeKitchenSinkCounter(uint32_t variant, uint64_t) {
     const bool along = i % 2 == 0;
     const float s = i < 2 ? -1.0f : 1.0f;
     if (along)
-      b.BevelBox({bx0 - 0.02f, s < 0 ? by0 - 0.02f : by1 - 0.012f, kTop}, {bx1 + 0.02f, s < 0 ? by0 + 0.012f : by1 + 0.02f, kTop + 0.004f}, 0.002f);
+      b.BevelBox({bx0 - 0.02f, s < 0 ? by0 - 0.02f : by1 - 0.012f, kTop}, {bx1 + 0.02f, s < 0 ? by0 + 0.012f : by1 + 0.02f, kTop + 0.004f},
+                 0.002f);
     else
       b.BevelBox({s < 0 ? bx0 - 0.02f : bx1 - 0.012f, by0, kTop}, {s < 0 ? bx0 + 0.012f : bx1 + 0.02f, by1, kTop + 0.004f}, 0.002f);
   }
@@ -135,8 +136,9 @@ Model MakeKitchenSinkCounter(uint32_t variant, uint64_t) {
   b.Use(Chrome());
   const Vec2f foot[] = {{0.027f, 0}, {0.027f, 0.012f}, {0.016f, 0.02f}, {0.015f, 0.10f}, {0, 0.10f}};
   b.Lathe(foot, 16, {c.x, 0.245f, kTop});
-  const Vec3f spout[] = {{c.x, 0.245f, kTop + 0.09f}, {c.x, 0.245f, kTop + 0.27f}, {c.x, 0.225f, kTop + 0.315f}, {c.x, 0.17f, kTop + 0.335f},
-                         {c.x, 0.10f, kTop + 0.315f}, {c.x, 0.075f, kTop + 0.26f}, {c.x, 0.075f, kTop + 0.23f}};
+  const Vec3f spout[] = {{c.x, 0.245f, kTop + 0.09f}, {c.x, 0.245f, kTop + 0.27f}, {c.x, 0.225f, kTop + 0.315f},
+                         {c.x, 0.17f, kTop + 0.335f}, {c.x, 0.10f, kTop + 0.315f}, {c.x, 0.075f, kTop + 0.26f},
+                         {c.x, 0.075f, kTop + 0.23f}};
   b.Bar(spout, 0.011f, 12);
   b.mesh().Tube({c.x + 0.012f, 0.245f, kTop + 0.075f}, {c.x + 0.075f, 0.235f, kTop + 0.105f}, 0.006f, 0.005f, 8);
   UseCeramic(b);
@@ -242,13 +244,15 @@ Model MakeWallCabinet(uint32_t variant, uint64_t) {
   if (variant == 1) {  // open shelves with dishes
     look.Use(b);
     for (float x : {-half, half - 0.018f}) b.BevelBox({x, -depth, 0}, {x + 0.018f, 0, h}, 0.002f);
-    for (float z : {0.0f, 0.35f, h - 0.018f}) b.BevelBox({-half + 0.018f, -depth + 0.002f, z}, {half - 0.018f, -0.008f, z + 0.018f}, 0.002f);
+    for (float z : {0.0f, 0.35f, h - 0.018f})
+      b.BevelBox({-half + 0.018f, -depth + 0.002f, z}, {half - 0.018f, -0.008f, z + 0.018f}, 0.002f);
     b.mesh().Box({-half + 0.018f, -0.008f, 0}, {half - 0.018f, 0, h});
     UseCeramic(b);
     for (int i = 0; i < 6; ++i) Plate(b, {-0.13f, -0.18f, 0.019f + 0.011f * static_cast<float>(i)}, 0.115f);
     for (int i = 0; i < 3; ++i) Bowl(b, {0.13f, -0.18f, 0.019f + 0.022f * static_cast<float>(i)}, 0.08f, 0.06f);
     UseCeramic(b, {0.20f, 0.28f, 0.32f});
-    for (int i = 0; i < 4; ++i) Cup(b, {-0.19f + 0.12f * static_cast<float>(i), -0.16f - 0.03f * static_cast<float>(i % 2), 0.369f}, 0.042f, 0.09f);
+    for (int i = 0; i < 4; ++i)
+      Cup(b, {-0.19f + 0.12f * static_cast<float>(i), -0.16f - 0.03f * static_cast<float>(i % 2), 0.369f}, 0.042f, 0.09f);
     return b.Finish();
   }
   UseLacquer(b, {0.70f, 0.69f, 0.67f});

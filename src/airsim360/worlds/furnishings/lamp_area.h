@@ -13,7 +13,8 @@ namespace airsim360::internal {
 inline float LatheArea(std::span<const Vec2f> profile) {
   float area = 0;
   for (size_t i = 0; i + 1 < profile.size(); ++i)
-    area += std::numbers::pi_v<float> * (profile[i].x + profile[i + 1].x) * std::hypot(profile[i + 1].x - profile[i].x, profile[i + 1].y - profile[i].y);
+    area += std::numbers::pi_v<float> * (profile[i].x + profile[i + 1].x) *
+            std::hypot(profile[i + 1].x - profile[i].x, profile[i + 1].y - profile[i].y);
   return area;
 }
 

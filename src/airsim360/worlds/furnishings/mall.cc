@@ -20,7 +20,8 @@ Model MakeBenchMall(uint32_t variant, uint64_t) {
   if (variant == 0) {
     UseTimber(b, Timber::kOak, Grain::kAlongX);
     for (int i = 0; i < 7; ++i)
-      b.BevelBox({-0.90f, -0.255f + 0.0735f * static_cast<float>(i), 0.415f}, {0.90f, -0.195f + 0.0735f * static_cast<float>(i), 0.45f}, 0.006f);
+      b.BevelBox({-0.90f, -0.255f + 0.0735f * static_cast<float>(i), 0.415f}, {0.90f, -0.195f + 0.0735f * static_cast<float>(i), 0.45f},
+                 0.006f);
     for (int i = 0; i < 3; ++i) {
       b.Place(Turn(-12, 0, 0, {0, 0.25f, 0.52f + 0.10f * static_cast<float>(i)}));
       b.BevelBox({-0.90f, -0.015f + 0.02f * static_cast<float>(i), 0}, {0.90f, 0.015f + 0.02f * static_cast<float>(i), 0.075f}, 0.006f);
@@ -28,7 +29,8 @@ Model MakeBenchMall(uint32_t variant, uint64_t) {
     b.Place({});
     b.Use(Paint({0.04f, 0.042f, 0.045f}, 0.4f));
     for (float x : {-0.70f, 0.70f}) {
-      b.Bar(std::array<Vec3f, 4>{Vec3f{x, 0.18f, 0.02f}, Vec3f{x, 0.21f, 0.40f}, Vec3f{x, 0.275f, 0.55f}, Vec3f{x, 0.34f, 0.82f}}, 0.020f, 8);
+      b.Bar(std::array<Vec3f, 4>{Vec3f{x, 0.18f, 0.02f}, Vec3f{x, 0.21f, 0.40f}, Vec3f{x, 0.275f, 0.55f}, Vec3f{x, 0.34f, 0.82f}}, 0.020f,
+            8);
       b.Bar(std::array<Vec3f, 3>{Vec3f{x, -0.20f, 0.02f}, Vec3f{x, -0.22f, 0.39f}, Vec3f{x, 0.22f, 0.40f}}, 0.020f, 8);
       for (float y : {-0.20f, 0.18f}) b.BevelBox({x - 0.05f, y - 0.05f, 0}, {x + 0.05f, y + 0.05f, 0.02f}, 0.005f);
     }
@@ -86,7 +88,8 @@ void UseMallLeaf(PropBuilder& b, Vec3f tint) {
 void MallPalm(PropBuilder& b, RngStream& rng, Vec3f foot) {
   const float trunk = Random(rng, 0.7f, 1.1f);
   b.Use(Stone({0.19f, 0.14f, 0.09f}, 0.95f), BarkTexture(), {0.2f, 0.3f});
-  b.Bar(std::array<Vec3f, 3>{foot, foot + Vec3f{0.03f, 0.02f, trunk * 0.5f}, foot + Vec3f{0.01f, 0, trunk}}, std::array<float, 3>{0.055f, 0.045f, 0.04f}, 10);
+  b.Bar(std::array<Vec3f, 3>{foot, foot + Vec3f{0.03f, 0.02f, trunk * 0.5f}, foot + Vec3f{0.01f, 0, trunk}},
+        std::array<float, 3>{0.055f, 0.045f, 0.04f}, 10);
   for (int f = 0; f < 14; ++f) {
     const float turn = 137.5f * static_cast<float>(f), length = Random(rng, 0.75f, 1.05f), rise = Random(rng, 0.25f, 1.25f);
     const Vec3f d{std::cos(turn * 0.01745f), std::sin(turn * 0.01745f), 0};
@@ -130,13 +133,15 @@ Model MakePlanterMall(uint32_t variant, uint64_t seed) {
     const Vec2f soil[] = {{0.545f, h - 0.06f}, {0.3f, h - 0.04f}, {0, h - 0.03f}};
     b.Lathe(soil, 32);
   } else {
-    b.mesh().Quad({-half.x + 0.03f, -half.y + 0.03f, h - 0.05f}, {half.x - 0.03f, -half.y + 0.03f, h - 0.05f}, {half.x - 0.03f, half.y - 0.03f, h - 0.05f},
-                  {-half.x + 0.03f, half.y - 0.03f, h - 0.05f});
+    b.mesh().Quad({-half.x + 0.03f, -half.y + 0.03f, h - 0.05f}, {half.x - 0.03f, -half.y + 0.03f, h - 0.05f},
+                  {half.x - 0.03f, half.y - 0.03f, h - 0.05f}, {-half.x + 0.03f, half.y - 0.03f, h - 0.05f});
   }
   for (int i = 0; i < 90; ++i) {  // ground cover
     UseMallLeaf(b, i % 3 ? Vec3f{0.07f, 0.17f, 0.05f} : Vec3f{0.11f, 0.22f, 0.06f});
-    const Vec3f p{Random(rng, -0.85f, 0.85f) * half.x * (variant ? 1 : 0.72f), Random(rng, -0.85f, 0.85f) * half.y * (variant ? 1 : 0.72f), h - 0.04f};
-    BroadLeaf(b, Turn(0, -Random(rng, 10, 65), Random(rng, 0, 360), p), Random(rng, 0.14f, 0.26f), Random(rng, 0.05f, 0.09f), Random(rng, 0.2f, 0.6f));
+    const Vec3f p{Random(rng, -0.85f, 0.85f) * half.x * (variant ? 1 : 0.72f), Random(rng, -0.85f, 0.85f) * half.y * (variant ? 1 : 0.72f),
+                  h - 0.04f};
+    BroadLeaf(b, Turn(0, -Random(rng, 10, 65), Random(rng, 0, 360), p), Random(rng, 0.14f, 0.26f), Random(rng, 0.05f, 0.09f),
+              Random(rng, 0.2f, 0.6f));
   }
   const int palms = variant == 1 ? 3 : 1;
   for (int k = 0; k < palms; ++k) {
@@ -166,7 +171,9 @@ Model MakeKiosk(uint32_t variant, uint64_t seed) {
   PropBuilder b("kiosk");
   const float x = 1.5f, y = 1.0f, top = 1.08f, roof = 2.55f;
   const auto body = [&] {
-    variant == 0 ? UseTimber(b, Timber::kWalnut) : variant == 1 ? UseTimber(b, Timber::kBeech) : UseLacquer(b, {0.72f, 0.72f, 0.71f}, 0.25f);
+    variant == 0   ? UseTimber(b, Timber::kWalnut)
+    : variant == 1 ? UseTimber(b, Timber::kBeech)
+                   : UseLacquer(b, {0.72f, 0.72f, 0.71f}, 0.25f);
   };
   for (int side = 0; side < 4; ++side) {
     const bool along = side % 2 == 0;
@@ -206,10 +213,11 @@ Model MakeKiosk(uint32_t variant, uint64_t seed) {
     SoftBox(b, {0.35f, -y + 0.10f, top}, {1.10f, -y + 0.52f, top + 0.46f}, {.round = 0.04f, .crown = 0.004f, .cells = 7});
     b.Use(Plastic({0.02f, 0.02f, 0.022f}, 0.3f));
     for (int i = 0; i < 2; ++i)
-      b.mesh().Tube({0.55f + 0.35f * static_cast<float>(i), -y + 0.08f, top + 0.24f}, {0.55f + 0.35f * static_cast<float>(i), -y - 0.04f, top + 0.22f}, 0.035f,
-                    0.018f, 14);
+      b.mesh().Tube({0.55f + 0.35f * static_cast<float>(i), -y + 0.08f, top + 0.24f},
+                    {0.55f + 0.35f * static_cast<float>(i), -y - 0.04f, top + 0.22f}, 0.035f, 0.018f, 14);
     UseCeramic(b);
-    for (int i = 0; i < 8; ++i) Cup(b, {-0.1f - 0.10f * static_cast<float>(i % 4), -y + 0.18f + 0.11f * static_cast<float>(i / 4), top}, 0.04f, 0.065f);
+    for (int i = 0; i < 8; ++i)
+      Cup(b, {-0.1f - 0.10f * static_cast<float>(i % 4), -y + 0.18f + 0.11f * static_cast<float>(i / 4), top}, 0.04f, 0.065f);
     GoodsOnShelf(b, -1.3f, -0.65f, -y + 0.06f, 0.3f, top, 0.28f, seed);
   } else {
     GoodsOnShelf(b, -1.3f, 1.2f, -y + 0.06f, 0.3f, top, 0.24f, seed);
@@ -242,21 +250,24 @@ Model MakeVendingMachine(uint32_t variant, uint64_t seed) {
     b.Use(Plastic({0.01f, 0.01f, 0.011f}, 0.2f));
     b.BevelBox({-0.16f, -d - 0.003f, 0.55f}, {0.16f, -d + 0.01f, 0.85f}, 0.004f);
   } else {
-    for (float s : {-1.0f, 1.0f}) b.BevelBox({s > 0 ? half - 0.20f : -half, -d, 0.05f}, {s > 0 ? half : -half + 0.04f, -d + 0.06f, h}, 0.01f);
+    for (float s : {-1.0f, 1.0f})
+      b.BevelBox({s > 0 ? half - 0.20f : -half, -d, 0.05f}, {s > 0 ? half : -half + 0.04f, -d + 0.06f, h}, 0.01f);
     b.BevelBox({-half + 0.04f, -d, 0.05f}, {half - 0.20f, -d + 0.06f, 0.42f}, 0.01f);
     b.BevelBox({-half + 0.04f, -d, h - 0.10f}, {half - 0.20f, -d + 0.06f, h}, 0.01f);
     b.Use(Stone({0.74f, 0.74f, 0.73f}, 0.5f));  // the cabinet behind the glass is only as deep as its front row
     b.mesh().Quad({-half + 0.04f, -d + 0.048f, 0.42f}, {half - 0.20f, -d + 0.048f, 0.42f}, {half - 0.20f, -d + 0.048f, h - 0.10f},
                   {-half + 0.04f, -d + 0.048f, h - 0.10f});
     for (int i = 0; i < 5; ++i)
-      GoodsOnShelf(b, -half + 0.05f, half - 0.21f, -d + 0.006f, 0.04f, 0.46f + 0.25f * static_cast<float>(i), 0.22f, seed + static_cast<uint64_t>(i));
+      GoodsOnShelf(b, -half + 0.05f, half - 0.21f, -d + 0.006f, 0.04f, 0.46f + 0.25f * static_cast<float>(i), 0.22f,
+                   seed + static_cast<uint64_t>(i));
     b.Use(Metal());
     for (int i = 0; i < 5; ++i)
-      b.BevelBox({-half + 0.04f, -d + 0.004f, 0.435f + 0.25f * static_cast<float>(i)}, {half - 0.20f, -d + 0.05f, 0.458f + 0.25f * static_cast<float>(i)},
-                 0.002f);
+      b.BevelBox({-half + 0.04f, -d + 0.004f, 0.435f + 0.25f * static_cast<float>(i)},
+                 {half - 0.20f, -d + 0.05f, 0.458f + 0.25f * static_cast<float>(i)}, 0.002f);
     b.Use(LampSurface(900, 2 * 1.25f * 0.02f, 5000, Burns::kAlways));
     for (float x : {-half + 0.048f, half - 0.226f})
-      b.mesh().Quad({x, -d + 0.046f, 0.45f}, {x + 0.02f, -d + 0.046f, 0.45f}, {x + 0.02f, -d + 0.046f, h - 0.13f}, {x, -d + 0.046f, h - 0.13f});
+      b.mesh().Quad({x, -d + 0.046f, 0.45f}, {x + 0.02f, -d + 0.046f, 0.45f}, {x + 0.02f, -d + 0.046f, h - 0.13f},
+                    {x, -d + 0.046f, h - 0.13f});
     b.Use(ClearGlass());
     b.mesh().Quad({-half + 0.04f, -d + 0.002f, 0.42f}, {half - 0.20f, -d + 0.002f, 0.42f}, {half - 0.20f, -d + 0.002f, h - 0.10f},
                   {-half + 0.04f, -d + 0.002f, h - 0.10f});

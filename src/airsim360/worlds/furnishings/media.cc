@@ -11,19 +11,19 @@ namespace {
 
 // A landscape at dusk, as demonstration pictures show.
 const Texture& Programme() {
-  static const Texture texture = Texture::FromImage("programme",
-                                                    Shade(256, 144,
-                                                          [](float u, float v) {
-                                                            const float ridge = 0.55f + 0.12f * (TileFractal(u, 0.3f, 3, 1, 4, 91) - 0.5f),
-                                                                        near_ridge = 0.72f + 0.16f * (TileFractal(u, 0.7f, 4, 1, 4, 92) - 0.5f);
-                                                            if (v > 0.86f) return Vec3f{0.05f, 0.09f, 0.16f} * (0.7f + 0.6f * TileFractal(u, v, 6, 40, 2, 93));
-                                                            if (v > near_ridge)
-                                                              return Vec3f{0.03f, 0.06f, 0.035f} * (0.6f + 0.8f * TileFractal(u, v, 24, 24, 3, 94));
-                                                            if (v > ridge) return Vec3f{0.11f, 0.13f, 0.22f} * (0.8f + 0.3f * (1 - v));
-                                                            const float t = v / 0.6f;
-                                                            return Vec3f{0.16f, 0.27f, 0.55f} * (1 - t) + Vec3f{0.85f, 0.45f, 0.20f} * t;
-                                                          }),
-                                                    true);
+  static const Texture texture =
+      Texture::FromImage("programme",
+                         Shade(256, 144,
+                               [](float u, float v) {
+                                 const float ridge = 0.55f + 0.12f * (TileFractal(u, 0.3f, 3, 1, 4, 91) - 0.5f),
+                                             near_ridge = 0.72f + 0.16f * (TileFractal(u, 0.7f, 4, 1, 4, 92) - 0.5f);
+                                 if (v > 0.86f) return Vec3f{0.05f, 0.09f, 0.16f} * (0.7f + 0.6f * TileFractal(u, v, 6, 40, 2, 93));
+                                 if (v > near_ridge) return Vec3f{0.03f, 0.06f, 0.035f} * (0.6f + 0.8f * TileFractal(u, v, 24, 24, 3, 94));
+                                 if (v > ridge) return Vec3f{0.11f, 0.13f, 0.22f} * (0.8f + 0.3f * (1 - v));
+                                 const float t = v / 0.6f;
+                                 return Vec3f{0.16f, 0.27f, 0.55f} * (1 - t) + Vec3f{0.85f, 0.45f, 0.20f} * t;
+                               }),
+                         true);
   return texture;
 }
 
@@ -56,7 +56,9 @@ Model MakeTvStand(uint32_t variant, uint64_t) {
   PropBuilder b("tv_stand");
   const float half = std::array{0.80f, 0.60f, 0.90f}[variant], top = std::array{0.48f, 0.45f, 0.52f}[variant];
   const float y0 = -0.20f, y1 = 0.20f, foot = variant == 1 ? 0.04f : 0.14f;
-  const auto body = [&](Grain g) { variant == 1 ? UseLacquer(b, {0.72f, 0.71f, 0.69f}, 0.25f) : UseTimber(b, variant ? Timber::kWalnut : Timber::kOak, g); };
+  const auto body = [&](Grain g) {
+    variant == 1 ? UseLacquer(b, {0.72f, 0.71f, 0.69f}, 0.25f) : UseTimber(b, variant ? Timber::kWalnut : Timber::kOak, g);
+  };
   body(Grain::kAlongX);
   b.BevelBox({-half, y0, top - 0.022f}, {half, y1, top}, 0.004f);
   b.BevelBox({-half, y0, foot}, {half, y1, foot + 0.02f}, 0.004f);

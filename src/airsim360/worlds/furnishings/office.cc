@@ -90,7 +90,8 @@ Model MakeOfficeChair(uint32_t variant, uint64_t seed) {
   PropBuilder b("office_chair");
   const float seat = std::array{0.47f, 0.49f, 0.46f, 0.47f}[variant];
   StarBase(b, variant == 1, seat);
-  const Vec3f cloth = std::array<Vec3f, 4>{{{0.035f, 0.036f, 0.04f}, {0.03f, 0.03f, 0.032f}, {0.10f, 0.17f, 0.28f}, {0.30f, 0.31f, 0.32f}}}[variant];
+  const Vec3f cloth =
+      std::array<Vec3f, 4>{{{0.035f, 0.036f, 0.04f}, {0.03f, 0.03f, 0.032f}, {0.10f, 0.17f, 0.28f}, {0.30f, 0.31f, 0.32f}}}[variant];
   variant == 1 ? UseLeather(b, cloth) : UseWeave(b, cloth);
   SoftBox(b, {-0.25f, -0.25f, seat - 0.06f}, {0.25f, 0.22f, seat + 0.02f},
           {.round = 0.038f, .crown = 0.012f, .fold = variant == 1 ? 0.003f : 0.0f, .seed = seed, .cells = 10});
@@ -123,13 +124,16 @@ Model MakeOfficeChair(uint32_t variant, uint64_t seed) {
   }
   b.Place({});
   b.Use(Plastic(kBlack, 0.45f));
-  b.Bar(std::array<Vec3f, 4>{Vec3f{0, 0.05f, seat - 0.075f}, Vec3f{0, 0.24f, seat - 0.07f}, Vec3f{0, 0.285f, seat}, Vec3f{0, 0.30f, seat + 0.20f}}, 0.020f, 8);
+  b.Bar(std::array<Vec3f, 4>{Vec3f{0, 0.05f, seat - 0.075f}, Vec3f{0, 0.24f, seat - 0.07f}, Vec3f{0, 0.285f, seat},
+                             Vec3f{0, 0.30f, seat + 0.20f}},
+        0.020f, 8);
   if (variant != 2) {
     for (float s : {-1.0f, 1.0f}) {
-      b.Bar(std::array<Vec3f, 4>{Vec3f{s * 0.12f, 0.02f, seat - 0.075f}, Vec3f{s * 0.28f, 0.03f, seat - 0.06f}, Vec3f{s * 0.295f, 0.03f, seat},
-                                 Vec3f{s * 0.295f, 0.03f, seat + 0.19f}},
+      b.Bar(std::array<Vec3f, 4>{Vec3f{s * 0.12f, 0.02f, seat - 0.075f}, Vec3f{s * 0.28f, 0.03f, seat - 0.06f},
+                                 Vec3f{s * 0.295f, 0.03f, seat}, Vec3f{s * 0.295f, 0.03f, seat + 0.19f}},
             0.014f, 8);
-      SoftBox(b, {s * 0.295f - 0.04f, -0.13f, seat + 0.185f}, {s * 0.295f + 0.04f, 0.13f, seat + 0.22f}, {.round = 0.016f, .crown = 0.004f, .cells = 6});
+      SoftBox(b, {s * 0.295f - 0.04f, -0.13f, seat + 0.185f}, {s * 0.295f + 0.04f, 0.13f, seat + 0.22f},
+              {.round = 0.016f, .crown = 0.004f, .cells = 6});
     }
   }
   return b.Finish();
@@ -215,14 +219,15 @@ const Texture& BoardPicture(uint32_t variant) {
           }
         }
         for (int i = 0; i < 4; ++i)
-          canvas.Line({0.08f, 0.66f + 0.07f * static_cast<float>(i)}, {0.25f + static_cast<float>(rng.Uniform(0, 0.3)), 0.655f + 0.07f * static_cast<float>(i)},
-                      0.010f, inks[0]);
+          canvas.Line({0.08f, 0.66f + 0.07f * static_cast<float>(i)},
+                      {0.25f + static_cast<float>(rng.Uniform(0, 0.3)), 0.655f + 0.07f * static_cast<float>(i)}, 0.010f, inks[0]);
       } else {
         canvas.Line({0.10f, 0.15f}, {0.10f, 0.85f}, 0.012f, inks[2]);
         canvas.Line({0.10f, 0.85f}, {0.60f, 0.85f}, 0.012f, inks[2]);
         Vec2f last{0.10f, 0.8f};
         for (int i = 1; i <= 8; ++i) {
-          const Vec2f next{0.10f + 0.058f * static_cast<float>(i), 0.8f - 0.07f * static_cast<float>(i) + 0.05f * static_cast<float>(rng.Uniform(-1, 1))};
+          const Vec2f next{0.10f + 0.058f * static_cast<float>(i),
+                           0.8f - 0.07f * static_cast<float>(i) + 0.05f * static_cast<float>(rng.Uniform(-1, 1))};
           canvas.Line(last, next, 0.013f, inks[1]);
           last = next;
         }
@@ -248,7 +253,8 @@ Model MakeWhiteboard(uint32_t variant, uint64_t) {
   b.BevelBox({-half * 0.5f, -0.09f, 0.0f}, {half * 0.5f, -0.01f, 0.012f}, 0.003f);
   b.BevelBox({-half * 0.5f, -0.02f, 0.0f}, {half * 0.5f, 0, 0.04f}, 0.003f);
   b.Use(Paint({0.9f, 0.9f, 0.9f}, 0.12f), BoardPicture(variant));
-  b.Picture({-half + 0.018f, -0.012f, 0.048f}, {half - 0.018f, -0.012f, 0.048f}, {half - 0.018f, -0.012f, h - 0.018f}, {-half + 0.018f, -0.012f, h - 0.018f});
+  b.Picture({-half + 0.018f, -0.012f, 0.048f}, {half - 0.018f, -0.012f, 0.048f}, {half - 0.018f, -0.012f, h - 0.018f},
+            {-half + 0.018f, -0.012f, h - 0.018f});
   const Vec3f pens[3] = {{0.4f, 0.04f, 0.03f}, {0.04f, 0.08f, 0.35f}, {0.03f, 0.03f, 0.03f}};
   for (int i = 0; i < 3; ++i) {
     b.Use(Plastic(pens[i], 0.4f));
@@ -365,8 +371,8 @@ Model MakePapers(uint32_t variant, uint64_t seed) {
       b.BevelBox({-0.125f, 0.167f, z}, {0.125f, 0.17f, z + 0.05f}, 0.001f);
       for (float x : {-0.12f, 0.12f})
         for (float y : {-0.15f, 0.16f}) b.mesh().Tube({x, y, z}, {x, y, z + 0.06f}, 0.005f, 0.005f, 6);
-      pad({0, static_cast<float>(rng.Uniform(-0.012, 0.008)), z + 0.004f}, static_cast<float>(rng.Uniform(-2, 2)), static_cast<float>(rng.Uniform(0.004, 0.03)),
-          {0.74f, 0.73f, 0.70f});
+      pad({0, static_cast<float>(rng.Uniform(-0.012, 0.008)), z + 0.004f}, static_cast<float>(rng.Uniform(-2, 2)),
+          static_cast<float>(rng.Uniform(0.004, 0.03)), {0.74f, 0.73f, 0.70f});
     }
   } else if (variant == 2) {
     RingBinders(b, rng);

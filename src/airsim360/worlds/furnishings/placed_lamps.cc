@@ -54,8 +54,8 @@ void CheckLamps(const Scene& scene, std::span<const PlacedLamp> lamps) {
     const Vec3f p = PlaceOf(lamp);
     if (p.x >= b.min.x && p.x <= b.max.x && p.y >= b.min.y && p.y <= b.max.y && p.z >= b.min.z && p.z <= b.max.z + kAbove) continue;
     char text[240];
-    std::snprintf(text, sizeof text, "' at %.1f, %.1f, %.1f is outside of the world: x %.1f … %.1f, y %.1f … %.1f, z %.1f … %.1f", lamp.x, lamp.y, lamp.z, double(b.min.x), double(b.max.x),
-                  double(b.min.y), double(b.max.y), double(b.min.z), b.max.z + kAbove);
+    std::snprintf(text, sizeof text, "' at %.1f, %.1f, %.1f is outside of the world: x %.1f … %.1f, y %.1f … %.1f, z %.1f … %.1f", lamp.x,
+                  lamp.y, lamp.z, double(b.min.x), double(b.max.x), double(b.min.y), double(b.max.y), double(b.min.z), b.max.z + kAbove);
     throw InputError("lamps: '" + lamp.name.substr(0, 60) + text);
   }
 }

@@ -12,11 +12,11 @@ namespace airsim360 {
 /// A glowing ball.
 struct PlacedLamp {
   std::string name = "lamp";
-  double x = 0, y = 0, z = 3;    ///< its middle, metres of W
-  double lumens = 1500;          ///< to all sides
-  double kelvin = 3000;          ///< its white, 2000 ... 9000
-  double radius = 0.12;          ///< metres
-  bool always = false;           ///< by day too; else while the lamps of the world burn
+  double x = 0, y = 0, z = 3;  ///< its middle, metres of W
+  double lumens = 1500;        ///< to all sides
+  double kelvin = 3000;        ///< its white, 2000 ... 9000
+  double radius = 0.12;        ///< metres
+  bool always = false;         ///< by day too; else while the lamps of the world burn
 };
 inline constexpr size_t kMostPlacedLamps = 1000;
 

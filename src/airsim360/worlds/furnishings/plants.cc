@@ -15,15 +15,15 @@ float Random(RngStream& rng, float low, float high) { return static_cast<float>(
 
 // A leaf with its rib and veins; u along, v across.
 const Texture& LeafPicture() {
-  static const Texture texture =
-      Texture::FromImage("house leaf",
-                         Shade(128, 64,
-                               [](float u, float v) {
-                                 const float s = std::abs(2 * v - 1), vein = std::abs(std::fmod(u * 9 + s * 1.6f, 1.0f) - 0.5f);
-                                 const float tone = 0.66f + 0.22f * TileFractal(u, v, 6, 6, 3, 861) + (s < 0.06f ? 0.30f : vein < 0.05f ? 0.10f : 0);
-                                 return Vec3f{0.30f, 0.72f, 0.20f} * std::min(tone, 1.0f);
-                               }),
-                         true);
+  static const Texture texture = Texture::FromImage(
+      "house leaf",
+      Shade(128, 64,
+            [](float u, float v) {
+              const float s = std::abs(2 * v - 1), vein = std::abs(std::fmod(u * 9 + s * 1.6f, 1.0f) - 0.5f);
+              const float tone = 0.66f + 0.22f * TileFractal(u, v, 6, 6, 3, 861) + (s < 0.06f ? 0.30f : vein < 0.05f ? 0.10f : 0);
+              return Vec3f{0.30f, 0.72f, 0.20f} * std::min(tone, 1.0f);
+            }),
+      true);
   return texture;
 }
 void UseLeaf(PropBuilder& b, Vec3f tint) {
@@ -42,7 +42,8 @@ void Pot(PropBuilder& b, int style, float r, float h) {
     UseCeramic(b, {0.05f, 0.055f, 0.06f});
   else
     b.Use(Stone({0.46f, 0.45f, 0.43f}, 0.8f), ConcreteTexture());
-  const Vec2f pot[] = {{0, 0}, {r * 0.72f, 0}, {r * 0.75f, 0.008f}, {r * 0.96f, h - 0.035f}, {r, h - 0.03f}, {r, h}, {r * 0.92f, h}, {r * 0.90f, h - 0.03f}};
+  const Vec2f pot[] = {{0, 0},         {r * 0.72f, 0}, {r * 0.75f, 0.008f}, {r * 0.96f, h - 0.035f},
+                       {r, h - 0.03f}, {r, h},         {r * 0.92f, h},      {r * 0.90f, h - 0.03f}};
   b.Lathe(pot, 26);
   b.Use(Stone({0.045f, 0.032f, 0.022f}, 0.95f), ConcreteTexture(), {0.12f, 0.12f});
   const Vec2f soil[] = {{r * 0.905f, h - 0.032f}, {r * 0.5f, h - 0.024f}, {0, h - 0.028f}};
@@ -61,8 +62,8 @@ void RubberPlant(PropBuilder& b, RngStream& rng, float base, float height) {
   for (int i = 0; i < leaves; ++i) {
     const float t = (static_cast<float>(i) + 0.7f) / static_cast<float>(leaves), z = base + height * (0.12f + 0.88f * t);
     const float length = Random(rng, 0.20f, 0.29f) * (1.1f - 0.45f * t);
-    BroadLeaf(b, LeafPose({0.02f * std::sin(6 * t), 0.015f, z}, 137.5f * static_cast<float>(i), Random(rng, 12, 40) + 35 * t * t), length, length * 0.46f,
-              Random(rng, 0.15f, 0.5f));
+    BroadLeaf(b, LeafPose({0.02f * std::sin(6 * t), 0.015f, z}, 137.5f * static_cast<float>(i), Random(rng, 12, 40) + 35 * t * t), length,
+              length * 0.46f, Random(rng, 0.15f, 0.5f));
   }
 }
 
@@ -75,7 +76,8 @@ void Monstera(PropBuilder& b, RngStream& rng, float base) {
     b.Bar(stalk, 0.006f, 6);
     UseLeaf(b, {0.34f, 0.42f, 0.30f});
     const float length = Random(rng, 0.24f, 0.36f);
-    BroadLeaf(b, LeafPose(stalk[2], turn + Random(rng, -25, 25), Random(rng, -30, 12)), length, length * 0.85f, Random(rng, 0.2f, 0.5f), true);
+    BroadLeaf(b, LeafPose(stalk[2], turn + Random(rng, -25, 25), Random(rng, -30, 12)), length, length * 0.85f, Random(rng, 0.2f, 0.5f),
+              true);
   }
 }
 
@@ -84,8 +86,8 @@ void SnakePlant(PropBuilder& b, RngStream& rng, float base, float r) {
   UseLeaf(b, {0.36f, 0.44f, 0.34f});
   for (int i = 0; i < 16; ++i) {
     const Vec3f d = Around(i, 16, 0.3f * static_cast<float>(i)) * (r * Random(rng, 0.1f, 0.65f));
-    BroadLeaf(b, Turn(0, -Random(rng, 74, 90), 360.0f * Random(rng, 0, 1), d + Vec3f{0, 0, base - 0.02f}), Random(rng, 0.45f, 0.80f), 0.068f,
-              Random(rng, -0.02f, 0.06f));
+    BroadLeaf(b, Turn(0, -Random(rng, 74, 90), 360.0f * Random(rng, 0, 1), d + Vec3f{0, 0, base - 0.02f}), Random(rng, 0.45f, 0.80f),
+              0.068f, Random(rng, -0.02f, 0.06f));
   }
 }
 
@@ -104,7 +106,8 @@ void ParlourPalm(PropBuilder& b, RngStream& rng, float base, float height) {
     for (int k = 3; k < 9; ++k)
       for (float s : {-1.0f, 1.0f}) {
         const float t = static_cast<float>(k) / 8;
-        BroadLeaf(b, LeafPose(rib[static_cast<size_t>(k)], turn + s * (62 - 30 * t), 10 - 25 * t), 0.24f * (1.15f - 0.5f * t), 0.032f, 0.35f);
+        BroadLeaf(b, LeafPose(rib[static_cast<size_t>(k)], turn + s * (62 - 30 * t), 10 - 25 * t), 0.24f * (1.15f - 0.5f * t), 0.032f,
+                  0.35f);
       }
   }
 }
@@ -142,7 +145,8 @@ Model MakePlantSmall(uint32_t variant, uint64_t seed) {
     UseLeaf(b, {0.55f, 0.46f, 0.44f});
     for (int i = 0; i < 26; ++i) {
       const float t = static_cast<float>(i) / 26;
-      BroadLeaf(b, LeafPose({0, 0, h - 0.02f + 0.03f * t}, 137.5f * static_cast<float>(i), 8 + 70 * t), 0.085f * (1 - 0.5f * t), 0.036f, -0.2f);
+      BroadLeaf(b, LeafPose({0, 0, h - 0.02f + 0.03f * t}, 137.5f * static_cast<float>(i), 8 + 70 * t), 0.085f * (1 - 0.5f * t), 0.036f,
+                -0.2f);
     }
   } else if (variant == 1) {  // trailing
     UseLeaf(b, {0.60f, 0.60f, 0.40f});

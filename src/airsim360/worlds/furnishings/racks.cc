@@ -52,7 +52,8 @@ void Load(PropBuilder& b, const AffineTransform& X, float height, Goods goods, u
     for (int l = 0; l < layers; ++l)
       for (int i = 0; i < nx * ny; ++i) {
         if (l == layers - 1 && goods == Goods::kCartonsBegun && rng.Chance(0.3)) continue;  // a layer begun
-        const Vec3f at{-0.6f + wx * (static_cast<float>(i % nx) + 0.5f), -0.4f + wy * (static_cast<float>(i / nx) + 0.5f), h * static_cast<float>(l)};
+        const Vec3f at{-0.6f + wx * (static_cast<float>(i % nx) + 0.5f), -0.4f + wy * (static_cast<float>(i / nx) + 0.5f),
+                       h * static_cast<float>(l)};
         Carton(b, X * Turn(0, 0, Random(rng, -1.2f, 1.2f), at), {wx - 0.008f, wy - 0.008f, h - 0.002f}, rng.Bits());
       }
     if (goods == Goods::kWrapped) {
@@ -70,7 +71,8 @@ void Load(PropBuilder& b, const AffineTransform& X, float height, Goods goods, u
         const float x = i % 2 ? 0.30f : -0.30f, y = i / 2 ? 0.20f : -0.20f, z = 0.14f * static_cast<float>(l);
         UseLinen(b, tone);
         b.Place(X * Turn(0, 0, Random(rng, -3, 3), {x, y, z}));
-        SoftBox(b, {-0.29f, -0.19f, 0}, {0.29f, 0.19f, 0.15f}, {.round = 0.06f, .crown = 0.012f, .fold = 0.010f, .seed = rng.Bits(), .cells = 5});
+        SoftBox(b, {-0.29f, -0.19f, 0}, {0.29f, 0.19f, 0.15f},
+                {.round = 0.06f, .crown = 0.012f, .fold = 0.010f, .seed = rng.Bits(), .cells = 5});
       }
     b.Place({});
   } else {  // one crate of boards
@@ -98,7 +100,8 @@ Model MakeBoxSmall(uint32_t variant, uint64_t seed) {
     const Vec3f s = sizes[3] * 0.5f;
     const float z = sizes[3].z + 0.0015f;
     for (float side : {-1.0f, 1.0f}) {
-      const Vec3f p[4] = {{-s.x, side * s.y, z}, {s.x, side * s.y, z}, {s.x, side * (s.y + 0.10f), z + 0.05f}, {-s.x, side * (s.y + 0.10f), z + 0.05f}};
+      const Vec3f p[4] = {
+          {-s.x, side * s.y, z}, {s.x, side * s.y, z}, {s.x, side * (s.y + 0.10f), z + 0.05f}, {-s.x, side * (s.y + 0.10f), z + 0.05f}};
       b.mesh().Quad(p[0], p[1], p[2], p[3]);
       b.mesh().Quad(p[3], p[2], p[1], p[0]);
     }
@@ -124,7 +127,8 @@ Model MakePallet(uint32_t variant, uint64_t seed) {
   RngStream rng(seed, "pallets");
   const int count = std::array{1, 3, 8}[variant];
   for (int i = 0; i < count; ++i)
-    Pallet(b, Turn(0, 0, i ? Random(rng, -2.0f, 2.0f) : 0, {i ? Random(rng, -0.015f, 0.015f) : 0, 0, kPalletHeight * static_cast<float>(i)}));
+    Pallet(b,
+           Turn(0, 0, i ? Random(rng, -2.0f, 2.0f) : 0, {i ? Random(rng, -0.015f, 0.015f) : 0, 0, kPalletHeight * static_cast<float>(i)}));
   return b.Finish();
 }
 
@@ -171,7 +175,8 @@ Model MakeRackBay(uint32_t variant, uint64_t seed) {
       UseCoatedSteel(b, {0.62f, 0.20f, 0.02f});
       for (float y : {-depth / 2 + 0.01f, depth / 2 - 0.06f}) {
         b.mesh().Box({-half + 0.05f, y, z - 0.12f}, {half - 0.05f, y + 0.05f, z});
-        for (float s : {-1.0f, 1.0f}) b.mesh().Box({s * (half - 0.07f) - 0.022f, y - 0.012f, z - 0.17f}, {s * (half - 0.07f) + 0.022f, y + 0.06f, z + 0.03f});
+        for (float s : {-1.0f, 1.0f})
+          b.mesh().Box({s * (half - 0.07f) - 0.022f, y - 0.012f, z - 0.17f}, {s * (half - 0.07f) + 0.022f, y + 0.06f, z + 0.03f});
       }
       b.Use(Stone({0.74f, 0.73f, 0.70f}, 0.9f));  // labels of the places
       for (int i = 0; i < 3; ++i)
@@ -183,8 +188,9 @@ Model MakeRackBay(uint32_t variant, uint64_t seed) {
       const float x = -0.89f + 0.89f * static_cast<float>(i) + Random(rng, -0.02f, 0.02f);
       const AffineTransform X = Turn(0, 0, 90 + Random(rng, -1.5f, 1.5f), {x, Random(rng, -0.03f, 0.03f), z});
       Pallet(b, X);
-      constexpr std::array<Goods, 10> often = {Goods::kCartonsBegun, Goods::kCartonsBegun, Goods::kCartons, Goods::kCartons, Goods::kCartons,
-                                               Goods::kWrapped,      Goods::kWrapped,      Goods::kWrapped, Goods::kSacks,   Goods::kCrate};
+      constexpr std::array<Goods, 10> often = {Goods::kCartonsBegun, Goods::kCartonsBegun, Goods::kCartons, Goods::kCartons,
+                                               Goods::kCartons,      Goods::kWrapped,      Goods::kWrapped, Goods::kWrapped,
+                                               Goods::kSacks,        Goods::kCrate};
       const Goods goods = often[rng.Index(10)];
       Load(b, X * Move({0, 0, kPalletHeight + 0.001f}), std::min(pitch - 0.50f, Random(rng, 0.5f, 1.35f)), goods, rng.Bits());
     }

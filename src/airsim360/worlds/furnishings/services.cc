@@ -18,7 +18,8 @@ constexpr Vec3f kWhite{0.76f, 0.76f, 0.75f};
 Model MakeFireExtinguisher(uint32_t variant, uint64_t) {
   PropBuilder b("fire_extinguisher");
   const Vec3f red{0.46f, 0.020f, 0.016f};
-  const float r = variant == 1 ? 0.055f : 0.078f, h = variant == 1 ? 0.40f : 0.42f, y = variant == 2 ? -0.11f : -r - 0.025f, z0 = variant == 2 ? 0.08f : 0.0f;
+  const float r = variant == 1 ? 0.055f : 0.078f, h = variant == 1 ? 0.40f : 0.42f, y = variant == 2 ? -0.11f : -r - 0.025f,
+              z0 = variant == 2 ? 0.08f : 0.0f;
   b.Use(Paint(red, 0.22f));
   const Vec2f body[] = {{0, z0 + 0.012f},    {r * 0.85f, z0 + 0.004f}, {r * 0.95f, z0},
                         {r, z0 + 0.02f},     {r, z0 + h - 0.05f},      {r * 0.85f, z0 + h - 0.015f},
@@ -35,10 +36,14 @@ Model MakeFireExtinguisher(uint32_t variant, uint64_t) {
   }
   b.Use(Plastic({0.02f, 0.02f, 0.022f}, 0.4f));
   b.BevelBox({-0.016f, y - 0.05f, z0 + h + 0.025f}, {0.016f, y + 0.035f, z0 + h + 0.05f}, 0.005f);
-  b.Bar(std::array<Vec3f, 3>{Vec3f{0, y + 0.02f, z0 + h + 0.05f}, Vec3f{0, y - 0.03f, z0 + h + 0.085f}, Vec3f{0, y - 0.10f, z0 + h + 0.075f}}, 0.008f, 8);
+  b.Bar(
+      std::array<Vec3f, 3>{Vec3f{0, y + 0.02f, z0 + h + 0.05f}, Vec3f{0, y - 0.03f, z0 + h + 0.085f}, Vec3f{0, y - 0.10f, z0 + h + 0.075f}},
+      0.008f, 8);
   b.Bar(std::array<Vec3f, 2>{Vec3f{0, y, z0 + h + 0.035f}, Vec3f{0, y - 0.10f, z0 + h + 0.045f}}, 0.007f, 8);
-  std::vector<Vec3f> hose = {
-      {0.016f, y, z0 + h + 0.035f}, {r * 0.9f, y - 0.01f, z0 + h + 0.02f}, {r + 0.022f, y - 0.015f, z0 + h * 0.75f}, {r + 0.020f, y - 0.01f, z0 + h * 0.35f}};
+  std::vector<Vec3f> hose = {{0.016f, y, z0 + h + 0.035f},
+                             {r * 0.9f, y - 0.01f, z0 + h + 0.02f},
+                             {r + 0.022f, y - 0.015f, z0 + h * 0.75f},
+                             {r + 0.020f, y - 0.01f, z0 + h * 0.35f}};
   b.Bar(hose, 0.009f, 8);
   if (variant == 1)
     b.Bar(std::array<Vec3f, 2>{Vec3f{r + 0.020f, y - 0.01f, z0 + h * 0.40f}, Vec3f{r + 0.030f, y - 0.01f, z0 + h * 0.02f + 0.01f}},
@@ -189,11 +194,13 @@ Model MakeCableTray(uint32_t variant, uint64_t) {
     for (int i = 0; i < 10; ++i)
       for (int k = 0; k < 5; ++k) {
         const float x = -0.47f + 0.1f * static_cast<float>(i) + (k % 2 ? 0.05f : 0), py = -0.11f + 0.055f * static_cast<float>(k);
-        b.mesh().Quad({x, py + 0.004f, -0.0004f}, {x + 0.025f, py + 0.004f, -0.0004f}, {x + 0.025f, py - 0.004f, -0.0004f}, {x, py - 0.004f, -0.0004f});
+        b.mesh().Quad({x, py + 0.004f, -0.0004f}, {x + 0.025f, py + 0.004f, -0.0004f}, {x + 0.025f, py - 0.004f, -0.0004f},
+                      {x, py - 0.004f, -0.0004f});
       }
   } else {
     for (int i = 0; i <= 6; ++i)
-      b.mesh().Tube({-0.5f, -y + 0.05f * static_cast<float>(i), 0.004f}, {0.5f, -y + 0.05f * static_cast<float>(i), 0.004f}, 0.0025f, 0.0025f, 6, false, false);
+      b.mesh().Tube({-0.5f, -y + 0.05f * static_cast<float>(i), 0.004f}, {0.5f, -y + 0.05f * static_cast<float>(i), 0.004f}, 0.0025f,
+                    0.0025f, 6, false, false);
     for (int i = 0; i < 10; ++i) {
       const float x = -0.45f + 0.1f * static_cast<float>(i);
       b.Bar(std::array<Vec3f, 4>{Vec3f{x, -y, 0.06f}, Vec3f{x, -y, 0.002f}, Vec3f{x, y, 0.002f}, Vec3f{x, y, 0.06f}}, 0.0025f, 6);
@@ -220,7 +227,8 @@ Model MakeSmokeDetector(uint32_t variant, uint64_t) {
   b.Lathe(dome, 28);
   const Vec2f base[] = {{0.036f, 0.022f}, {0.046f, 0.026f}, {0.052f, 0.034f}, {0.052f, 0.045f}, {0, 0.045f}};
   b.Lathe(base, 28);
-  for (int i = 0; i < 12; ++i) b.mesh().Tube(Around(i, 12) * 0.035f + Vec3f{0, 0, 0.009f}, Around(i, 12) * 0.037f + Vec3f{0, 0, 0.024f}, 0.003f, 0.003f, 6);
+  for (int i = 0; i < 12; ++i)
+    b.mesh().Tube(Around(i, 12) * 0.035f + Vec3f{0, 0, 0.009f}, Around(i, 12) * 0.037f + Vec3f{0, 0, 0.024f}, 0.003f, 0.003f, 6);
   b.Use(Plastic({0.02f, 0.02f, 0.022f}, 0.8f));
   b.mesh().Tube({0, 0, 0.008f}, {0, 0, 0.024f}, 0.031f, 0.031f, 20, false, false);
   b.Use(variant == 0 ? Glow({0.8f, 0.05f, 0.03f}, 60, Burns::kAlways) : Plastic({0.30f, 0.02f, 0.02f}, 0.2f));
@@ -288,7 +296,9 @@ Model MakeRadiator(uint32_t variant, uint64_t) {
     for (int i = 0; i < 20; ++i) {
       if (i % 7 == 6) continue;
       const float z = 0.06f + 0.067f * static_cast<float>(i);
-      b.Bar(std::array<Vec3f, 4>{Vec3f{-half, -0.06f, z}, Vec3f{-half * 0.5f, -0.085f, z}, Vec3f{half * 0.5f, -0.085f, z}, Vec3f{half, -0.06f, z}}, 0.010f, 8);
+      b.Bar(std::array<Vec3f, 4>{Vec3f{-half, -0.06f, z}, Vec3f{-half * 0.5f, -0.085f, z}, Vec3f{half * 0.5f, -0.085f, z},
+                                 Vec3f{half, -0.06f, z}},
+            0.010f, 8);
     }
     for (float z : {0.2f, 1.2f})
       for (float s : {-1.0f, 1.0f}) b.mesh().Tube({s * half, -0.06f, z}, {s * half, 0, z}, 0.010f, 0.010f, 8);
@@ -307,7 +317,9 @@ Model MakeRadiator(uint32_t variant, uint64_t) {
 }  // namespace
 
 FurnishingRows ServiceRows() {
-  return {{{"fire_extinguisher", "construction/service/fire_extinguisher", 3, MakeFireExtinguisher, 0.25f, 0.45f, 0.72f, 2000}, Mount::kWall, 0.45f},
+  return {{{"fire_extinguisher", "construction/service/fire_extinguisher", 3, MakeFireExtinguisher, 0.25f, 0.45f, 0.72f, 2000},
+           Mount::kWall,
+           0.45f},
           {{"sprinkler", "construction/service/sprinkler", 2, MakeSprinkler, 0.1f, 0.06f, 0.20f, 700}, Mount::kCeiling},
           {{"air_vent", "construction/service/air_vent", 2, MakeAirVent, 0.45f, 0.012f, 0.02f, 1800}, Mount::kCeiling},
           {{"duct", "construction/service/duct", 3, MakeDuct, 0.6f, 0.27f, 0.42f, 4000}, Mount::kCeiling},

@@ -15,8 +15,12 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
-constexpr std::array<Vec3f, 6> kClothes = {
-    {{0.05f, 0.07f, 0.14f}, {0.60f, 0.58f, 0.53f}, {0.34f, 0.07f, 0.06f}, {0.20f, 0.24f, 0.17f}, {0.03f, 0.03f, 0.033f}, {0.50f, 0.36f, 0.20f}}};
+constexpr std::array<Vec3f, 6> kClothes = {{{0.05f, 0.07f, 0.14f},
+                                            {0.60f, 0.58f, 0.53f},
+                                            {0.34f, 0.07f, 0.06f},
+                                            {0.20f, 0.24f, 0.17f},
+                                            {0.03f, 0.03f, 0.033f},
+                                            {0.50f, 0.36f, 0.20f}}};
 
 float Random(RngStream& rng, float low, float high) { return static_cast<float>(rng.Uniform(low, high)); }
 
@@ -81,7 +85,8 @@ Model MakeClothesRail(uint32_t variant, uint64_t seed) {
       if (i % 10 == 0) continue;
       UseLinen(b, kClothes[(static_cast<size_t>(i) / 5) % kClothes.size()]);
       const Vec3f d = Around(i, 30);
-      HangingGarment(b, Turn(0, 0, 12.0f * static_cast<float>(i), d * 0.45f + Vec3f{0, 0, top - 0.21f}), 0.40f, Random(rng, 0.6f, 0.85f), rng.Bits());
+      HangingGarment(b, Turn(0, 0, 12.0f * static_cast<float>(i), d * 0.45f + Vec3f{0, 0, top - 0.21f}), 0.40f, Random(rng, 0.6f, 0.85f),
+                     rng.Bits());
     }
     return b.Finish();
   }
@@ -115,7 +120,8 @@ void Skirt(PropBuilder& b, Vec3f color) {
   UseLinen(b, color);
   b.Sheet(48, 8,
           [&](float u, float v) {
-            const float a = kTau * u, down = 1 - v, r = 0.155f + 0.13f * down, fold = 1 + 0.10f * down * std::sin(11 * a) + 0.04f * std::sin(5 * a) * down;
+            const float a = kTau * u, down = 1 - v, r = 0.155f + 0.13f * down,
+                        fold = 1 + 0.10f * down * std::sin(11 * a) + 0.04f * std::sin(5 * a) * down;
             return Vec3f{r * fold * std::cos(a) * 1.05f, r * fold * std::sin(a) * 0.85f, 1.10f - 0.60f * down};
           },
           {1.2f, 0.6f});
@@ -163,9 +169,11 @@ Model MakeMannequinBust(uint32_t variant, uint64_t seed) {
               const float t = s - static_cast<float>(i - first), e = t * t * (3 - 2 * t);
               const auto mix = [&](float p, float q) { return p + (q - p) * e; };
               const float fold = grow > 0 ? 0.006f * std::sin(7 * a + static_cast<float>(seed % 7)) * (1 - v) : 0.0f;
-              const float chest = !male && body[i].z > 1.15f && body[i].z < 1.37f && std::sin(a) < 0 ? 0.02f * std::abs(std::sin(2 * a)) : 0.0f;
+              const float chest =
+                  !male && body[i].z > 1.15f && body[i].z < 1.37f && std::sin(a) < 0 ? 0.02f * std::abs(std::sin(2 * a)) : 0.0f;
               return Vec3f{(mix(body[i].wide, body[i + 1].wide) + grow + fold) * std::cos(a),
-                           (mix(body[i].deep, body[i + 1].deep) + grow + fold + chest) * std::sin(a), body[i].z + (body[i + 1].z - body[i].z) * t};
+                           (mix(body[i].deep, body[i + 1].deep) + grow + fold + chest) * std::sin(a),
+                           body[i].z + (body[i + 1].z - body[i].z) * t};
             },
             {0.9f, 0.7f});
   };
@@ -222,10 +230,11 @@ Model MakeCheckout(uint32_t variant, uint64_t seed) {
     lit.name = "lit number";
     b.Use(lit, number);
     for (float s : {-1.0f, 1.0f})
-      b.Picture({0.9f - 0.11f * s, 0.20f - 0.055f * s, 2.05f}, {0.9f + 0.11f * s, 0.20f - 0.055f * s, 2.05f}, {0.9f + 0.11f * s, 0.20f - 0.055f * s, 2.27f},
-                {0.9f - 0.11f * s, 0.20f - 0.055f * s, 2.27f});
+      b.Picture({0.9f - 0.11f * s, 0.20f - 0.055f * s, 2.05f}, {0.9f + 0.11f * s, 0.20f - 0.055f * s, 2.05f},
+                {0.9f + 0.11f * s, 0.20f - 0.055f * s, 2.27f}, {0.9f - 0.11f * s, 0.20f - 0.055f * s, 2.27f});
     b.Use(Plastic({0.5f, 0.5f, 0.5f}, 0.4f));
-    for (float s : {-1.0f, 1.0f}) b.BevelBox({0.9f + s * 0.115f - 0.006f, 0.145f, 2.04f}, {0.9f + s * 0.115f + 0.006f, 0.255f, 2.28f}, 0.003f);
+    for (float s : {-1.0f, 1.0f})
+      b.BevelBox({0.9f + s * 0.115f - 0.006f, 0.145f, 2.04f}, {0.9f + s * 0.115f + 0.006f, 0.255f, 2.28f}, 0.003f);
     b.BevelBox({0.785f, 0.145f, 2.27f}, {1.015f, 0.255f, 2.28f}, 0.003f);
     b.BevelBox({0.785f, 0.145f, 2.04f}, {1.015f, 0.255f, 2.05f}, 0.003f);
   }
@@ -246,7 +255,8 @@ Model MakeShopCounter(uint32_t variant, uint64_t) {
       UseLacquer(b, {0.74f, 0.73f, 0.71f}, 0.25f);
   }
   b.BevelBox({-half, -0.28f, 0.08f}, {half, -0.255f, h - 0.03f}, 0.003f);
-  for (float s : {-1.0f, 1.0f}) b.BevelBox({s * (half - 0.0125f) - 0.0125f, -0.255f, 0}, {s * (half - 0.0125f) + 0.0125f, 0.28f, h - 0.03f}, 0.003f);
+  for (float s : {-1.0f, 1.0f})
+    b.BevelBox({s * (half - 0.0125f) - 0.0125f, -0.255f, 0}, {s * (half - 0.0125f) + 0.0125f, 0.28f, h - 0.03f}, 0.003f);
   if (variant == 0)
     for (int i = 0; i < 30; ++i) {  // fluted front
       const float x = -half + 0.03f + 0.06f * static_cast<float>(i);
@@ -309,7 +319,12 @@ Model MakeDisplayTable(uint32_t variant, uint64_t seed) {
         UseLinen(b, kClothes[static_cast<size_t>(i + (k > 1 ? 1 : 0)) % kClothes.size()]);
         b.Place(Turn(0, 0, Random(rng, -3, 3), {px, py, z + 0.036f * static_cast<float>(k)}));
         SoftBox(b, {-0.13f, -0.15f, 0}, {0.13f, 0.15f, 0.038f},
-                {.round = 0.016f, .crown = 0.004f, .fold = 0.003f, .seed = rng.Bits(), .cells = 5, .faces = MeshBuilder::kAllSides & ~MeshBuilder::kBottom});
+                {.round = 0.016f,
+                 .crown = 0.004f,
+                 .fold = 0.003f,
+                 .seed = rng.Bits(),
+                 .cells = 5,
+                 .faces = MeshBuilder::kAllSides & ~MeshBuilder::kBottom});
       }
     }
   b.Place({});
@@ -347,9 +362,11 @@ Model MakeShoppingCart(uint32_t variant, uint64_t seed) {
     wire(corner(0, 1, w), corner(1, 1, w), r);
   }
   for (float s : {-1.0f, 1.0f}) {
-    b.Bar(std::array<Vec3f, 4>{Vec3f{s * 0.25f, 0.46f, 1.01f}, Vec3f{s * 0.25f, 0.36f, 0.60f}, Vec3f{s * 0.24f, 0.34f, 0.20f}, Vec3f{s * 0.23f, 0.36f, 0.13f}},
+    b.Bar(std::array<Vec3f, 4>{Vec3f{s * 0.25f, 0.46f, 1.01f}, Vec3f{s * 0.25f, 0.36f, 0.60f}, Vec3f{s * 0.24f, 0.34f, 0.20f},
+                               Vec3f{s * 0.23f, 0.36f, 0.13f}},
           0.012f, 8);
-    b.Bar(std::array<Vec3f, 3>{Vec3f{s * 0.24f, 0.34f, 0.20f}, Vec3f{s * 0.19f, -0.35f, 0.16f}, Vec3f{s * 0.18f, -0.40f, 0.13f}}, 0.011f, 8);
+    b.Bar(std::array<Vec3f, 3>{Vec3f{s * 0.24f, 0.34f, 0.20f}, Vec3f{s * 0.19f, -0.35f, 0.16f}, Vec3f{s * 0.18f, -0.40f, 0.13f}}, 0.011f,
+          8);
   }
   for (float y : {-0.28f, 0.0f, 0.28f}) b.mesh().Tube({-0.215f, y, 0.175f}, {0.215f, y, 0.175f}, 0.006f, 0.006f, 6);
   b.Use(Plastic(variant == 1 ? Vec3f{0.05f, 0.25f, 0.10f} : Vec3f{0.50f, 0.05f, 0.04f}, 0.4f));

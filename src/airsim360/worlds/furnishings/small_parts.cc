@@ -165,8 +165,8 @@ void BooksOnShelf(PropBuilder& b, float x0, float x1, float y0, float z, float r
     if (x + thick > x1) break;
     const bool leans = x1 - x < 0.13f && x1 - x > thick + 0.05f;
     // A leaning book rests on its neighbour's upper part.
-    const AffineTransform X =
-        leans ? Turn(0, -14, 0, {x + thick / 2 + 0.045f, y0 + Random(rng, 0, 0.012f), z}) : Move({x + thick / 2, y0 + Random(rng, 0, 0.012f), z});
+    const AffineTransform X = leans ? Turn(0, -14, 0, {x + thick / 2 + 0.045f, y0 + Random(rng, 0, 0.012f), z})
+                                    : Move({x + thick / 2, y0 + Random(rng, 0, 0.012f), z});
     Book(b, X, thick, deep, leans ? height * 0.95f : height, static_cast<int>(rng.Index(kSpines)));
     if (leans) break;
     x += thick + Random(rng, 0.0005f, 0.0015f);
@@ -179,8 +179,9 @@ void ShelfThing(PropBuilder& b, Vec3f p, float radius, float room, uint64_t seed
     case 0: {  // a vase
       const float r = std::min(radius, 0.07f), h = std::min(room - 0.02f, 0.24f);
       UseCeramic(b, kCovers[rng.Index(8)] * 1.1f);
-      const Vec2f vase[] = {{0, 0.001f},    {r * 0.6f, 0.001f}, {r * 0.9f, h * 0.25f}, {r, h * 0.45f}, {r * 0.75f, h * 0.7f}, {r * 0.38f, h * 0.88f},
-                            {r * 0.48f, h}, {r * 0.40f, h},     {r * 0.3f, h * 0.86f}, {0, h * 0.8f}};
+      const Vec2f vase[] = {{0, 0.001f},           {r * 0.6f, 0.001f},     {r * 0.9f, h * 0.25f}, {r, h * 0.45f},
+                            {r * 0.75f, h * 0.7f}, {r * 0.38f, h * 0.88f}, {r * 0.48f, h},        {r * 0.40f, h},
+                            {r * 0.3f, h * 0.86f}, {0, h * 0.8f}};
       b.Lathe(vase, 18, p);
       break;
     }
@@ -303,7 +304,8 @@ void Bowl(PropBuilder& b, Vec3f p, float r, float h) {
 }
 
 void Plate(PropBuilder& b, Vec3f p, float r) {
-  const Vec2f plate[] = {{0, 0}, {r * 0.6f, 0}, {r * 0.68f, 0.004f}, {r, 0.018f}, {r, 0.020f}, {r * 0.68f, 0.009f}, {r * 0.6f, 0.006f}, {0, 0.006f}};
+  const Vec2f plate[] = {{0, 0},      {r * 0.6f, 0},       {r * 0.68f, 0.004f}, {r, 0.018f},
+                         {r, 0.020f}, {r * 0.68f, 0.009f}, {r * 0.6f, 0.006f},  {0, 0.006f}};
   b.Lathe(plate, 24, p);
 }
 

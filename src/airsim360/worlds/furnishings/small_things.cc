@@ -16,25 +16,43 @@ Model MakeVase(uint32_t variant, uint64_t seed) {
   RngStream rng(seed, "vase");
   const Vec3f glaze[3] = {{0.10f, 0.20f, 0.30f}, {0.66f, 0.63f, 0.56f}, {0.36f, 0.14f, 0.07f}};
   UseCeramic(b, glaze[variant]);
-  const Vec2f shapes[3][10] = {
-      {{0, 0},
-       {0.055f, 0},
-       {0.085f, 0.05f},
-       {0.095f, 0.11f},
-       {0.075f, 0.17f},
-       {0.038f, 0.21f},
-       {0.046f, 0.235f},
-       {0.040f, 0.235f},
-       {0.030f, 0.205f},
-       {0, 0.18f}},
-      {{0, 0}, {0.05f, 0}, {0.056f, 0.01f}, {0.050f, 0.12f}, {0.060f, 0.24f}, {0.074f, 0.30f}, {0.078f, 0.31f}, {0.070f, 0.31f}, {0.052f, 0.22f}, {0, 0.2f}},
-      {{0, 0}, {0.06f, 0}, {0.078f, 0.02f}, {0.068f, 0.07f}, {0.05f, 0.13f}, {0.056f, 0.17f}, {0.062f, 0.18f}, {0.055f, 0.18f}, {0.042f, 0.14f}, {0, 0.12f}}};
+  const Vec2f shapes[3][10] = {{{0, 0},
+                                {0.055f, 0},
+                                {0.085f, 0.05f},
+                                {0.095f, 0.11f},
+                                {0.075f, 0.17f},
+                                {0.038f, 0.21f},
+                                {0.046f, 0.235f},
+                                {0.040f, 0.235f},
+                                {0.030f, 0.205f},
+                                {0, 0.18f}},
+                               {{0, 0},
+                                {0.05f, 0},
+                                {0.056f, 0.01f},
+                                {0.050f, 0.12f},
+                                {0.060f, 0.24f},
+                                {0.074f, 0.30f},
+                                {0.078f, 0.31f},
+                                {0.070f, 0.31f},
+                                {0.052f, 0.22f},
+                                {0, 0.2f}},
+                               {{0, 0},
+                                {0.06f, 0},
+                                {0.078f, 0.02f},
+                                {0.068f, 0.07f},
+                                {0.05f, 0.13f},
+                                {0.056f, 0.17f},
+                                {0.062f, 0.18f},
+                                {0.055f, 0.18f},
+                                {0.042f, 0.14f},
+                                {0, 0.12f}}};
   b.Lathe(shapes[variant], 28);
   if (variant == 1) {  // dry branches
     b.Use(Stone({0.24f, 0.17f, 0.11f}, 0.9f));
     for (int i = 0; i < 7; ++i) {
       const Vec3f d = Around(i, 7, 0.4f * static_cast<float>(i % 3)) * static_cast<float>(rng.Uniform(0.06, 0.20));
-      const Vec3f twig[] = {{d.x * 0.1f, d.y * 0.1f, 0.22f}, {d.x * 0.5f, d.y * 0.5f, 0.46f}, {d.x, d.y, static_cast<float>(rng.Uniform(0.55, 0.78))}};
+      const Vec3f twig[] = {
+          {d.x * 0.1f, d.y * 0.1f, 0.22f}, {d.x * 0.5f, d.y * 0.5f, 0.46f}, {d.x, d.y, static_cast<float>(rng.Uniform(0.55, 0.78))}};
       const float radii[] = {0.004f, 0.003f, 0.0015f};
       b.Bar(twig, radii, 5);
     }
@@ -63,8 +81,8 @@ Model MakeBookRow(uint32_t variant, uint64_t seed) {
     float z = 0;
     for (int i = 0; i < 6; ++i) {
       const float t = static_cast<float>(rng.Uniform(0.014, 0.04)), w = static_cast<float>(rng.Uniform(0.075, 0.10)), d = w * 1.4f;
-      const Vec3f cover =
-          Vec3f{static_cast<float>(rng.Uniform(0.05, 0.5)), static_cast<float>(rng.Uniform(0.05, 0.3)), static_cast<float>(rng.Uniform(0.05, 0.3))};
+      const Vec3f cover = Vec3f{static_cast<float>(rng.Uniform(0.05, 0.5)), static_cast<float>(rng.Uniform(0.05, 0.3)),
+                                static_cast<float>(rng.Uniform(0.05, 0.3))};
       b.Place(Turn(0, 0, static_cast<float>(rng.Uniform(-12, 12)), {0, 0, z}));
       b.Use(Plastic(cover, 0.5f));
       b.BevelBox({-d, -w, 0}, {d, w, 0.003f}, 0.001f);
@@ -115,7 +133,8 @@ void Shoe(PropBuilder& b, const AffineTransform& X, Vec3f upper, Vec3f sole, flo
 // Pairs beside each other, as by a door.
 Model MakeShoes(uint32_t variant, uint64_t) {
   PropBuilder b("shoes");
-  const Vec3f uppers[3] = {{0.05f, 0.035f, 0.025f}, {0.62f, 0.61f, 0.58f}, {0.16f, 0.085f, 0.04f}}, soles[3] = {{0, 0, 0}, {0.70f, 0.69f, 0.66f}, {0, 0, 0}};
+  const Vec3f uppers[3] = {{0.05f, 0.035f, 0.025f}, {0.62f, 0.61f, 0.58f}, {0.16f, 0.085f, 0.04f}},
+              soles[3] = {{0, 0, 0}, {0.70f, 0.69f, 0.66f}, {0, 0, 0}};
   const float shaft[3] = {0.075f, 0.08f, 0.16f};
   Shoe(b, Turn(0, 0, 4, {-0.055f, 0, 0}), uppers[variant], soles[variant], 1, shaft[variant]);
   Shoe(b, Turn(0, 0, -9, {0.06f, variant == 1 ? 0.05f : 0.01f, 0}), uppers[variant], soles[variant], 1, shaft[variant]);
@@ -128,7 +147,8 @@ Model MakeKettle(uint32_t variant, uint64_t) {
   b.Use(Plastic({0.025f, 0.025f, 0.027f}, 0.35f));
   const Vec2f base[] = {{0, 0}, {0.08f, 0}, {0.083f, 0.012f}, {0.075f, 0.02f}, {0, 0.02f}};
   b.Lathe(base, 28);
-  const Vec3f grip[] = {{0.058f, 0, 0.215f}, {0.105f, 0, 0.215f}, {0.118f, 0, 0.19f}, {0.115f, 0, 0.09f}, {0.10f, 0, 0.065f}, {0.072f, 0, 0.06f}};
+  const Vec3f grip[] = {{0.058f, 0, 0.215f}, {0.105f, 0, 0.215f}, {0.118f, 0, 0.19f},
+                        {0.115f, 0, 0.09f},  {0.10f, 0, 0.065f},  {0.072f, 0, 0.06f}};
   b.Bar(grip, 0.010f, 10);
   const Vec2f knob[] = {{0.012f, 0.225f}, {0.016f, 0.235f}, {0.012f, 0.245f}, {0, 0.246f}};
   b.Lathe(knob, 12);
@@ -203,8 +223,11 @@ void WashingInABasket(PropBuilder& b, RngStream& rng, uint64_t seed) {
   const Vec3f tones[4] = {{0.66f, 0.65f, 0.62f}, {0.10f, 0.16f, 0.28f}, {0.42f, 0.14f, 0.12f}, {0.30f, 0.34f, 0.30f}};
   for (int i = 0; i < 7; ++i) {
     UseLinen(b, tones[i % 4]);
-    const float x = static_cast<float>(rng.Uniform(-0.11, 0.11)), y = static_cast<float>(rng.Uniform(-0.03, 0.03)), z = 0.15f + 0.02f * static_cast<float>(i);
-    Pillow(b, Turn(static_cast<float>(rng.Uniform(-25, 25)), static_cast<float>(rng.Uniform(-25, 25)), static_cast<float>(rng.Uniform(0, 180)), {x, y, z}),
+    const float x = static_cast<float>(rng.Uniform(-0.11, 0.11)), y = static_cast<float>(rng.Uniform(-0.03, 0.03)),
+                z = 0.15f + 0.02f * static_cast<float>(i);
+    Pillow(b,
+           Turn(static_cast<float>(rng.Uniform(-25, 25)), static_cast<float>(rng.Uniform(-25, 25)), static_cast<float>(rng.Uniform(0, 180)),
+                {x, y, z}),
            {0.22f, 0.18f}, 0.13f, seed + static_cast<uint64_t>(i), 8);
   }
 }
@@ -218,7 +241,8 @@ Model MakeClutter(uint32_t variant, uint64_t seed) {
     Bowl(b, {-0.10f, 0, 0}, 0.08f, 0.04f);
     b.Use(Metal({0.55f, 0.48f, 0.30f}, 0.3f));
     for (int i = 0; i < 4; ++i)
-      b.mesh().Beam({-0.12f + 0.015f * static_cast<float>(i), -0.02f, 0.018f}, {-0.10f + 0.012f * static_cast<float>(i), 0.03f, 0.026f}, 0.005f);
+      b.mesh().Beam({-0.12f + 0.015f * static_cast<float>(i), -0.02f, 0.018f}, {-0.10f + 0.012f * static_cast<float>(i), 0.03f, 0.026f},
+                    0.005f);
     for (int i = 0; i < 4; ++i) {
       b.Place(Turn(0, 0, static_cast<float>(rng.Uniform(-25, 25)), {0.10f, 0, 0.0012f * static_cast<float>(i)}));
       b.Use(Stone(i % 2 ? Vec3f{0.72f, 0.71f, 0.68f} : Vec3f{0.52f, 0.44f, 0.30f}, 0.9f));
@@ -230,8 +254,8 @@ Model MakeClutter(uint32_t variant, uint64_t seed) {
     for (int i = 0; i < 16; ++i) {
       b.Use(Plastic(tones[rng.Index(4)], 0.3f));
       const float w = rng.Chance(0.5) ? 0.02f : 0.035f;
-      b.Place(
-          Turn(0, 0, static_cast<float>(rng.Uniform(0, 180)), {static_cast<float>(rng.Uniform(-0.28, 0.28)), static_cast<float>(rng.Uniform(-0.22, 0.22)), 0}));
+      b.Place(Turn(0, 0, static_cast<float>(rng.Uniform(0, 180)),
+                   {static_cast<float>(rng.Uniform(-0.28, 0.28)), static_cast<float>(rng.Uniform(-0.22, 0.22)), 0}));
       b.BevelBox({-w, -0.02f, 0}, {w, 0.02f, 0.04f}, 0.003f);
     }
     b.Place({});
@@ -240,7 +264,8 @@ Model MakeClutter(uint32_t variant, uint64_t seed) {
   } else if (variant == 2) {  // a rucksack leaning on itself
     UseWeave(b, {0.07f, 0.10f, 0.14f});
     SoftBox(b, {-0.15f, -0.09f, 0}, {0.15f, 0.09f, 0.43f}, {.round = 0.08f, .crown = 0.02f, .fold = 0.012f, .seed = seed, .cells = 10});
-    SoftBox(b, {-0.12f, -0.155f, 0.02f}, {0.12f, -0.07f, 0.21f}, {.round = 0.04f, .crown = 0.015f, .fold = 0.008f, .seed = seed + 2, .cells = 8});
+    SoftBox(b, {-0.12f, -0.155f, 0.02f}, {0.12f, -0.07f, 0.21f},
+            {.round = 0.04f, .crown = 0.015f, .fold = 0.008f, .seed = seed + 2, .cells = 8});
     UseWeave(b, {0.03f, 0.03f, 0.033f});
     for (float s : {-1.0f, 1.0f}) {
       const Vec3f strap[] = {{s * 0.07f, 0.085f, 0.40f}, {s * 0.10f, 0.14f, 0.30f}, {s * 0.11f, 0.13f, 0.15f}, {s * 0.10f, 0.09f, 0.06f}};

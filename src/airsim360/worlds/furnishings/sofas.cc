@@ -30,7 +30,8 @@ void Upholster(PropBuilder& b, const SofaLook& look, float shade = 1) {
 void Legs(PropBuilder& b, const SofaLook& look, float half) {
   UseTimber(b, look.timber);
   for (float x : {-half + 0.07f, half - 0.07f})
-    for (float y : {-kDepth / 2 + 0.08f, kDepth / 2 - 0.08f}) b.mesh().Tube({x * 1.02f, y * 1.06f, 0}, {x, y, look.leg}, 0.013f, 0.024f, 12);
+    for (float y : {-kDepth / 2 + 0.08f, kDepth / 2 - 0.08f})
+      b.mesh().Tube({x * 1.02f, y * 1.06f, 0}, {x, y, look.leg}, 0.013f, 0.024f, 12);
 }
 
 void Cushions(PropBuilder& b, const SofaLook& look, uint64_t seed) {
@@ -59,7 +60,8 @@ Model MakeSofa(const char* name, const SofaLook& look, uint64_t seed) {
   for (float s : {-1.0f, 1.0f})
     SoftBox(b, {s > 0 ? inner : -half, y0, look.leg}, {s > 0 ? half : -inner, y1 - 0.02f, look.arm_top},
             {.round = std::min(0.07f, look.arm * 0.42f), .crown = 0.008f, .fold = 0.002f, .seed = seed, .cells = 8, .faces = kOpen});
-  SoftBox(b, {-half + 0.012f, y1 - 0.19f, look.leg}, {half - 0.012f, y1, kBack - 0.06f}, {.round = 0.06f, .crown = 0.008f, .cells = 8, .faces = kOpen});
+  SoftBox(b, {-half + 0.012f, y1 - 0.19f, look.leg}, {half - 0.012f, y1, kBack - 0.06f},
+          {.round = 0.06f, .crown = 0.008f, .cells = 8, .faces = kOpen});
   Cushions(b, look, seed);
   if (look.loose) {
     UseWeave(b, look.accent);
@@ -73,10 +75,11 @@ Model MakeSofa(const char* name, const SofaLook& look, uint64_t seed) {
 }
 
 SofaLook LookOf(uint32_t variant, int places) {
-  const SofaLook looks[4] = {{places, Cover::kWeave, {0.34f, 0.34f, 0.34f}, 0.17f, 0.62f, 0.13f, Timber::kOak, true, {0.56f, 0.36f, 0.07f}},
-                             {places, Cover::kLeather, {0.26f, 0.115f, 0.05f}, 0.21f, 0.60f, 0.08f, Timber::kWenge, false, {}},
-                             {places, Cover::kWeave, {0.075f, 0.13f, 0.19f}, 0.13f, 0.66f, 0.16f, Timber::kWalnut, true, {0.58f, 0.54f, 0.46f}},
-                             {places, Cover::kWeave, {0.52f, 0.46f, 0.37f}, 0.24f, 0.58f, 0.06f, Timber::kWenge, true, {0.16f, 0.24f, 0.17f}}};
+  const SofaLook looks[4] = {
+      {places, Cover::kWeave, {0.34f, 0.34f, 0.34f}, 0.17f, 0.62f, 0.13f, Timber::kOak, true, {0.56f, 0.36f, 0.07f}},
+      {places, Cover::kLeather, {0.26f, 0.115f, 0.05f}, 0.21f, 0.60f, 0.08f, Timber::kWenge, false, {}},
+      {places, Cover::kWeave, {0.075f, 0.13f, 0.19f}, 0.13f, 0.66f, 0.16f, Timber::kWalnut, true, {0.58f, 0.54f, 0.46f}},
+      {places, Cover::kWeave, {0.52f, 0.46f, 0.37f}, 0.24f, 0.58f, 0.06f, Timber::kWenge, true, {0.16f, 0.24f, 0.17f}}};
   return looks[variant];
 }
 
@@ -100,7 +103,8 @@ Model MakeEasyChair(uint64_t seed) {
     const Vec3f back[] = {{x * 0.86f, 0.22f, 0.26f}, {x * 0.86f, 0.36f, 0.62f}, {x * 0.84f, 0.45f, 0.86f}};
     b.Bar(back, 0.017f, 10);
   }
-  for (float z : {0.45f, 0.66f, 0.85f}) b.mesh().Tube({-0.28f, 0.22f + 0.37f * (z - 0.26f), z}, {0.28f, 0.22f + 0.37f * (z - 0.26f), z}, 0.012f, 0.012f, 10);
+  for (float z : {0.45f, 0.66f, 0.85f})
+    b.mesh().Tube({-0.28f, 0.22f + 0.37f * (z - 0.26f), z}, {0.28f, 0.22f + 0.37f * (z - 0.26f), z}, 0.012f, 0.012f, 10);
   for (float y : {-0.30f, 0.26f}) b.mesh().Tube({-0.33f, y, 0.285f}, {0.33f, y, 0.285f}, 0.016f, 0.016f, 10);
   UseWeave(b, {0.27f, 0.29f, 0.21f});
   b.Place(Turn(-4, 0, 0, {0, -0.05f, 0.30f}));

@@ -142,7 +142,9 @@ void Hanging(PropBuilder& b, float x0, float x1, float top, float depth, int fol
 
 void RoundedBoard(PropBuilder& b, Vec2f lo, Vec2f hi, float corner, float z0, float z1, float edge) {
   const int steps = std::clamp(static_cast<int>(corner * 40), 4, 16);
-  const auto ring = [&](float inset) { return RoundedRectangle(lo + Vec2f{inset, inset}, hi - Vec2f{inset, inset}, std::max(corner - inset, 0.001f), steps); };
+  const auto ring = [&](float inset) {
+    return RoundedRectangle(lo + Vec2f{inset, inset}, hi - Vec2f{inset, inset}, std::max(corner - inset, 0.001f), steps);
+  };
   const std::vector<Vec2f> outer = ring(0);
   const size_t n = outer.size();
   b.mesh().Walls(outer, z0, z1 - edge);
@@ -159,7 +161,8 @@ void RoundedBoard(PropBuilder& b, Vec2f lo, Vec2f hi, float corner, float z0, fl
         const Vec3f side = Normalized(Vec3f{after.y - before.y, before.x - after.x, 0});
         return Normalized(side * std::cos(a) + Vec3f{0, 0, std::sin(a)});
       };
-      const Vec3f p[4] = {{lower[i].x, lower[i].y, za}, {lower[j].x, lower[j].y, za}, {upper[j].x, upper[j].y, zb}, {upper[i].x, upper[i].y, zb}};
+      const Vec3f p[4] = {
+          {lower[i].x, lower[i].y, za}, {lower[j].x, lower[j].y, za}, {upper[j].x, upper[j].y, zb}, {upper[i].x, upper[i].y, zb}};
       const auto uv = [](Vec3f q) { return Vec2f{q.x, -q.y}; };
       b.mesh().SmoothTriangle({p[0], p[1], p[2]}, {out(i, a0), out(j, a0), out(j, a1)}, {uv(p[0]), uv(p[1]), uv(p[2])});
       b.mesh().SmoothTriangle({p[0], p[2], p[3]}, {out(i, a0), out(j, a1), out(i, a1)}, {uv(p[0]), uv(p[2]), uv(p[3])});
@@ -170,9 +173,12 @@ void RoundedBoard(PropBuilder& b, Vec2f lo, Vec2f hi, float corner, float z0, fl
 
 void BowHandle(PropBuilder& b, Vec2f from, Vec2f to, float y, float radius) {
   const Vec2f d = (to - from) * 0.06f;
-  const Vec3f path[] = {
-      {from.x, y, from.y}, {from.x, y - 0.022f, from.y}, {from.x + d.x, y - 0.03f, from.y + d.y}, {to.x - d.x, y - 0.03f, to.y - d.y}, {to.x, y - 0.022f, to.y},
-      {to.x, y, to.y}};
+  const Vec3f path[] = {{from.x, y, from.y},
+                        {from.x, y - 0.022f, from.y},
+                        {from.x + d.x, y - 0.03f, from.y + d.y},
+                        {to.x - d.x, y - 0.03f, to.y - d.y},
+                        {to.x, y - 0.022f, to.y},
+                        {to.x, y, to.y}};
   b.Bar(path, radius, 8);
 }
 
@@ -194,7 +200,8 @@ void Castor(PropBuilder& b, Vec3f p) {
   const float r = p.z * 0.42f;
   b.Use(Plastic({0.02f, 0.02f, 0.022f}, 0.4f));
   b.mesh().Tube({p.x, p.y, r}, {p.x, p.y, p.z}, 0.006f, 0.006f, 6, false, false);
-  for (float side : {-1.0f, 1.0f}) b.mesh().Tube({p.x + side * 0.008f, p.y + 0.012f, r}, {p.x + side * 0.024f, p.y + 0.012f, r}, r, r * 0.92f, 14);
+  for (float side : {-1.0f, 1.0f})
+    b.mesh().Tube({p.x + side * 0.008f, p.y + 0.012f, r}, {p.x + side * 0.024f, p.y + 0.012f, r}, r, r * 0.92f, 14);
   b.BevelBox({p.x - 0.012f, p.y - 0.012f, r}, {p.x + 0.012f, p.y + 0.03f, 2 * r + 0.004f}, 0.004f);
 }
 

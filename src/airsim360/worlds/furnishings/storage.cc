@@ -15,7 +15,9 @@ namespace {
 struct Board {
   Timber timber;
   bool white;
-  void Use(PropBuilder& b, Grain grain = Grain::kUpright) const { white ? UseLacquer(b, {0.73f, 0.72f, 0.69f}) : UseTimber(b, timber, grain); }
+  void Use(PropBuilder& b, Grain grain = Grain::kUpright) const {
+    white ? UseLacquer(b, {0.73f, 0.72f, 0.69f}) : UseTimber(b, timber, grain);
+  }
 };
 
 // An open case of 18 mm boards, its back closed; fronts come in front of it.
@@ -32,7 +34,8 @@ void Carcass(PropBuilder& b, const Board& board, float half, float y0, float y1,
 
 void Shirts(PropBuilder& b, float x0, float x1, float rail, uint64_t seed) {
   RngStream rng(seed, "shirts");
-  const Vec3f tones[5] = {{0.60f, 0.60f, 0.58f}, {0.07f, 0.10f, 0.19f}, {0.28f, 0.09f, 0.08f}, {0.20f, 0.25f, 0.20f}, {0.04f, 0.04f, 0.045f}};
+  const Vec3f tones[5] = {
+      {0.60f, 0.60f, 0.58f}, {0.07f, 0.10f, 0.19f}, {0.28f, 0.09f, 0.08f}, {0.20f, 0.25f, 0.20f}, {0.04f, 0.04f, 0.045f}};
   for (float x = x0; x < x1; x += 0.055f + 0.03f * static_cast<float>(rng.Uniform())) {
     UseLinen(b, tones[rng.Index(5)]);
     HangingGarment(b, Turn(0, 0, 90, {x, 0.0f, rail}), 0.40f, 0.62f + 0.35f * static_cast<float>(rng.Uniform()), rng.Bits());
@@ -42,7 +45,8 @@ void Shirts(PropBuilder& b, float x0, float x1, float rail, uint64_t seed) {
 // Two or three swinging doors, one variant with sliding ones (one a mirror), one with a door open on clothes.
 Model MakeWardrobe(uint32_t variant, uint64_t seed) {
   PropBuilder b("wardrobe");
-  const Board board = std::array<Board, 4>{{{Timber::kOak, false}, {Timber::kOak, true}, {Timber::kWalnut, false}, {Timber::kBeech, false}}}[variant];
+  const Board board =
+      std::array<Board, 4>{{{Timber::kOak, false}, {Timber::kOak, true}, {Timber::kWalnut, false}, {Timber::kBeech, false}}}[variant];
   const int doors = std::array{3, 2, 2, 2}[variant];
   const float half = std::array{0.75f, 0.75f, 1.0f, 0.50f}[variant], top = std::array{2.01f, 2.36f, 2.20f, 1.95f}[variant];
   const float y0 = -0.28f, y1 = 0.30f, foot = 0.07f;
@@ -135,7 +139,8 @@ Model MakeDresser(uint32_t variant, uint64_t) {
 // Shelves filled unevenly with books, boxes and a vase.
 Model MakeBookshelf(uint32_t variant, uint64_t seed) {
   PropBuilder b("bookshelf");
-  const Board board = std::array<Board, 4>{{{Timber::kBeech, true}, {Timber::kOak, false}, {Timber::kWalnut, false}, {Timber::kPine, false}}}[variant];
+  const Board board =
+      std::array<Board, 4>{{{Timber::kBeech, true}, {Timber::kOak, false}, {Timber::kWalnut, false}, {Timber::kPine, false}}}[variant];
   const float half = std::array{0.40f, 0.40f, 0.60f, 0.40f}[variant], top = std::array{2.02f, 2.02f, 1.25f, 1.06f}[variant];
   const int shelves = std::array{6, 6, 3, 3}[variant];
   const float y0 = -0.14f, y1 = 0.14f, foot = 0.06f;
@@ -170,8 +175,10 @@ Model MakeCoatRack(uint32_t variant, uint64_t seed) {
   b.Lathe(post, 14);
   for (int i = 0; i < 4; ++i) {
     const Vec3f d = Around(i, 4, 0.4f);
-    const Vec3f foot[] = {Vec3f{0, 0, 0.16f}, d * 0.10f + Vec3f{0, 0, 0.12f}, d * 0.24f + Vec3f{0, 0, 0.022f}, d * 0.28f + Vec3f{0, 0, 0.016f}};
-    const Vec3f hook[] = {d * 0.01f + Vec3f{0, 0, 1.60f}, d * 0.09f + Vec3f{0, 0, 1.58f}, d * 0.15f + Vec3f{0, 0, 1.63f}, d * 0.16f + Vec3f{0, 0, 1.71f}};
+    const Vec3f foot[] = {Vec3f{0, 0, 0.16f}, d * 0.10f + Vec3f{0, 0, 0.12f}, d * 0.24f + Vec3f{0, 0, 0.022f},
+                          d * 0.28f + Vec3f{0, 0, 0.016f}};
+    const Vec3f hook[] = {d * 0.01f + Vec3f{0, 0, 1.60f}, d * 0.09f + Vec3f{0, 0, 1.58f}, d * 0.15f + Vec3f{0, 0, 1.63f},
+                          d * 0.16f + Vec3f{0, 0, 1.71f}};
     b.Bar(foot, 0.015f, 8);
     b.Bar(hook, 0.009f, 8);
   }

@@ -71,8 +71,10 @@ struct TableLook {
 
 Model MakeDiningTableHome(uint32_t variant, uint64_t) {
   PropBuilder b("dining_table_home");
-  const TableLook look = std::array<TableLook, 4>{
-      {{1.60f, 0.90f, Timber::kOak, 0}, {1.80f, 0.90f, Timber::kWalnut, 1}, {1.15f, 1.15f, Timber::kBeech, 2}, {1.20f, 0.75f, Timber::kPine, 3}}}[variant];
+  const TableLook look = std::array<TableLook, 4>{{{1.60f, 0.90f, Timber::kOak, 0},
+                                                   {1.80f, 0.90f, Timber::kWalnut, 1},
+                                                   {1.15f, 1.15f, Timber::kBeech, 2},
+                                                   {1.20f, 0.75f, Timber::kPine, 3}}}[variant];
   const float x = look.length / 2, y = look.width / 2, top = 0.745f;
   if (look.base == 2) {
     UseTimber(b, look.timber);
@@ -115,8 +117,11 @@ void WoodChair(PropBuilder& b, Timber timber, bool padded, Vec3f cloth, uint64_t
   UseTimber(b, timber);
   for (float s : {-1.0f, 1.0f}) {
     b.mesh().Tube({s * 0.215f, -0.235f, 0}, {s * 0.185f, -0.19f, 0.435f}, 0.012f, 0.018f, 12);
-    const Vec3f rear[] = {
-        {s * 0.20f, 0.27f, 0}, {s * 0.175f, 0.21f, 0.25f}, {s * 0.170f, 0.20f, 0.45f}, {s * 0.172f, 0.24f, 0.66f}, {s * 0.175f, 0.285f, 0.82f}};
+    const Vec3f rear[] = {{s * 0.20f, 0.27f, 0},
+                          {s * 0.175f, 0.21f, 0.25f},
+                          {s * 0.170f, 0.20f, 0.45f},
+                          {s * 0.172f, 0.24f, 0.66f},
+                          {s * 0.175f, 0.285f, 0.82f}};
     const float radii[] = {0.012f, 0.017f, 0.018f, 0.016f, 0.011f};
     b.Bar(rear, radii, 12);
     b.mesh().Tube({s * 0.195f, -0.20f, 0.26f}, {s * 0.183f, 0.225f, 0.26f}, 0.009f, 0.009f, 8);
@@ -127,7 +132,8 @@ void WoodChair(PropBuilder& b, Timber timber, bool padded, Vec3f cloth, uint64_t
   const auto rest = [](float z0, float z1, float y, float lean) {
     return [=](float u, float v) {
       const float x = 0.20f * (2 * u - 1);
-      return Vec3f{x, y + lean * v + 0.045f * (1 - (2 * u - 1) * (2 * u - 1)), z0 + (z1 - z0) * v + 0.012f * (1 - (2 * u - 1) * (2 * u - 1)) * v};
+      return Vec3f{x, y + lean * v + 0.045f * (1 - (2 * u - 1) * (2 * u - 1)),
+                   z0 + (z1 - z0) * v + 0.012f * (1 - (2 * u - 1) * (2 * u - 1)) * v};
     };
   };
   for (float side : {0.0f, 0.016f}) {
@@ -146,7 +152,8 @@ void WoodChair(PropBuilder& b, Timber timber, bool padded, Vec3f cloth, uint64_t
             {0.4f, 0.016f});
   if (padded) {
     UseWeave(b, cloth);
-    SoftBox(b, {-0.22f, -0.225f, 0.425f}, {0.22f, 0.205f, 0.475f}, {.round = 0.022f, .crown = 0.012f, .fold = 0.001f, .seed = seed, .cells = 8});
+    SoftBox(b, {-0.22f, -0.225f, 0.425f}, {0.22f, 0.205f, 0.475f},
+            {.round = 0.022f, .crown = 0.012f, .fold = 0.001f, .seed = seed, .cells = 8});
   } else {
     RoundedBoard(b, {-0.215f, -0.225f}, {0.215f, 0.215f}, 0.06f, 0.428f, 0.455f, 0.010f);
   }
@@ -156,7 +163,8 @@ void WoodChair(PropBuilder& b, Timber timber, bool padded, Vec3f cloth, uint64_t
 void ShellChair(PropBuilder& b, Vec3f color, bool wood) {
   wood ? UseTimber(b, Timber::kBeech) : b.Use(Chrome());
   for (float sx : {-1.0f, 1.0f})
-    for (float sy : {-1.0f, 1.0f}) b.mesh().Tube({sx * 0.235f, sy * 0.225f, 0}, {sx * 0.12f, sy * 0.12f, 0.415f}, 0.010f, wood ? 0.017f : 0.010f, 12);
+    for (float sy : {-1.0f, 1.0f})
+      b.mesh().Tube({sx * 0.235f, sy * 0.225f, 0}, {sx * 0.12f, sy * 0.12f, 0.415f}, 0.010f, wood ? 0.017f : 0.010f, 12);
   b.Use(Paint({0.03f, 0.03f, 0.03f}));
   for (float s : {-1.0f, 1.0f}) {
     b.mesh().Tube({-0.16f, s * 0.15f, 0.30f}, {0.16f, s * 0.15f, 0.30f}, 0.004f, 0.004f, 6);
@@ -165,13 +173,20 @@ void ShellChair(PropBuilder& b, Vec3f color, bool wood) {
   }
   b.Use(Plastic(color, 0.38f));
   // Profile in YZ from the front lip over the seat to the top of the back, dished across.
-  constexpr std::array<Vec2f, 8> line = {
-      {{-0.245f, 0.425f}, {-0.20f, 0.452f}, {-0.05f, 0.440f}, {0.10f, 0.430f}, {0.175f, 0.465f}, {0.205f, 0.56f}, {0.235f, 0.70f}, {0.265f, 0.83f}}};
+  constexpr std::array<Vec2f, 8> line = {{{-0.245f, 0.425f},
+                                          {-0.20f, 0.452f},
+                                          {-0.05f, 0.440f},
+                                          {0.10f, 0.430f},
+                                          {0.175f, 0.465f},
+                                          {0.205f, 0.56f},
+                                          {0.235f, 0.70f},
+                                          {0.265f, 0.83f}}};
   const auto at = [&](float u, float v, float back) {
     const float s = v * 7, x = 2 * u - 1;
     const int i = std::min(6, static_cast<int>(s));
     const float t = s - static_cast<float>(i), e = t * t * (3 - 2 * t);
-    const Vec2f p = line[static_cast<size_t>(i)] + (line[static_cast<size_t>(i) + 1] - line[static_cast<size_t>(i)]) * (0.5f * t + 0.5f * e);
+    const Vec2f p =
+        line[static_cast<size_t>(i)] + (line[static_cast<size_t>(i) + 1] - line[static_cast<size_t>(i)]) * (0.5f * t + 0.5f * e);
     const float dish = x * x * (v < 0.5f ? 0.035f : 0.015f), wide = 0.235f - 0.03f * std::max(0.0f, v - 0.55f) / 0.45f - 0.03f * v * v;
     const float wing = v > 0.5f ? 0.055f * x * x : 0.0f;
     return Vec3f{wide * x, p.x - wing + back * (v > 0.55f ? 1.0f : 0.2f), p.y + dish - back * (v > 0.55f ? 0.2f : 1.0f)};

@@ -63,16 +63,16 @@ Model MakeRug(uint32_t variant, uint64_t) {
   }
   const auto dye = std::array{Persian, Stripes, Lozenges}[variant];
   const std::string name = std::array{"persian rug", "striped rug", "lozenge rug"}[variant];
-  const Texture picture =
-      Texture::FromImage(name,
-                         Shade(448, 640,
-                               [&](float u, float v) {
-                                 Vec3f mean{};  // 3 x 3 samples a texel
-                                 for (int k = 0; k < 9; ++k)
-                                   mean = mean + dye(u + static_cast<float>(k % 3 - 1) / 1344, v + static_cast<float>(k / 3 - 1) / 1920) * (1.0f / 9);
-                                 return Knot(mean, u, v, 700 + variant);
-                               }),
-                         true);
+  const Texture picture = Texture::FromImage(
+      name,
+      Shade(448, 640,
+            [&](float u, float v) {
+              Vec3f mean{};  // 3 x 3 samples a texel
+              for (int k = 0; k < 9; ++k)
+                mean = mean + dye(u + static_cast<float>(k % 3 - 1) / 1344, v + static_cast<float>(k / 3 - 1) / 1920) * (1.0f / 9);
+              return Knot(mean, u, v, 700 + variant);
+            }),
+      true);
   b.Use(Stone({0.9f, 0.9f, 0.9f}, 0.98f), picture);
   const float z = thick;
   b.Picture({-half.x, -half.y, z}, {half.x, -half.y, z}, {half.x, half.y, z}, {-half.x, half.y, z});
@@ -83,7 +83,8 @@ Model MakeRug(uint32_t variant, uint64_t) {
     for (float s : {-1.0f, 1.0f})
       for (int i = 0; i < 70; ++i) {
         const float x = -half.x + 2 * half.x * (static_cast<float>(i) + 0.5f) / 70, sway = 0.010f * std::sin(2.9f * static_cast<float>(i));
-        b.mesh().Triangle({x - 0.007f * s, s * half.y, z * 0.6f}, {x + 0.007f * s, s * half.y, z * 0.6f}, {x + sway, s * (half.y + 0.055f), 0.002f});
+        b.mesh().Triangle({x - 0.007f * s, s * half.y, z * 0.6f}, {x + 0.007f * s, s * half.y, z * 0.6f},
+                          {x + sway, s * (half.y + 0.055f), 0.002f});
       }
   }
   return b.Finish();

@@ -55,7 +55,8 @@ Vec3f Tower(float u, float v) {  // a black and white photograph of a street
   const float t = TileFractal(u, v, 30, 40, 3, 841);
   const float block = TileNoise(u * 9, 0.5f, 9, 1, 842), height = 0.25f + 0.4f * block + 0.3f * std::abs(u - 0.5f);
   if (1 - v < height)
-    return Vec3f{1, 1, 1} * ((0.06f + 0.16f * block + (std::fmod(u * 54, 1.0f) < 0.4f && std::fmod(v * 42, 1.0f) < 0.5f ? 0.12f : 0)) * (0.8f + 0.4f * t));
+    return Vec3f{1, 1, 1} *
+           ((0.06f + 0.16f * block + (std::fmod(u * 54, 1.0f) < 0.4f && std::fmod(v * 42, 1.0f) < 0.5f ? 0.12f : 0)) * (0.8f + 0.4f * t));
   return Vec3f{1, 1, 1} * (0.50f + 0.25f * (1 - v) + 0.12f * (t - 0.5f));
 }
 

@@ -17,10 +17,12 @@ constexpr float kTau = 2 * std::numbers::pi_v<float>;
 void Tyre(PropBuilder& b, Vec3f hub, float r, float wide) {
   b.Place(Turn(0, 90, 0, hub));
   b.Use(Rubber());
-  const Vec2f tyre[] = {{r * 0.62f, -wide / 2}, {r * 0.93f, -wide / 2}, {r, -wide * 0.36f}, {r, wide * 0.36f}, {r * 0.93f, wide / 2}, {r * 0.62f, wide / 2}};
+  const Vec2f tyre[] = {{r * 0.62f, -wide / 2}, {r * 0.93f, -wide / 2}, {r, -wide * 0.36f},
+                        {r, wide * 0.36f},      {r * 0.93f, wide / 2},  {r * 0.62f, wide / 2}};
   b.Lathe(tyre, 28);
   b.Use(Paint({0.62f, 0.62f, 0.60f}));
-  const Vec2f rim[] = {{0, -wide * 0.42f}, {r * 0.62f, -wide * 0.46f}, {r * 0.62f, wide * 0.46f}, {r * 0.3f, wide * 0.38f}, {0, wide * 0.40f}};
+  const Vec2f rim[] = {
+      {0, -wide * 0.42f}, {r * 0.62f, -wide * 0.46f}, {r * 0.62f, wide * 0.46f}, {r * 0.3f, wide * 0.38f}, {0, wide * 0.40f}};
   b.Lathe(rim, 20);
   b.Place({});
 }
@@ -81,15 +83,17 @@ Model MakeForklift(uint32_t variant, uint64_t) {
   SoftBox(b, {-0.53f, 0.52f, 0.22f}, {0.53f, 1.28f, 1.02f}, {.round = 0.14f, .crown = 0.01f, .cells = 8});
   SoftBox(b, {-0.50f, -0.12f, 0.42f}, {0.50f, 0.72f, 0.88f}, {.round = 0.06f, .crown = 0.004f, .cells = 6});
   for (float s : {-1.0f, 1.0f})
-    SoftBox(b, {s * 0.44f - 0.11f, front - 0.06f, 0.58f}, {s * 0.44f + 0.11f, front + 0.50f, 0.70f}, {.round = 0.05f, .crown = 0.01f, .cells = 6});
+    SoftBox(b, {s * 0.44f - 0.11f, front - 0.06f, 0.58f}, {s * 0.44f + 0.11f, front + 0.50f, 0.70f},
+            {.round = 0.05f, .crown = 0.01f, .cells = 6});
   b.BevelBox({-0.34f, front - 0.04f, 0.20f}, {0.34f, front + 0.10f, 0.98f}, 0.03f);
   b.Use(Paint({0.05f, 0.052f, 0.055f}, 0.6f));
   b.BevelBox({-0.52f, front + 0.05f, 0.30f}, {0.52f, 0.60f, 0.44f}, 0.02f);
   b.BevelBox({-0.24f, front + 0.06f, 0.95f}, {0.24f, front + 0.16f, 1.10f}, 0.03f);
   // Overhead guard.
   for (float s : {-1.0f, 1.0f}) {
-    b.Bar(std::array<Vec3f, 5>{Vec3f{s * 0.46f, front + 0.05f, 0.60f}, Vec3f{s * 0.45f, front + 0.12f, 1.30f}, Vec3f{s * 0.43f, front + 0.36f, 2.05f},
-                               Vec3f{s * 0.43f, front + 0.50f, 2.12f}, Vec3f{s * 0.43f, 0.72f, 2.12f}},
+    b.Bar(std::array<Vec3f, 5>{Vec3f{s * 0.46f, front + 0.05f, 0.60f}, Vec3f{s * 0.45f, front + 0.12f, 1.30f},
+                               Vec3f{s * 0.43f, front + 0.36f, 2.05f}, Vec3f{s * 0.43f, front + 0.50f, 2.12f},
+                               Vec3f{s * 0.43f, 0.72f, 2.12f}},
           0.032f, 8);
     b.Bar(std::array<Vec3f, 3>{Vec3f{s * 0.43f, 0.72f, 2.12f}, Vec3f{s * 0.44f, 0.80f, 2.02f}, Vec3f{s * 0.46f, 0.90f, 0.95f}}, 0.032f, 8);
   }
@@ -124,7 +128,8 @@ Model MakeForklift(uint32_t variant, uint64_t) {
 
 Model MakeDrum(uint32_t variant, uint64_t) {
   PropBuilder b("drum");
-  const Vec3f tone = std::array<Vec3f, 4>{{{0.03f, 0.09f, 0.26f}, {0.45f, 0.04f, 0.03f}, {0.06f, 0.22f, 0.10f}, {0.05f, 0.11f, 0.30f}}}[variant];
+  const Vec3f tone =
+      std::array<Vec3f, 4>{{{0.03f, 0.09f, 0.26f}, {0.45f, 0.04f, 0.03f}, {0.06f, 0.22f, 0.10f}, {0.05f, 0.11f, 0.30f}}}[variant];
   const float r = 0.285f;
   if (variant == 3)
     b.Use(Plastic(tone, 0.45f));
@@ -163,7 +168,8 @@ Model MakeHandTruck(uint32_t variant, uint64_t) {
       b.Bar(std::array<Vec3f, 5>{Vec3f{s * 0.17f, -0.10f, 0.03f}, Vec3f{s * 0.17f, -0.06f, 0.30f}, Vec3f{s * 0.17f, 0.05f, 1.05f},
                                  Vec3f{s * 0.17f, 0.12f, 1.18f}, Vec3f{s * 0.17f, 0.20f, 1.22f}},
             0.014f, 10);
-    for (float z : {0.25f, 0.50f, 0.75f, 1.0f}) b.mesh().Tube({-0.17f, -0.10f + 0.145f * z, z}, {0.17f, -0.10f + 0.145f * z, z}, 0.010f, 0.010f, 8);
+    for (float z : {0.25f, 0.50f, 0.75f, 1.0f})
+      b.mesh().Tube({-0.17f, -0.10f + 0.145f * z, z}, {0.17f, -0.10f + 0.145f * z, z}, 0.010f, 0.010f, 8);
     b.BevelBox({-0.22f, -0.34f, 0.012f}, {0.22f, -0.09f, 0.020f}, 0.003f);
     for (float s : {-1.0f, 1.0f}) b.Bar(std::array<Vec3f, 2>{Vec3f{s * 0.17f, -0.05f, 0.40f}, Vec3f{s * 0.19f, 0.10f, 0.13f}}, 0.011f, 8);
     b.mesh().Tube({-0.25f, 0.10f, 0.13f}, {0.25f, 0.10f, 0.13f}, 0.010f, 0.010f, 8);
@@ -221,8 +227,8 @@ Model MakeLadder(uint32_t variant, uint64_t) {
     b.mesh().Beam({s * 0.36f, -1.05f, 0.05f}, {s * 0.36f, 0.24f, 1.97f}, 0.04f);
     b.mesh().Beam({s * 0.38f, 0.85f, 0.05f}, {s * 0.36f, 0.75f, 1.98f}, 0.04f);
     b.mesh().Beam({s * 0.38f, -1.0f, 0.08f}, {s * 0.38f, 0.85f, 0.08f}, 0.04f);
-    b.Bar(std::array<Vec3f, 5>{Vec3f{s * 0.37f, -0.80f, 0.55f}, Vec3f{s * 0.37f, -0.86f, 1.30f}, Vec3f{s * 0.37f, 0.20f, 2.92f}, Vec3f{s * 0.37f, 0.75f, 2.95f},
-                               Vec3f{s * 0.37f, 0.76f, 1.98f}},
+    b.Bar(std::array<Vec3f, 5>{Vec3f{s * 0.37f, -0.80f, 0.55f}, Vec3f{s * 0.37f, -0.86f, 1.30f}, Vec3f{s * 0.37f, 0.20f, 2.92f},
+                               Vec3f{s * 0.37f, 0.75f, 2.95f}, Vec3f{s * 0.37f, 0.76f, 1.98f}},
           0.018f, 8);
     b.mesh().Beam({s * 0.37f, 0.25f, 1.98f}, {s * 0.37f, 0.82f, 0.6f}, 0.028f);
   }
@@ -242,17 +248,20 @@ Model MakeSafetyBarrier(uint32_t variant, uint64_t) {
       b.BevelBox({x - 0.045f, -0.045f, 0.01f}, {x + 0.045f, 0.045f, 0.62f}, 0.008f);
       b.BevelBox({x - 0.11f, -0.11f, 0}, {x + 0.11f, 0.11f, 0.012f}, 0.003f);
     }
-    for (float z : {0.16f, 0.44f}) SoftBox(b, {-0.70f, -0.09f, z}, {0.70f, -0.035f, z + 0.15f}, {.round = 0.02f, .crown = 0.006f, .cells = 6});
+    for (float z : {0.16f, 0.44f})
+      SoftBox(b, {-0.70f, -0.09f, z}, {0.70f, -0.035f, z + 0.15f}, {.round = 0.02f, .crown = 0.006f, .cells = 6});
     UseCoatedSteel(b, black, 0.45f);
     for (float z : {0.16f, 0.44f})
       for (int i = 0; i < 6; ++i) {
         const float x = -0.62f + 0.22f * static_cast<float>(i);
-        b.mesh().Quad({x, -0.0985f, z + 0.012f}, {x + 0.09f, -0.0985f, z + 0.012f}, {x + 0.15f, -0.0985f, z + 0.138f}, {x + 0.06f, -0.0985f, z + 0.138f});
+        b.mesh().Quad({x, -0.0985f, z + 0.012f}, {x + 0.09f, -0.0985f, z + 0.012f}, {x + 0.15f, -0.0985f, z + 0.138f},
+                      {x + 0.06f, -0.0985f, z + 0.138f});
       }
   } else {
     std::vector<Vec3f> hoop = {{-0.40f, 0, 0}, {-0.40f, 0, 0.85f}};
     for (int i = 1; i < 6; ++i)
-      hoop.push_back({-0.40f + 0.15f * (1 - std::cos(0.2618f * static_cast<float>(i))), 0, 0.85f + 0.15f * std::sin(0.2618f * static_cast<float>(i))});
+      hoop.push_back(
+          {-0.40f + 0.15f * (1 - std::cos(0.2618f * static_cast<float>(i))), 0, 0.85f + 0.15f * std::sin(0.2618f * static_cast<float>(i))});
     hoop.push_back({-0.25f, 0, 1.0f});
     const size_t n = hoop.size();
     for (size_t i = 0; i < n; ++i) hoop.push_back({-hoop[n - 1 - i].x, 0, hoop[n - 1 - i].z});

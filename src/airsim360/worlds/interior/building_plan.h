@@ -22,19 +22,48 @@ struct PlanRect {
 };
 
 enum class RoomType {
-  kHall, kCorridor, kLivingRoom, kDiningRoom, kKitchen, kBedroom, kChildRoom, kStudy, kBathroom, kToilet, kStorage, kOpenOffice,
-  kCellOffice, kMeetingRoom, kPantry, kPrintRoom, kLobby, kStairwell, kLiftShaft, kWarehouseHall, kDispatchOffice, kBreakRoom,
-  kShop, kSupermarket, kFoodCourt, kConcourse, kGallery, kAtrium, kParkingDeck, kRamp, kReadingRoom, kBookStacks
+  kHall,
+  kCorridor,
+  kLivingRoom,
+  kDiningRoom,
+  kKitchen,
+  kBedroom,
+  kChildRoom,
+  kStudy,
+  kBathroom,
+  kToilet,
+  kStorage,
+  kOpenOffice,
+  kCellOffice,
+  kMeetingRoom,
+  kPantry,
+  kPrintRoom,
+  kLobby,
+  kStairwell,
+  kLiftShaft,
+  kWarehouseHall,
+  kDispatchOffice,
+  kBreakRoom,
+  kShop,
+  kSupermarket,
+  kFoodCourt,
+  kConcourse,
+  kGallery,
+  kAtrium,
+  kParkingDeck,
+  kRamp,
+  kReadingRoom,
+  kBookStacks
 };
 /// "living_room", …
 const char* RoomTypeName(RoomType type);
 
 struct PlanRoom {
   RoomType type{};
-  std::string name;              ///< "bedroom 2", unique in the building
+  std::string name;  ///< "bedroom 2", unique in the building
   int storey = 0;
-  PlanRect cell;                 ///< to the middle of its walls; the inner face of outer walls is kHalfWall inside
-  PlanRect clear;                ///< between the faces of its walls
+  PlanRect cell;   ///< to the middle of its walls; the inner face of outer walls is kHalfWall inside
+  PlanRect clear;  ///< between the faces of its walls
   float floor_z = 0, ceiling_z = 0;
   bool has_floor = true, has_ceiling = true;  ///< false: open to the storey below, above
   std::vector<PlanRect> skylights = {};       ///< of clear glass, in its ceiling and roof
@@ -46,7 +75,7 @@ const char* OpeningKindName(OpeningKind kind);
 struct PlanOpening {
   OpeningKind kind{};
   float from = 0, to = 0, sill = 0, head = 2.1f;
-  float open = 0;          ///< of doors: 0 shut … 1 as far as it goes (a little past 90 degrees, slid or rolled away)
+  float open = 0;  ///< of doors: 0 shut … 1 as far as it goes (a little past 90 degrees, slid or rolled away)
   bool hinge_at_to = false;
   bool swings_left = false;  ///< into the room on the wall's left, see PlanWall
   bool outer = false;        ///< leads outside
@@ -81,14 +110,14 @@ struct PlanSlope {
   bool along_x = true, reversed = false;  ///< reversed: rises towards smaller coordinates
 };
 
-inline constexpr float kHalfWall = 0.06f;    ///< of partitions, metres
-inline constexpr float kOuterWall = 0.30f;   ///< thickness of outer walls, which reach outwards
-inline constexpr float kSlab = 0.25f;        ///< of floors between storeys and of the roof
+inline constexpr float kHalfWall = 0.06f;   ///< of partitions, metres
+inline constexpr float kOuterWall = 0.30f;  ///< thickness of outer walls, which reach outwards
+inline constexpr float kSlab = 0.25f;       ///< of floors between storeys and of the roof
 
 struct BuildingPlan {
   BuildingSpec spec;  ///< settled
   uint64_t seed = 0;
-  PlanRect outline;   ///< cells together
+  PlanRect outline;  ///< cells together
   std::vector<PlanRoom> rooms;
   std::vector<PlanWall> walls;
   std::vector<PlanStair> stairs;

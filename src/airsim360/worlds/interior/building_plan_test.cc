@@ -11,7 +11,8 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr BuildingUse kUses[] = {BuildingUse::kApartment, BuildingUse::kOffice, BuildingUse::kWarehouse, BuildingUse::kMall, BuildingUse::kCarPark, BuildingUse::kLibrary};
+constexpr BuildingUse kUses[] = {BuildingUse::kApartment, BuildingUse::kOffice,  BuildingUse::kWarehouse,
+                                 BuildingUse::kMall,      BuildingUse::kCarPark, BuildingUse::kLibrary};
 
 BuildingPlan PlanOf(BuildingUse use, uint64_t seed = 0) { return PlanBuilding({.use = use}, seed); }
 
@@ -35,7 +36,8 @@ TEST(BuildingPlan, RoomsOfAStoreyTileItsOutline) {
         for (size_t j = 0; j < i; ++j) {
           const PlanRect b = plan.rooms[j].cell;
           if (plan.rooms[j].storey != s) continue;
-          EXPECT_FALSE(a.x0 < b.x1 - 1e-3f && b.x0 < a.x1 - 1e-3f && a.y0 < b.y1 - 1e-3f && b.y0 < a.y1 - 1e-3f) << plan.rooms[i].name << " overlaps " << plan.rooms[j].name;
+          EXPECT_FALSE(a.x0 < b.x1 - 1e-3f && b.x0 < a.x1 - 1e-3f && a.y0 < b.y1 - 1e-3f && b.y0 < a.y1 - 1e-3f)
+              << plan.rooms[i].name << " overlaps " << plan.rooms[j].name;
         }
       }
       EXPECT_NEAR(sum, static_cast<double>(plan.outline.area()), 0.1);
@@ -118,13 +120,17 @@ TEST(BuildingPlan, EveryRoomIsReachedFromOutside) {
       next.pop();
       for (const PlanWall& wall : plan.walls) {
         if (wall.low != room && wall.high != room) continue;
-        const bool way = wall.kind == WallKind::kOpen || std::any_of(wall.openings.begin(), wall.openings.end(), [](const PlanOpening& o) { return IsDoor(o.kind) || o.kind == OpeningKind::kPassage; });
+        const bool way = wall.kind == WallKind::kOpen || std::any_of(wall.openings.begin(), wall.openings.end(), [](const PlanOpening& o) {
+                           return IsDoor(o.kind) || o.kind == OpeningKind::kPassage;
+                         });
         if (way) reach(wall.low == room ? wall.high : wall.low);
       }
       // Up and down where a room is open to the one above it.
       for (size_t i = 0; i < plan.rooms.size(); ++i) {
         const PlanRoom &a = plan.rooms[static_cast<size_t>(room)], &b = plan.rooms[i];
-        if (std::abs(a.storey - b.storey) == 1 && a.cell.Contains(b.cell.center()) && !(a.storey < b.storey ? a : b).has_ceiling && a.type != RoomType::kAtrium) reach(static_cast<int>(i));
+        if (std::abs(a.storey - b.storey) == 1 && a.cell.Contains(b.cell.center()) && !(a.storey < b.storey ? a : b).has_ceiling &&
+            a.type != RoomType::kAtrium)
+          reach(static_cast<int>(i));
       }
     }
     for (size_t i = 0; i < plan.rooms.size(); ++i) {
@@ -155,7 +161,8 @@ TEST(BuildingPlan, RampsAndEscalatorsAreAsSteepAsRealOnes) {
     ASSERT_EQ(deck.ramps.size(), deck.spec.storeys - 1);
     for (const PlanSlope& ramp : deck.ramps) EXPECT_LE((ramp.z1 - ramp.z0) / ramp.rect.depth(), 0.15f);  // most garage rules
     ASSERT_EQ(mall.escalators.size(), 2u);
-    for (const PlanSlope& e : mall.escalators) EXPECT_NEAR((e.z1 - e.z0) / (e.rect.width() - 2.4f), 0.577f, 0.01f);  // 30 degrees (EN 115-1)
+    for (const PlanSlope& e : mall.escalators)
+      EXPECT_NEAR((e.z1 - e.z0) / (e.rect.width() - 2.4f), 0.577f, 0.01f);  // 30 degrees (EN 115-1)
   }
 }
 

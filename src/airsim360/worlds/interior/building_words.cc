@@ -17,19 +17,44 @@ struct UseWord {
   std::string_view words;
   BuildingUse use;
 };
-constexpr auto kUses = std::to_array<UseWord>({{"apartment", BuildingUse::kApartment}, {"flat", BuildingUse::kApartment}, {"maisonette", BuildingUse::kApartment},
-                                               {"office", BuildingUse::kOffice}, {"offices", BuildingUse::kOffice}, {"office building", BuildingUse::kOffice},
-                                               {"warehouse", BuildingUse::kWarehouse}, {"storage hall", BuildingUse::kWarehouse}, {"mall", BuildingUse::kMall},
-                                               {"shopping mall", BuildingUse::kMall}, {"shopping centre", BuildingUse::kMall}, {"shopping center", BuildingUse::kMall},
-                                               {"car park", BuildingUse::kCarPark}, {"parking garage", BuildingUse::kCarPark}, {"multi storey car park", BuildingUse::kCarPark},
+constexpr auto kUses = std::to_array<UseWord>({{"apartment", BuildingUse::kApartment},
+                                               {"flat", BuildingUse::kApartment},
+                                               {"maisonette", BuildingUse::kApartment},
+                                               {"office", BuildingUse::kOffice},
+                                               {"offices", BuildingUse::kOffice},
+                                               {"office building", BuildingUse::kOffice},
+                                               {"warehouse", BuildingUse::kWarehouse},
+                                               {"storage hall", BuildingUse::kWarehouse},
+                                               {"mall", BuildingUse::kMall},
+                                               {"shopping mall", BuildingUse::kMall},
+                                               {"shopping centre", BuildingUse::kMall},
+                                               {"shopping center", BuildingUse::kMall},
+                                               {"car park", BuildingUse::kCarPark},
+                                               {"parking garage", BuildingUse::kCarPark},
+                                               {"multi storey car park", BuildingUse::kCarPark},
                                                {"library", BuildingUse::kLibrary}});
-constexpr auto kFillers = std::to_array<std::string_view>({"a", "an", "the", "with", "and", "of", "in", "on", "its", "it", "that", "which", "has", "have", "having", "is", "are", "very",
-                                                           "building", "make", "create", "build", "please", "me", "high", "wide", "deep", "modern", "public", "all", "some"});
+constexpr auto kFillers =
+    std::to_array<std::string_view>({"a",      "an",  "the",  "with",   "and",  "of",     "in",     "on",       "its",  "it",     "that",
+                                     "which",  "has", "have", "having", "is",   "are",    "very",   "building", "make", "create", "build",
+                                     "please", "me",  "high", "wide",   "deep", "modern", "public", "all",      "some"});
 // Words of a place out of doors: such descriptions are of towns.
-constexpr auto kTowns = std::to_array<std::string_view>({"town", "city", "village", "street", "streets", "suburb", "downtown", "hamlet", "settlement", "harbour", "island", "forest", "cabins", "houses", "towers"});
-constexpr auto kNumbers = std::to_array<std::pair<std::string_view, double>>(
-    {{"one", 1}, {"single", 1}, {"two", 2}, {"three", 3}, {"four", 4}, {"five", 5}, {"six", 6}, {"seven", 7}, {"eight", 8}, {"ten", 10}, {"twenty", 20}, {"fifty", 50}, {"hundred", 100}});
-constexpr auto kStoreys = std::to_array<std::string_view>({"storey", "storeys", "story", "stories", "storied", "floor", "floors", "level", "levels", "deck", "decks"});
+constexpr auto kTowns = std::to_array<std::string_view>({"town", "city", "village", "street", "streets", "suburb", "downtown", "hamlet",
+                                                         "settlement", "harbour", "island", "forest", "cabins", "houses", "towers"});
+constexpr auto kNumbers = std::to_array<std::pair<std::string_view, double>>({{"one", 1},
+                                                                              {"single", 1},
+                                                                              {"two", 2},
+                                                                              {"three", 3},
+                                                                              {"four", 4},
+                                                                              {"five", 5},
+                                                                              {"six", 6},
+                                                                              {"seven", 7},
+                                                                              {"eight", 8},
+                                                                              {"ten", 10},
+                                                                              {"twenty", 20},
+                                                                              {"fifty", 50},
+                                                                              {"hundred", 100}});
+constexpr auto kStoreys = std::to_array<std::string_view>(
+    {"storey", "storeys", "story", "stories", "storied", "floor", "floors", "level", "levels", "deck", "decks"});
 constexpr auto kPeople = std::to_array<std::string_view>({"people", "persons", "visitors", "workers", "shoppers", "readers"});
 
 struct Setting {
@@ -56,8 +81,10 @@ std::vector<std::string> Split(std::string_view text) {
   };
   for (const char c : text) {
     const auto u = static_cast<unsigned char>(c);
-    if (std::isalnum(u) || c == '.') word += static_cast<char>(std::tolower(u));
-    else end();
+    if (std::isalnum(u) || c == '.')
+      word += static_cast<char>(std::tolower(u));
+    else
+      end();
   }
   end();
   for (std::string& w : words)
@@ -106,7 +133,8 @@ class Reader {
   // Words of a phrase that stand at i; 0 = not all of them do.
   size_t Matches(std::string_view phrase, size_t i) const {
     const std::vector<std::string> wanted = Split(phrase);
-    if (i + wanted.size() > words_.size() || !std::equal(wanted.begin(), wanted.end(), words_.begin() + static_cast<std::ptrdiff_t>(i))) return 0;
+    if (i + wanted.size() > words_.size() || !std::equal(wanted.begin(), wanted.end(), words_.begin() + static_cast<std::ptrdiff_t>(i)))
+      return 0;
     return wanted.size();
   }
   void Took(size_t count, std::string as) {
@@ -122,7 +150,8 @@ class Reader {
       if (const size_t n = Matches(use.words, at_); n > 0 && (!longest || n > Split(longest->words).size())) longest = &use;
     if (!longest) return false;
     if (used_ && request_.spec.use != longest->use)
-      throw InputError(std::string("one building has one use: both '") + std::string(*used_) + "' and '" + std::string(longest->words) + "' are named");
+      throw InputError(std::string("one building has one use: both '") + std::string(*used_) + "' and '" + std::string(longest->words) +
+                       "' are named");
     used_ = longest->words;
     request_.spec.use = longest->use;
     Took(Split(longest->words).size(), std::string("use: ") + kBuildingUses[static_cast<size_t>(longest->use)]);
@@ -146,9 +175,12 @@ class Reader {
     if (!number || at_ + 1 >= words_.size()) return false;
     const bool storeys = IsIn(kStoreys, words_[at_ + 1]), people = IsIn(kPeople, words_[at_ + 1]);
     if (!storeys && !people) return false;
-    if (*number != std::floor(*number) || (people && *number > 400)) throw InputError("'" + words_[at_] + " " + words_[at_ + 1] + "': not a whole number from 1 to 400");
-    if (storeys) request_.spec.storeys = static_cast<uint64_t>(*number);
-    else request_.people = static_cast<uint64_t>(*number);
+    if (*number != std::floor(*number) || (people && *number > 400))
+      throw InputError("'" + words_[at_] + " " + words_[at_ + 1] + "': not a whole number from 1 to 400");
+    if (storeys)
+      request_.spec.storeys = static_cast<uint64_t>(*number);
+    else
+      request_.people = static_cast<uint64_t>(*number);
     Took(2, (storeys ? "storeys: " : "people: ") + std::to_string(static_cast<uint64_t>(*number)));
     return true;
   }

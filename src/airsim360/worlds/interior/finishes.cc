@@ -11,7 +11,21 @@ namespace airsim360::internal {
 namespace {
 
 // Pictures of surfaces; grey ones have a mean near 1 and are coloured by the material.
-enum class Weave { kNone, kBoards, kCarpet, kTiles60, kTiles20, kTerrazzo, kStone, kConcrete, kPlaster, kCeilingGrid, kRibs, kBlocks, kCount };
+enum class Weave {
+  kNone,
+  kBoards,
+  kCarpet,
+  kTiles60,
+  kTiles20,
+  kTerrazzo,
+  kStone,
+  kConcrete,
+  kPlaster,
+  kCeilingGrid,
+  kRibs,
+  kBlocks,
+  kCount
+};
 
 struct Row {
   Finish finish;
@@ -82,18 +96,30 @@ static_assert(std::size(kRows) == static_cast<size_t>(Finish::kCount));
 // Metres of a tile of the picture.
 float TileOf(Weave weave) {
   switch (weave) {
-    case W::kBoards: return 2.4f;
-    case W::kCarpet: return 1.0f;
-    case W::kTiles60: return 1.2f;
-    case W::kTiles20: return 0.8f;
-    case W::kTerrazzo: return 0.9f;
-    case W::kStone: return 1.8f;
-    case W::kConcrete: return 6.0f;
-    case W::kPlaster: return 1.0f;
-    case W::kCeilingGrid: return 1.2f;
-    case W::kRibs: return 1.0f;
-    case W::kBlocks: return 0.8f;
-    default: return 1;
+    case W::kBoards:
+      return 2.4f;
+    case W::kCarpet:
+      return 1.0f;
+    case W::kTiles60:
+      return 1.2f;
+    case W::kTiles20:
+      return 0.8f;
+    case W::kTerrazzo:
+      return 0.9f;
+    case W::kStone:
+      return 1.8f;
+    case W::kConcrete:
+      return 6.0f;
+    case W::kPlaster:
+      return 1.0f;
+    case W::kCeilingGrid:
+      return 1.2f;
+    case W::kRibs:
+      return 1.0f;
+    case W::kBlocks:
+      return 0.8f;
+    default:
+      return 1;
   }
 }
 
@@ -118,7 +144,8 @@ Vec3f BoardsAt(float u, float v) {
   const float x = u * 2 + TileNoise(row, 3, 16, 8, 5) * 2, board = std::floor(x);
   const int tile = static_cast<int>(row) * 7 + (static_cast<int>(board) % 2 + 2) % 2;
   const float along = std::min(x - board, board + 1 - x) * 1.2f, across = std::min(y - row, row + 1 - y) * 0.15f;
-  const float grain = TileFractal(u, v, 3, 160, 3, 40 + static_cast<uint64_t>(tile)), ring = TileFractal(u, v, 5, 40, 2, 90 + static_cast<uint64_t>(tile));
+  const float grain = TileFractal(u, v, 3, 160, 3, 40 + static_cast<uint64_t>(tile)),
+              ring = TileFractal(u, v, 5, 40, 2, 90 + static_cast<uint64_t>(tile));
   const float tone = 0.72f + 0.40f * OfTile(tile, 1) + 0.28f * (grain - 0.5f) + 0.25f * (ring - 0.5f);
   const float joint = std::min(1.0f, std::min(along, across) / 0.0016f);
   return Vec3f{1, 0.985f - 0.03f * OfTile(tile, 2), 0.96f - 0.06f * OfTile(tile, 3)} * (tone * (0.45f + 0.55f * joint));
@@ -134,14 +161,17 @@ Vec3f TilesAt(float u, float v, int n, int m, float bond, float grout, float siz
 Vec3f ColorAt(Weave weave, float u, float v) {
   const Vec3f one{1, 1, 1};
   switch (weave) {
-    case W::kBoards: return BoardsAt(u, v);
+    case W::kBoards:
+      return BoardsAt(u, v);
     case W::kCarpet: {
       const Cell c = CellOf(u, v, 2, 2, 0);
       const float pile = TileNoise(u * 256, v * 256, 256, 256, 3) + 0.6f * TileFractal(u, v, 8, 8, 5, 6);
-      return one * (0.62f + 0.42f * pile + 0.05f * OfTile(c.tile, 8)) ;
+      return one * (0.62f + 0.42f * pile + 0.05f * OfTile(c.tile, 8));
     }
-    case W::kTiles60: return TilesAt(u, v, 2, 2, 0, 0.0025f, 0.6f, 0.10f);
-    case W::kTiles20: return TilesAt(u, v, 4, 8, 0.5f, 0.0018f, 0.15f, 0.03f);
+    case W::kTiles60:
+      return TilesAt(u, v, 2, 2, 0, 0.0025f, 0.6f, 0.10f);
+    case W::kTiles20:
+      return TilesAt(u, v, 4, 8, 0.5f, 0.0018f, 0.15f, 0.03f);
     case W::kTerrazzo: {
       const float chip = TileNoise(u * 90, v * 90, 90, 90, 21), small = TileNoise(u * 220, v * 220, 220, 220, 22);
       const float t = chip > 0.72f ? 1.22f : chip < 0.24f ? 0.55f : small > 0.8f ? 0.72f : 0.98f;
@@ -151,14 +181,16 @@ Vec3f ColorAt(Weave weave, float u, float v) {
       const Cell c = CellOf(u, v, 2, 3, 0.5f);
       const float vein = std::abs(2 * TileFractal(u, v, 3, 4, 5, 31 + static_cast<uint64_t>(c.tile)) - 1);
       const float d = std::min(c.edge_u * 0.9f, c.edge_v * 0.6f);
-      return d < 0.0016f ? Vec3f{0.5f, 0.49f, 0.46f} : Vec3f{1, 0.99f, 0.97f} * (0.82f + 0.13f * OfTile(c.tile, 5) + 0.16f * std::min(1.0f, 3 * vein));
+      return d < 0.0016f ? Vec3f{0.5f, 0.49f, 0.46f}
+                         : Vec3f{1, 0.99f, 0.97f} * (0.82f + 0.13f * OfTile(c.tile, 5) + 0.16f * std::min(1.0f, 3 * vein));
     }
     case W::kConcrete: {
       const float cloud = TileFractal(u, v, 4, 4, 6, 51), fine = TileNoise(u * 500, v * 500, 500, 500, 52);
       const float stain = std::max(0.0f, TileFractal(u, v, 9, 9, 4, 53) - 0.58f);
       return Vec3f{1, 0.99f, 0.975f} * (0.82f + 0.30f * cloud + 0.06f * fine - 0.8f * stain);
     }
-    case W::kPlaster: return one * (0.965f + 0.05f * TileFractal(u, v, 3, 3, 4, 61) + 0.02f * TileNoise(u * 200, v * 200, 200, 200, 62));
+    case W::kPlaster:
+      return one * (0.965f + 0.05f * TileFractal(u, v, 3, 3, 4, 61) + 0.02f * TileNoise(u * 200, v * 200, 200, 200, 62));
     case W::kCeilingGrid: {
       const Cell c = CellOf(u, v, 2, 2, 0);
       const float d = std::min(c.edge_u, c.edge_v) * 0.6f;
@@ -166,20 +198,23 @@ Vec3f ColorAt(Weave weave, float u, float v) {
       const bool hole = TileNoise(u * 180, v * 180, 180, 180, 71) > 0.83f;
       return one * (hole ? 0.62f : 0.96f + 0.05f * TileFractal(u, v, 8, 8, 3, 72));
     }
-    case W::kRibs: return one * (0.95f + 0.07f * TileFractal(u, v, 2, 6, 4, 81));
+    case W::kRibs:
+      return one * (0.95f + 0.07f * TileFractal(u, v, 2, 6, 4, 81));
     case W::kBlocks: {
       const Cell c = CellOf(u, v, 2, 4, 0.5f);
       const float d = std::min(c.edge_u * 0.4f, c.edge_v * 0.2f);
       return one * ((d < 0.005f ? 0.86f : 0.95f + 0.05f * OfTile(c.tile, 6)) + 0.06f * (TileFractal(u, v, 30, 30, 3, 91) - 0.5f));
     }
-    default: return one;
+    default:
+      return one;
   }
 }
 
 // Metres out of the surface; 0 where the picture alone tells.
 float HeightAt(Weave weave, float u, float v) {
   switch (weave) {
-    case W::kCarpet: return 0.0012f * TileNoise(u * 128, v * 128, 128, 128, 3);
+    case W::kCarpet:
+      return 0.0012f * TileNoise(u * 128, v * 128, 128, 128, 3);
     case W::kTiles60: {
       const Cell c = CellOf(u, v, 2, 2, 0);
       return 0.001f * std::min(1.0f, std::min(c.edge_u, c.edge_v) * 0.6f / 0.004f);
@@ -188,7 +223,8 @@ float HeightAt(Weave weave, float u, float v) {
       const Cell c = CellOf(u, v, 4, 8, 0.5f);
       return 0.001f * std::min(1.0f, std::min(c.edge_u * 0.2f, c.edge_v * 0.1f) / 0.003f);
     }
-    case W::kPlaster: return 0.0006f * TileFractal(u, v, 48, 48, 2, 63);
+    case W::kPlaster:
+      return 0.0006f * TileFractal(u, v, 48, 48, 2, 63);
     case W::kCeilingGrid: {
       const Cell c = CellOf(u, v, 2, 2, 0);
       return -0.004f * (std::min(c.edge_u, c.edge_v) * 0.6f < 0.012f ? 0.0f : 1.0f);
@@ -201,11 +237,13 @@ float HeightAt(Weave weave, float u, float v) {
       const Cell c = CellOf(u, v, 2, 4, 0.5f);
       return 0.004f * std::min(1.0f, std::min(c.edge_u * 0.4f, c.edge_v * 0.2f) / 0.008f);
     }
-    default: return 0;
+    default:
+      return 0;
   }
 }
 bool HasRelief(Weave weave) {
-  return weave == W::kCarpet || weave == W::kTiles60 || weave == W::kTiles20 || weave == W::kPlaster || weave == W::kCeilingGrid || weave == W::kRibs || weave == W::kBlocks;
+  return weave == W::kCarpet || weave == W::kTiles60 || weave == W::kTiles20 || weave == W::kPlaster || weave == W::kCeilingGrid ||
+         weave == W::kRibs || weave == W::kBlocks;
 }
 
 struct Pictures {
@@ -223,7 +261,8 @@ Finishes::Finishes(SceneBuilder& builder) {
     const auto i = static_cast<size_t>(job / 2);
     if (weave == Weave::kNone) return;
     const std::string name = "interior " + std::to_string(i);
-    if (job % 2 == 0) colors[i] = Texture::FromImage(name, Shade(kSize, kSize, [&](float u, float v) { return ColorAt(weave, u, v) * 0.8f; }), true);
+    if (job % 2 == 0)
+      colors[i] = Texture::FromImage(name, Shade(kSize, kSize, [&](float u, float v) { return ColorAt(weave, u, v) * 0.8f; }), true);
     else if (HasRelief(weave)) {
       const float tile = TileOf(weave);
       normals[i] = NormalsFromHeight(name + " normals", kSize, kSize, 1, [&](float u, float v) { return HeightAt(weave, u, v) / tile; });

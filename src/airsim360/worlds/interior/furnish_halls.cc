@@ -42,7 +42,8 @@ void Staging(RoomSpace& s, double clutter) {
     }
   }
   for (int i = 0; i < 4; ++i) {
-    const Vec2f p{static_cast<float>(s.rng().Uniform(static_cast<double>(r.x0 + 3), static_cast<double>(r.x1 - 3))), r.y0 + static_cast<float>(s.rng().Uniform(7.6, 10.2))};
+    const Vec2f p{static_cast<float>(s.rng().Uniform(static_cast<double>(r.x0 + 3), static_cast<double>(r.x1 - 3))),
+                  r.y0 + static_cast<float>(s.rng().Uniform(7.6, 10.2))};
     s.At("forklift", p, static_cast<float>(s.rng().Uniform(0, 6.28)));
   }
   for (int i = 0; i < 12; ++i) s.AtWall(i % 3 == 0 ? "drum" : i % 3 == 1 ? "pallet_stack" : "pallet_stack");
@@ -79,7 +80,8 @@ void FurnishDecks(const BuildingPlan& plan, Furnisher& furnisher) {
       const uint32_t variant = rng.Index(furnisher.Variants(kind));
       const Vec3f size = furnisher.BoxOf(kind, variant).size();
       if (size.y > kBayDepth + 0.4f || size.z > 2.1f) continue;
-      furnisher.Put(kind, {c.x + static_cast<float>(rng.Uniform(-0.12, 0.12)), c.y + static_cast<float>(rng.Uniform(-0.15, 0.1)), z}, yaw, variant, kCarPaints[rng.Index(3)]);
+      furnisher.Put(kind, {c.x + static_cast<float>(rng.Uniform(-0.12, 0.12)), c.y + static_cast<float>(rng.Uniform(-0.15, 0.1)), z}, yaw,
+                    variant, kCarPaints[rng.Index(3)]);
     }
     for (size_t i = 0; i < plan.columns.size(); ++i) {
       const Vec2f c = plan.columns[i];
@@ -89,7 +91,10 @@ void FurnishDecks(const BuildingPlan& plan, Furnisher& furnisher) {
     furnisher.Put("ticket_machine", {6.3f, plan.outline.y1 - 7.0f, z}, kPi / 2, 0);
     for (const PlanRect& aisle : DeckAisles(plan)) {
       const int cones = 1 + static_cast<int>(rng.Index(3));
-      for (int i = 0; i < cones; ++i) furnisher.Put("traffic_cone", {static_cast<float>(rng.Uniform(static_cast<double>(aisle.x0), static_cast<double>(aisle.x1))), aisle.y0 + 0.5f, z}, 0, 0);
+      for (int i = 0; i < cones; ++i)
+        furnisher.Put("traffic_cone",
+                      {static_cast<float>(rng.Uniform(static_cast<double>(aisle.x0), static_cast<double>(aisle.x1))), aisle.y0 + 0.5f, z},
+                      0, 0);
       furnisher.Put("trash_can", {aisle.x1 - 1, aisle.y1 + 0.2f, z}, 0, 0);
     }
   }
@@ -101,14 +106,22 @@ void FurnishRooms(const BuildingPlan& plan, Furnisher& furnisher) {
     if (!plan.rooms[static_cast<size_t>(i)].has_floor) continue;
     RoomSpace space(plan, i, furnisher);
     switch (plan.spec.use) {
-      case BuildingUse::kApartment: FurnishHome(space, clutter); break;
-      case BuildingUse::kMall: FurnishTrade(space, clutter); break;
-      case BuildingUse::kWarehouse:
-        if (space.room().type == RoomType::kWarehouseHall) FurnishHall(space, plan, clutter);
-        else FurnishWork(space, clutter);
+      case BuildingUse::kApartment:
+        FurnishHome(space, clutter);
         break;
-      case BuildingUse::kCarPark: break;
-      default: FurnishWork(space, clutter);
+      case BuildingUse::kMall:
+        FurnishTrade(space, clutter);
+        break;
+      case BuildingUse::kWarehouse:
+        if (space.room().type == RoomType::kWarehouseHall)
+          FurnishHall(space, plan, clutter);
+        else
+          FurnishWork(space, clutter);
+        break;
+      case BuildingUse::kCarPark:
+        break;
+      default:
+        FurnishWork(space, clutter);
     }
   }
   if (plan.spec.use == BuildingUse::kCarPark) FurnishDecks(plan, furnisher);

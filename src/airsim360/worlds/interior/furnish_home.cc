@@ -24,12 +24,14 @@ void Curtains(RoomSpace& s) {
 // Under windows, so low that they go below the sill.
 void Radiators(RoomSpace& s) {
   for (const RoomSpace::Hole& hole : s.holes())
-    if (hole.kind == OpeningKind::kWindow && hole.sill > 0.6f && s.rng().Chance(0.8)) s.Put("radiator", hole.spot.At(0, s.Size("radiator").y / 2 + 0.03f), hole.spot.yaw, 0.1f);
+    if (hole.kind == OpeningKind::kWindow && hole.sill > 0.6f && s.rng().Chance(0.8))
+      s.Put("radiator", hole.spot.At(0, s.Size("radiator").y / 2 + 0.03f), hole.spot.yaw, 0.1f);
 }
 
 void Switches(RoomSpace& s) {
   for (const RoomSpace::Hole& hole : s.holes())
-    if (IsDoor(hole.kind) || hole.kind == OpeningKind::kPassage) s.Put("switch_plate", hole.spot.At(hole.width / 2 + 0.14f, 0.008f), hole.spot.yaw, 1.05f);
+    if (IsDoor(hole.kind) || hole.kind == OpeningKind::kPassage)
+      s.Put("switch_plate", hole.spot.At(hole.width / 2 + 0.14f, 0.008f), hole.spot.yaw, 1.05f);
 }
 
 void Pictures(RoomSpace& s, int count) {
@@ -56,8 +58,10 @@ void Seats(RoomSpace& s) {
   s.At("floor_lamp", spot->At(1.55f, 0.3f), 0);
   // The television stands opposite.
   const int opposite = std::abs(spot->inward.y) > 0.5f ? (spot->inward.y > 0 ? 2 : 0) : (spot->inward.x > 0 ? 1 : 3);
-  if (const auto tv = s.AtWall("tv_stand", 0.3f, opposite)) s.Put("television", tv->At(0, 0.22f), tv->yaw, s.Top("tv_stand"));
-  else if (const auto any = s.AtWall("tv_stand", 0.3f)) s.Put("television", any->At(0, 0.22f), any->yaw, s.Top("tv_stand"));
+  if (const auto tv = s.AtWall("tv_stand", 0.3f, opposite))
+    s.Put("television", tv->At(0, 0.22f), tv->yaw, s.Top("tv_stand"));
+  else if (const auto any = s.AtWall("tv_stand", 0.3f))
+    s.Put("television", any->At(0, 0.22f), any->yaw, s.Top("tv_stand"));
 }
 
 void Living(RoomSpace& s, double clutter) {
@@ -80,8 +84,10 @@ void DiningSet(RoomSpace& s, Vec2f p, float yaw, int chairs_a_side) {
   for (int i = 0; i < chairs_a_side; ++i) {
     const float along = table.x * ((static_cast<float>(i) + 0.5f) / static_cast<float>(chairs_a_side) - 0.5f);
     for (const float side : {-1.0f, 1.0f})
-      s.Put("dining_chair_home", p + t * along + n * (side * (table.y / 2 + 0.12f + static_cast<float>(s.rng().Uniform(0.05, 0.2)))), yaw + (side > 0 ? 0 : kPi) + Jitter(s, 0.18));
-    for (const float side : {-1.0f, 1.0f}) s.Put("dishes", p + t * along + n * (side * (table.y / 2 - 0.2f)), 0, s.Top("dining_table_home"));
+      s.Put("dining_chair_home", p + t * along + n * (side * (table.y / 2 + 0.12f + static_cast<float>(s.rng().Uniform(0.05, 0.2)))),
+            yaw + (side > 0 ? 0 : kPi) + Jitter(s, 0.18));
+    for (const float side : {-1.0f, 1.0f})
+      s.Put("dishes", p + t * along + n * (side * (table.y / 2 - 0.2f)), 0, s.Top("dining_table_home"));
   }
   s.Put("plant_small", p, 0, s.Top("dining_table_home"));
 }
@@ -100,7 +106,8 @@ void Dining(RoomSpace& s, double clutter) {
 
 // Units in a row: sink, stove and counters, with cabinets above, where a wall is long enough.
 void Kitchen(RoomSpace& s, double clutter) {
-  const float w = s.Size("kitchen_counter").x, d = s.Size("kitchen_counter").y, total = s.Size("kitchen_sink_counter").x + s.Size("stove").x + 3 * w + s.Size("fridge").x + 0.05f;
+  const float w = s.Size("kitchen_counter").x, d = s.Size("kitchen_counter").y,
+              total = s.Size("kitchen_sink_counter").x + s.Size("stove").x + 3 * w + s.Size("fridge").x + 0.05f;
   // The tall fridge ends the row, the rest goes below windows.
   bool built = false;
   for (const bool full : {true, false}) {
@@ -180,7 +187,8 @@ void Sleeping(RoomSpace& s, double clutter, bool child) {
   s.AtWall("potted_plant_indoor");
   s.OnWall("mirror_wall", 0.6f);
   if (clutter > 0.3) s.Anywhere("shoes", 0.4f);
-  if (child) for (int i = 0; i < static_cast<int>(3 * clutter); ++i) s.Anywhere("box_small", 0.4f);
+  if (child)
+    for (int i = 0; i < static_cast<int>(3 * clutter); ++i) s.Anywhere("box_small", 0.4f);
   Pictures(s, 3);
 }
 
@@ -204,14 +212,30 @@ void Store(RoomSpace& s, double clutter) {
 
 void FurnishHome(RoomSpace& s, double clutter) {
   switch (s.room().type) {
-    case RoomType::kLivingRoom: Living(s, clutter); break;
-    case RoomType::kDiningRoom: Dining(s, clutter); break;
-    case RoomType::kKitchen: Kitchen(s, clutter); break;
-    case RoomType::kBedroom: Sleeping(s, clutter, false); break;
-    case RoomType::kChildRoom: Sleeping(s, clutter, true); break;
-    case RoomType::kBathroom: Bath(s, true); break;
-    case RoomType::kToilet: Bath(s, false); break;
-    case RoomType::kStorage: Store(s, clutter); break;
+    case RoomType::kLivingRoom:
+      Living(s, clutter);
+      break;
+    case RoomType::kDiningRoom:
+      Dining(s, clutter);
+      break;
+    case RoomType::kKitchen:
+      Kitchen(s, clutter);
+      break;
+    case RoomType::kBedroom:
+      Sleeping(s, clutter, false);
+      break;
+    case RoomType::kChildRoom:
+      Sleeping(s, clutter, true);
+      break;
+    case RoomType::kBathroom:
+      Bath(s, true);
+      break;
+    case RoomType::kToilet:
+      Bath(s, false);
+      break;
+    case RoomType::kStorage:
+      Store(s, clutter);
+      break;
     case RoomType::kStudy:
       Desk(s);
       s.RowAtWall("bookshelf", 3);
@@ -232,7 +256,8 @@ void FurnishHome(RoomSpace& s, double clutter) {
       Pictures(s, 6);
       s.AtWall("potted_plant_indoor");
       break;
-    default: break;
+    default:
+      break;
   }
   Curtains(s);
   Radiators(s);

@@ -48,7 +48,8 @@ void Electronics(RoomSpace& s) {
   for (float x = r.x0; x < r.x1; x += 2.6f) {
     for (float y = r.y0; y < r.y1; y += 2.4f) {
       if (!s.At("meeting_table", {x, y}, 0)) continue;
-      for (const float d : {-0.6f, 0.0f, 0.6f}) s.Put(d == 0 ? "laptop" : "monitor", {x + d, y}, s.rng().Chance(0.5) ? 0 : kPi, s.Top("meeting_table"));
+      for (const float d : {-0.6f, 0.0f, 0.6f})
+        s.Put(d == 0 ? "laptop" : "monitor", {x + d, y}, s.rng().Chance(0.5) ? 0 : kPi, s.Top("meeting_table"));
     }
   }
 }
@@ -78,7 +79,8 @@ void Cafe(RoomSpace& s) {
       for (const float side : {-1.0f, 1.0f})
         for (const float along : {-0.25f, 0.25f})
           if (s.rng().Chance(0.9))
-            s.Put("dining_chair_home", Vec2f{x, y} + t * (along * table.x) + n * (side * (table.y / 2 + static_cast<float>(s.rng().Uniform(0.1, 0.35)))),
+            s.Put("dining_chair_home",
+                  Vec2f{x, y} + t * (along * table.x) + n * (side * (table.y / 2 + static_cast<float>(s.rng().Uniform(0.1, 0.35)))),
                   yaw + (side > 0 ? 0 : kPi) + static_cast<float>(s.rng().Uniform(-0.3, 0.3)));
       if (s.rng().Chance(0.5)) s.Put("dishes", {x, y}, 0, s.Top("dining_table_home"));
       if (s.rng().Chance(0.3)) s.Put("plant_small", {x + 0.2f, y + 0.1f}, 0, s.Top("dining_table_home"));
@@ -97,10 +99,19 @@ void Books(RoomSpace& s) {
 
 void Shop(RoomSpace& s, double clutter) {
   switch (s.rng().Index(6)) {
-    case 0: case 1: case 2: Clothes(s, clutter); break;
-    case 3: Electronics(s); break;
-    case 4: Books(s); break;
-    default: Cafe(s);
+    case 0:
+    case 1:
+    case 2:
+      Clothes(s, clutter);
+      break;
+    case 3:
+      Electronics(s);
+      break;
+    case 4:
+      Books(s);
+      break;
+    default:
+      Cafe(s);
   }
   s.AtWall("potted_plant_indoor");
   s.OnWall("picture_frame", 1.5f);
@@ -111,9 +122,12 @@ void Concourse(RoomSpace& s, double clutter) {
   const bool hall = s.room().type == RoomType::kAtrium;
   const int per = static_cast<int>(r.area() / (hall ? 34 : 45) * (0.4 + 0.6 * clutter));
   for (int i = 0; i < per; ++i) {
-    if (const double u = s.rng().Uniform(); u < 0.35) s.Anywhere("bench_mall", 0.7f);
-    else if (u < 0.65) s.Anywhere("potted_plant_indoor", 0.6f);
-    else s.Anywhere("waste_bin_indoor", 0.5f);
+    if (const double u = s.rng().Uniform(); u < 0.35)
+      s.Anywhere("bench_mall", 0.7f);
+    else if (u < 0.65)
+      s.Anywhere("potted_plant_indoor", 0.6f);
+    else
+      s.Anywhere("waste_bin_indoor", 0.5f);
   }
   if (hall) {
     for (int i = 0; i < 3; ++i) s.Anywhere("kiosk", 1.6f);
@@ -127,11 +141,23 @@ void Concourse(RoomSpace& s, double clutter) {
 
 void FurnishTrade(RoomSpace& s, double clutter) {
   switch (s.room().type) {
-    case RoomType::kShop: Shop(s, clutter); break;
-    case RoomType::kSupermarket: Groceries(s); break;
-    case RoomType::kFoodCourt: Cafe(s); break;
-    case RoomType::kConcourse: case RoomType::kGallery: case RoomType::kAtrium: case RoomType::kLobby: Concourse(s, clutter); break;
-    default: FurnishWork(s, clutter);
+    case RoomType::kShop:
+      Shop(s, clutter);
+      break;
+    case RoomType::kSupermarket:
+      Groceries(s);
+      break;
+    case RoomType::kFoodCourt:
+      Cafe(s);
+      break;
+    case RoomType::kConcourse:
+    case RoomType::kGallery:
+    case RoomType::kAtrium:
+    case RoomType::kLobby:
+      Concourse(s, clutter);
+      break;
+    default:
+      FurnishWork(s, clutter);
   }
 }
 

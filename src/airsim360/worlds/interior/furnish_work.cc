@@ -15,7 +15,9 @@ float Jitter(RoomSpace& s, double by) { return static_cast<float>(s.rng().Unifor
 bool WorkPlace(RoomSpace& s, Vec2f p, float yaw, double clutter) {
   if (!s.At("desk_office", p, yaw)) return false;
   const Vec2f t{std::cos(yaw), std::sin(yaw)}, back{-t.y, t.x};
-  const auto on = [&](const char* kind, float right, float rear, float turn) { s.Put(kind, p + t * right + back * rear, yaw + turn, kDeskTop); };
+  const auto on = [&](const char* kind, float right, float rear, float turn) {
+    s.Put(kind, p + t * right + back * rear, yaw + turn, kDeskTop);
+  };
   s.Put("office_chair", p - back * (0.62f + Jitter(s, 0.12)), yaw + kPi + Jitter(s, 0.7));
   const bool two = s.rng().Chance(0.4);
   on("monitor", two ? -0.28f : 0.0f, 0.18f, two ? 0.15f : Jitter(s, 0.1));
@@ -99,7 +101,8 @@ void Meeting(RoomSpace& s) {
     for (int i = 0; i < seats; ++i) {
       const float along = table.x * ((static_cast<float>(i) + 0.5f) / static_cast<float>(seats) - 0.5f);
       for (const float side : {-1.0f, 1.0f})
-        s.Put("office_chair", c + t * along + n * (side * (table.y / 2 + 0.3f + static_cast<float>(s.rng().Uniform(0, 0.25)))), yaw + (side > 0 ? 0 : kPi) + Jitter(s, 0.4));
+        s.Put("office_chair", c + t * along + n * (side * (table.y / 2 + 0.3f + static_cast<float>(s.rng().Uniform(0, 0.25)))),
+              yaw + (side > 0 ? 0 : kPi) + Jitter(s, 0.4));
     }
     s.Put("book_row", c + t * 0.3f, yaw + Jitter(s, 1), s.Top("meeting_table"));
     s.Put("laptop", c - t * 0.5f + n * 0.3f, yaw + kPi, s.Top("meeting_table"));
@@ -124,7 +127,8 @@ void Pantry(RoomSpace& s) {
   for (const float side : {-1.0f, 1.0f}) {
     const Vec2f p = c + Vec2f{side * s.rect().width() / 5, 0};
     if (!s.At("dining_table_home", p, kPi / 2)) continue;
-    for (const float y : {-1.0f, 1.0f}) s.Put("dining_chair_home", p + Vec2f{y * (s.Size("dining_table_home").y / 2 + 0.15f), 0}, y > 0 ? -kPi / 2 : kPi / 2);
+    for (const float y : {-1.0f, 1.0f})
+      s.Put("dining_chair_home", p + Vec2f{y * (s.Size("dining_table_home").y / 2 + 0.15f), 0}, y > 0 ? -kPi / 2 : kPi / 2);
   }
   s.AtWall("waste_bin_indoor");
   s.OnWall("picture_frame", 1.4f);
@@ -159,7 +163,10 @@ void Reading(RoomSpace& s, double clutter) {
       if (!s.At("meeting_table", {x, y}, 0)) continue;
       for (int i = 0; i < 3; ++i)
         for (const float side : {-1.0f, 1.0f})
-          s.Put("dining_chair_home", {x + table.x * (static_cast<float>(i) - 1) / 3, y + side * (table.y / 2 + 0.2f + static_cast<float>(s.rng().Uniform(0, 0.2)))}, side > 0 ? 0 : kPi);
+          s.Put("dining_chair_home",
+                {x + table.x * (static_cast<float>(i) - 1) / 3,
+                 y + side * (table.y / 2 + 0.2f + static_cast<float>(s.rng().Uniform(0, 0.2)))},
+                side > 0 ? 0 : kPi);
       s.Put("table_lamp", {x, y}, 0, s.Top("meeting_table"));
       if (s.rng().Chance(0.7 * clutter)) s.Put("book_row", {x + 0.5f, y + 0.2f}, Jitter(s, 1.5), s.Top("meeting_table"));
       if (s.rng().Chance(0.3)) s.Put("laptop", {x - 0.5f, y - 0.25f}, 0, s.Top("meeting_table"));
@@ -183,18 +190,36 @@ void Washroom(RoomSpace& s) {
 
 void FurnishWork(RoomSpace& s, double clutter) {
   switch (s.room().type) {
-    case RoomType::kOpenOffice: OpenOffice(s, clutter); break;
-    case RoomType::kCellOffice: Cell(s, clutter); break;
+    case RoomType::kOpenOffice:
+      OpenOffice(s, clutter);
+      break;
+    case RoomType::kCellOffice:
+      Cell(s, clutter);
+      break;
     case RoomType::kDispatchOffice:
       Cell(s, clutter);
       WorkPlace(s, s.rect().center() + Vec2f{0, -1.6f}, kPi, clutter);
       break;
-    case RoomType::kMeetingRoom: Meeting(s); break;
-    case RoomType::kPantry: case RoomType::kBreakRoom: Pantry(s); break;
-    case RoomType::kPrintRoom: case RoomType::kStorage: PrintRoom(s, clutter); break;
-    case RoomType::kBookStacks: Stacks(s); break;
-    case RoomType::kReadingRoom: Reading(s, clutter); break;
-    case RoomType::kToilet: Washroom(s); break;
+    case RoomType::kMeetingRoom:
+      Meeting(s);
+      break;
+    case RoomType::kPantry:
+    case RoomType::kBreakRoom:
+      Pantry(s);
+      break;
+    case RoomType::kPrintRoom:
+    case RoomType::kStorage:
+      PrintRoom(s, clutter);
+      break;
+    case RoomType::kBookStacks:
+      Stacks(s);
+      break;
+    case RoomType::kReadingRoom:
+      Reading(s, clutter);
+      break;
+    case RoomType::kToilet:
+      Washroom(s);
+      break;
     case RoomType::kLobby:
       s.AtWall("sofa_lounge", 0.6f);
       for (int i = 0; i < 3; ++i) s.AtWall("potted_plant_indoor");
@@ -202,7 +227,8 @@ void FurnishWork(RoomSpace& s, double clutter) {
       s.OnWall("picture_frame", 1.4f);
       s.AtWall("waste_bin_indoor");
       break;
-    case RoomType::kCorridor: case RoomType::kGallery:
+    case RoomType::kCorridor:
+    case RoomType::kGallery:
       for (int i = 0; i < static_cast<int>(s.rect().width() * s.rect().depth() / 22); ++i) s.AtWall("potted_plant_indoor");
       for (int i = 0; i < 4; ++i) s.OnWall("picture_frame", 1.4f);
       s.AtWall("water_dispenser", 0.4f);
@@ -213,7 +239,8 @@ void FurnishWork(RoomSpace& s, double clutter) {
       for (int i = 0; i < 4; ++i) s.Anywhere("potted_plant_indoor", 0.8f);
       for (int i = 0; i < 4; ++i) s.Anywhere("sofa_lounge", 1.2f);
       break;
-    default: break;
+    default:
+      break;
   }
 }
 

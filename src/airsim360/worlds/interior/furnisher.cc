@@ -21,7 +21,8 @@ const Furnisher::Individual& Furnisher::Get(std::string_view kind, uint32_t vari
     // Made in parallel, added in order.
     const PropKind& found = FindPropKind(kind);
     std::vector<Model> models(static_cast<size_t>(found.variants));
-    ParallelFor(found.variants, [&](int64_t i) { models[static_cast<size_t>(i)] = MakeProp(found, static_cast<uint32_t>(i), seed_, models_); });
+    ParallelFor(found.variants,
+                [&](int64_t i) { models[static_cast<size_t>(i)] = MakeProp(found, static_cast<uint32_t>(i), seed_, models_); });
     std::vector<Individual> all;
     for (Model& model : models) {
       const Box3f box = model.mesh.Bounds();
@@ -51,7 +52,11 @@ EntityId Furnisher::Hang(std::string_view kind, Vec3f p, float yaw, uint32_t var
 }
 
 RoomSpace::RoomSpace(const BuildingPlan& plan, int room, Furnisher& furnisher)
-    : plan_(plan), room_(plan.rooms[static_cast<size_t>(room)]), index_(room), furnisher_(furnisher), rng_(plan.seed, "furniture", static_cast<uint64_t>(room)) {
+    : plan_(plan),
+      room_(plan.rooms[static_cast<size_t>(room)]),
+      index_(room),
+      furnisher_(furnisher),
+      rng_(plan.seed, "furniture", static_cast<uint64_t>(room)) {
   for (const PlanWall& wall : plan.walls)
     if (wall.low == room || wall.high == room) AddHoles(wall);
   for (const Vec2f& c : plan.columns)
@@ -65,17 +70,22 @@ RoomSpace::RoomSpace(const BuildingPlan& plan, int room, Furnisher& furnisher)
 WallSpot RoomSpace::SpotAt(int side, float along) const {
   const PlanRect& r = rect();
   switch (side) {
-    case 0: return {{along, r.y0}, {0, 1}, kPi};
-    case 1: return {{r.x1, along}, {-1, 0}, -kPi / 2};
-    case 2: return {{along, r.y1}, {0, -1}, 0};
-    default: return {{r.x0, along}, {1, 0}, kPi / 2};
+    case 0:
+      return {{along, r.y0}, {0, 1}, kPi};
+    case 1:
+      return {{r.x1, along}, {-1, 0}, -kPi / 2};
+    case 2:
+      return {{along, r.y1}, {0, -1}, 0};
+    default:
+      return {{r.x0, along}, {1, 0}, kPi / 2};
   }
 }
 
 void RoomSpace::AddHoles(const PlanWall& wall) {
   const bool is_low = wall.low == index_;
   const int side = wall.along_x ? (is_low ? 2 : 0) : (is_low ? 1 : 3);
-  const bool stands = wall.kind == WallKind::kPartition || wall.kind == WallKind::kExterior || wall.kind == WallKind::kGlassPartition || wall.kind == WallKind::kParapet;
+  const bool stands = wall.kind == WallKind::kPartition || wall.kind == WallKind::kExterior || wall.kind == WallKind::kGlassPartition ||
+                      wall.kind == WallKind::kParapet;
   if (!stands && wall.length() > 0.5f) open_[side] = true;
   // Nothing stands in the way of doors, 1.1 m before them and as wide as they are.
   for (const PlanOpening& o : wall.openings) {
@@ -83,7 +93,9 @@ void RoomSpace::AddHoles(const PlanWall& wall) {
     const WallSpot spot = SpotAt(side, middle);
     holes_.push_back({o.kind, spot, width, o.sill, o.head, side});
     if (o.kind == OpeningKind::kWindow || o.kind == OpeningKind::kGlazing) continue;
-    const float deep = o.kind == OpeningKind::kDockDoor ? 6.5f : std::max(1.1f, o.open > 0.5f && o.kind != OpeningKind::kSlidingDoor ? width + 0.15f : 1.1f);
+    const float deep = o.kind == OpeningKind::kDockDoor
+                           ? 6.5f
+                           : std::max(1.1f, o.open > 0.5f && o.kind != OpeningKind::kSlidingDoor ? width + 0.15f : 1.1f);
     const Vec2f half = wall.along_x ? Vec2f{width / 2 + 0.15f, deep / 2} : Vec2f{deep / 2, width / 2 + 0.15f};
     taken_.Add({spot.At(0, deep / 2), half, 0});
   }
@@ -146,7 +158,8 @@ int RoomSpace::RowAtWall(std::string_view kind, int count, float gap, float fron
     const float width = static_cast<float>(n) * (size.x + gap);
     const auto spot = FindWall(width, size.y, size.z, front);
     if (!spot) continue;
-    for (int i = 0; i < n; ++i) Put(kind, spot->At((static_cast<float>(i) + 0.5f) * (size.x + gap) - width / 2, size.y / 2 + 0.025f), spot->yaw);
+    for (int i = 0; i < n; ++i)
+      Put(kind, spot->At((static_cast<float>(i) + 0.5f) * (size.x + gap) - width / 2, size.y / 2 + 0.025f), spot->yaw);
     return n;
   }
   return 0;
@@ -160,8 +173,11 @@ bool RoomSpace::OnWall(std::string_view kind, float height, int wanted) {
     if (open_[side]) continue;
     const float from = side % 2 == 0 ? rect().x0 : rect().y0, to = side % 2 == 0 ? rect().x1 : rect().y1;
     if (to - from < size.x + 0.4f) continue;
-    const float along = static_cast<float>(rng_.Uniform(static_cast<double>(from + size.x / 2 + 0.15f), static_cast<double>(to - size.x / 2 - 0.15f)));
-    const auto hidden = [&](const Used& u) { return u.side == side && u.height > height - 0.05f && along + size.x / 2 > u.from && along - size.x / 2 < u.to; };
+    const float along =
+        static_cast<float>(rng_.Uniform(static_cast<double>(from + size.x / 2 + 0.15f), static_cast<double>(to - size.x / 2 - 0.15f)));
+    const auto hidden = [&](const Used& u) {
+      return u.side == side && u.height > height - 0.05f && along + size.x / 2 > u.from && along - size.x / 2 < u.to;
+    };
     if (IsBlocked(side, along, size.x, height + size.z) || std::any_of(used_.begin(), used_.end(), hidden)) continue;
     const WallSpot spot = SpotAt(side, along);
     Put(kind, spot.At(0, size.y / 2 + 0.004f), spot.yaw, height, v);
@@ -188,7 +204,8 @@ bool RoomSpace::Anywhere(std::string_view kind, float margin, int tries) {
   const PlanRect r = rect().Inset(margin);
   if (r.width() <= 0 || r.depth() <= 0) return false;
   for (int k = 0; k < tries; ++k) {
-    const Vec2f p{static_cast<float>(rng_.Uniform(static_cast<double>(r.x0), static_cast<double>(r.x1))), static_cast<float>(rng_.Uniform(static_cast<double>(r.y0), static_cast<double>(r.y1)))};
+    const Vec2f p{static_cast<float>(rng_.Uniform(static_cast<double>(r.x0), static_cast<double>(r.x1))),
+                  static_cast<float>(rng_.Uniform(static_cast<double>(r.y0), static_cast<double>(r.y1)))};
     if (At(kind, p, static_cast<float>(rng_.Uniform(0, 6.28)))) return true;
   }
   return false;

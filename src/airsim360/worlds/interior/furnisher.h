@@ -16,7 +16,8 @@ namespace airsim360::internal {
 /// Props by kind with their measured boxes, each an entity of its own.
 class Furnisher {
  public:
-  Furnisher(SceneBuilder& builder, const ModelSource* models, uint64_t seed) : builder_(builder), shelf_(builder, models, seed), models_(models), seed_(seed) {}
+  Furnisher(SceneBuilder& builder, const ModelSource* models, uint64_t seed)
+      : builder_(builder), shelf_(builder, models, seed), models_(models), seed_(seed) {}
 
   /// Of an individual as it stands, front towards -Y.
   const Box3f& BoxOf(std::string_view kind, uint32_t variant);
@@ -78,7 +79,9 @@ class RoomSpace {
   void Put(std::string_view kind, Vec2f p, float yaw, float height = 0, std::optional<uint32_t> variant = {}, Vec3f tint = {1, 1, 1});
   void Reserve(Vec2f center, Vec2f half, float yaw = 0) { taken_.Add({center, half, yaw}); }
   bool IsFree(Vec2f center, Vec2f half, float yaw = 0) const { return taken_.IsFree({center, half, yaw}); }
-  uint32_t Pick(std::string_view kind, std::optional<uint32_t> variant) { return variant ? *variant : rng_.Index(furnisher_.Variants(kind)); }
+  uint32_t Pick(std::string_view kind, std::optional<uint32_t> variant) {
+    return variant ? *variant : rng_.Index(furnisher_.Variants(kind));
+  }
   float Top(std::string_view kind, uint32_t variant = 0) { return furnisher_.BoxOf(kind, variant).max.z; }
   Vec3f Size(std::string_view kind, uint32_t variant = 0) { return furnisher_.BoxOf(kind, variant).size(); }
   /// Openings of the room's walls: their middle on the wall's face, direction inward, width.

@@ -14,8 +14,10 @@ EntityId InteriorPen::Start(std::string name, const char* category) {
 void InteriorPen::Level(const PlanRect& r, float z, bool up) {
   const Vec3f a{r.x0, r.y0, z}, b{r.x1, r.y0, z}, c{r.x1, r.y1, z}, d{r.x0, r.y1, z};
   const auto uv = [](Vec3f p) { return Vec2f{p.x, -p.y}; };
-  if (up) mesh_.QuadUv(a, b, c, d, uv(a), uv(b), uv(c), uv(d));
-  else mesh_.QuadUv(a, d, c, b, uv(a), uv(d), uv(c), uv(b));
+  if (up)
+    mesh_.QuadUv(a, b, c, d, uv(a), uv(b), uv(c), uv(d));
+  else
+    mesh_.QuadUv(a, d, c, b, uv(a), uv(d), uv(c), uv(b));
 }
 
 void InteriorPen::Upright(bool along_x, float at, float from, float to, float z0, float z1, bool high) {
@@ -40,8 +42,10 @@ void InteriorPen::Box(Vec3f low, Vec3f high, unsigned sides) {
 
 void InteriorPen::WallBox(bool along_x, float from, float to, float near, float far, float z0, float z1) {
   const float lo = std::min(near, far), hi = std::max(near, far);
-  if (along_x) Box({from, lo, z0}, {to, hi, z1});
-  else Box({lo, from, z0}, {hi, to, z1});
+  if (along_x)
+    Box({from, lo, z0}, {to, hi, z1});
+  else
+    Box({lo, from, z0}, {hi, to, z1});
 }
 
 void InteriorPen::Done(const char* name) {

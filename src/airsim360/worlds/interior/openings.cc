@@ -28,7 +28,8 @@ void BoxAt(InteriorPen& pen, const Place& place, float s0, float s1, float a0, f
 }
 
 // A leaf with handles hung at `hinge` (along), reaching `width` towards `dir` (±1), swung by `angle` to the side `swing` (±1 across).
-void HangLeaf(InteriorPen& pen, const Place& place, float hinge, float dir, float width, float height, float angle, float swing, Finish face, bool glazed) {
+void HangLeaf(InteriorPen& pen, const Place& place, float hinge, float dir, float width, float height, float angle, float swing,
+              Finish face, bool glazed) {
   const float c = std::cos(angle), s = std::sin(angle);
   const Vec3f origin = place(hinge, swing * kHalfWall * 0.4f, 0.01f);
   const Vec3f u = place(hinge + dir * c, swing * (kHalfWall * 0.4f + s), 0.01f) - origin;
@@ -62,9 +63,13 @@ void HangLeaf(InteriorPen& pen, const Place& place, float hinge, float dir, floa
 Finish LeafOf(const BuildingPlan& plan, const PlanOpening& o) {
   if (o.outer) return plan.spec.use == BuildingUse::kApartment ? Finish::kDoorGrey : Finish::kDoorSteel;
   switch (plan.spec.use) {
-    case BuildingUse::kApartment: return plan.seed % 2 == 0 ? Finish::kDoorWhite : Finish::kDoorOak;
-    case BuildingUse::kOffice: case BuildingUse::kLibrary: return Finish::kDoorOak;
-    default: return Finish::kDoorGrey;
+    case BuildingUse::kApartment:
+      return plan.seed % 2 == 0 ? Finish::kDoorWhite : Finish::kDoorOak;
+    case BuildingUse::kOffice:
+    case BuildingUse::kLibrary:
+      return Finish::kDoorOak;
+    default:
+      return Finish::kDoorGrey;
   }
 }
 
@@ -77,9 +82,13 @@ void BuildFrame(InteriorPen& pen, const Place& place, const PlanOpening& o, floa
 }
 
 void BuildHinged(const BuildingPlan& plan, const PlanWall& wall, const Place& place, const PlanOpening& o, InteriorPen& pen) {
-  const bool glass = wall.kind == WallKind::kGlassPartition || (o.kind == OpeningKind::kDoubleDoor && plan.spec.use != BuildingUse::kApartment);
+  const bool glass =
+      wall.kind == WallKind::kGlassPartition || (o.kind == OpeningKind::kDoubleDoor && plan.spec.use != BuildingUse::kApartment);
   const Finish face = wall.kind == WallKind::kGlassPartition ? Finish::kFrameDark : LeafOf(plan, o);
-  BuildFrame(pen, place, o, kHalfWall + 0.012f, wall.kind == WallKind::kGlassPartition ? Finish::kFrameDark : o.outer ? Finish::kFrameDark : Finish::kSkirting);
+  BuildFrame(pen, place, o, kHalfWall + 0.012f,
+             wall.kind == WallKind::kGlassPartition ? Finish::kFrameDark
+             : o.outer                              ? Finish::kFrameDark
+                                                    : Finish::kSkirting);
   const float w = place.width() - 2 * kFrame, height = o.head - kFrame - 0.015f, swing = o.swings_left ? -1.0f : 1.0f;
   const float angle = o.open * 94 * std::numbers::pi_v<float> / 180;
   if (o.kind == OpeningKind::kDoubleDoor) {
@@ -119,11 +128,14 @@ void BuildDock(const PlanWall& wall, const Place& place, const PlanOpening& o, I
   const int panels = static_cast<int>(std::ceil(o.head / panel));
   for (int i = 0; i < panels; ++i) {
     const float z = panel * static_cast<float>(i);
-    if (o.open > 0.5f) BoxAt(pen, place, 0, w, inside * (0.25f + z), inside * (0.25f + z + panel - 0.015f), o.head + 0.25f, o.head + 0.29f);
-    else BoxAt(pen, place, 0, w, a - 0.02f, a + 0.02f, z + 0.005f, std::min(z + panel - 0.01f, o.head + 0.1f));
+    if (o.open > 0.5f)
+      BoxAt(pen, place, 0, w, inside * (0.25f + z), inside * (0.25f + z + panel - 0.015f), o.head + 0.25f, o.head + 0.29f);
+    else
+      BoxAt(pen, place, 0, w, a - 0.02f, a + 0.02f, z + 0.005f, std::min(z + panel - 0.01f, o.head + 0.1f));
   }
   pen.Use(Finish::kFrameSteel);
-  for (const float s : {-0.06f, w + 0.02f}) BoxAt(pen, place, s, s + 0.04f, inside * 0.2f, inside * (0.25f + o.head), o.head + 0.2f, o.head + 0.24f);
+  for (const float s : {-0.06f, w + 0.02f})
+    BoxAt(pen, place, s, s + 0.04f, inside * 0.2f, inside * (0.25f + o.head), o.head + 0.2f, o.head + 0.24f);
   pen.Use(Finish::kRubber);
   for (const float s : {-0.25f, w + 0.05f}) BoxAt(pen, place, s, s + 0.2f, -inside * 0.24f, -inside * 0.36f, 0.1f, 0.6f);
 }
@@ -136,7 +148,8 @@ void BuildLift(const PlanWall& wall, const Place& place, const PlanOpening& o, I
   // Call buttons beside it, on both faces: one of them is the lobby's.
   pen.Use(Finish::kChrome);
   if (wall.length() > place.to - wall.from + 0.4f)
-    for (const float side : {-1.0f, 1.0f}) BoxAt(pen, place, w + 0.15f, w + 0.24f, side * kHalfWall, side * (kHalfWall + 0.012f), 1.0f, 1.2f);
+    for (const float side : {-1.0f, 1.0f})
+      BoxAt(pen, place, w + 0.15f, w + 0.24f, side * kHalfWall, side * (kHalfWall + 0.012f), 1.0f, 1.2f);
 }
 
 }  // namespace
@@ -145,17 +158,22 @@ void BuildDoor(const BuildingPlan& plan, const PlanWall& wall, const PlanOpening
   const Place place = PlaceOf(plan, wall, opening);
   pen.Start("door " + std::to_string(opening.lock) + (opening.open > 0.5f ? " open" : " closed"), "construction/door");
   switch (opening.kind) {
-    case OpeningKind::kSlidingDoor: return BuildSliding(wall, place, opening, pen);
-    case OpeningKind::kDockDoor: return BuildDock(wall, place, opening, pen);
-    case OpeningKind::kLiftDoor: return BuildLift(wall, place, opening, pen);
-    default: BuildHinged(plan, wall, place, opening, pen);
+    case OpeningKind::kSlidingDoor:
+      return BuildSliding(wall, place, opening, pen);
+    case OpeningKind::kDockDoor:
+      return BuildDock(wall, place, opening, pen);
+    case OpeningKind::kLiftDoor:
+      return BuildLift(wall, place, opening, pen);
+    default:
+      BuildHinged(plan, wall, place, opening, pen);
   }
 }
 
 void BuildWindow(const BuildingPlan& plan, const PlanWall& wall, const PlanOpening& o, InteriorPen& pen) {
   const Place place = PlaceOf(plan, wall, o);
   const bool outer = wall.low < 0 || wall.high < 0, home = plan.spec.use == BuildingUse::kApartment;
-  const float out = wall.low < 0 ? -1.0f : 1.0f, middle = outer ? out * 0.1f : 0.0f, t = 0.03f, f = home ? 0.065f : 0.05f, w = place.width();
+  const float out = wall.low < 0 ? -1.0f : 1.0f, middle = outer ? out * 0.1f : 0.0f, t = 0.03f, f = home ? 0.065f : 0.05f,
+              w = place.width();
   pen.Start(outer ? "window" : "shop window", "construction/window");
   pen.Use(home ? Finish::kFrameWhite : Finish::kFrameDark);
   BoxAt(pen, place, 0, w, middle - t, middle + t, o.sill, o.sill + f);

@@ -41,7 +41,8 @@ std::vector<StripRoom> Row(PlanPen& pen, const GalleryStyle& style, float width,
   return row;
 }
 
-GalleryFloor PlanFloor(PlanPen& pen, const GalleryStyle& style, int storey, const std::vector<StripRoom>& south, const std::vector<StripRoom>& north) {
+GalleryFloor PlanFloor(PlanPen& pen, const GalleryStyle& style, int storey, const std::vector<StripRoom>& south,
+                       const std::vector<StripRoom>& north) {
   const float w = static_cast<float>(pen.plan().spec.width), d = static_cast<float>(pen.plan().spec.depth);
   const float y1 = style.strip, y2 = y1 + style.gallery, y3 = d - style.strip - style.gallery, y4 = d - style.strip;
   const float xw = style.west, xe = w - style.east, xb = (xw + xe) / 2;
@@ -60,7 +61,8 @@ GalleryFloor PlanFloor(PlanPen& pen, const GalleryStyle& style, int storey, cons
   MakeAtrium(pen, f.atrium_east);
   for (const int room : f.north) {
     if (pen.room(room).type == T::kStairwell) MakeStairwell(pen, room);
-    if (pen.room(room).type == T::kLiftShaft) pen.room(room).has_floor = storey == 0, pen.room(room).has_ceiling = storey + 1 == static_cast<int>(pen.plan().spec.storeys);
+    if (pen.room(room).type == T::kLiftShaft)
+      pen.room(room).has_floor = storey == 0, pen.room(room).has_ceiling = storey + 1 == static_cast<int>(pen.plan().spec.storeys);
   }
   return f;
 }
@@ -85,14 +87,22 @@ void OpenRow(PlanPen& pen, const GalleryStyle& style, const GalleryFloor& f, con
   for (const int room : row) {
     const int way = WayBefore(pen, f, room, south);
     switch (pen.room(room).type) {
-      case T::kStairwell: pen.Door(room, way, 1.2f, 0.5f); break;
-      case T::kLiftShaft: pen.Door(room, way, 1.3f, 0.5f, OpeningKind::kLiftDoor, 2.1f); break;
-      case T::kToilet: pen.Door(room, way, 1.0f, 0.3f, OpeningKind::kPassage, 2.2f); break;
+      case T::kStairwell:
+        pen.Door(room, way, 1.2f, 0.5f);
+        break;
+      case T::kLiftShaft:
+        pen.Door(room, way, 1.3f, 0.5f, OpeningKind::kLiftDoor, 2.1f);
+        break;
+      case T::kToilet:
+        pen.Door(room, way, 1.0f, 0.3f, OpeningKind::kPassage, 2.2f);
+        break;
       default:
-        pen.Door(room, way, style.shopfronts ? 3.0f : 1.8f, static_cast<float>(pen.rng().Uniform(0.2, 0.8)), style.shopfronts ? OpeningKind::kPassage : OpeningKind::kDoubleDoor,
-                 style.shopfronts ? 2.8f : 2.2f);
-        if (style.shopfronts) pen.Glaze(room, way, 0.08f, 2.8f);
-        else pen.Between(room, way, WallKind::kGlassPartition);
+        pen.Door(room, way, style.shopfronts ? 3.0f : 1.8f, static_cast<float>(pen.rng().Uniform(0.2, 0.8)),
+                 style.shopfronts ? OpeningKind::kPassage : OpeningKind::kDoubleDoor, style.shopfronts ? 2.8f : 2.2f);
+        if (style.shopfronts)
+          pen.Glaze(room, way, 0.08f, 2.8f);
+        else
+          pen.Between(room, way, WallKind::kGlassPartition);
     }
   }
 }
@@ -108,7 +118,8 @@ void OpenFacades(PlanPen& pen, const GalleryStyle& style, const GalleryFloor& f,
   if (style.shopfronts && storey == 0) return;
   for (const int room : f.south) pen.Windows(room, PlanSide::kSouth, 2.0f, 3.0f, 0.8f, head);
   for (const int room : f.north)
-    if (pen.room(room).type == style.room || pen.room(room).type == T::kBookStacks) pen.Windows(room, PlanSide::kNorth, 2.0f, 3.0f, 0.8f, head);
+    if (pen.room(room).type == style.room || pen.room(room).type == T::kBookStacks)
+      pen.Windows(room, PlanSide::kNorth, 2.0f, 3.0f, 0.8f, head);
 }
 
 // Side by side in the western hall, one up and one down, to the edge of the bridge.
@@ -117,7 +128,8 @@ void AddEscalators(PlanPen& pen, const GalleryFloor& f, const GalleryFloor& abov
   const float run = pen.height() / 0.57735f + 2.4f, y = hall.center().y;
   for (const float side : {-1.0f, 1.0f}) {
     const float y0 = y + side * 1.0f - 0.8f;
-    pen.plan().escalators.push_back({{hall.x1 - run, y0, hall.x1, y0 + 1.6f}, pen.room(f.atrium_west).floor_z, pen.room(above.atrium_west).floor_z, true, false});
+    pen.plan().escalators.push_back(
+        {{hall.x1 - run, y0, hall.x1, y0 + 1.6f}, pen.room(f.atrium_west).floor_z, pen.room(above.atrium_west).floor_z, true, false});
   }
   pen.Gap(above.atrium_west, above.bridge, y - 1.8f, y + 1.8f);
 }
@@ -126,7 +138,8 @@ void PlanGalleries(PlanPen& pen, const GalleryStyle& style) {
   const float w = static_cast<float>(pen.plan().spec.width);
   std::vector<GalleryFloor> floors;
   const std::vector<StripRoom> north = Row(pen, style, w, 1, true);
-  for (int s = 0; s < static_cast<int>(pen.plan().spec.storeys); ++s) floors.push_back(PlanFloor(pen, style, s, Row(pen, style, w, s, false), north));
+  for (int s = 0; s < static_cast<int>(pen.plan().spec.storeys); ++s)
+    floors.push_back(PlanFloor(pen, style, s, Row(pen, style, w, s, false), north));
   pen.FindWalls();
   for (size_t s = 0; s < floors.size(); ++s) {
     const int storey = static_cast<int>(s);
@@ -156,13 +169,31 @@ void PlanGalleries(PlanPen& pen, const GalleryStyle& style) {
 }  // namespace
 
 void PlanMall(PlanPen& pen) {
-  PlanGalleries(pen, {.strip = 10, .gallery = 4.2f, .west = 9, .east = 13, .bridge = 6, .ceiling = 3.7f, .room = T::kShop, .ground_way = T::kConcourse,
-                      .east_room = T::kFoodCourt, .shopfronts = true, .escalators = true});
+  PlanGalleries(pen, {.strip = 10,
+                      .gallery = 4.2f,
+                      .west = 9,
+                      .east = 13,
+                      .bridge = 6,
+                      .ceiling = 3.7f,
+                      .room = T::kShop,
+                      .ground_way = T::kConcourse,
+                      .east_room = T::kFoodCourt,
+                      .shopfronts = true,
+                      .escalators = true});
 }
 
 void PlanLibrary(PlanPen& pen) {
-  PlanGalleries(pen, {.strip = 7, .gallery = 2.8f, .west = 7, .east = 9, .bridge = 3, .ceiling = 3.4f, .room = T::kReadingRoom, .ground_way = T::kGallery,
-                      .east_room = T::kReadingRoom, .shopfronts = false, .escalators = false});
+  PlanGalleries(pen, {.strip = 7,
+                      .gallery = 2.8f,
+                      .west = 7,
+                      .east = 9,
+                      .bridge = 3,
+                      .ceiling = 3.4f,
+                      .room = T::kReadingRoom,
+                      .ground_way = T::kGallery,
+                      .east_room = T::kReadingRoom,
+                      .shopfronts = false,
+                      .escalators = false});
 }
 
 }  // namespace airsim360::internal

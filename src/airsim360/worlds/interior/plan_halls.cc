@@ -27,8 +27,10 @@ DeckEnd PlanEnd(PlanPen& pen, int storey, float x0, float x1, bool ramp, bool op
 
 void JoinEnd(PlanPen& pen, const DeckEnd& end, int deck, bool ramp, bool opening, bool core) {
   pen.Between(end.south, deck, WallKind::kOpen);
-  if (core) pen.Door(end.north, deck, 1.0f, 0.0f, OpeningKind::kDoor, 2.1f);
-  else pen.Between(end.north, deck, WallKind::kOpen);
+  if (core)
+    pen.Door(end.north, deck, 1.0f, 0.0f, OpeningKind::kDoor, 2.1f);
+  else
+    pen.Between(end.north, deck, WallKind::kOpen);
   if (!ramp && !opening) {
     pen.Between(end.middle, deck, WallKind::kOpen);
     pen.Between(end.middle, end.south, WallKind::kOpen);
@@ -56,7 +58,8 @@ void PlanWarehouse(PlanPen& pen) {
     T type;
     float share;
   };
-  constexpr Small kSmall[] = {{T::kDispatchOffice, 7}, {T::kToilet, 3}, {T::kBreakRoom, 6.5f}, {T::kStorage, 5}, {T::kCellOffice, 5}, {T::kMeetingRoom, 6}};
+  constexpr Small kSmall[] = {{T::kDispatchOffice, 7}, {T::kToilet, 3},     {T::kBreakRoom, 6.5f},
+                              {T::kStorage, 5},        {T::kCellOffice, 5}, {T::kMeetingRoom, 6}};
   float sum = 0, y = 0;
   for (const Small& s : kSmall) sum += s.share;
   std::vector<int> small;
@@ -73,7 +76,8 @@ void PlanWarehouse(PlanPen& pen) {
   }
   // Docks to the south with doors of 3.4 x 3.8 m, people's doors in the other walls.
   const int docks = static_cast<int>((hall_x1 - hall_x0) / 8);
-  for (int i = 0; i < docks; ++i) pen.OuterDoor(hall, PlanSide::kSouth, 3.4f, (static_cast<float>(i) + 0.5f) / static_cast<float>(docks), OpeningKind::kDockDoor, 3.8f);
+  for (int i = 0; i < docks; ++i)
+    pen.OuterDoor(hall, PlanSide::kSouth, 3.4f, (static_cast<float>(i) + 0.5f) / static_cast<float>(docks), OpeningKind::kDockDoor, 3.8f);
   pen.OuterDoor(hall, PlanSide::kNorth, 1.0f, 0.1f, OpeningKind::kDoor, 2.1f);
   pen.OuterDoor(hall, PlanSide::kNorth, 1.0f, 0.9f, OpeningKind::kDoor, 2.1f);
   const float top = pen.room(hall).ceiling_z;
@@ -116,10 +120,12 @@ void PlanCarPark(PlanPen& pen) {
     JoinEnd(pen, deck.west, deck.main, deck.west_up, deck.west_hole, false);
     JoinEnd(pen, deck.east, deck.main, deck.east_up, deck.east_hole, true);
     for (const auto& [room, up] : {std::pair{deck.west.middle, deck.west_up}, {deck.east.middle, deck.east_up}})
-      if (up) pen.plan().ramps.push_back({pen.room(room).cell, pen.room(room).floor_z, pen.room(room).floor_z + pen.height(), false, false});
+      if (up)
+        pen.plan().ramps.push_back({pen.room(room).cell, pen.room(room).floor_z, pen.room(room).floor_z + pen.height(), false, false});
     // Open to the air above a parapet; closed around the stairs.
     for (const int room : {deck.main, deck.west.south, deck.west.middle, deck.west.north, deck.east.south, deck.east.middle})
-      for (const PlanSide side : {PlanSide::kWest, PlanSide::kEast, PlanSide::kSouth, PlanSide::kNorth}) pen.OuterWall(room, side, WallKind::kParapet);
+      for (const PlanSide side : {PlanSide::kWest, PlanSide::kEast, PlanSide::kSouth, PlanSide::kNorth})
+        pen.OuterWall(room, side, WallKind::kParapet);
     if (s == 0) {
       pen.OuterDoor(deck.east.south, PlanSide::kEast, 3.4f, 0.5f, OpeningKind::kPassage, 2.4f);
       pen.OuterDoor(deck.west.south, PlanSide::kWest, 3.4f, 0.5f, OpeningKind::kPassage, 2.4f);
@@ -129,7 +135,8 @@ void PlanCarPark(PlanPen& pen) {
   const float x0 = kRampLane + 0.3f, x1 = w - kRampLane - 0.3f;
   const int spans = static_cast<int>((x1 - x0) / 7.5f);
   for (int i = 0; i <= spans; ++i)
-    for (const float y : {5.3f, d / 2, d - 5.3f}) pen.plan().columns.push_back({x0 + (x1 - x0) * static_cast<float>(i) / static_cast<float>(spans), y});
+    for (const float y : {5.3f, d / 2, d - 5.3f})
+      pen.plan().columns.push_back({x0 + (x1 - x0) * static_cast<float>(i) / static_cast<float>(spans), y});
   pen.plan().column = 0.45f;
 }
 

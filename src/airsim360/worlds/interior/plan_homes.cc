@@ -13,9 +13,10 @@ constexpr float kCorridor = 1.5f, kCeiling = 2.6f;
 void PlanFlat(PlanPen& pen, int storey, bool mirrored) {
   const float w = static_cast<float>(pen.plan().spec.width), d = static_cast<float>(pen.plan().spec.depth);
   const float south = (d - kCorridor) * 0.5f, north = south + kCorridor;
-  const StripRoom sunny[] = {{T::kLivingRoom, 6.2f, kCeiling}, {T::kDiningRoom, 3.5f, kCeiling}, {T::kKitchen, 3.3f, kCeiling}, {T::kChildRoom, 3.2f, kCeiling}};
-  const StripRoom shady[] = {{T::kStudy, 2.9f, kCeiling},         {T::kBedroom, 4.2f, kCeiling}, {T::kBathroom, 2.6f, 2.45f},
-                             {T::kToilet, 1.65f, 2.45f},           {T::kHall, 2.2f, kCeiling},    {T::kStorage, 1.65f, 2.45f},
+  const StripRoom sunny[] = {
+      {T::kLivingRoom, 6.2f, kCeiling}, {T::kDiningRoom, 3.5f, kCeiling}, {T::kKitchen, 3.3f, kCeiling}, {T::kChildRoom, 3.2f, kCeiling}};
+  const StripRoom shady[] = {{T::kStudy, 2.9f, kCeiling},  {T::kBedroom, 4.2f, kCeiling}, {T::kBathroom, 2.6f, 2.45f},
+                             {T::kToilet, 1.65f, 2.45f},   {T::kHall, 2.2f, kCeiling},    {T::kStorage, 1.65f, 2.45f},
                              {T::kBedroom, 3.4f, kCeiling}};
   std::vector<StripRoom> row(std::begin(shady), std::end(shady));
   // A maisonette has its stairs where the store was.

@@ -31,9 +31,15 @@ OfficeFloor PlanFloor(PlanPen& pen, int storey, bool mirrored) {
   const float y1 = south_depth, y2 = y1 + kCorridor, y3 = y2 + kCore, y4 = y3 + kCorridor;
   const bool atrium = pen.plan().spec.atrium;
   const StripRoom desks[] = {{T::kOpenOffice, 16, 2.8f}, {T::kMeetingRoom, 6, 2.8f}, {T::kOpenOffice, 12, 2.8f}};
-  const StripRoom core[] = {{T::kStairwell, 2.9f},       {T::kToilet, 2.7f, 2.6f, "toilet women"}, {T::kToilet, 2.7f, 2.6f, "toilet men"},
-                            {T::kPantry, 4.6f, 2.7f},    {T::kLiftShaft, 2.2f},                   {atrium ? T::kAtrium : T::kLobby, atrium ? 8.0f : 3.6f, 2.9f},
-                            {T::kLiftShaft, 2.2f},       {T::kPrintRoom, 3.0f, 2.7f},             {T::kStorage, 2.4f, 2.6f},
+  const StripRoom core[] = {{T::kStairwell, 2.9f},
+                            {T::kToilet, 2.7f, 2.6f, "toilet women"},
+                            {T::kToilet, 2.7f, 2.6f, "toilet men"},
+                            {T::kPantry, 4.6f, 2.7f},
+                            {T::kLiftShaft, 2.2f},
+                            {atrium ? T::kAtrium : T::kLobby, atrium ? 8.0f : 3.6f, 2.9f},
+                            {T::kLiftShaft, 2.2f},
+                            {T::kPrintRoom, 3.0f, 2.7f},
+                            {T::kStorage, 2.4f, 2.6f},
                             {T::kMeetingRoom, 4.4f, 2.8f}};
   OfficeFloor floor;
   floor.south = FillStrip(pen, storey, {0, 0, w, y1}, desks, mirrored);
@@ -45,7 +51,8 @@ OfficeFloor PlanFloor(PlanPen& pen, int storey, bool mirrored) {
   floor.end_east = pen.Room(T::kCorridor, storey, {w - kEnd, y2, w, y3}, 2.6f);
   MakeStairwell(pen, floor.core[0]);
   if (atrium) MakeAtrium(pen, floor.core[5]);
-  for (const int lift : {floor.core[4], floor.core[6]}) pen.room(lift).has_floor = storey == 0, pen.room(lift).has_ceiling = storey + 1 == static_cast<int>(pen.plan().spec.storeys);
+  for (const int lift : {floor.core[4], floor.core[6]})
+    pen.room(lift).has_floor = storey == 0, pen.room(lift).has_ceiling = storey + 1 == static_cast<int>(pen.plan().spec.storeys);
   return floor;
 }
 
@@ -57,7 +64,8 @@ void OpenCore(PlanPen& pen, const OfficeFloor& f, int storey) {
     for (const int end : {f.end_west, f.end_east}) pen.Between(corridor, end, WallKind::kOpen);
   }
   // Lifts open to the lobby; where that is an atrium, to the corridor.
-  for (const int lift : {f.core[4], f.core[6]}) pen.Door(lift, pen.plan().spec.atrium ? f.corridor_south : hub, 1.1f, 0.5f, OpeningKind::kLiftDoor, 2.1f);
+  for (const int lift : {f.core[4], f.core[6]})
+    pen.Door(lift, pen.plan().spec.atrium ? f.corridor_south : hub, 1.1f, 0.5f, OpeningKind::kLiftDoor, 2.1f);
   pen.Door(f.core[0], f.corridor_south, 1.0f, 0.5f);
   for (const size_t i : {1u, 2u}) pen.Door(f.core[i], f.corridor_south, 0.9f, 0.25f);
   pen.Door(f.core[3], f.corridor_south, 1.6f, 0.5f, OpeningKind::kPassage, 2.3f);
@@ -72,7 +80,8 @@ void OpenFacades(PlanPen& pen, const OfficeFloor& f, int storey) {
   for (const int room : f.south) {
     const bool meeting = pen.room(room).type == T::kMeetingRoom;
     pen.Between(room, f.corridor_south, WallKind::kGlassPartition);
-    pen.Door(room, f.corridor_south, meeting ? 0.95f : 1.8f, meeting ? 0.15f : 0.5f, meeting ? OpeningKind::kDoor : OpeningKind::kDoubleDoor);
+    pen.Door(room, f.corridor_south, meeting ? 0.95f : 1.8f, meeting ? 0.15f : 0.5f,
+             meeting ? OpeningKind::kDoor : OpeningKind::kDoubleDoor);
   }
   for (size_t i = 0; i + 1 < f.south.size(); ++i) pen.Door(f.south[i], f.south[i + 1], 1.0f, 0.15f);
   for (const int room : f.north) {

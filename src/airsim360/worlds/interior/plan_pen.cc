@@ -28,10 +28,14 @@ struct Edge {
 };
 Edge EdgeOf(const PlanRect& r, PlanSide side) {
   switch (side) {
-    case PlanSide::kWest: return {false, r.x0, r.y0, r.y1};
-    case PlanSide::kEast: return {false, r.x1, r.y0, r.y1};
-    case PlanSide::kSouth: return {true, r.y0, r.x0, r.x1};
-    case PlanSide::kNorth: break;
+    case PlanSide::kWest:
+      return {false, r.x0, r.y0, r.y1};
+    case PlanSide::kEast:
+      return {false, r.x1, r.y0, r.y1};
+    case PlanSide::kSouth:
+      return {true, r.y0, r.x0, r.x1};
+    case PlanSide::kNorth:
+      break;
   }
   return {true, r.y1, r.x0, r.x1};
 }
@@ -42,7 +46,9 @@ PlanSide Opposite(PlanSide side) {
 }
 constexpr PlanSide kSides[] = {PlanSide::kWest, PlanSide::kEast, PlanSide::kSouth, PlanSide::kNorth};
 
-bool HasFaces(WallKind kind) { return kind == WallKind::kPartition || kind == WallKind::kExterior || kind == WallKind::kGlassPartition || kind == WallKind::kParapet; }
+bool HasFaces(WallKind kind) {
+  return kind == WallKind::kPartition || kind == WallKind::kExterior || kind == WallKind::kGlassPartition || kind == WallKind::kParapet;
+}
 
 }  // namespace
 
@@ -81,7 +87,8 @@ void PlanPen::AddSides(int index) {
     }
     for (const Vec2f& gap : Gaps(edge.from, edge.to, taken)) {
       const bool high = IsHighSide(side);
-      plan_.walls.push_back({WallKind::kExterior, self.storey, edge.along_x, edge.at, gap.x, gap.y, high ? index : -1, high ? -1 : index, {}});
+      plan_.walls.push_back(
+          {WallKind::kExterior, self.storey, edge.along_x, edge.at, gap.x, gap.y, high ? index : -1, high ? -1 : index, {}});
     }
   }
 }
@@ -101,7 +108,8 @@ PlanWall* PlanPen::FindOuter(int index, PlanSide side) {
   PlanWall* longest = nullptr;
   for (PlanWall& wall : plan_.walls) {
     const bool own = IsHighSide(side) ? wall.low == index && wall.high < 0 : wall.high == index && wall.low < 0;
-    if (own && wall.along_x == edge.along_x && std::abs(wall.at - edge.at) < kTouch && (!longest || wall.length() > longest->length())) longest = &wall;
+    if (own && wall.along_x == edge.along_x && std::abs(wall.at - edge.at) < kTouch && (!longest || wall.length() > longest->length()))
+      longest = &wall;
   }
   return longest;
 }
@@ -116,8 +124,9 @@ void PlanPen::OuterWall(int index, PlanSide side, WallKind kind) {
 }
 
 bool PlanPen::IsFree(const PlanWall& wall, float from, float to) const {
-  return from >= 0.1f && to <= wall.length() - 0.1f &&
-         std::none_of(wall.openings.begin(), wall.openings.end(), [&](const PlanOpening& o) { return from < o.to + 0.15f && to > o.from - 0.15f; });
+  return from >= 0.1f && to <= wall.length() - 0.1f && std::none_of(wall.openings.begin(), wall.openings.end(), [&](const PlanOpening& o) {
+           return from < o.to + 0.15f && to > o.from - 0.15f;
+         });
 }
 
 void PlanPen::AddDoor(PlanWall* wall, float width, float place, OpeningKind kind, float door_height, bool outer) {
@@ -133,8 +142,8 @@ void PlanPen::AddDoor(PlanWall* wall, float width, float place, OpeningKind kind
     door.hinge_at_to = place > 0.5f;
     // Doors swing into rooms, not into corridors and halls; outer ones outwards where they are double.
     const auto is_way = [&](int r) {
-      return r < 0 || plan_.rooms[static_cast<size_t>(r)].type == RoomType::kCorridor || plan_.rooms[static_cast<size_t>(r)].type == RoomType::kHall ||
-             plan_.rooms[static_cast<size_t>(r)].type == RoomType::kLobby;
+      return r < 0 || plan_.rooms[static_cast<size_t>(r)].type == RoomType::kCorridor ||
+             plan_.rooms[static_cast<size_t>(r)].type == RoomType::kHall || plan_.rooms[static_cast<size_t>(r)].type == RoomType::kLobby;
     };
     door.swings_left = outer ? wall->low >= 0 : is_way(wall->high) && !is_way(wall->low);
     wall->openings.push_back(door);
@@ -142,7 +151,9 @@ void PlanPen::AddDoor(PlanWall* wall, float width, float place, OpeningKind kind
   }
 }
 
-void PlanPen::Door(int a, int b, float width, float place, OpeningKind kind, float door_height) { AddDoor(Find(a, b), width, place, kind, door_height, false); }
+void PlanPen::Door(int a, int b, float width, float place, OpeningKind kind, float door_height) {
+  AddDoor(Find(a, b), width, place, kind, door_height, false);
+}
 
 void PlanPen::OuterDoor(int index, PlanSide side, float width, float place, OpeningKind kind, float door_height) {
   AddDoor(FindOuter(index, side), width, place, kind, door_height, true);
@@ -157,7 +168,8 @@ void PlanPen::Windows(int index, PlanSide side, float width, float pitch, float 
   if (w < 0.4f) return;
   for (int i = 0; i < count; ++i) {
     const float from = step * (static_cast<float>(i) + 0.5f) - w / 2;
-    if (IsFree(*wall, from, from + w)) wall->openings.push_back({.kind = kind, .from = from, .to = from + w, .sill = sill, .head = head, .outer = true});
+    if (IsFree(*wall, from, from + w))
+      wall->openings.push_back({.kind = kind, .from = from, .to = from + w, .sill = sill, .head = head, .outer = true});
   }
 }
 
@@ -173,18 +185,21 @@ void PlanPen::Glaze(int a, int b, float sill, float head) {
   std::vector<Vec2f> taken;
   for (const PlanOpening& o : wall->openings) taken.push_back({o.from - 0.15f, o.to + 0.15f});
   for (const Vec2f& gap : Gaps(0.25f, wall->length() - 0.25f, taken))
-    if (gap.y - gap.x > 0.5f) wall->openings.push_back({.kind = OpeningKind::kGlazing, .from = gap.x, .to = gap.y, .sill = sill, .head = head});
+    if (gap.y - gap.x > 0.5f)
+      wall->openings.push_back({.kind = OpeningKind::kGlazing, .from = gap.x, .to = gap.y, .sill = sill, .head = head});
 }
 
 void PlanPen::Gap(int a, int b, float from, float to) {
-  if (PlanWall* wall = Find(a, b)) wall->openings.push_back({.kind = OpeningKind::kPassage, .from = from - wall->from, .to = to - wall->from, .head = 2.2f});
+  if (PlanWall* wall = Find(a, b))
+    wall->openings.push_back({.kind = OpeningKind::kPassage, .from = from - wall->from, .to = to - wall->from, .head = 2.2f});
 }
 
 BuildingPlan PlanPen::Finish() {
   plan_.outline = plan_.rooms.front().cell;
   std::map<std::string, int> uses;
   for (PlanRoom& r : plan_.rooms) {
-    plan_.outline = {std::min(plan_.outline.x0, r.cell.x0), std::min(plan_.outline.y0, r.cell.y0), std::max(plan_.outline.x1, r.cell.x1), std::max(plan_.outline.y1, r.cell.y1)};
+    plan_.outline = {std::min(plan_.outline.x0, r.cell.x0), std::min(plan_.outline.y0, r.cell.y0), std::max(plan_.outline.x1, r.cell.x1),
+                     std::max(plan_.outline.y1, r.cell.y1)};
     const int n = ++uses[r.name];
     if (n > 1) r.name.append(" ").append(std::to_string(n));
     r.clear = r.cell;

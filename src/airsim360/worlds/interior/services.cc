@@ -21,26 +21,57 @@ Lighting LightingOf(const BuildingPlan& plan, const PlanRoom& room) {
   using T = RoomType;
   const bool home = plan.spec.use == BuildingUse::kApartment;
   switch (room.type) {
-    case T::kLivingRoom: return {"pendant_lamp", 2.9f, 2.9f};
-    case T::kDiningRoom: case T::kBedroom: case T::kChildRoom: case T::kStudy: return {"pendant_lamp", 9, 9};
-    case T::kKitchen: case T::kBathroom: case T::kToilet:
+    case T::kLivingRoom:
+      return {"pendant_lamp", 2.9f, 2.9f};
+    case T::kDiningRoom:
+    case T::kBedroom:
+    case T::kChildRoom:
+    case T::kStudy:
+      return {"pendant_lamp", 9, 9};
+    case T::kKitchen:
+    case T::kBathroom:
+    case T::kToilet:
       if (home) return {"downlight", 1.3f, 1.4f};
       return {"ceiling_panel", 2.4f, 2.4f};
-    case T::kHall: case T::kStorage: return {"downlight", 1.4f, 1.6f};
-    case T::kCorridor: return home ? Lighting{"downlight", 1.9f, 1.9f} : Lighting{"downlight", 1.6f, 1.6f};
-    case T::kOpenOffice: case T::kCellOffice: case T::kPrintRoom: case T::kDispatchOffice: return {"ceiling_panel", 2.4f, 2.4f};
-    case T::kMeetingRoom: case T::kPantry: case T::kBreakRoom: return {"ceiling_panel", 2.4f, 2.4f};
-    case T::kReadingRoom: case T::kBookStacks: return {"ceiling_panel", 2.4f, 2.4f};
-    case T::kWarehouseHall: return {"high_bay_lamp", 5.6f, 7.5f, 0.8f};
-    case T::kParkingDeck: return {"tube_light", 7.5f, 4.2f, 0.02f};
-    case T::kRamp: return {"tube_light", 9, 6, 0.02f};
-    case T::kStairwell: return {"tube_light", 9, 4};
-    case T::kShop: return {"downlight", 1.5f, 1.5f};
-    case T::kSupermarket: return {"ceiling_panel", 2.4f, 2.4f};
-    case T::kFoodCourt: return {"pendant_lamp", 2.6f, 2.6f};
-    case T::kConcourse: case T::kGallery: case T::kLobby: return {"downlight", 1.7f, 1.7f};
-    case T::kAtrium: return {"downlight", 2.6f, 2.6f};
-    case T::kLiftShaft: break;
+    case T::kHall:
+    case T::kStorage:
+      return {"downlight", 1.4f, 1.6f};
+    case T::kCorridor:
+      return home ? Lighting{"downlight", 1.9f, 1.9f} : Lighting{"downlight", 1.6f, 1.6f};
+    case T::kOpenOffice:
+    case T::kCellOffice:
+    case T::kPrintRoom:
+    case T::kDispatchOffice:
+      return {"ceiling_panel", 2.4f, 2.4f};
+    case T::kMeetingRoom:
+    case T::kPantry:
+    case T::kBreakRoom:
+      return {"ceiling_panel", 2.4f, 2.4f};
+    case T::kReadingRoom:
+    case T::kBookStacks:
+      return {"ceiling_panel", 2.4f, 2.4f};
+    case T::kWarehouseHall:
+      return {"high_bay_lamp", 5.6f, 7.5f, 0.8f};
+    case T::kParkingDeck:
+      return {"tube_light", 7.5f, 4.2f, 0.02f};
+    case T::kRamp:
+      return {"tube_light", 9, 6, 0.02f};
+    case T::kStairwell:
+      return {"tube_light", 9, 4};
+    case T::kShop:
+      return {"downlight", 1.5f, 1.5f};
+    case T::kSupermarket:
+      return {"ceiling_panel", 2.4f, 2.4f};
+    case T::kFoodCourt:
+      return {"pendant_lamp", 2.6f, 2.6f};
+    case T::kConcourse:
+    case T::kGallery:
+    case T::kLobby:
+      return {"downlight", 1.7f, 1.7f};
+    case T::kAtrium:
+      return {"downlight", 2.6f, 2.6f};
+    case T::kLiftShaft:
+      break;
   }
   return {};
 }
@@ -48,10 +79,12 @@ Lighting LightingOf(const BuildingPlan& plan, const PlanRoom& room) {
 // Middles of a grid over a rectangle.
 template <class Visit>
 void Grid(const PlanRect& r, float pitch_x, float pitch_y, const Visit& visit) {
-  const int nx = std::max(1, static_cast<int>(std::lround(r.width() / pitch_x))), ny = std::max(1, static_cast<int>(std::lround(r.depth() / pitch_y)));
+  const int nx = std::max(1, static_cast<int>(std::lround(r.width() / pitch_x))),
+            ny = std::max(1, static_cast<int>(std::lround(r.depth() / pitch_y)));
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i)
-      visit(Vec2f{r.x0 + r.width() * (static_cast<float>(i) + 0.5f) / static_cast<float>(nx), r.y0 + r.depth() * (static_cast<float>(j) + 0.5f) / static_cast<float>(ny)});
+      visit(Vec2f{r.x0 + r.width() * (static_cast<float>(i) + 0.5f) / static_cast<float>(nx),
+                  r.y0 + r.depth() * (static_cast<float>(j) + 0.5f) / static_cast<float>(ny)});
 }
 
 bool UnderSkylight(const PlanRoom& room, Vec2f p, float margin) {
@@ -73,7 +106,8 @@ void HangLamps(const BuildingPlan& plan, const PlanRoom& room, float ceiling, Fu
     if (UnderSkylight(room, p, 0.5f)) return;
     // Panels take the place of a tile of the ceiling.
     if (panel) p = {std::floor(p.x / 0.6f) * 0.6f + 0.3f, std::floor(p.y / 0.6f) * 0.6f + 0.3f};
-    furnisher.Hang(lighting.lamp, {p.x, p.y, ceiling - lighting.drop}, tube && room.clear.depth() > room.clear.width() ? kPi / 2 : 0, variant);
+    furnisher.Hang(lighting.lamp, {p.x, p.y, ceiling - lighting.drop}, tube && room.clear.depth() > room.clear.width() ? kPi / 2 : 0,
+                   variant);
   });
 }
 
@@ -88,7 +122,9 @@ void HangSafety(const BuildingPlan& plan, const PlanRoom& room, float ceiling, F
     });
   if (room.clear.width() > 1.6f && room.clear.depth() > 1.6f && room.type != RoomType::kBathroom)
     furnisher.Hang("smoke_detector", {room.clear.center().x + 0.5f, room.clear.center().y + 0.75f, ceiling});
-  const bool aired = !HasSprinklers(plan) ? room.type == RoomType::kBathroom || room.type == RoomType::kToilet || room.type == RoomType::kKitchen : room.ceiling_z - room.floor_z < 4;
+  const bool aired = !HasSprinklers(plan)
+                         ? room.type == RoomType::kBathroom || room.type == RoomType::kToilet || room.type == RoomType::kKitchen
+                         : room.ceiling_z - room.floor_z < 4;
   if (aired && plan.spec.use != BuildingUse::kCarPark && room.clear.width() > 1.8f && room.clear.depth() > 1.8f)
     Grid(room.clear, 4.8f, 4.8f, [&](Vec2f p) { furnisher.Hang("air_vent", {p.x - 0.6f, p.y - 0.55f, ceiling}); });
 }
@@ -128,14 +164,18 @@ void HangSigns(const BuildingPlan& plan, Furnisher& furnisher) {
       const bool to_high = o.outer ? wall.low < 0 : stairs(wall.low);
       const float inward = to_high ? 1.0f : -1.0f, middle = wall.from + (o.from + o.to) / 2, z = plan.StoreyZ(wall.storey);
       const float yaw = wall.along_x ? (to_high ? kPi : 0) : (to_high ? kPi / 2 : -kPi / 2);
-      const auto at = [&](float along, float across) { return wall.along_x ? Vec2f{along, wall.at + inward * across} : Vec2f{wall.at + inward * across, along}; };
+      const auto at = [&](float along, float across) {
+        return wall.along_x ? Vec2f{along, wall.at + inward * across} : Vec2f{wall.at + inward * across, along};
+      };
       if (way_out) {
         const Vec2f p = at(middle, kHalfWall + 0.06f + (o.kind == OpeningKind::kSlidingDoor ? 0.12f : 0.0f));
         furnisher.Put("exit_sign", {p.x, p.y, z + o.head + 0.03f}, yaw, 0);
       }
       const float beside = wall.from + o.to + 0.45f;
       if (beside + 0.3f > wall.to || (wall.low < 0 ? false : wall.kind == WallKind::kGlassPartition)) continue;
-      const bool clear = std::none_of(wall.openings.begin(), wall.openings.end(), [&](const PlanOpening& w) { return &w != &o && beside > wall.from + w.from - 0.2f && beside < wall.from + w.to + 0.2f; });
+      const bool clear = std::none_of(wall.openings.begin(), wall.openings.end(), [&](const PlanOpening& w) {
+        return &w != &o && beside > wall.from + w.from - 0.2f && beside < wall.from + w.to + 0.2f;
+      });
       const Vec2f p = at(beside, kHalfWall + furnisher.BoxOf("fire_extinguisher", 0).size().y / 2 + 0.01f);
       if (clear) furnisher.Put("fire_extinguisher", {p.x, p.y, z + 0.9f}, yaw, 0);
     }

@@ -52,7 +52,8 @@ void BuildSkylight(const PlanRect& hole, float ceiling_z, float roof_z, Interior
     const int bars = std::max(1, static_cast<int>((to - from) / pitch));
     for (int i = 0; i <= bars; ++i) {
       const float at = from + (to - from) * static_cast<float>(i) / static_cast<float>(bars);
-      pen.WallBox(along_x, along_x ? hole.x0 : hole.y0, along_x ? hole.x1 : hole.y1, at - 0.03f, at + 0.03f, z - (along_x ? 0.1f : 0.09f), z);
+      pen.WallBox(along_x, along_x ? hole.x0 : hole.y0, along_x ? hole.x1 : hole.y1, at - 0.03f, at + 0.03f, z - (along_x ? 0.1f : 0.09f),
+                  z);
     }
   }
   pen.Use(Finish::kGlass);

@@ -38,7 +38,8 @@ void BuildStair(const BuildingPlan& plan, const PlanStair& stair, InteriorPen& p
   const PlanRoom& room = plan.rooms[static_cast<size_t>(stair.room)];
   const PlanRect r = room.clear;
   const int risers = 2 * static_cast<int>(std::ceil(stair.rise / 0.175f / 2)), half = risers / 2;
-  const float rise = stair.rise / static_cast<float>(risers), tread = std::min(0.30f, (r.depth() - kLanding - 1.0f) / static_cast<float>(half - 1));
+  const float rise = stair.rise / static_cast<float>(risers),
+              tread = std::min(0.30f, (r.depth() - kLanding - 1.0f) / static_cast<float>(half - 1));
   const float z0 = room.floor_z, y_start = r.y0 + kLanding, y_turn = y_start + tread * static_cast<float>(half - 1), gap = 0.1f;
   const float xm = r.center().x, z_turn = z0 + rise * static_cast<float>(half), z1 = z0 + stair.rise;
   pen.Start("stairs " + room.name, "construction/stairs");
@@ -58,13 +59,15 @@ void BuildRamp(const PlanSlope& ramp, InteriorPen& pen) {
   const PlanRect r = ramp.rect.Inset(kHalfWall);
   pen.Start("ramp", "ground/parking");
   pen.Use(Finish::kDeck);
-  const Vec3f a{r.x0, ramp.rect.y0, ramp.z0 + 0.005f}, b{r.x1, ramp.rect.y0, ramp.z0 + 0.005f}, c{r.x1, ramp.rect.y1, ramp.z1}, d{r.x0, ramp.rect.y1, ramp.z1};
+  const Vec3f a{r.x0, ramp.rect.y0, ramp.z0 + 0.005f}, b{r.x1, ramp.rect.y0, ramp.z0 + 0.005f}, c{r.x1, ramp.rect.y1, ramp.z1},
+      d{r.x0, ramp.rect.y1, ramp.z1};
   pen.mesh().Quad(a, b, c, d);
   const Vec3f down{0, 0, -kSlab};
   pen.Use(Finish::kConcreteWall);
   pen.mesh().Quad(d + down, c + down, b + down, a + down);
   // Kerbs along both sides, and a line in the middle.
-  for (const auto& [x0, x1, z, finish] : {std::tuple{r.x0, r.x0 + 0.25f, 0.15f, Finish::kConcreteWall}, {r.x1 - 0.25f, r.x1, 0.15f, Finish::kConcreteWall}}) {
+  for (const auto& [x0, x1, z, finish] :
+       {std::tuple{r.x0, r.x0 + 0.25f, 0.15f, Finish::kConcreteWall}, {r.x1 - 0.25f, r.x1, 0.15f, Finish::kConcreteWall}}) {
     pen.Use(finish);
     const Vec3f up{0, 0, z};
     const Vec3f p{x0, a.y, a.z}, q{x1, a.y, a.z}, s{x1, c.y, c.z}, t{x0, c.y, c.z};
@@ -84,7 +87,8 @@ void BuildEscalator(const PlanSlope& e, InteriorPen& pen) {
   pen.Use(Finish::kFrameSteel);
   const int steps = static_cast<int>((x1 - x0) / 0.4f);
   for (int i = 0; i < steps; ++i) {
-    const float a = x0 + (x1 - x0) * static_cast<float>(i) / static_cast<float>(steps), b = x0 + (x1 - x0) * static_cast<float>(i + 1) / static_cast<float>(steps);
+    const float a = x0 + (x1 - x0) * static_cast<float>(i) / static_cast<float>(steps),
+                b = x0 + (x1 - x0) * static_cast<float>(i + 1) / static_cast<float>(steps);
     pen.Box({a, y0, z_at(a) - 0.1f}, {b, y1, z_at(b)});
   }
   pen.Box({r.x0, y0, e.z0 - 0.02f}, {x0, y1, e.z0 + 0.02f});
@@ -104,7 +108,8 @@ void BuildEscalator(const PlanSlope& e, InteriorPen& pen) {
       pen.Use(Finish::kFrameSteel);
       sheet(near, -0.55f, 0.22f);
       back(far, -0.55f, 0.22f);
-      pen.mesh().Quad(Vec3f{a.x, near, a.z + 0.22f}, Vec3f{b.x, near, b.z + 0.22f}, Vec3f{b.x, far, b.z + 0.22f}, Vec3f{a.x, far, a.z + 0.22f});
+      pen.mesh().Quad(Vec3f{a.x, near, a.z + 0.22f}, Vec3f{b.x, near, b.z + 0.22f}, Vec3f{b.x, far, b.z + 0.22f},
+                      Vec3f{a.x, far, a.z + 0.22f});
       pen.Use(Finish::kGlassTinted);
       sheet(y, 0.22f, 0.92f);
       pen.Use(Finish::kRubber);

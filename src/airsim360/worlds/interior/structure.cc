@@ -56,7 +56,8 @@ void BuildBeams(const BuildingPlan& plan, InteriorPen& pen) {
     if (!steel) continue;
     // Purlins across.
     pen.Start("purlins", "construction/ceiling");
-    for (float y = plan.outline.y0 + 2; y < plan.outline.y1; y += 2.5f) pen.Box({plan.outline.x0 + kHalfWall, y - 0.05f, z1 - 0.2f}, {plan.outline.x1 - kHalfWall, y + 0.05f, z1 - 0.02f});
+    for (float y = plan.outline.y0 + 2; y < plan.outline.y1; y += 2.5f)
+      pen.Box({plan.outline.x0 + kHalfWall, y - 0.05f, z1 - 0.2f}, {plan.outline.x1 - kHalfWall, y + 0.05f, z1 - 0.02f});
   }
 }
 
@@ -81,8 +82,10 @@ void MarkDecks(const BuildingPlan& plan, InteriorPen& pen) {
       for (float x = aisle.x0 + 5; x < aisle.x1 - 4; x += 12) {
         Stripe(pen, {x - 1, y - 0.08f, x + 1, y + 0.08f}, z);
         const Vec3f tip{x + dir * 1.9f, y, z + 0.004f}, a{x + dir * 1.0f, y - 0.4f, z + 0.004f}, b{x + dir * 1.0f, y + 0.4f, z + 0.004f};
-        if (dir > 0) pen.mesh().Triangle(a, tip, b);
-        else pen.mesh().Triangle(b, tip, a);
+        if (dir > 0)
+          pen.mesh().Triangle(a, tip, b);
+        else
+          pen.mesh().Triangle(b, tip, a);
       }
     }
   }
@@ -101,7 +104,8 @@ void MarkHall(const BuildingPlan& plan, InteriorPen& pen) {
         if (o.kind != OpeningKind::kDockDoor) continue;
         const float a = wall.from + o.from, b = wall.from + o.to;
         for (const float x : {a - 0.3f, b + 0.2f}) Stripe(pen, {x, r.y0 + 0.5f, x + 0.1f, r.y0 + 6.4f}, 0);
-        for (int i = 0; i < 6; ++i) Stripe(pen, {a, r.y0 + 0.6f + 0.3f * static_cast<float>(i), b, r.y0 + 0.7f + 0.3f * static_cast<float>(i)}, 0);
+        for (int i = 0; i < 6; ++i)
+          Stripe(pen, {a, r.y0 + 0.6f + 0.3f * static_cast<float>(i), b, r.y0 + 0.7f + 0.3f * static_cast<float>(i)}, 0);
       }
     }
   }

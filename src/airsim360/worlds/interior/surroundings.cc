@@ -13,7 +13,12 @@ constexpr float kPi = std::numbers::pi_v<float>, kApron = 3.0f, kVerge = 9.0f, k
 class Outside {
  public:
   Outside(const BuildingPlan& plan, InteriorPen& pen, Furnisher& furnisher)
-      : plan_(plan), pen_(pen), furnisher_(furnisher), surfaces_(AddSurfaces(pen.builder())), rng_(plan.seed, "surroundings"), house_(plan.outline.Inset(-kOuterWall)) {}
+      : plan_(plan),
+        pen_(pen),
+        furnisher_(furnisher),
+        surfaces_(AddSurfaces(pen.builder())),
+        rng_(plan.seed, "surroundings"),
+        house_(plan.outline.Inset(-kOuterWall)) {}
 
   void Build() {
     LayGround();
@@ -84,7 +89,8 @@ class Outside {
   }
 
   void House(const PlanRect& r, float height) {
-    constexpr Surface kWalls[] = {Surface::kFarWalls0, Surface::kFarWalls1, Surface::kFarWalls2, Surface::kFarWalls3, Surface::kFarPiers0, Surface::kFarRibbons0};
+    constexpr Surface kWalls[] = {Surface::kFarWalls0, Surface::kFarWalls1, Surface::kFarWalls2,
+                                  Surface::kFarWalls3, Surface::kFarPiers0, Surface::kFarRibbons0};
     pen_.Start("house", "construction/building");
     pen_.Use(surfaces_[kWalls[rng_.Index(6)]]);
     const Vec2f outline[] = {{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}};
@@ -105,7 +111,8 @@ class Outside {
     }
     for (const float side : {-1.0f, 1.0f}) {
       for (float y = front; y < house_.y1 + 90; y += 30) {
-        const float near = (side < 0 ? house_.x0 : house_.x1) + side * static_cast<float>(rng_.Uniform(30, 40)), w = static_cast<float>(rng_.Uniform(12, 20));
+        const float near = (side < 0 ? house_.x0 : house_.x1) + side * static_cast<float>(rng_.Uniform(30, 40)),
+                    w = static_cast<float>(rng_.Uniform(12, 20));
         House({side < 0 ? near - w : near, y, side < 0 ? near : near + w, y + 18}, kOutsideZ + 3 * static_cast<float>(2 + rng_.Index(4)));
       }
     }
@@ -116,7 +123,8 @@ class Outside {
       const float w = static_cast<float>(rng_.Uniform(14, 34)) / 2, d = static_cast<float>(rng_.Uniform(12, 24)) / 2;
       House({p.x - w, p.y - d, p.x + w, p.y + d}, kOutsideZ + 3 * static_cast<float>(3 + rng_.Index(9)));
     }
-    for (float hx = cx - 145; hx < cx + 150; hx += 28) House({hx, house_.y1 + 60, hx + 24, house_.y1 + 74}, kOutsideZ + 3 * static_cast<float>(2 + rng_.Index(4)));
+    for (float hx = cx - 145; hx < cx + 150; hx += 28)
+      House({hx, house_.y1 + 60, hx + 24, house_.y1 + 74}, kOutsideZ + 3 * static_cast<float>(2 + rng_.Index(4)));
   }
 
   void Plant() {
@@ -126,18 +134,22 @@ class Outside {
       furnisher_.Put(kind, {p.x, p.y, kOutsideZ - 0.02f}, static_cast<float>(rng_.Uniform(0, 6)), rng_.Index(furnisher_.Variants(kind)));
     };
     const bool yard = plan_.spec.use == BuildingUse::kWarehouse;
-    for (float x = house_.x0 - 40; x < house_.x1 + 40; x += 11) tree({x + static_cast<float>(rng_.Uniform(-1, 1)), StreetY() - kRoad - 1.2f});
+    for (float x = house_.x0 - 40; x < house_.x1 + 40; x += 11)
+      tree({x + static_cast<float>(rng_.Uniform(-1, 1)), StreetY() - kRoad - 1.2f});
     for (float x = house_.x0 - 20; x < house_.x1 + 20; x += 9) {
       if (!yard && rng_.Chance(0.6)) tree({x, house_.y0 - kApron - kVerge * 0.6f});
       if (rng_.Chance(0.7)) tree({x, house_.y1 + static_cast<float>(rng_.Uniform(10, 22))});
     }
     if (yard) return;
     for (const float side : {-1.0f, 1.0f})
-      for (float y = house_.y0 - 6; y < house_.y1 + 12; y += 8) tree({(side < 0 ? house_.x0 : house_.x1) + side * static_cast<float>(rng_.Uniform(9, 18)), y});
-    for (float x = house_.x0 - 15; x < house_.x1 + 15; x += 2.1f) furnisher_.Put("hedge", {x, StreetY() + kWalk + 0.5f, kOutsideZ - 0.02f}, 0, rng_.Index(furnisher_.Variants("hedge")));
+      for (float y = house_.y0 - 6; y < house_.y1 + 12; y += 8)
+        tree({(side < 0 ? house_.x0 : house_.x1) + side * static_cast<float>(rng_.Uniform(9, 18)), y});
+    for (float x = house_.x0 - 15; x < house_.x1 + 15; x += 2.1f)
+      furnisher_.Put("hedge", {x, StreetY() + kWalk + 0.5f, kOutsideZ - 0.02f}, 0, rng_.Index(furnisher_.Variants("hedge")));
     for (int i = 0; i < 40; ++i) {
       const bool north = rng_.Chance(0.6);
-      const Vec2f p{static_cast<float>(rng_.Uniform(static_cast<double>(house_.x0 - 12), static_cast<double>(house_.x1 + 12))), north ? house_.y1 + static_cast<float>(rng_.Uniform(4, 9)) : house_.y0 - static_cast<float>(rng_.Uniform(4, 6))};
+      const Vec2f p{static_cast<float>(rng_.Uniform(static_cast<double>(house_.x0 - 12), static_cast<double>(house_.x1 + 12))),
+                    north ? house_.y1 + static_cast<float>(rng_.Uniform(4, 9)) : house_.y0 - static_cast<float>(rng_.Uniform(4, 6))};
       furnisher_.Put(rng_.Chance(0.5) ? "shrub" : "flower_bed", {p.x, p.y, kOutsideZ - 0.01f}, 0, rng_.Index(3));
     }
   }

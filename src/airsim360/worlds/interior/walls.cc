@@ -33,12 +33,26 @@ class WallBuilder {
 
   void Build(const PlanWall& wall) {
     switch (wall.kind) {
-      case WallKind::kPartition: case WallKind::kExterior: Solid(wall); break;
-      case WallKind::kGlassPartition: Glass(wall); break;
-      case WallKind::kOpen: Bulkhead(wall); break;
-      case WallKind::kBalustrade: Bulkhead(wall); Balustrade(wall); break;
-      case WallKind::kUpstand: Upstand(wall); break;
-      case WallKind::kParapet: Parapet(wall); break;
+      case WallKind::kPartition:
+      case WallKind::kExterior:
+        Solid(wall);
+        break;
+      case WallKind::kGlassPartition:
+        Glass(wall);
+        break;
+      case WallKind::kOpen:
+        Bulkhead(wall);
+        break;
+      case WallKind::kBalustrade:
+        Bulkhead(wall);
+        Balustrade(wall);
+        break;
+      case WallKind::kUpstand:
+        Upstand(wall);
+        break;
+      case WallKind::kParapet:
+        Parapet(wall);
+        break;
     }
     if (wall.kind == WallKind::kBalustrade) return;
     for (const PlanOpening& opening : wall.openings) {
@@ -59,7 +73,9 @@ class WallBuilder {
     const float at = end ? wall.to : wall.from;
     for (const PlanWall& other : plan_.walls) {
       if (&other == &wall || other.storey != wall.storey || other.along_x != wall.along_x || std::abs(other.at - wall.at) > 1e-3f) continue;
-      if (std::abs((end ? other.from : other.to) - at) < 1e-3f && other.kind != WallKind::kOpen && other.kind != WallKind::kBalustrade && other.kind != WallKind::kUpstand) return 0;
+      if (std::abs((end ? other.from : other.to) - at) < 1e-3f && other.kind != WallKind::kOpen && other.kind != WallKind::kBalustrade &&
+          other.kind != WallKind::kUpstand)
+        return 0;
     }
     if (wall.low >= 0 && wall.high >= 0) return kHalfWall - 0.001f;
     return kOuterWall - kHalfWall - 0.001f;
@@ -67,17 +83,21 @@ class WallBuilder {
   Finish FaceOf(int room) const { return room < 0 ? FacadeOf(plan_) : FinishOf(plan_, room).wall; }
 
   void Solid(const PlanWall& wall) {
-    const float near = wall.at - (wall.low < 0 ? kOuterWall - kHalfWall : kHalfWall), far = wall.at + (wall.high < 0 ? kOuterWall - kHalfWall : kHalfWall);
+    const float near = wall.at - (wall.low < 0 ? kOuterWall - kHalfWall : kHalfWall),
+                far = wall.at + (wall.high < 0 ? kOuterWall - kHalfWall : kHalfWall);
     const float from = wall.from - Reach(wall, false), to = wall.to + Reach(wall, true);
     pen_.Start(Name(wall), "construction/wall");
     // Where an outer wall stands on the ground, its foot goes down to it.
     const bool foot = wall.storey == 0 && (wall.low < 0 || wall.high < 0);
-    const float high = High(wall) + (wall.storey + 1 == static_cast<int>(plan_.spec.storeys) && (wall.low < 0 || wall.high < 0) ? 0.4f : 0.0f);
+    const float high =
+        High(wall) + (wall.storey + 1 == static_cast<int>(plan_.spec.storeys) && (wall.low < 0 || wall.high < 0) ? 0.4f : 0.0f);
     const std::vector<Piece> pieces = PiecesOf(wall, from, to, Low(wall), high);
     for (const bool high_side : {false, true}) {
       const int room = high_side ? wall.high : wall.low;
       pen_.Use(FaceOf(room));
-      for (const Piece& p : pieces) pen_.Upright(wall.along_x, high_side ? far : near, p.from, p.to, foot && p.foot && room < 0 && p.z0 < 0.01f ? -0.2f : p.z0, p.z1, high_side);
+      for (const Piece& p : pieces)
+        pen_.Upright(wall.along_x, high_side ? far : near, p.from, p.to, foot && p.foot && room < 0 && p.z0 < 0.01f ? -0.2f : p.z0, p.z1,
+                     high_side);
     }
     // Reveals of openings, ends and tops.
     pen_.Use(Finish::kPlasterWhite);
@@ -101,7 +121,8 @@ class WallBuilder {
       if (room < 0 || !FinishOf(plan_, room).skirting || !plan_.rooms[static_cast<size_t>(room)].has_floor) continue;
       pen_.Use(Finish::kSkirting);
       const float face = high_side ? far : near, out = high_side ? 0.014f : -0.014f;
-      for (const Piece& p : PiecesOf(wall, std::max(from, wall.from + kHalfWall), std::min(to, wall.to - kHalfWall), Low(wall), Low(wall) + 1))
+      for (const Piece& p :
+           PiecesOf(wall, std::max(from, wall.from + kHalfWall), std::min(to, wall.to - kHalfWall), Low(wall), Low(wall) + 1))
         if (p.foot && p.to - p.from > 0.03f) pen_.WallBox(wall.along_x, p.from, p.to, face, face + out, p.z0, p.z0 + 0.08f);
     }
   }
@@ -116,7 +137,9 @@ class WallBuilder {
       pen_.Upright(wall.along_x, wall.at + (high_side ? kHalfWall : -kHalfWall), from, to, z0 + head, High(wall), high_side);
     }
     pen_.Use(Finish::kPlasterWhite);
-    pen_.Level(wall.along_x ? PlanRect{from, wall.at - kHalfWall, to, wall.at + kHalfWall} : PlanRect{wall.at - kHalfWall, from, wall.at + kHalfWall, to}, z0 + head, false);
+    pen_.Level(wall.along_x ? PlanRect{from, wall.at - kHalfWall, to, wall.at + kHalfWall}
+                            : PlanRect{wall.at - kHalfWall, from, wall.at + kHalfWall, to},
+               z0 + head, false);
     float at = from;
     const auto panes = [&](float a, float b) {
       if (b - a < 0.12f) return pen_.WallBox(wall.along_x, a, b, n, f, z0, z0 + head);
@@ -202,12 +225,14 @@ class WallBuilder {
       at = wall.from + o.to;
     }
     low(at, to);
-    pen_.WallBox(wall.along_x, from, to, near, far, High(wall) - kSlab - 0.35f, High(wall) + (wall.storey + 1 == static_cast<int>(plan_.spec.storeys) ? 0.4f : 0.0f));
+    pen_.WallBox(wall.along_x, from, to, near, far, High(wall) - kSlab - 0.35f,
+                 High(wall) + (wall.storey + 1 == static_cast<int>(plan_.spec.storeys) ? 0.4f : 0.0f));
     pen_.Use(Finish::kFrameSteel);
     for (const float rail : {1.25f, 1.4f}) {
       at = from;
       for (const PlanOpening& o : wall.openings) {
-        if (wall.from + o.from > at) pen_.WallBox(wall.along_x, at, wall.from + o.from, wall.at - 0.02f, wall.at + 0.02f, z + rail, z + rail + 0.04f);
+        if (wall.from + o.from > at)
+          pen_.WallBox(wall.along_x, at, wall.from + o.from, wall.at - 0.02f, wall.at + 0.02f, z + rail, z + rail + 0.04f);
         at = wall.from + o.to;
       }
       pen_.WallBox(wall.along_x, at, to, wall.at - 0.02f, wall.at + 0.02f, z + rail, z + rail + 0.04f);

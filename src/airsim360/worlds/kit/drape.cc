@@ -49,8 +49,10 @@ void Slice(const Piece& piece, const std::vector<float>& lines, int axis, const 
   for (size_t i = first; i < last && !rest.empty(); ++i) {
     const float line = lines[i + 1];
     const auto snap = [&](Corner& c) { c.p[axis] = line; };
-    const Piece slice = Clip(rest, [&](const Corner& c) { return line - at(c); }, snap);
-    rest = Clip(rest, [&](const Corner& c) { return at(c) - line; }, snap);
+    const Piece slice = Clip(
+        rest, [&](const Corner& c) { return line - at(c); }, snap);
+    rest = Clip(
+        rest, [&](const Corner& c) { return at(c) - line; }, snap);
     if (!slice.empty()) visit(i, slice);
   }
   if (!rest.empty()) visit(last, rest);
@@ -142,7 +144,8 @@ Mesh Drape::Lay(const Mesh& flat) const {
         const float x = xs_[i], y = ys_[j], kx = 1 / (xs_[i + 1] - x), ky = 1 / (ys_[j + 1] - y);
         const auto above = [&](const Corner& c) { return (c.p.y - y) * ky - (c.p.x - x) * kx; };
         const auto keep = [](Corner&) {};
-        const Piece upper = Clip(cell, above, keep), lower = Clip(cell, [&](const Corner& c) { return -above(c); }, keep);
+        const Piece upper = Clip(cell, above, keep), lower = Clip(
+                                                         cell, [&](const Corner&c) { return -above(c); }, keep);
         if (!upper.empty()) emit(upper, i, j, true);
         // What stands on the diagonal itself (a wall) is in both.
         const bool on_line = std::all_of(cell.begin(), cell.end(), [&](const Corner& c) { return above(c) == 0; });

@@ -17,7 +17,9 @@ std::vector<float> Lines(float from, float to, float step) {
   return lines;
 }
 
-Vec3f Hill(Vec2f p) { return {p.x + 2 * std::sin(0.11f * p.y), p.y + 1.5f * std::cos(0.09f * p.x), 5 * std::sin(0.07f * p.x) * std::cos(0.06f * p.y)}; }
+Vec3f Hill(Vec2f p) {
+  return {p.x + 2 * std::sin(0.11f * p.y), p.y + 1.5f * std::cos(0.09f * p.x), 5 * std::sin(0.07f * p.x) * std::cos(0.06f * p.y)};
+}
 Drape HillDrape() { return Drape(Lines(-40, 40, 4), Lines(-40, 40, 5), Hill); }
 
 // A floor of one big quad, with a lifted stripe that crosses the lattice aslant, and a wall.
@@ -78,7 +80,8 @@ TEST(Drape, CoversTheSameGround) {
   const Drape drape(Lines(-40, 40, 4), Lines(-40, 40, 5), [](Vec2f p) { return Vec3f{p.x, p.y, Hill(p).z}; });
   const Mesh laid = drape.Lay(Flat());
   std::map<EntityId, double> area;
-  internal::ForTriangles(laid, [&](const MeshPart& part, Vec3f a, Vec3f b, Vec3f c) { area[part.entity] += static_cast<double>(Cross(b - a, c - a).z) / 2; });
+  internal::ForTriangles(
+      laid, [&](const MeshPart& part, Vec3f a, Vec3f b, Vec3f c) { area[part.entity] += static_cast<double>(Cross(b - a, c - a).z) / 2; });
   EXPECT_NEAR(area[1], 64.0 * 59, 0.02);
   EXPECT_NEAR(area[3], 0, 0.02);
   // The wall keeps its area over the plan: 4 m times its length.

@@ -12,9 +12,7 @@ namespace {
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 // Any unit vector across `axis`.
-Vec3f Across(Vec3f axis) {
-  return Normalized(Cross(axis, std::abs(axis.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0}));
-}
+Vec3f Across(Vec3f axis) { return Normalized(Cross(axis, std::abs(axis.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0})); }
 
 float SignedArea(Vec2f a, Vec2f b, Vec2f c) { return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y); }
 
@@ -116,18 +114,16 @@ void MeshBuilder::Sphere(Vec3f center, Vec3f radii, int rings, int sides) {
   for (int i = 0; i < rings; ++i) {
     for (int j = 0; j < sides; ++j) {
       const Vec3f d[4] = {direction(i + 1, j), direction(i + 1, j + 1), direction(i, j + 1), direction(i, j)};
-      const float u0 = kTau * r * static_cast<float>(j) / static_cast<float>(sides),
-                  u1 = u0 + kTau * r / static_cast<float>(sides);
-      const float v0 = kTau / 2 * r * static_cast<float>(i) / static_cast<float>(rings),
-                  v1 = v0 + kTau / 2 * r / static_cast<float>(rings);
+      const float u0 = kTau * r * static_cast<float>(j) / static_cast<float>(sides), u1 = u0 + kTau * r / static_cast<float>(sides);
+      const float v0 = kTau / 2 * r * static_cast<float>(i) / static_cast<float>(rings), v1 = v0 + kTau / 2 * r / static_cast<float>(rings);
       const Vec2f uv[4] = {{u0, v1}, {u1, v1}, {u1, v0}, {u0, v0}};
       if (i + 1 < rings) {
-        SmoothTriangle({center + d[0] * radii, center + d[1] * radii, center + d[2] * radii},
-                       {normal(d[0]), normal(d[1]), normal(d[2])}, {uv[0], uv[1], uv[2]});
+        SmoothTriangle({center + d[0] * radii, center + d[1] * radii, center + d[2] * radii}, {normal(d[0]), normal(d[1]), normal(d[2])},
+                       {uv[0], uv[1], uv[2]});
       }
       if (i > 0) {
-        SmoothTriangle({center + d[0] * radii, center + d[2] * radii, center + d[3] * radii},
-                       {normal(d[0]), normal(d[2]), normal(d[3])}, {uv[0], uv[2], uv[3]});
+        SmoothTriangle({center + d[0] * radii, center + d[2] * radii, center + d[3] * radii}, {normal(d[0]), normal(d[2]), normal(d[3])},
+                       {uv[0], uv[2], uv[3]});
       }
     }
   }
@@ -147,8 +143,7 @@ void MeshBuilder::Walls(std::span<const Vec2f> outline, float z0, float z1) {
   for (size_t i = 0; i < outline.size(); ++i) {
     const Vec2f a = outline[i], b = outline[(i + 1) % outline.size()];
     const float next = u + std::hypot(b.x - a.x, b.y - a.y);
-    QuadUv({a.x, a.y, z0}, {b.x, b.y, z0}, {b.x, b.y, z1}, {a.x, a.y, z1}, {u, z1 - z0}, {next, z1 - z0},
-           {next, 0}, {u, 0});
+    QuadUv({a.x, a.y, z0}, {b.x, b.y, z0}, {b.x, b.y, z1}, {a.x, a.y, z1}, {u, z1 - z0}, {next, z1 - z0}, {next, 0}, {u, 0});
     u = next;
   }
 }
@@ -176,8 +171,7 @@ Mesh MeshBuilder::Finish(std::string name) {
       const uint32_t a = index(i), b = index(i + 1), c = index(i + 2);
       mesh.triangles.push_back({a, b, c});
     }
-    mesh.parts.push_back(
-        {first, static_cast<uint32_t>(mesh.triangles.size()) - first, key.first, key.second});
+    mesh.parts.push_back({first, static_cast<uint32_t>(mesh.triangles.size()) - first, key.first, key.second});
   }
   groups_.clear();
   return mesh;

@@ -30,15 +30,7 @@ class MeshBuilder {
   /// Triangle with shading normals (builder frame).
   void SmoothTriangle(const Vec3f (&p)[3], const Vec3f (&n)[3], const Vec2f (&uv)[3]);
   /// Axis-aligned box; `sides` chooses faces.
-  enum Side : unsigned {
-    kLeft = 1,
-    kRight = 2,
-    kFront = 4,
-    kBack = 8,
-    kBottom = 16,
-    kTop = 32,
-    kAllSides = 63
-  };
+  enum Side : unsigned { kLeft = 1, kRight = 2, kFront = 4, kBack = 8, kBottom = 16, kTop = 32, kAllSides = 63 };
   void Box(Vec3f min, Vec3f max, unsigned sides = kAllSides);
   /// Square bar of the given thickness from a to b.
   void Beam(Vec3f a, Vec3f b, float thickness);

@@ -27,57 +27,56 @@ void PrintTo(const Solid& solid, std::ostream* out) { *out << solid.name; }
 
 class EverySolid : public testing::TestWithParam<Solid> {};
 
-INSTANTIATE_TEST_SUITE_P(
-    MeshBuilder, EverySolid,
-    testing::Values(Solid{"Box",
-                          [](MeshBuilder& m) {
-                            m.Box({1, 2, 3}, {3, 5, 7});
-                          },
-                          24},
-                    Solid{"Beam",
-                          [](MeshBuilder& m) {
-                            m.Beam({0, 0, 1}, {2, 2, 2}, 0.5f);
-                          },
-                          3 * 0.25},
-                    Solid{"UprightBeam",
-                          [](MeshBuilder& m) {
-                            m.Beam({1, 1, 0}, {1, 1, 4}, 0.1f);
-                          },
-                          0.04},
-                    Solid{"Tube",
-                          [](MeshBuilder& m) {
-                            m.Tube({1, 0, 0}, {1, 0, 2}, 0.5f, 0.5f, 12);
-                          },
-                          0.5 * Corners(12)},
-                    Solid{"Frustum",
-                          [](MeshBuilder& m) {
-                            m.Tube({0, 0, 0}, {3, 0, 0}, 1, 0.5f, 9);
-                          },
-                          Corners(9) * (1 + 0.5 + 0.25)},
-                    Solid{"Cone",
-                          [](MeshBuilder& m) {
-                            m.Tube({0, 0, 1}, {0, 0, 4}, 2, 0, 8);
-                          },
-                          Corners(8) * 4},
-                    Solid{"ConeDownwards",
-                          [](MeshBuilder& m) {
-                            m.Tube({0, 0, 4}, {0, 0, 1}, 0, 2, 8);
-                          },
-                          Corners(8) * 4},
-                    Solid{"Sphere",
-                          [](MeshBuilder& m) {
-                            m.Sphere({1, 2, 3}, {1, 2, 3}, 40, 80);
-                          },
-                          8 * kPi * 0.9985},
-                    Solid{"Prism",
-                          [](MeshBuilder& m) {
-                            const std::vector<Vec2f> l{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
-                            m.Polygon(l, 2);
-                            m.Polygon(l, 0.5f, false);
-                            m.Walls(l, 0.5f, 2);
-                          },
-                          6 * 1.5}),
-    [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(MeshBuilder, EverySolid,
+                         testing::Values(Solid{"Box",
+                                               [](MeshBuilder& m) {
+                                                 m.Box({1, 2, 3}, {3, 5, 7});
+                                               },
+                                               24},
+                                         Solid{"Beam",
+                                               [](MeshBuilder& m) {
+                                                 m.Beam({0, 0, 1}, {2, 2, 2}, 0.5f);
+                                               },
+                                               3 * 0.25},
+                                         Solid{"UprightBeam",
+                                               [](MeshBuilder& m) {
+                                                 m.Beam({1, 1, 0}, {1, 1, 4}, 0.1f);
+                                               },
+                                               0.04},
+                                         Solid{"Tube",
+                                               [](MeshBuilder& m) {
+                                                 m.Tube({1, 0, 0}, {1, 0, 2}, 0.5f, 0.5f, 12);
+                                               },
+                                               0.5 * Corners(12)},
+                                         Solid{"Frustum",
+                                               [](MeshBuilder& m) {
+                                                 m.Tube({0, 0, 0}, {3, 0, 0}, 1, 0.5f, 9);
+                                               },
+                                               Corners(9) * (1 + 0.5 + 0.25)},
+                                         Solid{"Cone",
+                                               [](MeshBuilder& m) {
+                                                 m.Tube({0, 0, 1}, {0, 0, 4}, 2, 0, 8);
+                                               },
+                                               Corners(8) * 4},
+                                         Solid{"ConeDownwards",
+                                               [](MeshBuilder& m) {
+                                                 m.Tube({0, 0, 4}, {0, 0, 1}, 0, 2, 8);
+                                               },
+                                               Corners(8) * 4},
+                                         Solid{"Sphere",
+                                               [](MeshBuilder& m) {
+                                                 m.Sphere({1, 2, 3}, {1, 2, 3}, 40, 80);
+                                               },
+                                               8 * kPi * 0.9985},
+                                         Solid{"Prism",
+                                               [](MeshBuilder& m) {
+                                                 const std::vector<Vec2f> l{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
+                                                 m.Polygon(l, 2);
+                                                 m.Polygon(l, 0.5f, false);
+                                                 m.Walls(l, 0.5f, 2);
+                                               },
+                                               6 * 1.5}),
+                         [](const auto& info) { return info.param.name; });
 
 TEST_P(EverySolid, LooksOutwardsAndHasItsVolume) {
   MeshBuilder builder;
@@ -92,11 +91,10 @@ TEST_P(EverySolid, LooksOutwardsAndHasItsVolume) {
 // obey.
 TEST_P(EverySolid, StaysClosedAndOutwardsUnderAnyTransform) {
   const Mat3f turned = Mat3f::FromColumns({0.36f, 0.48f, -0.8f}, {-0.8f, 0.6f, 0}, {0.48f, 0.64f, 0.6f});
-  for (const auto& [A, factor] :
-       std::vector<std::pair<Mat3f, double>>{{turned, 1},
-                                             {Mat3f::FromColumns({-1, 0, 0}, {0, 1, 0}, {0, 0, 1}), 1},
-                                             {Mat3f::FromColumns({2, 0, 0}, {0, 1, 0}, {0, 0, 3}), 6},
-                                             {Mat3f::FromColumns({0, 1, 0}, {1, 0, 0}, {0, 0, 0.5f}), 0.5}}) {
+  for (const auto& [A, factor] : std::vector<std::pair<Mat3f, double>>{{turned, 1},
+                                                                       {Mat3f::FromColumns({-1, 0, 0}, {0, 1, 0}, {0, 0, 1}), 1},
+                                                                       {Mat3f::FromColumns({2, 0, 0}, {0, 1, 0}, {0, 0, 3}), 6},
+                                                                       {Mat3f::FromColumns({0, 1, 0}, {1, 0, 0}, {0, 0, 0.5f}), 0.5}}) {
     MeshBuilder builder;
     builder.SetTransform({A, {5, -7, 9}});
     GetParam().build(builder);
@@ -157,8 +155,7 @@ void PrintTo(const Outline& outline, std::ostream* out) { *out << outline.name; 
 std::vector<Vec2f> Star(int points, float inner) {
   std::vector<Vec2f> star;
   for (int i = 0; i < 2 * points; ++i) {
-    const float a = std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(points),
-                r = i % 2 ? inner : 5.0f;
+    const float a = std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(points), r = i % 2 ? inner : 5.0f;
     star.push_back({r * std::cos(a), r * std::sin(a)});
   }
   return star;
@@ -188,16 +185,14 @@ std::vector<Vec2f> Spiral() {
 
 class EveryOutline : public testing::TestWithParam<Outline> {};
 
-INSTANTIATE_TEST_SUITE_P(
-    Polygons, EveryOutline,
-    testing::Values(Outline{"Triangle", {{0, 0}, {3, 0}, {0, 4}}},
-                    Outline{"Square", {{0, 0}, {5, 0}, {5, 5}, {0, 5}}},
-                    Outline{"WithCornersInARow", {{0, 0}, {1, 0}, {2, 0}, {5, 0}, {5, 5}, {5, 6}, {0, 6}}},
-                    Outline{"L", {{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}}},
-                    Outline{"U", {{0, 0}, {5, 0}, {5, 4}, {4, 4}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}},
-                    Outline{"Arrow", {{0, 0}, {4, 0}, {2, 1}, {0, 4}}}, Outline{"Star5", Star(5, 2)},
-                    Outline{"Star17", Star(17, 0.7f)}, Outline{"Comb", Comb(9)}, Outline{"Spiral", Spiral()}),
-    [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Polygons, EveryOutline,
+                         testing::Values(Outline{"Triangle", {{0, 0}, {3, 0}, {0, 4}}}, Outline{"Square", {{0, 0}, {5, 0}, {5, 5}, {0, 5}}},
+                                         Outline{"WithCornersInARow", {{0, 0}, {1, 0}, {2, 0}, {5, 0}, {5, 5}, {5, 6}, {0, 6}}},
+                                         Outline{"L", {{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}}},
+                                         Outline{"U", {{0, 0}, {5, 0}, {5, 4}, {4, 4}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}},
+                                         Outline{"Arrow", {{0, 0}, {4, 0}, {2, 1}, {0, 4}}}, Outline{"Star5", Star(5, 2)},
+                                         Outline{"Star17", Star(17, 0.7f)}, Outline{"Comb", Comb(9)}, Outline{"Spiral", Spiral()}),
+                         [](const auto& info) { return info.param.name; });
 
 TEST_P(EveryOutline, IsCoveredOnceByTrianglesThatFaceUp) {
   const std::vector<Vec2f>& outline = GetParam().points;

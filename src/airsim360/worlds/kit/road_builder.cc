@@ -82,8 +82,12 @@ std::vector<LaneId> AddLanes(const RoadSpec& road, std::vector<Vec2f> axis, cons
   std::vector<LaneId> ids;
   for (const RoadLane& lane : lanes) {
     ids.push_back(static_cast<LaneId>(network.lanes.size()));
-    network.lanes.push_back({.points = OnGround(Beside(axis, lane.offset), height), .width = lane.width, .speed = road.speed,
-                             .next = {}, .priority = road.priority, .bus = lane.bus});
+    network.lanes.push_back({.points = OnGround(Beside(axis, lane.offset), height),
+                             .width = lane.width,
+                             .speed = road.speed,
+                             .next = {},
+                             .priority = road.priority,
+                             .bus = lane.bus});
   }
   for (size_t k = 0; k + 1 < ids.size(); ++k) {
     network.lanes[ids[k]].right = ids[k + 1];

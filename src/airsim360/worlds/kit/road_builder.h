@@ -23,10 +23,10 @@ struct RoadLane {
 
 /// A road between two junctions. Traffic keeps right.
 struct RoadSpec {
-  size_t from = 0, to = 0;    ///< junctions
-  std::vector<Vec2f> axis;    ///< from stop line to stop line, at least two points
+  size_t from = 0, to = 0;                  ///< junctions
+  std::vector<Vec2f> axis;                  ///< from stop line to stop line, at least two points
   std::vector<RoadLane> forward, backward;  ///< along the axis and against it, from the axis outwards
-  float speed = 13.9f;        ///< m/s
+  float speed = 13.9f;                      ///< m/s
   uint8_t priority = 0;
   int32_t signal_to = -1, signal_from = -1;  ///< heads that those who come along the axis, and against it, obey
 };

@@ -28,7 +28,8 @@ RoadNetwork Crossing(const std::vector<RoadLane>& lanes, const std::function<flo
 float Turn(const Lane& lane) {
   const auto heading = [](Vec3f d) { return std::atan2(d.y, d.x); };
   const size_t n = lane.points.size();
-  return std::remainder(heading(lane.points[n - 1] - lane.points[n - 2]) - heading(lane.points[1] - lane.points[0]), 2 * static_cast<float>(M_PI));
+  return std::remainder(heading(lane.points[n - 1] - lane.points[n - 2]) - heading(lane.points[1] - lane.points[0]),
+                        2 * static_cast<float>(M_PI));
 }
 
 TEST(RoadBuilder, EveryLaneOfACrossingLeadsLeftStraightAndRightAndBackAtDeadEnds) {
@@ -78,7 +79,8 @@ TEST(RoadBuilder, WaysThroughAJunctionTouchTheirLanesWithoutAKink) {
     for (const LaneId next : lane.next) {
       const Lane& after = roads.lanes[next];
       EXPECT_EQ(lane.points.back(), after.points.front());
-      const Vec3f a = Normalized(lane.points.back() - lane.points[lane.points.size() - 2]), b = Normalized(after.points[1] - after.points[0]);
+      const Vec3f a = Normalized(lane.points.back() - lane.points[lane.points.size() - 2]),
+                  b = Normalized(after.points[1] - after.points[0]);
       // The chord of the first step of a curve: half of its bend.
       EXPECT_GT(Dot(a, b), 0.9f);
     }
@@ -111,7 +113,9 @@ TEST(RoadBuilder, WhateverIsDrawnIsANetwork) {
     RoadBuilder builder(kFlat);
     std::vector<Vec2f> nodes;
     const double size = std::exp(random.Uniform(0.5, 5));
-    const auto place = [&] { return Vec2f{static_cast<float>(random.Uniform(-size, size)), static_cast<float>(random.Uniform(-size, size))}; };
+    const auto place = [&] {
+      return Vec2f{static_cast<float>(random.Uniform(-size, size)), static_cast<float>(random.Uniform(-size, size))};
+    };
     for (int i = 0; i < 6; ++i) {
       nodes.push_back(place());
       builder.AddJunction(nodes.back(), 8);
@@ -123,7 +127,8 @@ TEST(RoadBuilder, WhateverIsDrawnIsANetwork) {
       for (size_t k = random.Index(4); k-- > 0;) axis.push_back(place());
       axis.push_back(nodes[to] - stub);
       const std::vector<RoadLane>& some = random.Chance(0.5) ? kOneLane : kTwoLanes;
-      builder.AddRoad({.from = from, .to = to, .axis = axis, .forward = some, .backward = random.Chance(0.3) ? std::vector<RoadLane>{} : some});
+      builder.AddRoad(
+          {.from = from, .to = to, .axis = axis, .forward = some, .backward = random.Chance(0.3) ? std::vector<RoadLane>{} : some});
     }
     const RoadNetwork roads = builder.Build();
     EXPECT_NO_THROW(CheckRoads(roads)) << "town " << town << " of " << size << " m";

@@ -24,8 +24,8 @@ StreetPlan PlanDowntownWest() {
       Block block;
       block.column = column;
       block.row = row;
-      block.kerb = {west.center + west.half_width, south.center + south.half_width,
-                    east.center - east.half_width, north.center - north.half_width};
+      block.kerb = {west.center + west.half_width, south.center + south.half_width, east.center - east.half_width,
+                    north.center - north.half_width};
       const bool core = column >= 1 && column <= 3 && row >= 1 && row <= 3;
       if (!core) block.kind = BlockKind::kBackdrop;
       if (column == 2 && row == 2) block.kind = BlockKind::kPlaza;
@@ -49,8 +49,8 @@ StreetPlan PlanNewYorkCity() {
       Block block;
       block.column = column;
       block.row = row;
-      block.kerb = {plan.north_south[c].center + 13, plan.east_west[r].center + 6.5f,
-                    plan.north_south[c + 1].center - 13, plan.east_west[r + 1].center - 6.5f};
+      block.kerb = {plan.north_south[c].center + 13, plan.east_west[r].center + 6.5f, plan.north_south[c + 1].center - 13,
+                    plan.east_west[r + 1].center - 6.5f};
       const bool core = column >= 1 && column <= 3 && row >= 1 && row <= 3;
       if (!core) block.kind = BlockKind::kBackdrop;
       if (column == 3 && row == 2) block.kind = BlockKind::kPark;
@@ -60,8 +60,6 @@ StreetPlan PlanNewYorkCity() {
   return plan;
 }
 
-float CarriagewayHeight(const StreetLine& line, float d) {
-  return -0.13f + 0.018f * (line.half_width - std::abs(d));
-}
+float CarriagewayHeight(const StreetLine& line, float d) { return -0.13f + 0.018f * (line.half_width - std::abs(d)); }
 
 }  // namespace airsim360

@@ -52,17 +52,14 @@ class TestRays {
     std::optional<TestHit> best;
     for (size_t i = Slice(std::min(at, end), slices_.size() - 1); i <= last; ++i) {
       for (const Triangle& triangle : slices_[i]) {
-        const Vec3d e1 = VecCast<double>(triangle.b - triangle.a),
-                    e2 = VecCast<double>(triangle.c - triangle.a);
-        const Vec3d d = VecCast<double>(direction), p = Cross(d, e2),
-                    s = VecCast<double>(origin - triangle.a), q = Cross(s, e1);
+        const Vec3d e1 = VecCast<double>(triangle.b - triangle.a), e2 = VecCast<double>(triangle.c - triangle.a);
+        const Vec3d d = VecCast<double>(direction), p = Cross(d, e2), s = VecCast<double>(origin - triangle.a), q = Cross(s, e1);
         const double det = Dot(e1, p);
         if (std::abs(det) < 1e-9) continue;
         const double u = Dot(s, p) / det, v = Dot(d, q) / det, t = Dot(e2, q) / det;
         if (u < -1e-6 || v < -1e-6 || u + v > 1 + 1e-6 || t < 0 || t > static_cast<double>(length)) continue;
         if (best && static_cast<double>(best->t) <= t) continue;
-        best = {static_cast<float>(t), Normalized(VecCast<float>(Cross(e1, e2))), triangle.material,
-                triangle.entity};
+        best = {static_cast<float>(t), Normalized(VecCast<float>(Cross(e1, e2))), triangle.material, triangle.entity};
       }
     }
     return best;
@@ -74,22 +71,17 @@ class TestRays {
     MaterialId material;
     EntityId entity;
   };
-  size_t Slice(float x, size_t most) const {
-    return static_cast<size_t>(std::clamp((x - low_) / 0.3f, 0.0f, static_cast<float>(most)));
-  }
+  size_t Slice(float x, size_t most) const { return static_cast<size_t>(std::clamp((x - low_) / 0.3f, 0.0f, static_cast<float>(most))); }
   int axis_;
   float low_ = 0;
   std::vector<std::vector<Triangle>> slices_;
 };
 
 /// Square metres of the triangles of one material within a band of heights.
-inline double AreaOf(const Mesh& mesh, const std::set<MaterialId>& materials, float low = -1e9f,
-                     float high = 1e9f) {
+inline double AreaOf(const Mesh& mesh, const std::set<MaterialId>& materials, float low = -1e9f, float high = 1e9f) {
   double area = 0;
   ForTriangles(mesh, [&](const MeshPart& part, Vec3f a, Vec3f b, Vec3f c) {
-    if (!materials.contains(part.material) || std::min({a.z, b.z, c.z}) < low ||
-        std::max({a.z, b.z, c.z}) > high)
-      return;
+    if (!materials.contains(part.material) || std::min({a.z, b.z, c.z}) < low || std::max({a.z, b.z, c.z}) > high) return;
     area += static_cast<double>(Norm(Cross(b - a, c - a))) / 2;
   });
   return area;
@@ -133,11 +125,9 @@ inline std::string FaultOf(const Mesh& mesh, bool sides = true) {
 
 inline bool SameBytes(const Mesh& a, const Mesh& b) {
   const auto same_part = [](const MeshPart& x, const MeshPart& y) {
-    return x.first_triangle == y.first_triangle && x.triangle_count == y.triangle_count &&
-           x.material == y.material && x.entity == y.entity;
+    return x.first_triangle == y.first_triangle && x.triangle_count == y.triangle_count && x.material == y.material && x.entity == y.entity;
   };
-  return a.positions == b.positions && a.normals == b.normals && a.uvs == b.uvs &&
-         a.triangles == b.triangles &&
+  return a.positions == b.positions && a.normals == b.normals && a.uvs == b.uvs && a.triangles == b.triangles &&
          std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(), same_part);
 }
 
@@ -146,8 +136,7 @@ inline double Shoelace(const std::vector<Vec2f>& outline) {
   double twice = 0;
   for (size_t i = 0; i < outline.size(); ++i) {
     const Vec2f a = outline[i], b = outline[(i + 1) % outline.size()];
-    twice += static_cast<double>(a.x) * static_cast<double>(b.y) -
-             static_cast<double>(b.x) * static_cast<double>(a.y);
+    twice += static_cast<double>(a.x) * static_cast<double>(b.y) - static_cast<double>(b.x) * static_cast<double>(a.y);
   }
   return twice / 2;
 }

@@ -15,8 +15,13 @@ enum class YardKind { kLawn, kTerrace, kSoil };
 EntityId LayYardGround(District& d, const GroundRect& plot, YardKind kind, RngStream& rng) {
   const bool lawn = kind == YardKind::kLawn, terrace = kind == YardKind::kTerrace;
   const Surface surface = lawn ? Surface::kLawn : !terrace ? Surface::kDirt : rng.Chance(0.5) ? Surface::kSlabsWarm : Surface::kPlazaBrick;
-  const EntityId entity = d.ground.Begin(lawn ? "garden lawn" : terrace ? "terrace" : "yard soil",
-                                         lawn ? "ground/grass" : terrace ? "ground/sidewalk" : "ground/dirt", surface);
+  const EntityId entity = d.ground.Begin(lawn      ? "garden lawn"
+                                         : terrace ? "terrace"
+                                                   : "yard soil",
+                                         lawn      ? "ground/grass"
+                                         : terrace ? "ground/sidewalk"
+                                                   : "ground/dirt",
+                                         surface);
   d.ground.Rect(plot, kTop);
   d.ground.Use(Surface::kKerb);
   d.ground.mesh().Walls(plot.Outline(), 0, kTop);
@@ -64,8 +69,8 @@ void LayBackYards(District& d, const Manhattan& city) {
     for (float t = 2; t < plot.depth() - 1.5f; t += uniform(1.2f, 2.4f)) {
       static constexpr const char* kGreen[] = {"shrub", "plant", "green_pot", "shrub", "flower_bed"};
       const bool west = rng.Chance(0.5);
-      d.placer.Try(kGreen[rng.Index(5)], {west ? plot.x0 + 0.75f : plot.x1 - 0.65f, house + t * yard.out, kTop - 0.01f},
-                   uniform(0, kTau), uniform(0.5f, 0.8f));
+      d.placer.Try(kGreen[rng.Index(5)], {west ? plot.x0 + 0.75f : plot.x1 - 0.65f, house + t * yard.out, kTop - 0.01f}, uniform(0, kTau),
+                   uniform(0.5f, 0.8f));
     }
     if (kind == YardKind::kLawn) GrowGrass(d, ground, plot.Outline(), kTop, 1.2f);
   }

@@ -28,8 +28,7 @@ void PlaceLandmarks(District& district, const Manhattan& city);
 /// Lamps, trees, bins, newspaper boxes, carts, road works … along the pavements.
 void FurnishNewYorkPavements(District& district, const Manhattan& city, const Density& density);
 /// Cabs, cars, vans and buses in lanes and bays; covers.
-void FurnishNewYorkStreets(District& district, const std::vector<StreetStretch>& streets,
-                           const Density& density);
+void FurnishNewYorkStreets(District& district, const std::vector<StreetStretch>& streets, const Density& density);
 /// Far blocks and streets to 660 m, a skyline to the horizon, the rivers.
 void BuildFarManhattan(District& district, const Density& density);
 

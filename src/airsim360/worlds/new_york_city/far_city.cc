@@ -14,14 +14,12 @@ constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 Surface FarWall(RngStream& rng) {
   using S = Surface;
-  static constexpr S kWalls[] = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3,  S::kFarWalls2,   S::kFarPiers0,
+  static constexpr S kWalls[] = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3,   S::kFarWalls2,   S::kFarPiers0,
                                  S::kFarPiers0, S::kFarPiers1, S::kFarPiers1, S::kFarRibbons0, S::kFarRibbons1, S::kGlassBlue};
   return kWalls[rng.Index(12)];
 }
 
-float FarHeight(RngStream& rng) {
-  return std::clamp(static_cast<float>(34 * std::exp(0.55 * rng.Normal())), 12.0f, 190.0f);
-}
+float FarHeight(RngStream& rng) { return std::clamp(static_cast<float>(34 * std::exp(0.55 * rng.Normal())), 12.0f, 190.0f); }
 
 // A stepped box; each far building is an entity.
 void BuildFarTower(District& d, GroundRect r, float height, RngStream& rng) {
@@ -50,8 +48,7 @@ void BuildFarTower(District& d, GroundRect r, float height, RngStream& rng) {
   d.ground.Use(Surface::kFarRoof);
   d.ground.Rect(hut, height + 3.2f);
   if (height > 120)
-    d.ground.mesh().Tube({hut.center().x, hut.center().y, height + 3},
-                         {hut.center().x, hut.center().y, height + 25}, 0.6f, 0.2f, 6);
+    d.ground.mesh().Tube({hut.center().x, hut.center().y, height + 3}, {hut.center().x, hut.center().y, height + 25}, 0.6f, 0.2f, 6);
 }
 
 void BuildFarBlocks(District& d, const GroundRect& ring) {
@@ -59,8 +56,7 @@ void BuildFarBlocks(District& d, const GroundRect& ring) {
   for (int j = -ny; j <= ny; ++j) {
     for (int i = -nx; i <= nx; ++i) {
       const GroundRect block{kFarPitchX * static_cast<float>(i) + 13, kFarPitchY * static_cast<float>(j) + 6.5f,
-                             kFarPitchX * static_cast<float>(i + 1) - 13,
-                             kFarPitchY * static_cast<float>(j + 1) - 6.5f};
+                             kFarPitchX * static_cast<float>(i + 1) - 13, kFarPitchY * static_cast<float>(j + 1) - 6.5f};
       const Vec2f c = block.center();
       if (ring.Contains(c) || std::abs(c.x) > kFarCityEdge || std::abs(c.y) > kFarCityEdge) continue;
       RngStream rng(d.seed, "far manhattan", static_cast<uint64_t>((j + 64) * 256 + i + 64));
@@ -94,17 +90,13 @@ void BuildSkyline(District& d) {
         return std::exp(-((cx - bx) * (cx - bx) + (cy - by) * (cy - by)) / (2 * s * s));
       };
       const float tall = 1 + 2.0f * bump(-250, -2200, 420) + 1.6f * bump(300, 1500, 500);
-      const std::pair<int, int> key{static_cast<int>(std::floor(cx / 400)),
-                                    static_cast<int>(std::floor(cy / 400))};
+      const std::pair<int, int> key{static_cast<int>(std::floor(cx / 400)), static_cast<int>(std::floor(cy / 400))};
       auto it = squares.find(key);
       if (it == squares.end())
-        it =
-            squares.emplace(key, d.builder.AddEntity("skyline", d.builder.tree().At("construction/building")))
-                .first;
+        it = squares.emplace(key, d.builder.AddEntity("skyline", d.builder.tree().At("construction/building"))).first;
       d.ground.UseEntity(it->second);
       for (int k = 0; k < 4; ++k) {
-        const float w = static_cast<float>(rng.Uniform(18, 44)),
-                    depth = static_cast<float>(rng.Uniform(18, 30)),
+        const float w = static_cast<float>(rng.Uniform(18, 44)), depth = static_cast<float>(rng.Uniform(18, 30)),
                     h = std::clamp(FarHeight(rng) * tall * 0.8f, 10.0f, 330.0f);
         const float px = x0 + (k % 2 ? 56.0f : 0.0f), py = y0 + (k / 2 ? 36.0f : 0.0f);
         const GroundRect box{px, py, px + w, py + depth};
@@ -127,10 +119,8 @@ void BuildFarManhattan(District& d, const Density& density) {
   BuildSkyline(d);
   // Asphalt under the far blocks: four sheets around the ring, then the island's ground to both rivers.
   const float ex = 1560, ey = 3000;
-  const GroundRect sheets[] = {{-ex, -ey, ex, ring.y0},
-                               {-ex, ring.y1, ex, ey},
-                               {-ex, ring.y0, ring.x0, ring.y1},
-                               {ring.x1, ring.y0, ex, ring.y1}};
+  const GroundRect sheets[] = {
+      {-ex, -ey, ex, ring.y0}, {-ex, ring.y1, ex, ey}, {-ex, ring.y0, ring.x0, ring.y1}, {ring.x1, ring.y0, ex, ring.y1}};
   for (const GroundRect& sheet : sheets) {
     d.ground.Begin("outer streets", "ground/road", Surface::kAsphalt);
     d.ground.Rect(sheet, kFarGroundZ);

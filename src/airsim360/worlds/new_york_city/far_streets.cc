@@ -19,9 +19,7 @@ struct FarStretch {
   GroundRect Cut(float a, float b, float d0, float d1) const {
     return along_x ? GroundRect{a, center + d0, b, center + d1} : GroundRect{center - d1, a, center - d0, b};
   }
-  Vec3f At(float s, float d) const {
-    return along_x ? Vec3f{s, center + d, kFarGroundZ} : Vec3f{center - d, s, kFarGroundZ};
-  }
+  Vec3f At(float s, float d) const { return along_x ? Vec3f{s, center + d, kFarGroundZ} : Vec3f{center - d, s, kFarGroundZ}; }
 };
 
 void PaintStretch(District& d, const FarStretch& street, bool avenue) {
@@ -65,7 +63,8 @@ void PlantStretch(District& d, const FarStretch& street, double trees, RngStream
       if (!rng.Chance(0.6 * trees)) continue;
       Vec3f p = street.At(s + static_cast<float>(rng.Uniform(-1, 1)), side * (street.half_width + 1.3f));
       p.z = kFarPavementZ - 0.02f;
-      d.placer.Try("tree_narrowleaf", p, static_cast<float>(rng.Uniform(0, 6.28)), static_cast<float>(rng.Uniform(0.65, 0.9)), {1, 1, 1}, rng.Index(3));
+      d.placer.Try("tree_narrowleaf", p, static_cast<float>(rng.Uniform(0, 6.28)), static_cast<float>(rng.Uniform(0.65, 0.9)), {1, 1, 1},
+                   rng.Index(3));
     }
   }
 }
@@ -77,10 +76,12 @@ void LayFarLine(District& d, const StreetLine& line, bool along_x, const GroundR
   const bool avenue = !along_x;
   const int n = static_cast<int>(kFarCityEdge / pitch);
   for (int i = -n; i < n; ++i) {
-    const FarStretch street{line.center, line.half_width, pitch * static_cast<float>(i) + other, pitch * static_cast<float>(i + 1) - other, along_x};
+    const FarStretch street{line.center, line.half_width, pitch * static_cast<float>(i) + other, pitch * static_cast<float>(i + 1) - other,
+                            along_x};
     const float middle = (street.s0 + street.s1) / 2;
     if (middle > low && middle < high) continue;
-    RngStream rng(d.seed, along_x ? "far street" : "far avenue", static_cast<uint64_t>((i + 64) * 4096) + static_cast<uint64_t>(std::lround(line.center) + 2048));
+    RngStream rng(d.seed, along_x ? "far street" : "far avenue",
+                  static_cast<uint64_t>((i + 64) * 4096) + static_cast<uint64_t>(std::lround(line.center) + 2048));
     static constexpr std::array kTones{Surface::kAsphalt, Surface::kAsphaltOld, Surface::kAsphaltPatch};
     d.ground.Begin("far road", "ground/road", kTones[rng.Index(kTones.size())]);
     d.ground.Rect(street.Cut(street.s0, street.s1, -line.half_width, line.half_width), kFarGroundZ + 0.004f);

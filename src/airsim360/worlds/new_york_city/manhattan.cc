@@ -45,8 +45,7 @@ constexpr Role kRoles[] = {
 const Role* RoleOf(const Block& block, int row, int index, int count) {
   for (const Role& role : kRoles) {
     const int at = role.index < 0 ? count - 1 : role.index;
-    if (role.column == block.column && role.block_row == block.row && role.row == row && at == index)
-      return &role;
+    if (role.column == block.column && role.block_row == block.row && role.row == row && at == index) return &role;
   }
   return nullptr;
 }
@@ -71,9 +70,8 @@ Design DrawDesign(const Lot& lot, bool core, float scale, RngStream& rng) {
     d.tiers = 1;
     d.height = 16;
   } else if (corner) {
-    static constexpr F kStyles[] = {F::kDeco, F::kConcreteGrid, F::kCurtainWall,
-                                    F::kDeco, F::kRibbon,       F::kClassicStone,
-                                    F::kDeco, F::kBrickLoft,    F::kCurtainWall};
+    static constexpr F kStyles[] = {F::kDeco,         F::kConcreteGrid, F::kCurtainWall, F::kDeco,       F::kRibbon,
+                                    F::kClassicStone, F::kDeco,         F::kBrickLoft,   F::kCurtainWall};
     d.style = kStyles[rng.Index(9)];
     d.height = static_cast<float>(34 + 75 * rng.Uniform() * rng.Uniform() + 32 * rng.Uniform()) * scale;
     const double pick = rng.Uniform();
@@ -188,16 +186,13 @@ void ShowUncoveredWalls(std::vector<BuildingPlan>& plans, size_t first) {
 // The tiers of one building, lowest first.
 void AddTiers(const Lot& lot, const Design& design, uint64_t seed, std::vector<BuildingPlan>& out) {
   const StyleMetrics& metrics = MetricsOf(design.style);
-  const auto storeys = [&](float h) {
-    return std::max(1, static_cast<int>(std::lround(h / metrics.floor_height)));
-  };
+  const auto storeys = [&](float h) { return std::max(1, static_cast<int>(std::lround(h / metrics.floor_height))); };
   RngStream rng(seed, "tiers");
   // Shares of the height, and how far each tier stands back from the one below.
   std::vector<float> tops{design.height};
   const float base = std::min(design.height * 0.45f, static_cast<float>(rng.Uniform(17, 27)));
   if (design.tiers == 2) tops = {base, design.height};
-  if (design.tiers == 3)
-    tops = {base + 5, design.height * static_cast<float>(rng.Uniform(0.68, 0.8)), design.height};
+  if (design.tiers == 3) tops = {base + 5, design.height * static_cast<float>(rng.Uniform(0.68, 0.8)), design.height};
   GroundRect r = lot.rect;
   float foot = 0;
   for (size_t i = 0; i < tops.size(); ++i) {
@@ -218,14 +213,11 @@ void AddTiers(const Lot& lot, const Design& design, uint64_t seed, std::vector<B
     plan.name = lot.role;
     foot = plan.height();
     // The next tier: well back from neighbours, a little from the streets.
-    const float street = i == 0 && design.tiers == 2 ? static_cast<float>(rng.Uniform(0.6, 3.0))
-                                                     : static_cast<float>(rng.Uniform(2.2, 4.0));
-    const auto inset = [&](int facing) {
-      return KindOf(lot, facing) == EdgeKind::kStreet || i > 0 ? street : std::max(street, 3.2f);
-    };
+    const float street =
+        i == 0 && design.tiers == 2 ? static_cast<float>(rng.Uniform(0.6, 3.0)) : static_cast<float>(rng.Uniform(2.2, 4.0));
+    const auto inset = [&](int facing) { return KindOf(lot, facing) == EdgeKind::kStreet || i > 0 ? street : std::max(street, 3.2f); };
     GroundRect next{r.x0 + inset(3), r.y0 + inset(0), r.x1 - inset(1), r.y1 - inset(2)};
-    const bool last = i + 1 == tops.size() ||
-                      std::min(next.width(), next.depth()) < (lot.role == "deco corner" ? 19.0f : 9.0f);
+    const bool last = i + 1 == tops.size() || std::min(next.width(), next.depth()) < (lot.role == "deco corner" ? 19.0f : 9.0f);
     if (!last) plan.upper = LotOutline(lot, next);
     out.push_back(std::move(plan));
     if (last) break;
@@ -253,9 +245,7 @@ std::vector<Lot> CutRow(const Block& block, size_t index, int row, float first, 
     lot.row = row;
     lot.index = i;
     lot.count = count;
-    const float w = i == 0           ? first
-                    : i + 1 == count ? last
-                                     : widths[static_cast<size_t>(i)] / sum * (inner.width() - first - last);
+    const float w = i == 0 ? first : i + 1 == count ? last : widths[static_cast<size_t>(i)] / sum * (inner.width() - first - last);
     lot.rect = {x, row == 0 ? inner.y0 : middle, x + w, row == 0 ? middle : inner.y1};
     if (i + 1 == count) lot.rect.x1 = inner.x1;
     // Mid-block lots keep a yard behind them.
@@ -281,8 +271,8 @@ void AddHouses(const Lot& lot, const Design& design, uint64_t seed, Manhattan& c
     house.rect.x0 = lot.rect.x0 + w * static_cast<float>(i);
     house.rect.x1 = house.rect.x0 + w;
     const bool outer = lot.corner() && i == (lot.index == 0 ? 0 : count - 1);
-    float depth = row ? row_depth + static_cast<float>(rng.Chance(0.25) ? rng.Uniform(1.5, 4) : 0)
-                      : static_cast<float>(rng.Uniform(12.5, 21));
+    float depth =
+        row ? row_depth + static_cast<float>(rng.Chance(0.25) ? rng.Uniform(1.5, 4) : 0) : static_cast<float>(rng.Uniform(12.5, 21));
     if (outer) {
       depth = lot.rect.depth();
     } else {
@@ -292,13 +282,18 @@ void AddHouses(const Lot& lot, const Design& design, uint64_t seed, Manhattan& c
     const GroundRect whole = house.rect;
     (lot.row == 0 ? house.rect.y1 : house.rect.y0) = lot.row == 0 ? whole.y0 + depth : whole.y1 - depth;
     const double pick = rng.Uniform();
-    const int floors = outer ? 3 + (pick < 0.65) + (pick < 0.25)
-                       : row ? row_floors + (pick < 0.15) : pick < 0.16 ? 2 : pick < 0.50 ? 3 : pick < 0.84 ? 4 : 5;
+    const int floors = outer         ? 3 + (pick < 0.65) + (pick < 0.25)
+                       : row         ? row_floors + (pick < 0.15)
+                       : pick < 0.16 ? 2
+                       : pick < 0.50 ? 3
+                       : pick < 0.84 ? 4
+                                     : 5;
     const int palette = row ? (design.palette + i / 3) % 3 : static_cast<int>(rng.Index(4));
-    AddTiers(house, {design.style, palette, ground + floor * static_cast<float>(floors), 1}, seed + static_cast<uint64_t>(i), city.buildings);
+    AddTiers(house, {design.style, palette, ground + floor * static_cast<float>(floors), 1}, seed + static_cast<uint64_t>(i),
+             city.buildings);
     if (!outer && whole.depth() - depth > 4) {
-      const GroundRect yard = lot.row == 0 ? GroundRect{whole.x0, house.rect.y1, whole.x1, whole.y1}
-                                           : GroundRect{whole.x0, whole.y0, whole.x1, house.rect.y0};
+      const GroundRect yard =
+          lot.row == 0 ? GroundRect{whole.x0, house.rect.y1, whole.x1, whole.y1} : GroundRect{whole.x0, whole.y0, whole.x1, house.rect.y0};
       city.yards.push_back({lot.block, yard, lot.row == 0 ? 1.0f : -1.0f});
     }
   }
@@ -319,13 +314,10 @@ Manhattan PlanManhattan(const StreetPlan& plan, const ManhattanOptions& options)
       for (Lot& lot : CutRow(block, i, row, west, east, rng)) {
         Design design = DrawDesign(lot, core, options.height_scale, rng);
         const uint64_t seed = rng.Bits();
-        if (!options.styles.empty() &&
-            std::find(options.styles.begin(), options.styles.end(), design.style) == options.styles.end()) {
+        if (!options.styles.empty() && std::find(options.styles.begin(), options.styles.end(), design.style) == options.styles.end()) {
           design.style = options.styles[rng.Index(static_cast<uint32_t>(options.styles.size()))];
-          design.palette =
-              static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(design.style).palettes)));
-          if (design.style == FacadeStyle::kBrownstone && (lot.corner() || design.height > 20))
-            design.style = FacadeStyle::kBrickWalkUp;
+          design.palette = static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(design.style).palettes)));
+          if (design.style == FacadeStyle::kBrownstone && (lot.corner() || design.height > 20)) design.style = FacadeStyle::kBrickWalkUp;
           design.houses = design.houses && (design.style == FacadeStyle::kBrownstone || design.style == FacadeStyle::kBrickWalkUp);
         }
         if (const Role* role = RoleOf(block, row, lot.index, lot.count)) {
@@ -344,8 +336,7 @@ Manhattan PlanManhattan(const StreetPlan& plan, const ManhattanOptions& options)
           }
           lot.podium = city.buildings[from].height();
           lot.height = city.buildings.back().height();
-          if (!lot.corner() && lot.role.empty() && !lot.houses && rng.Chance(0.25))
-            city.buildings[from].awnings = false;
+          if (!lot.corner() && lot.role.empty() && !lot.houses && rng.Chance(0.25)) city.buildings[from].awnings = false;
           if (lot.role == "grid tower") city.buildings.back().curtain_floor = 3;
         }
         city.lots.push_back(lot);

@@ -22,12 +22,12 @@ struct Lot {
   int row = 0, index = 0, count = 0;
   GroundRect rect;
   LotUse use = LotUse::kBuilding;
-  std::string role;  ///< "" or the name of a hand-set lot: "deco corner", "grid tower", …
-  float height = 0;  ///< of the highest roof
-  float podium = 0;  ///< of the roof at the street
+  std::string role;     ///< "" or the name of a hand-set lot: "deco corner", "grid tower", …
+  float height = 0;     ///< of the highest roof
+  float podium = 0;     ///< of the roof at the street
   bool houses = false;  ///< cut into narrow houses, each with a back yard
   FacadeStyle style = FacadeStyle::kBrickWalkUp;
-  bool boards = true;   ///< signs may hang on its walls above the shops
+  bool boards = true;  ///< signs may hang on its walls above the shops
   bool corner() const { return index == 0 || index + 1 == count; }
 };
 

@@ -7,16 +7,12 @@
 
 namespace airsim360::internal {
 
-std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options) {
-  return BuildNewYorkCity(options, nullptr);
-}
+std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options) { return BuildNewYorkCity(options, nullptr); }
 
-std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options,
-                                              std::vector<Placement>* placements) {
+std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options, std::vector<Placement>* placements) {
   SceneBuilder builder("new_york_city");
   builder.AddSky();
-  builder.environment() = {
-      .sun_azimuth_deg = 256, .sun_elevation_deg = 66, .turbidity = 2.6, .cloud_cover = 0.3};
+  builder.environment() = {.sun_azimuth_deg = 256, .sun_elevation_deg = 66, .turbidity = 2.6, .cloud_cover = 0.3};
   const Surfaces surfaces = AddSurfaces(builder);
   const StreetPlan plan = PlanNewYorkCity();
   PropShelf shelf(builder, options.models, options.seed);
@@ -25,8 +21,7 @@ std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options,
   Ground ground(builder, surfaces);
   District district{builder, surfaces, plan, ground, placer, options.seed};
   const Density density{options.city.traffic, options.city.trees, options.city.furniture};
-  Manhattan city = PlanManhattan(
-      plan, {options.seed, static_cast<float>(options.city.height), StylesOf(options.city.styles)});
+  Manhattan city = PlanManhattan(plan, {options.seed, static_cast<float>(options.city.height), StylesOf(options.city.styles)});
 
   if (options.city.billboards) {
     MarkMurals(city, plan.reach(), options.seed);
@@ -60,19 +55,73 @@ std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options,
 
 // What is there, by semantic path.
 constexpr const char* kCategories[] = {
-    "barrier/fence/metal_fence", "barrier/fence/wood_fence", "construction/awning", "construction/bridge", "construction/building",
-    "construction/building/roof", "construction/fountain", "construction/phone_booth", "construction/pillar", "construction/rooftop/air_conditioner",
-    "construction/rooftop/antenna", "construction/rooftop/ventilation_tube", "construction/rooftop/water_tank", "construction/scaffolding",
-    "furniture/curtain", "furniture/lighting/lamp_post", "furniture/lighting/street_light", "furniture/mail/post_box", "furniture/misc",
-    "furniture/planter/green_pot", "furniture/seating/bench/wood", "furniture/seating/chair", "furniture/shade/umbrella", "furniture/table",
-    "furniture/transit/bus_stop", "furniture/utility/electric_box", "furniture/utility/fire_hydrant", "furniture/utility/parking_meter",
-    "furniture/vending/hotdog_cart", "furniture/waste/trash_can", "ground/bike_lane", "ground/crosswalk", "ground/dirt", "ground/grass",
-    "ground/kerb", "ground/lane_marking", "ground/manhole", "ground/path/park_walkway", "ground/road", "ground/sidewalk", "ground/terrain/landscape",
-    "nature/rock", "signage/billboard", "signage/flag/usa", "signage/poster_stand", "signage/shop_sign", "signage/traffic_sign", "sky",
-    "traffic/barrier/barrier", "traffic/barrier/concrete_block", "traffic/bollard/road_column", "traffic/control/traffic_light",
-    "traffic/temporary/cone", "vegetation/flower", "vegetation/plant", "vegetation/shrub/bush", "vegetation/tree/broadleaf/generic",
-    "vegetation/tree/broadleaf/maple", "vegetation/tree/broadleaf/narrowleaf", "vegetation/tree/conifer/pine", "vehicle/bicycle", "vehicle/bus",
-    "vehicle/car", "vehicle/food_truck", "vehicle/van", "water/lake", "water/river",
+    "barrier/fence/metal_fence",
+    "barrier/fence/wood_fence",
+    "construction/awning",
+    "construction/bridge",
+    "construction/building",
+    "construction/building/roof",
+    "construction/fountain",
+    "construction/phone_booth",
+    "construction/pillar",
+    "construction/rooftop/air_conditioner",
+    "construction/rooftop/antenna",
+    "construction/rooftop/ventilation_tube",
+    "construction/rooftop/water_tank",
+    "construction/scaffolding",
+    "furniture/curtain",
+    "furniture/lighting/lamp_post",
+    "furniture/lighting/street_light",
+    "furniture/mail/post_box",
+    "furniture/misc",
+    "furniture/planter/green_pot",
+    "furniture/seating/bench/wood",
+    "furniture/seating/chair",
+    "furniture/shade/umbrella",
+    "furniture/table",
+    "furniture/transit/bus_stop",
+    "furniture/utility/electric_box",
+    "furniture/utility/fire_hydrant",
+    "furniture/utility/parking_meter",
+    "furniture/vending/hotdog_cart",
+    "furniture/waste/trash_can",
+    "ground/bike_lane",
+    "ground/crosswalk",
+    "ground/dirt",
+    "ground/grass",
+    "ground/kerb",
+    "ground/lane_marking",
+    "ground/manhole",
+    "ground/path/park_walkway",
+    "ground/road",
+    "ground/sidewalk",
+    "ground/terrain/landscape",
+    "nature/rock",
+    "signage/billboard",
+    "signage/flag/usa",
+    "signage/poster_stand",
+    "signage/shop_sign",
+    "signage/traffic_sign",
+    "sky",
+    "traffic/barrier/barrier",
+    "traffic/barrier/concrete_block",
+    "traffic/bollard/road_column",
+    "traffic/control/traffic_light",
+    "traffic/temporary/cone",
+    "vegetation/flower",
+    "vegetation/plant",
+    "vegetation/shrub/bush",
+    "vegetation/tree/broadleaf/generic",
+    "vegetation/tree/broadleaf/maple",
+    "vegetation/tree/broadleaf/narrowleaf",
+    "vegetation/tree/conifer/pine",
+    "vehicle/bicycle",
+    "vehicle/bus",
+    "vehicle/car",
+    "vehicle/food_truck",
+    "vehicle/van",
+    "water/lake",
+    "water/river",
 };
 
 WorldInfo NewYorkCityInfo() {

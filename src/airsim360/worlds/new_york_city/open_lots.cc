@@ -23,8 +23,7 @@ void LayYards(District& d, const Block& block, size_t index) {
   for (int i = 0; i < kPieces; ++i) {
     const float w = inner.width() / kPieces, x = inner.x0 + w * static_cast<float>(i);
     const bool dirt = i % 2 == 0;
-    d.ground.Begin(dirt ? "yard soil" : "yard", dirt ? "ground/dirt" : "ground/sidewalk",
-                   dirt ? Surface::kDirt : Surface::kAsphaltOld);
+    d.ground.Begin(dirt ? "yard soil" : "yard", dirt ? "ground/dirt" : "ground/sidewalk", dirt ? Surface::kDirt : Surface::kAsphaltOld);
     d.ground.Rect({x, inner.y0, x + w, inner.y1}, 0);
   }
   if (block.kind == BlockKind::kBackdrop) return;
@@ -33,11 +32,9 @@ void LayYards(District& d, const Block& block, size_t index) {
     const double pick = rng.Uniform();
     if (pick < 0.28) {
       const float at = y + static_cast<float>(rng.Uniform(-0.6, 0.6));
-      d.placer.Try("tree_narrowleaf", {x, at, -0.02f}, static_cast<float>(rng.Uniform(0, kTau)), 0.72f,
-                   {1, 1, 1}, rng.Index(3));
+      d.placer.Try("tree_narrowleaf", {x, at, -0.02f}, static_cast<float>(rng.Uniform(0, kTau)), 0.72f, {1, 1, 1}, rng.Index(3));
     } else if (pick < 0.36) {
-      d.placer.Try("plant", {x, y + static_cast<float>(rng.Uniform(-1.8, 1.8)), 0},
-                   static_cast<float>(rng.Uniform(0, kTau)), 1.2f);
+      d.placer.Try("plant", {x, y + static_cast<float>(rng.Uniform(-1.8, 1.8)), 0}, static_cast<float>(rng.Uniform(0, kTau)), 1.2f);
     } else if (pick < 0.5) {
       d.placer.Try("trash_can", {x, y + 1.9f, 0});
     } else if (pick < 0.65) {
@@ -51,8 +48,7 @@ void PlaceCafeSet(District& d, Vec2f at, float z, int umbrella, Vec3f cloth) {
   const auto style = static_cast<uint32_t>(rng.Index(4));
   if (!d.placer.Try("street_table", {at.x, at.y, z}, 0, 1, {1, 1, 1}, style)) return;
   if (umbrella > 0) {
-    PlaceNamed(d, umbrella == 2 ? "yellow sunshade" : "umbrella", "umbrella", {at.x, at.y, z}, 0, 0, 1,
-               cloth);
+    PlaceNamed(d, umbrella == 2 ? "yellow sunshade" : "umbrella", "umbrella", {at.x, at.y, z}, 0, 0, 1, cloth);
   }
   const auto turn = static_cast<float>(rng.Uniform(0, kTau));
   for (int i = 0; i < 3; ++i) {
@@ -100,22 +96,19 @@ void BuildSite(District& d, const Lot& lot) {
   const auto at = [&](float x, float y) { return Vec3f{r.x0 + x, street + way * y, 0.01f}; };
   // Rows of blocks, cones around a pit, stacks, a container-like heap of pallets, scaffold against the
   // neighbour.
-  for (int i = 0; i < 4; ++i)
-    d.placer.Try("concrete_block", at(2.2f + 2.6f * static_cast<float>(i), 3), 0, 1, {1, 1, 1}, 2u);
+  for (int i = 0; i < 4; ++i) d.placer.Try("concrete_block", at(2.2f + 2.6f * static_cast<float>(i), 3), 0, 1, {1, 1, 1}, 2u);
   for (int i = 0; i < 10; ++i) {
     const float a = kTau * static_cast<float>(i) / 10;
     d.placer.Try("traffic_cone", at(r.width() / 2 + 3.2f * std::cos(a), 11 + 3.2f * std::sin(a)));
   }
   d.ground.Begin("pit", "ground/dirt", Surface::kSoil);
   d.ground.RingSector({r.center().x, street + way * 11}, 0, 2.6f, 0, kTau, 0.018f, 24);
-  for (float x = 1.4f; x < r.width() - 1.4f; x += 2.4f)
-    d.placer.Try("scaffold", at(x, r.depth() - 3.2f), north ? kTau / 2 : 0.0f);
+  for (float x = 1.4f; x < r.width() - 1.4f; x += 2.4f) d.placer.Try("scaffold", at(x, r.depth() - 3.2f), north ? kTau / 2 : 0.0f);
   for (int i = 0; i < 14; ++i)
     d.placer.Try(i % 3 == 0   ? "plant"
                  : i % 3 == 1 ? "rock"
                               : "traffic_cone",
-                 at(static_cast<float>(rng.Uniform(1, r.width() - 1)),
-                    static_cast<float>(rng.Uniform(4, r.depth() - 5))),
+                 at(static_cast<float>(rng.Uniform(1, r.width() - 1)), static_cast<float>(rng.Uniform(4, r.depth() - 5))),
                  static_cast<float>(rng.Uniform(0, kTau)), 0.9f);
 }
 
@@ -142,8 +135,8 @@ void LayMedian(District& d, const StreetStretch& street, uint64_t id) {
   d.ground.mesh().Walls(outer, -0.2f, kTop);
   for (size_t i = 0; i < outer.size(); ++i) {
     const size_t k = (i + 1) % outer.size();
-    d.ground.Quad({outer[i].x, outer[i].y, kTop}, {outer[k].x, outer[k].y, kTop},
-                  {inner[k].x, inner[k].y, kTop}, {inner[i].x, inner[i].y, kTop});
+    d.ground.Quad({outer[i].x, outer[i].y, kTop}, {outer[k].x, outer[k].y, kTop}, {inner[k].x, inner[k].y, kTop},
+                  {inner[i].x, inner[i].y, kTop});
   }
   const EntityId lawn = d.ground.Begin("median lawn", "ground/grass", Surface::kLawn);
   d.ground.Polygon(inner, kTop);
@@ -151,8 +144,7 @@ void LayMedian(District& d, const StreetStretch& street, uint64_t id) {
   for (float s = s0 + 5; s < s1 - 4; s += 8.5f) {
     const Vec3f p = street.At(s, 0);
     if (rng.Chance(0.55)) {
-      d.placer.Try("tree_generic", {p.x, p.y, kTop - 0.02f}, static_cast<float>(rng.Uniform(0, kTau)), 0.62f,
-                   {1, 1, 1}, 3u);
+      d.placer.Try("tree_generic", {p.x, p.y, kTop - 0.02f}, static_cast<float>(rng.Uniform(0, kTau)), 0.62f, {1, 1, 1}, 3u);
     } else {
       d.placer.Try("shrub", {p.x, p.y, kTop - 0.03f}, static_cast<float>(rng.Uniform(0, kTau)), 0.7f);
     }

@@ -32,9 +32,7 @@ WallLine StreetWall(const Lot& lot) {
 }
 
 // Gap between the wall plane and the back of a sign, so that ornament stays behind it.
-float Gap(FacadeStyle style) {
-  return style == FacadeStyle::kBracedGlass ? 0.72f : style == FacadeStyle::kDeco ? 0.34f : 0.28f;
-}
+float Gap(FacadeStyle style) { return style == FacadeStyle::kBracedGlass ? 0.72f : style == FacadeStyle::kDeco ? 0.34f : 0.28f; }
 
 // A sign at a height on one wall of the lot with a role.
 struct Sign {
@@ -88,11 +86,9 @@ void HangAll(District& d, const Manhattan& city, std::span<const Sign> signs) {
 }
 
 // A board on a steel frame at the edge of a roof, looking over wall `wall`.
-void RaiseRoofBoard(District& d, const Lot& lot, const WallLine& wall, std::string name, uint32_t variant,
-                    float scale) {
+void RaiseRoofBoard(District& d, const Lot& lot, const WallLine& wall, std::string name, uint32_t variant, float scale) {
   const float z = lot.podium, s = wall.length / 2, yaw = FacingYaw(wall.out);
-  const EntityId board =
-      PlaceNamed(d, std::move(name), "billboard", wall.At(s, z + 2.2f * scale, -1.2f), yaw, variant, scale);
+  const EntityId board = PlaceNamed(d, std::move(name), "billboard", wall.At(s, z + 2.2f * scale, -1.2f), yaw, variant, scale);
   const Vec3f foot = wall.At(s, z, -1.2f);
   d.placer.shelf().PlaceAs(board, "billboard_frame", PlaceUpright(foot, yaw, scale));
 }
@@ -138,8 +134,7 @@ class ChanceSigns {
     }
     if (rng.Chance(0.5) && lot.boards)
       Hang(d_, lot, wall, "banner", "banner", rng.Index(4), wall.length - 4, 7.5f, lot.podium > 20 && !lot.houses ? 0.9f : 0.6f);
-    if (rng.Chance(0.35) && lot.height < 45 && !lot.houses)
-      RaiseRoofBoard(d_, lot, StreetWall(lot), "roof billboard", Advert(), 0.9f);
+    if (rng.Chance(0.35) && lot.height < 45 && !lot.houses) RaiseRoofBoard(d_, lot, StreetWall(lot), "roof billboard", Advert(), 0.9f);
   }
   uint32_t Advert() { return kDrawnBoards + adverts_++ % kVistaBoards; }
 

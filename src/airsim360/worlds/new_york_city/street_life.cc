@@ -21,12 +21,10 @@ struct Rule {
   int group;  // how many stand together
 };
 constexpr Rule kRules[] = {
-    {"fire_hydrant", 42, 0.55f, true, 1},   {"trash_can", 24, 0.8f, false, 1},
-    {"newspaper_box", 38, 0.75f, false, 4}, {"mailbox", 70, 0.8f, false, 1},
-    {"traffic_sign", 22, 0.5f, true, 1},    {"bench_wood", 40, 1.1f, false, 1},
-    {"electric_box", 75, 0.85f, false, 1},  {"bicycle", 45, 1.1f, true, 3},
-    {"poster_stand", 80, 0.95f, false, 1},  {"concrete_block", 90, 0.9f, true, 2},
-    {"parking_meter", 14, 0.5f, false, 1},  {"trash_bags", 17, 1.0f, true, 1},
+    {"fire_hydrant", 42, 0.55f, true, 1},  {"trash_can", 24, 0.8f, false, 1},     {"newspaper_box", 38, 0.75f, false, 4},
+    {"mailbox", 70, 0.8f, false, 1},       {"traffic_sign", 22, 0.5f, true, 1},   {"bench_wood", 40, 1.1f, false, 1},
+    {"electric_box", 75, 0.85f, false, 1}, {"bicycle", 45, 1.1f, true, 3},        {"poster_stand", 80, 0.95f, false, 1},
+    {"concrete_block", 90, 0.9f, true, 2}, {"parking_meter", 14, 0.5f, false, 1}, {"trash_bags", 17, 1.0f, true, 1},
 };
 
 void FurnishSide(District& d, const PavementSide& side, bool avenue, const Density& density, const std::vector<float>& lamps,
@@ -50,8 +48,7 @@ void FurnishSide(District& d, const PavementSide& side, bool avenue, const Densi
                                       {"tree_narrowleaf", 2, 0.95f}};
     const Tree& tree = kTrees[rng.Index(5)];
     const Vec3f p = side.At(s + uniform(-0.3, 0.3), 1.15f);
-    if (d.placer.Try(tree.kind, p, uniform(0, kTau), tree.scale * uniform(0.85, 1.0), {1, 1, 1},
-                     tree.variant))
+    if (d.placer.Try(tree.kind, p, uniform(0, kTau), tree.scale * uniform(0.85, 1.0), {1, 1, 1}, tree.variant))
       LayTreePit(d.ground, {p.x, p.y});
   }
   for (const Rule& rule : kRules) {
@@ -65,19 +62,15 @@ void FurnishSide(District& d, const PavementSide& side, bool avenue, const Densi
     }
   }
   // Carts at the kerb of the avenues; plants and steel bollards by the doors; cones where somebody digs.
-  if (avenue && rng.Chance(0.6))
-    d.placer.Try("hotdog_cart", side.At(uniform(side.s0 + 4, side.s1 - 4), 1.5f),
-                 FacingYaw(side.line.inward));
+  if (avenue && rng.Chance(0.6)) d.placer.Try("hotdog_cart", side.At(uniform(side.s0 + 4, side.s1 - 4), 1.5f), FacingYaw(side.line.inward));
   for (float s = side.s0 + 2; s < side.s1 - 2; s += uniform(6, 11)) {
     const double pick = rng.Uniform();
     if (pick < 0.3) {
       d.placer.Try("green_pot", side.At(s, side.depth - 0.65f), FacingYaw(side.street()));
     } else if (pick < 0.42) {
-      for (int i = 0; i < 4; ++i)
-        d.placer.Try("road_column", side.At(s + 1.1f * static_cast<float>(i), 0.45f), 0, 1, {1, 1, 1}, 0u);
+      for (int i = 0; i < 4; ++i) d.placer.Try("road_column", side.At(s + 1.1f * static_cast<float>(i), 0.45f), 0, 1, {1, 1, 1}, 0u);
     } else if (pick < 0.5) {
-      for (int i = 0; i < 4; ++i)
-        d.placer.Try("traffic_cone", side.At(s + uniform(0, 2.5), uniform(0.6, 1.8)), uniform(0, 6));
+      for (int i = 0; i < 4; ++i) d.placer.Try("traffic_cone", side.At(s + uniform(0, 2.5), uniform(0.6, 1.8)), uniform(0, 6));
     } else if (pick < 0.55) {
       d.placer.Try("plant", side.At(s, side.depth - 0.5f), uniform(0, 6));
     }
@@ -95,8 +88,8 @@ void PlaceShed(District& d, const PavementSide& side, float s, int bays) {
 bool OnAvenue(int side) { return side % 2 == 1; }
 
 // A free place on a side for a landmark: tries along s from `from`.
-EntityId PutLandmark(District& d, const PavementSide& side, std::string name, std::string_view kind, float from,
-                     float depth, bool to_street) {
+EntityId PutLandmark(District& d, const PavementSide& side, std::string name, std::string_view kind, float from, float depth,
+                     bool to_street) {
   const float yaw = FacingYaw(to_street ? side.street() : side.line.inward);
   const Vec3f p = side.At(from, depth);
   d.placer.Reserve(FootprintOf(kind, {p.x, p.y}, yaw));
@@ -106,13 +99,11 @@ EntityId PutLandmark(District& d, const PavementSide& side, std::string name, st
 }  // namespace
 
 void PlaceLandmarks(District& d, const Manhattan& city) {
-  const auto block = [&](int column, int row) -> const Block& {
-    return d.plan.blocks[static_cast<size_t>(row * 5 + column)];
-  };
+  const auto block = [&](int column, int row) -> const Block& { return d.plan.blocks[static_cast<size_t>(row * 5 + column)]; };
   // Sides: 0 south, 1 east, 2 north, 3 west of a block.
   const PavementSide ne_west = SideBetweenRamps(block(2, 2), 3), ne_south = SideBetweenRamps(block(2, 2), 0),
-             se_west = SideBetweenRamps(block(2, 1), 3), sw_east = SideBetweenRamps(block(1, 1), 1),
-             nw_east = SideBetweenRamps(block(1, 2), 1), se_north = SideBetweenRamps(block(2, 1), 2);
+                     se_west = SideBetweenRamps(block(2, 1), 3), sw_east = SideBetweenRamps(block(1, 1), 1),
+                     nw_east = SideBetweenRamps(block(1, 2), 1), se_north = SideBetweenRamps(block(2, 1), 2);
   PutLandmark(d, ne_south, "red telephone booth", "phone_booth", ne_south.s0 + 3, 1.0f, false);
   PutLandmark(d, nw_east, "orange mailbox", "orange_mailbox", nw_east.s0 + 6.5f, 0.8f, false);
   PutLandmark(d, sw_east, "blue mailbox", "mailbox", sw_east.s1 - 6.5f, 0.8f, false);
@@ -130,10 +121,8 @@ void PlaceLandmarks(District& d, const Manhattan& city) {
   // The flag on a mast in front of the bank, its columns and its sign.
   const Lot& bank = LotOf(city, "bank");
   const GroundRect& r = bank.rect;
-  for (float x = r.x0 + 2.2f; x < r.x1 - 1; x += 3.6f)
-    d.placer.Put("pillar", {x, r.y0 - 0.62f, 0}, 0, 0.92f, {1, 1, 1}, 0u);
-  PlaceNamed(d, "bank with the purple sign", "bank_sign", {r.center().x, r.y0 - 0.35f, 5.3f},
-             FacingYaw({0, -1}), 0, 1.3f);
+  for (float x = r.x0 + 2.2f; x < r.x1 - 1; x += 3.6f) d.placer.Put("pillar", {x, r.y0 - 0.62f, 0}, 0, 0.92f, {1, 1, 1}, 0u);
+  PlaceNamed(d, "bank with the purple sign", "bank_sign", {r.center().x, r.y0 - 0.35f, 5.3f}, FacingYaw({0, -1}), 0, 1.3f);
   d.placer.Reserve({{r.center().x, r.y0 - 0.62f}, {r.width() / 2, 0.5f}, 0});
   const Vec3f mast = se_west.At(se_west.s0 + 4, 1.6f);
   d.placer.Reserve({{mast.x, mast.y}, {0.4f, 0.4f}, 0});
@@ -146,8 +135,7 @@ void PlaceLandmarks(District& d, const Manhattan& city) {
     PlaceNamed(d, "hot dog cart", "hotdog_cart", cart, yaw, s > 12);
   }
   for (float s : {0.15f, 0.5f, 0.85f})
-    PlaceNamed(d, "american flag", "us_flag", {r.x0 + r.width() * s, r.y0 - 0.3f, 9.4f}, FacingYaw({0, -1}),
-               1, 1.3f);
+    PlaceNamed(d, "american flag", "us_flag", {r.x0 + r.width() * s, r.y0 - 0.3f, 9.4f}, FacingYaw({0, -1}), 1, 1.3f);
   const Lot& bottle = LotOf(city, "bottle roof");
   const Vec2f top = bottle.rect.center();
   PlaceNamed(d, "giant cola bottle", "giant_bottle", {top.x, bottle.rect.y0 + 3.4f, bottle.podium}, kTau / 8);
@@ -172,8 +160,7 @@ void FurnishNewYorkPavements(District& d, const Manhattan& city, const Density& 
       if (!FacesCoreStreet(d.plan, block, k)) continue;
       RngStream rng(d.seed, "new york pavement", i * 4 + static_cast<size_t>(k));
       const PavementSide side = SideBetweenRamps(block, k);
-      if (reach.Contains(side.line.At(side.line.length - 1, 3)))
-        FurnishCorner(d, block, side.line, "road_column");
+      if (reach.Contains(side.line.At(side.line.length - 1, 3))) FurnishCorner(d, block, side.line, "road_column");
       if (block.kind == BlockKind::kBuilt && OnAvenue(k) && rng.Chance(0.6))
         PlaceCafeRow(d, side, static_cast<float>(rng.Uniform(side.s0 + 4, side.s1 - 12)), {}, rng);
       if (block.kind == BlockKind::kBuilt && k == static_cast<int>(i % 4)) {
@@ -203,8 +190,7 @@ void FurnishNewYorkStreets(District& d, const std::vector<StreetStretch>& street
     RngStream rng(d.seed, "new york traffic", i);
     const auto uniform = [&](double a, double b) { return static_cast<float>(rng.Uniform(a, b)); };
     const float hw = street.line.half_width, s0 = street.s0 + 7.6f, s1 = street.s1 - 7.6f;
-    const bool boulevard = street.line.kind == StreetKind::kBoulevard,
-               avenue = street.line.kind != StreetKind::kTwoWay;
+    const bool boulevard = street.line.kind == StreetKind::kBoulevard, avenue = street.line.kind != StreetKind::kTwoWay;
     const Vec2f forward = street.along_x ? Vec2f{1, 0} : Vec2f{0, 1};
     for (float side : {-1.0f, 1.0f}) {
       const Vec2f heading = forward * -side;
@@ -214,8 +200,7 @@ void FurnishNewYorkStreets(District& d, const std::vector<StreetStretch>& street
         d.placer.Try(pick < 0.78  ? "car"
                      : pick < 0.9 ? "van"
                                   : "taxi",
-                     street.At(s + uniform(-0.25, 0.25), side * (hw - 1.22f), -0.004f),
-                     FacingYaw(heading) + uniform(-0.015, 0.015));
+                     street.At(s + uniform(-0.25, 0.25), side * (hw - 1.22f), -0.004f), FacingYaw(heading) + uniform(-0.015, 0.015));
       }
       std::vector<float> lanes{side * (hw - 2.35f) * 0.5f};
       if (avenue) lanes = {side * 2.0f, side * 5.45f, side * 8.8f};
@@ -230,18 +215,15 @@ void FurnishNewYorkStreets(District& d, const std::vector<StreetStretch>& street
         while (s > s0 + 2.5f && s < s1 - 2.5f) {
           const double pick = rng.Uniform();
           const char* kind = pick < 0.40 ? "taxi" : pick < 0.88 ? "car" : pick < 0.97 ? "van" : "bus";
-          d.placer.Drive(kind, street.At(s, lane + uniform(-0.2, 0.2), -0.004f),
-                         FacingYaw(heading) + uniform(-0.02, 0.02));
+          d.placer.Drive(kind, street.At(s, lane + uniform(-0.2, 0.2), -0.004f), FacingYaw(heading) + uniform(-0.02, 0.02));
           s += back * (kind[0] == 'b' ? 15.0f : rng.Chance(0.5) ? uniform(6.5, 9) : gaps * uniform(14, 38));
         }
       }
-      if (boulevard && side > 0 && rng.Chance(0.7))
-        d.placer.Drive("bus", street.At((s0 + s1) / 2 + 6, 11.1f, -0.004f), FacingYaw(heading));
+      if (boulevard && side > 0 && rng.Chance(0.7)) d.placer.Drive("bus", street.At((s0 + s1) / 2 + 6, 11.1f, -0.004f), FacingYaw(heading));
     }
     for (int k = 0; k < (avenue ? 5 : 3); ++k) {
       const float at = uniform(avenue ? 2.6 : 0.9, hw - 3.2) * (rng.Chance(0.5) ? 1.0f : -1.0f);
-      d.placer.shelf().Place("manhole", street.At(uniform(s0, s1), at, 0.012f), uniform(0, kTau),
-                             rng.Index(2));
+      d.placer.shelf().Place("manhole", street.At(uniform(s0, s1), at, 0.012f), uniform(0, kTau), rng.Index(2));
     }
   }
 }

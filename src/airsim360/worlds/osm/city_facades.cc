@@ -79,7 +79,10 @@ class Dresser {
     for (auto& entry : planes_) Build(entry.second);
     for (auto& chunk : chunks_)
       if (!chunk.second.empty())
-        builder_.AddInstance({builder_.AddMesh(chunk.second.Finish("facades " + std::to_string(chunk.first.first) + "," + std::to_string(chunk.first.second))), {}, kNoEntity});
+        builder_.AddInstance({builder_.AddMesh(chunk.second.Finish("facades " + std::to_string(chunk.first.first) + "," +
+                                                                   std::to_string(chunk.first.second))),
+                              {},
+                              kNoEntity});
     return builder_.Build();
   }
 
@@ -185,7 +188,8 @@ class Dresser {
     for (const MeshPart& part : mesh.parts) {
       MeshPart own = part;
       own.first_triangle = static_cast<uint32_t>(rest.triangles.size());
-      for (; at < kept.size() && kept[at] < part.first_triangle + part.triangle_count; ++at) rest.triangles.push_back(mesh.triangles[kept[at]]);
+      for (; at < kept.size() && kept[at] < part.first_triangle + part.triangle_count; ++at)
+        rest.triangles.push_back(mesh.triangles[kept[at]]);
       own.triangle_count = static_cast<uint32_t>(rest.triangles.size()) - own.first_triangle;
       if (own.triangle_count > 0) rest.parts.push_back(own);
     }
@@ -241,7 +245,8 @@ class Dresser {
       };
       const auto uv = [&](uint32_t i) { return Vec2f{static_cast<float>(points[i].x), static_cast<float>(-points[i].y)}; };
       const std::vector<uint32_t> t = Triangulate(patch);
-      for (size_t i = 0; i + 2 < t.size(); i += 3) mesh.Triangle(point(t[i]), point(t[i + 1]), point(t[i + 2]), uv(t[i]), uv(t[i + 1]), uv(t[i + 2]));
+      for (size_t i = 0; i + 2 < t.size(); i += 3)
+        mesh.Triangle(point(t[i]), point(t[i + 1]), point(t[i + 2]), uv(t[i]), uv(t[i + 1]), uv(t[i + 2]));
     }
   }
 
@@ -264,7 +269,8 @@ class Dresser {
     const Dress dress = DressOf(plan);
     Surfaces own = surfaces_;
     // A colour that the file gives stays; the reader names its own materials after the type alone.
-    if (scene_.materials[plane.material].name.find(' ') != std::string::npos) own = own.With(dress.wall, plane.material).With(dress.party, plane.material);
+    if (scene_.materials[plane.material].name.find(' ') != std::string::npos)
+      own = own.With(dress.wall, plane.material).With(dress.party, plane.material);
     const auto flat = [](Vec2d p) { return Vec2f{static_cast<float>(p.x), static_cast<float>(p.y)}; };
     const Vec2f a = flat(plane.At(rect.min.x)), b = flat(plane.At(rect.max.x)), in = flat(plane.out * -0.5);
     if (height < 4.4f || stretch < 0.72f || (tier && plan.floors == 0)) {
@@ -274,7 +280,9 @@ class Dresser {
     const Vec3f middle = scene_.bounds.center();
     const double far = std::hypot(static_cast<double>(a.x - middle.x), static_cast<double>(a.y - middle.y));
     const bool front = fronts_.at(plane.entity).second == &plane && !tier;
-    const FacadeDetail detail = far > kSimpleDetail ? FacadeDetail::kFlat : far > kFullDetail || !front ? FacadeDetail::kSimple : FacadeDetail::kFull;
+    const FacadeDetail detail = far > kSimpleDetail           ? FacadeDetail::kFlat
+                                : far > kFullDetail || !front ? FacadeDetail::kSimple
+                                                              : FacadeDetail::kFull;
     plan.outline = {a, b, b + in, a + in};
     plan.edges = {front ? EdgeKind::kStreet : EdgeKind::kRear, EdgeKind::kParty, EdgeKind::kParty, EdgeKind::kParty};
     plan.party_height.assign(4, 1e6f);  // nothing there

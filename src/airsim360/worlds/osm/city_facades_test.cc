@@ -92,7 +92,8 @@ TEST(CityFacades, PlainWallsGetWindowsAndStayClosed) {
   for (uint64_t seed : {0, 3}) {
     const auto scene = WithFacades(plain, seed);
     bool closed = true;
-    const double front = GlassOn(*scene, {-6, -9, 0}, {12, 0, 0}, {0, 1, 0}, &closed), side = GlassOn(*scene, {11, -4, 0}, {0, 8, 0}, {-1, 0, 0}, &closed);
+    const double front = GlassOn(*scene, {-6, -9, 0}, {12, 0, 0}, {0, 1, 0}, &closed),
+                 side = GlassOn(*scene, {11, -4, 0}, {0, 8, 0}, {-1, 0, 0}, &closed);
     EXPECT_TRUE(closed) << seed;
     EXPECT_GT(front, 0.04) << seed;
     EXPECT_LT(front, 0.9) << seed;

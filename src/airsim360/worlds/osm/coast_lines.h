@@ -10,7 +10,7 @@
 namespace airsim360::internal {
 
 struct CoastLine {
-  Ring points;          ///< land on the left; of a closed line the first is not repeated
+  Ring points;  ///< land on the left; of a closed line the first is not repeated
   bool closed = false;
 };
 

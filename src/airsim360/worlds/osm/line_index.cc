@@ -6,15 +6,13 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kCell = 16;      // metres
+constexpr double kCell = 16;         // metres
 constexpr double kMaxCells = 40000;  // a box takes at most; larger ones are kept apart
 
 int64_t Key(int64_t x, int64_t y) { return x * 0x100000000ll ^ (y & 0xffffffffll); }
 int64_t CellOf(double x) { return static_cast<int64_t>(std::floor(std::clamp(x, -1e6, 1e6) / kCell)); }
 
-bool IsLarge(const Bounds2d& box) {
-  return ((box.max.x - box.min.x) / kCell + 2) * ((box.max.y - box.min.y) / kCell + 2) > kMaxCells;
-}
+bool IsLarge(const Bounds2d& box) { return ((box.max.x - box.min.x) / kCell + 2) * ((box.max.y - box.min.y) / kCell + 2) > kMaxCells; }
 
 template <class Visit>
 void ForCells(const Bounds2d& box, const Visit& visit) {

@@ -54,7 +54,8 @@ std::string DescribeBox(const GeoBox& box) {
 
 MapCut CutByBox(const std::string& flag, const std::string& text) {
   const std::vector<double> v = NumbersOf(text);
-  if (v.size() != 4) throw InputError(flag + ": '" + text + "' is not SOUTH,WEST,NORTH,EAST in degrees, for example 60.165,24.93,60.175,24.95");
+  if (v.size() != 4)
+    throw InputError(flag + ": '" + text + "' is not SOUTH,WEST,NORTH,EAST in degrees, for example 60.165,24.93,60.175,24.95");
   MapCut cut{flag + " " + text, {.west = v[1], .south = v[0], .east = v[3], .north = v[2]}};
   const GeoBox osm{.west = v[0], .south = v[1], .east = v[2], .north = v[3]};
   const std::string fault = FaultOf(cut.box);
@@ -73,7 +74,8 @@ MapCut CutAround(const std::string& flag, const std::string& text, const std::st
   const std::vector<double> v = NumbersOf(text);
   if (v.size() != 2) throw InputError(flag + ": '" + text + "' is not LATITUDE,LONGITUDE in degrees, for example 60.1708,24.9375");
   if (std::abs(v[0]) > kHighest || std::abs(v[1]) > 180)
-    throw InputError(flag + ": '" + text + "' is not LATITUDE,LONGITUDE: latitudes are within 85 south and north, longitudes in -180 … 180");
+    throw InputError(flag + ": '" + text +
+                     "' is not LATITUDE,LONGITUDE: latitudes are within 85 south and north, longitudes in -180 … 180");
   char number[32];
   std::snprintf(number, sizeof(number), "%g", radius);
   if (!(radius >= 10 && radius <= 30000)) throw InputError(radius_flag + ": " + number + " is not in 10 … 30000 metres");

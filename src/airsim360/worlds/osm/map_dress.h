@@ -25,10 +25,10 @@ struct MapWall {
 };
 
 struct MapDress {
-  double trees = 1, traffic = 1;     ///< share of what is put along streets by rule: 0 … 1.6
-  const char* lamp = "street_light"; ///< kind of prop along streets
+  double trees = 1, traffic = 1;      ///< share of what is put along streets by rule: 0 … 1.6
+  const char* lamp = "street_light";  ///< kind of prop along streets
   bool yard_trees = true, yard_cars = true;
-  bool town_around = true;           ///< the town goes on beyond the map where it is dense; else open country
+  bool town_around = true;  ///< the town goes on beyond the map where it is dense; else open country
   std::map<std::string, MapWall, std::less<>> walls;
   /// Before anything is built: may change surfaces and fill `walls`.
   std::function<void(SceneBuilder&, Surfaces&, MapDress&)> paint;

@@ -116,8 +116,8 @@ std::vector<OsmArea> FindAreas(const OsmData& data) {
     areas.push_back(std::move(area));
   }
   for (const OsmRelation& relation : data.relations) {
-    const bool polygon = relation.tags.Is("type", "multipolygon") ||
-                         (relation.tags.Has("building") && !relation.tags.Is("type", "building"));
+    const bool polygon =
+        relation.tags.Is("type", "multipolygon") || (relation.tags.Has("building") && !relation.tags.Is("type", "building"));
     if (!polygon || !SaysWhat(relation.tags)) continue;
     OsmArea area{OsmId("relation", relation.id), relation.id, true, &relation.tags, {}, 0, {}};
     const Rings rings = RingsOf(data, relation);

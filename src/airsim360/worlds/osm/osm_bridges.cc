@@ -61,9 +61,15 @@ Crossings FindCrossings(const OsmScene& scene) {
 class BridgeBuilder {
  public:
   BridgeBuilder(OsmScene& scene, MeshBuilder& mesh, const OsmWay& way, const Crossings& crossings)
-      : scene_(scene), mesh_(mesh), way_(way), length_(LengthOf(way.line)), half_(WidthOf(way.tags) / 2),
-        steps_(std::clamp(static_cast<int>(length_ / 4), 2, 4000)), start_(crossings.ends.at(way.nodes.front()) < 2),
-        end_(crossings.ends.at(way.nodes.back()) < 2), rise_(RiseOver(crossings.others)) {}
+      : scene_(scene),
+        mesh_(mesh),
+        way_(way),
+        length_(LengthOf(way.line)),
+        half_(WidthOf(way.tags) / 2),
+        steps_(std::clamp(static_cast<int>(length_ / 4), 2, 4000)),
+        start_(crossings.ends.at(way.nodes.front()) < 2),
+        end_(crossings.ends.at(way.nodes.back()) < 2),
+        rise_(RiseOver(crossings.others)) {}
 
   void Build() {
     if (length_ < 1 || length_ > 20000) return;
@@ -123,10 +129,12 @@ class BridgeBuilder {
     const auto h = static_cast<float>(half_);
     mesh_.SetEntity(deck_);
     mesh_.SetMaterial(scene_.surfaces[top_]);
-    mesh_.QuadUv(Section(i, -half_, 0), Section(i + 1, -half_, 0), Section(i + 1, half_, 0), Section(i, half_, 0), {-h, v0}, {-h, v1}, {h, v1}, {h, v0});
+    mesh_.QuadUv(Section(i, -half_, 0), Section(i + 1, -half_, 0), Section(i + 1, half_, 0), Section(i, half_, 0), {-h, v0}, {-h, v1},
+                 {h, v1}, {h, v0});
     mesh_.SetEntity(structure_);
     mesh_.SetMaterial(scene_.surfaces[Surface::kConcrete]);
-    mesh_.QuadUv(Section(i, half_, -kDeck), Section(i + 1, half_, -kDeck), Section(i + 1, -half_, -kDeck), Section(i, -half_, -kDeck), {h, v0}, {h, v1}, {-h, v1}, {-h, v0});
+    mesh_.QuadUv(Section(i, half_, -kDeck), Section(i + 1, half_, -kDeck), Section(i + 1, -half_, -kDeck), Section(i, -half_, -kDeck),
+                 {h, v0}, {h, v1}, {-h, v1}, {-h, v0});
   }
 
   // Outer face, inner face, top.
@@ -134,14 +142,17 @@ class BridgeBuilder {
     const double o = side * (half_ + 0.25), n = side * half_;
     const auto face = [&](double d, double low, double high, bool right) {
       if (right)
-        mesh_.QuadUv(Section(i, d, low), Section(i + 1, d, low), Section(i + 1, d, high), Section(i, d, high), {v0, 2}, {v1, 2}, {v1, 0}, {v0, 0});
+        mesh_.QuadUv(Section(i, d, low), Section(i + 1, d, low), Section(i + 1, d, high), Section(i, d, high), {v0, 2}, {v1, 2}, {v1, 0},
+                     {v0, 0});
       else
-        mesh_.QuadUv(Section(i + 1, d, low), Section(i, d, low), Section(i, d, high), Section(i + 1, d, high), {v1, 2}, {v0, 2}, {v0, 0}, {v1, 0});
+        mesh_.QuadUv(Section(i + 1, d, low), Section(i, d, low), Section(i, d, high), Section(i + 1, d, high), {v1, 2}, {v0, 2}, {v0, 0},
+                     {v1, 0});
     };
     face(o, -kDeck, kParapet, side < 0);
     face(n, 0, kParapet, side > 0);
     const double low = std::min(o, n), high = std::max(o, n);
-    mesh_.QuadUv(Section(i, low, kParapet), Section(i + 1, low, kParapet), Section(i + 1, high, kParapet), Section(i, high, kParapet), {0, v0}, {0, v1}, {0.25f, v1}, {0.25f, v0});
+    mesh_.QuadUv(Section(i, low, kParapet), Section(i + 1, low, kParapet), Section(i + 1, high, kParapet), Section(i, high, kParapet),
+                 {0, v0}, {0, v1}, {0.25f, v1}, {0.25f, v0});
   }
 
   void AddPiers(int i, double s) {

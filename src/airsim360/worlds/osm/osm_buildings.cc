@@ -18,14 +18,28 @@ struct RoofName {
   OsmRoof roof;
 };
 constexpr RoofName kRoofs[] = {
-    {"flat", OsmRoof::kFlat},           {"gabled", OsmRoof::kGabled},       {"hipped", OsmRoof::kHipped},
-    {"half-hipped", OsmRoof::kHalfHipped}, {"half_hipped", OsmRoof::kHalfHipped},
-    {"gambrel", OsmRoof::kGambrel},     {"mansard", OsmRoof::kMansard},     {"pyramidal", OsmRoof::kPyramidal},
-    {"pyramid", OsmRoof::kPyramidal},   {"cone", OsmRoof::kCone},           {"conical", OsmRoof::kCone},
-    {"dome", OsmRoof::kDome},           {"onion", OsmRoof::kOnion},         {"round", OsmRoof::kRound},
-    {"skillion", OsmRoof::kSkillion},   {"lean_to", OsmRoof::kSkillion},    {"saltbox", OsmRoof::kSaltbox},
-    {"sawtooth", OsmRoof::kSawtooth},   {"spherical", OsmRoof::kDome},      {"double_saltbox", OsmRoof::kSaltbox},
-    {"quadruple_saltbox", OsmRoof::kMansard}, {"crosspitched", OsmRoof::kHipped},
+    {"flat", OsmRoof::kFlat},
+    {"gabled", OsmRoof::kGabled},
+    {"hipped", OsmRoof::kHipped},
+    {"half-hipped", OsmRoof::kHalfHipped},
+    {"half_hipped", OsmRoof::kHalfHipped},
+    {"gambrel", OsmRoof::kGambrel},
+    {"mansard", OsmRoof::kMansard},
+    {"pyramidal", OsmRoof::kPyramidal},
+    {"pyramid", OsmRoof::kPyramidal},
+    {"cone", OsmRoof::kCone},
+    {"conical", OsmRoof::kCone},
+    {"dome", OsmRoof::kDome},
+    {"onion", OsmRoof::kOnion},
+    {"round", OsmRoof::kRound},
+    {"skillion", OsmRoof::kSkillion},
+    {"lean_to", OsmRoof::kSkillion},
+    {"saltbox", OsmRoof::kSaltbox},
+    {"sawtooth", OsmRoof::kSawtooth},
+    {"spherical", OsmRoof::kDome},
+    {"double_saltbox", OsmRoof::kSaltbox},
+    {"quadruple_saltbox", OsmRoof::kMansard},
+    {"crosspitched", OsmRoof::kHipped},
 };
 
 OsmRoof RoofOf(const OsmTags& tags) {
@@ -104,19 +118,18 @@ Heights HeightsOf(const OsmTags& tags, OsmRoof roof, const Patches& footprint) {
   }
   heights.bottom = ParseOsmLength(tags.Get("min_height"), kHighest);
   if (!heights.bottom)
-    if (const auto levels = ParseOsmNumber(tags.Get("building:min_level"), 0.3, 250))
-      heights.bottom = *levels * kStorey;
+    if (const auto levels = ParseOsmNumber(tags.Get("building:min_level"), 0.3, 250)) heights.bottom = *levels * kStorey;
   return heights;
 }
 
 // Without tags: by what it is used for and by its size.
 double GuessHeight(const OsmTags& tags, const std::string& id, double area, double median) {
   static const std::map<std::string_view, double> kTypical = {
-      {"garage", 2.8},  {"garages", 2.8}, {"shed", 2.6},      {"hut", 2.8},     {"roof", 4.5},      {"carport", 2.7},
-      {"kiosk", 3.2},   {"bungalow", 4.5}, {"house", 7.5},    {"detached", 7.5}, {"terrace", 8.5},  {"residential", 10},
-      {"apartments", 16}, {"church", 16}, {"cathedral", 28},  {"chapel", 9},    {"school", 10},     {"industrial", 8},
-      {"warehouse", 9}, {"retail", 6},    {"supermarket", 6.5}, {"office", 18}, {"commercial", 14}, {"hotel", 20},
-      {"greenhouse", 3}, {"barn", 7},     {"stable", 4},      {"toilets", 3},   {"train_station", 11}};
+      {"garage", 2.8},    {"garages", 2.8},  {"shed", 2.6},        {"hut", 2.8},      {"roof", 4.5},        {"carport", 2.7},
+      {"kiosk", 3.2},     {"bungalow", 4.5}, {"house", 7.5},       {"detached", 7.5}, {"terrace", 8.5},     {"residential", 10},
+      {"apartments", 16}, {"church", 16},    {"cathedral", 28},    {"chapel", 9},     {"school", 10},       {"industrial", 8},
+      {"warehouse", 9},   {"retail", 6},     {"supermarket", 6.5}, {"office", 18},    {"commercial", 14},   {"hotel", 20},
+      {"greenhouse", 3},  {"barn", 7},       {"stable", 4},        {"toilets", 3},    {"train_station", 11}};
   const auto it = kTypical.find(tags.Get("building"));
   RngStream rng(0, id);
   const double vary = rng.Uniform(0.9, 1.1);
@@ -131,8 +144,7 @@ OsmVolume VolumeOf(const std::string& id, const OsmTags& tags, Patches footprint
   // A volume has a height, whatever the tags say.
   volume.bottom = std::clamp(volume.bottom, 0.0, kHighest);
   if (volume.top < volume.bottom + 0.05) volume.top = volume.bottom + 0.05;
-  volume.roof_height =
-      std::clamp(RoofHeightOf(tags, volume.roof, volume.footprint), 0.0, volume.top - volume.bottom);
+  volume.roof_height = std::clamp(RoofHeightOf(tags, volume.roof, volume.footprint), 0.0, volume.top - volume.bottom);
   const std::string_view kind = tags.Get(tags.Has("building:part") ? "building:part" : "building");
   volume.canopy = kind == "roof" || kind == "carport" || kind == "canopy";
   return volume;
@@ -148,9 +160,7 @@ double MedianHeight(const std::vector<OsmBuilding>& buildings) {
 }
 
 // A square around a building that is only a point on the map.
-Patches AroundNode(Vec2d p) {
-  return {{{{p.x - 4, p.y - 4}, {p.x + 4, p.y - 4}, {p.x + 4, p.y + 4}, {p.x - 4, p.y + 4}}, {}}};
-}
+Patches AroundNode(Vec2d p) { return {{{{p.x - 4, p.y - 4}, {p.x + 4, p.y - 4}, {p.x + 4, p.y + 4}, {p.x - 4, p.y + 4}}, {}}}; }
 
 std::vector<OsmBuilding> ListBuildings(const OsmData& data, const std::vector<OsmArea>& areas) {
   std::vector<OsmBuilding> buildings;
@@ -235,8 +245,8 @@ PartsOf AssignParts(const std::vector<OsmArea>& areas, const std::vector<OsmBuil
     double smallest = 1e18;
     for (uint32_t i : boxes.Find(middle)) {
       const double size = Area(buildings[i].outline);
-      const bool inside = std::any_of(buildings[i].outline.begin(), buildings[i].outline.end(),
-                                      [&](const Patch& patch) { return Inside(patch, middle); });
+      const bool inside =
+          std::any_of(buildings[i].outline.begin(), buildings[i].outline.end(), [&](const Patch& patch) { return Inside(patch, middle); });
       if (inside && size < smallest) {
         smallest = size;
         owner = i;

@@ -74,14 +74,19 @@ bool OpenAt(const GroundBuilder& ground, Vec2d p) {
 class CountryBuilder {
  public:
   CountryBuilder(OsmScene& scene, GroundBuilder& ground, const std::vector<EdgeStretch>& edge, EntityId sea)
-      : scene_(scene), ground_(ground), mesh_(ground.mesh()), edge_(edge), sea_(sea),
+      : scene_(scene),
+        ground_(ground),
+        mesh_(ground.mesh()),
+        edge_(edge),
+        sea_(sea),
         country_(scene.builder.AddEntity("country", scene.builder.tree().At("ground/terrain/landscape"))) {
     // The plain far away is at the height of the sea.
     std::vector<double> levels;
     if (!scene.relief.flat())
       for (const EdgeStretch& stretch : edge)
         for (int i = 0; i < 20 && stretch.beyond == Beyond::kSea; ++i)
-          levels.push_back(scene.relief.At(EdgePoint(scene.data.extent, kClip, stretch.side, stretch.s0 + (stretch.s1 - stretch.s0) * (i + 0.5) / 20)));
+          levels.push_back(
+              scene.relief.At(EdgePoint(scene.data.extent, kClip, stretch.side, stretch.s0 + (stretch.s1 - stretch.s0) * (i + 0.5) / 20)));
     if (levels.empty()) return;
     std::nth_element(levels.begin(), levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2), levels.end());
     level_ = levels[levels.size() / 2];
@@ -99,7 +104,8 @@ class CountryBuilder {
         const Vec2d a = EdgePoint(e, inner, stretch.side, stops[n]), b = EdgePoint(e, inner, stretch.side, stops[n + 1]);
         const Vec2d c = EdgePoint(e, outer, stretch.side, stops[n + 1]), d = EdgePoint(e, outer, stretch.side, stops[n]);
         const double lift = LiftOf(stretch.beyond);
-        mesh_.QuadUv(At(d, outer, lift), At(c, outer, lift), At(b, inner, lift), At(a, inner, lift), PlainUv(d), PlainUv(c), PlainUv(b), PlainUv(a));
+        mesh_.QuadUv(At(d, outer, lift), At(c, outer, lift), At(b, inner, lift), At(a, inner, lift), PlainUv(d), PlainUv(c), PlainUv(b),
+                     PlainUv(a));
       }
     }
     Cliffs(inner, outer);
@@ -122,7 +128,7 @@ class CountryBuilder {
   }
   void Use(Beyond beyond, bool town) {
     mesh_.SetEntity(beyond == Beyond::kSea ? sea_ : country_);
-    mesh_.SetMaterial(scene_.surfaces[beyond == Beyond::kSea              ? Surface::kWater
+    mesh_.SetMaterial(scene_.surfaces[beyond == Beyond::kSea            ? Surface::kWater
                                       : town && beyond == Beyond::kTown ? Surface::kFarRoof
                                                                         : Surface::kPlain]);
   }

@@ -19,15 +19,14 @@ std::string_view Trim(std::string_view text) {
 std::optional<double> TakeNumber(std::string_view& text) {
   text = Trim(text);
   size_t end = 0;
-  while (end < text.size() && end < 24 && (std::isdigit(static_cast<unsigned char>(text[end])) ||
-                                           text[end] == '.' || text[end] == ',' || (end == 0 && text[end] == '-')))
+  while (end < text.size() && end < 24 &&
+         (std::isdigit(static_cast<unsigned char>(text[end])) || text[end] == '.' || text[end] == ',' || (end == 0 && text[end] == '-')))
     ++end;
   std::string digits(text.substr(0, end));
   std::replace(digits.begin(), digits.end(), ',', '.');
   double value = 0;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || stop != digits.data() + digits.size() || !std::isfinite(value))
-    return std::nullopt;
+  if (error != std::errc() || stop != digits.data() + digits.size() || !std::isfinite(value)) return std::nullopt;
   text = Trim(text.substr(end));
   return value;
 }
@@ -37,15 +36,14 @@ struct NamedColour {
   uint32_t rgb;
 };
 constexpr NamedColour kNames[] = {
-    {"black", 0x202020},     {"white", 0xf0f0f0},   {"gray", 0x808080},     {"grey", 0x808080},
-    {"silver", 0xc0c0c0},    {"red", 0xa03028},     {"maroon", 0x802020},   {"brown", 0x7a4a30},
-    {"yellow", 0xe0c860},    {"olive", 0x808040},   {"green", 0x4a7a50},    {"lime", 0x80c050},
-    {"darkgreen", 0x2a5030}, {"lightgreen", 0x90c890}, {"teal", 0x408080},  {"aqua", 0x80c8c8},
-    {"cyan", 0x80c8c8},      {"blue", 0x4060a0},    {"navy", 0x203060},     {"lightblue", 0xa0c0d8},
-    {"purple", 0x704880},    {"orange", 0xd08840},  {"beige", 0xe0d4b8},    {"cream", 0xf0e8d0},
-    {"tan", 0xc8b090},       {"pink", 0xe0a8a8},    {"gold", 0xc8a040},     {"sand", 0xd8c498},
-    {"lightgray", 0xc8c8c8}, {"lightgrey", 0xc8c8c8}, {"darkgray", 0x505050}, {"darkgrey", 0x505050},
-    {"darkred", 0x701c1c},   {"salmon", 0xe09080},  {"sandstone", 0xc8a878}, {"brick", 0x9a5a44},
+    {"black", 0x202020},    {"white", 0xf0f0f0},    {"gray", 0x808080},      {"grey", 0x808080},       {"silver", 0xc0c0c0},
+    {"red", 0xa03028},      {"maroon", 0x802020},   {"brown", 0x7a4a30},     {"yellow", 0xe0c860},     {"olive", 0x808040},
+    {"green", 0x4a7a50},    {"lime", 0x80c050},     {"darkgreen", 0x2a5030}, {"lightgreen", 0x90c890}, {"teal", 0x408080},
+    {"aqua", 0x80c8c8},     {"cyan", 0x80c8c8},     {"blue", 0x4060a0},      {"navy", 0x203060},       {"lightblue", 0xa0c0d8},
+    {"purple", 0x704880},   {"orange", 0xd08840},   {"beige", 0xe0d4b8},     {"cream", 0xf0e8d0},      {"tan", 0xc8b090},
+    {"pink", 0xe0a8a8},     {"gold", 0xc8a040},     {"sand", 0xd8c498},      {"lightgray", 0xc8c8c8},  {"lightgrey", 0xc8c8c8},
+    {"darkgray", 0x505050}, {"darkgrey", 0x505050}, {"darkred", 0x701c1c},   {"salmon", 0xe09080},     {"sandstone", 0xc8a878},
+    {"brick", 0x9a5a44},
 };
 
 Vec3f Linear(uint32_t rgb) {
@@ -59,8 +57,7 @@ Vec3f Linear(uint32_t rgb) {
 
 template <class T>
 const T* FindById(const std::vector<T>& list, int64_t id) {
-  const auto it =
-      std::lower_bound(list.begin(), list.end(), id, [](const T& a, int64_t key) { return a.id < key; });
+  const auto it = std::lower_bound(list.begin(), list.end(), id, [](const T& a, int64_t key) { return a.id < key; });
   return it != list.end() && it->id == id ? &*it : nullptr;
 }
 
@@ -83,8 +80,7 @@ const OsmNode* OsmData::FindNode(int64_t id) const { return FindById(nodes, id);
 bool IsOsmName(std::string_view name) {
   std::string lower;
   for (char c : name) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower.ends_with(".osm") || lower.ends_with(".osm.gz") || lower.ends_with(".osm.bz2") ||
-         lower.ends_with(".pbf");
+  return lower.ends_with(".osm") || lower.ends_with(".osm.gz") || lower.ends_with(".osm.bz2") || lower.ends_with(".pbf");
 }
 
 std::optional<double> ParseOsmLength(std::string_view text, double limit) {

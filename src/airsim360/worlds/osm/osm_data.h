@@ -73,8 +73,8 @@ struct OsmBox {
 
 /// Objects sorted by id, each id once.
 struct OsmData {
-  GeoPoint origin;  ///< of W
-  OsmBox extent;    ///< what the extract is about: the box the file names, else that of most of its objects
+  GeoPoint origin;             ///< of W
+  OsmBox extent;               ///< what the extract is about: the box the file names, else that of most of its objects
   std::vector<OsmNode> nodes;  ///< the tagged ones
   std::vector<OsmWay> ways;
   std::vector<OsmRelation> relations;

@@ -169,8 +169,7 @@ void Project(const std::string& name, Degrees box, const char* source, const Osm
     return Vec2d{p.x, p.y};
   };
   const Vec2d low = to_world({box.lat0, box.lon0}), high = to_world({box.lat1, box.lon1});
-  data.extent = {std::min(low.x, high.x), std::min(low.y, high.y), std::max(low.x, high.x),
-                 std::max(low.y, high.y)};
+  data.extent = {std::min(low.x, high.x), std::min(low.y, high.y), std::max(low.x, high.x), std::max(low.y, high.y)};
   if (std::max(data.extent.width(), data.extent.depth()) > limits.max_extent)
     throw InputError(name + ": " + source + " are " + std::to_string(std::lround(data.extent.width() / 1000)) + " x " +
                      std::to_string(std::lround(data.extent.depth() / 1000)) + " km, " +
@@ -215,8 +214,7 @@ Degrees EachObject(const std::string& name, std::span<const std::byte> bytes, os
   osmium::io::Reader reader(file, kinds, osmium::io::read_meta::no);
   Degrees header;
   const osmium::Box box = reader.header().joined_boxes();
-  if (box.valid())
-    header = {box.bottom_left().lat(), box.bottom_left().lon(), box.top_right().lat(), box.top_right().lon()};
+  if (box.valid()) header = {box.bottom_left().lat(), box.bottom_left().lon(), box.top_right().lat(), box.top_right().lon()};
   while (const osmium::memory::Buffer buffer = reader.read())
     for (const osmium::OSMEntity& item : buffer.select<osmium::OSMEntity>()) visit(item);
   reader.close();
@@ -235,7 +233,8 @@ std::unordered_set<int64_t> NodesInside(const std::string& name, std::span<const
     if (cut.box.Contains(lat, lon)) inside.insert(node.id());
     if (cut.otherwise && cut.otherwise->Contains(lat, lon)) otherwise.insert(node.id());
     if (std::max(inside.size(), otherwise.size()) > limits.max_nodes)
-      throw InputError(cut.text + ": more than " + std::to_string(limits.max_nodes) + " nodes of " + name + " lie in it; name a smaller piece");
+      throw InputError(cut.text + ": more than " + std::to_string(limits.max_nodes) + " nodes of " + name +
+                       " lie in it; name a smaller piece");
   });
   if (inside.empty() && !otherwise.empty()) {
     cut.box = *cut.otherwise;
@@ -257,7 +256,8 @@ Selection SelectIn(const std::string& name, std::span<const std::byte> bytes, co
       const auto& object = static_cast<const osmium::Way&>(item);
       const char* natural = object.tags()["natural"];
       const bool coast = natural && std::string_view(natural) == "coastline";
-      if (coast || std::any_of(object.nodes().begin(), object.nodes().end(), [&](const osmium::NodeRef& node) { return selection.inside.contains(node.ref()); }))
+      if (coast || std::any_of(object.nodes().begin(), object.nodes().end(),
+                               [&](const osmium::NodeRef& node) { return selection.inside.contains(node.ref()); }))
         selection.ways.insert(object.id());
     } else {
       const auto& object = static_cast<const osmium::Relation&>(item);
@@ -300,7 +300,8 @@ bool IsUseful(const Degrees& header, const Degrees& own, const OsmLimits& limits
   if (header.empty() || !(header.lat1 - header.lat0 > 1e-7)) return false;
   if (std::abs(header.lat0) > 85 || std::abs(header.lat1) > 85) return false;
   if (own.empty()) return true;
-  const Degrees both{std::min(own.lat0, header.lat0), std::min(own.lon0, header.lon0), std::max(own.lat1, header.lat1), std::max(own.lon1, header.lon1)};
+  const Degrees both{std::min(own.lat0, header.lat0), std::min(own.lon0, header.lon0), std::max(own.lat1, header.lat1),
+                     std::max(own.lon1, header.lon1)};
   const bool apart = own.lat1 < header.lat0 || own.lat0 > header.lat1 || own.lon1 < header.lon0 || own.lon0 > header.lon1;
   if (apart && WidestOf(both) > 2 * limits.max_extent) return false;
   return WidestOf(header) <= limits.max_extent || WidestOf(own) > limits.max_extent;
@@ -308,10 +309,8 @@ bool IsUseful(const Degrees& header, const Degrees& own, const OsmLimits& limits
 
 }  // namespace
 
-OsmData ReadOsm(const std::string& name, std::span<const std::byte> bytes, const OsmLimits& limits,
-                const std::optional<MapCut>& cut) {
-  if (bytes.size() > limits.max_bytes)
-    throw InputError(name + ": larger than " + std::to_string(limits.max_bytes >> 20) + " MiB");
+OsmData ReadOsm(const std::string& name, std::span<const std::byte> bytes, const OsmLimits& limits, const std::optional<MapCut>& cut) {
+  if (bytes.size() > limits.max_bytes) throw InputError(name + ": larger than " + std::to_string(limits.max_bytes >> 20) + " MiB");
   Degrees header;
   Raw raw;
   std::optional<MapCut> piece = cut;
@@ -322,8 +321,7 @@ OsmData ReadOsm(const std::string& name, std::span<const std::byte> bytes, const
   } catch (const InputError&) {
     throw;
   } catch (const osmium::xml_error& error) {
-    const std::string place =
-        error.line ? ":" + std::to_string(error.line) + ":" + std::to_string(error.column) : "";
+    const std::string place = error.line ? ":" + std::to_string(error.line) + ":" + std::to_string(error.column) : "";
     throw InputError(name + place + ": " + error.error_string);
   } catch (const std::exception& error) {
     throw InputError(name + ": damaged OpenStreetMap file: " + error.what());

@@ -133,10 +133,8 @@ struct PathKind {
 };
 // In the order in which they are laid: steps lie in what leads to them.
 constexpr PathKind kPaths[] = {
-    {"steps", "construction/stairs", 2.4},
-    {"pedestrian", "ground/pavement/modular", 6}, {"cycleway", "ground/bike_lane", 2.2},
-    {"footway", "ground/path/park_walkway", 2.4}, {"path", "ground/path/park_walkway", 1.8},
-    {"track", "ground/dirt", 2.6},
+    {"steps", "construction/stairs", 2.4},        {"pedestrian", "ground/pavement/modular", 6}, {"cycleway", "ground/bike_lane", 2.2},
+    {"footway", "ground/path/park_walkway", 2.4}, {"path", "ground/path/park_walkway", 1.8},    {"track", "ground/dirt", 2.6},
     {"bridleway", "ground/path/park_walkway", 2}, {"corridor", "ground/sidewalk", 2},
 };
 
@@ -160,8 +158,8 @@ void LayPiers(OsmScene& scene, GroundBuilder& ground) {
     const AreaKind* kind = way.tags.Has("man_made") ? KindOf(way.tags) : nullptr;
     if (!kind || kind->key != "man_made") continue;
     const double width = ParseOsmLength(way.tags.Get("width"), 60).value_or(kind->value == "pier" ? 2.5 : 5);
-    ground.Lay(OsmId("way", way.id) + (way.tags.Has("name") ? " " + std::string(way.tags.Get("name")) : ""), kind->category,
-               kind->surface, Band(way.line, width / 2, width / 2), 0);
+    ground.Lay(OsmId("way", way.id) + (way.tags.Has("name") ? " " + std::string(way.tags.Get("name")) : ""), kind->category, kind->surface,
+               Band(way.line, width / 2, width / 2), 0);
   }
 }
 
@@ -176,7 +174,8 @@ void LayBank(OsmScene& scene, GroundBuilder& ground, size_t piece, const std::st
 EntityId LayAreas(OsmScene& scene, GroundBuilder& ground) {
   std::vector<const OsmArea*> areas;
   for (const OsmArea& area : scene.areas)
-    if (!area.patches.empty() && !area.tags->Has("building") && !area.tags->Has("building:part") && KindOf(*area.tags)) areas.push_back(&area);
+    if (!area.patches.empty() && !area.tags->Has("building") && !area.tags->Has("building:part") && KindOf(*area.tags))
+      areas.push_back(&area);
   std::stable_sort(areas.begin(), areas.end(), [](const OsmArea* a, const OsmArea* b) { return a->area < b->area; });
   std::vector<std::pair<size_t, std::string>> waters;  // without banks yet
   for (const OsmArea* area : areas) {
@@ -247,7 +246,8 @@ std::vector<Neighbours::Yard> LayRest(GroundBuilder& ground, const std::vector<O
     using Kind = Neighbours::Yard::Kind;
     if (paved && fill && ground.Lay(name + "/gardens", "ground/grass", Surface::kLawn, GardensOf(block), 0) != kNoEntity)
       yards.push_back({name + "/gardens", ground.last().patches, Kind::kGarden});
-    if (ground.Lay(name, paved ? "ground/pavement/modular" : "ground/terrain/landscape", paved ? Surface::kAsphaltOld : Surface::kLawn, {block}, 0) != kNoEntity)
+    if (ground.Lay(name, paved ? "ground/pavement/modular" : "ground/terrain/landscape", paved ? Surface::kAsphaltOld : Surface::kLawn,
+                   {block}, 0) != kNoEntity)
       yards.push_back({name, ground.last().patches, paved ? Kind::kCourt : Kind::kMeadow});
   }
   return yards;
@@ -257,7 +257,8 @@ std::vector<Neighbours::Yard> LayRest(GroundBuilder& ground, const std::vector<O
 
 bool IsOpenCountry(const OsmTags& tags) {
   const AreaKind* kind = KindOf(tags);
-  return kind && kind->value != "pitch" && (kind->category == "ground/terrain/landscape" || kind->category == "ground/grass" || kind->category == "ground/dirt");
+  return kind && kind->value != "pitch" &&
+         (kind->category == "ground/terrain/landscape" || kind->category == "ground/grass" || kind->category == "ground/dirt");
 }
 
 namespace {
@@ -278,7 +279,8 @@ std::vector<Patch> LayRoads(OsmScene& scene, RoadGraph& graph, GroundBuilder& gr
   for (size_t i = 0; i < graph.nodes.size(); ++i) {
     junctions[i] = JunctionOf(graph, i);
     if (!junctions[i].outer.empty())
-      ground.Lay(OsmId("node", graph.nodes[i].id) + "/junction", "ground/road", Surface::kAsphalt, Unite(Patches{junctions[i]}), -kRoadDrop, PlainUv, true);
+      ground.Lay(OsmId("node", graph.nodes[i].id) + "/junction", "ground/road", Surface::kAsphalt, Unite(Patches{junctions[i]}), -kRoadDrop,
+                 PlainUv, true);
   }
   std::vector<size_t> order(graph.segments.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -288,9 +290,9 @@ std::vector<Patch> LayRoads(OsmScene& scene, RoadGraph& graph, GroundBuilder& gr
     // Ends without a junction overlap a little, so that widths that differ leave no gap.
     Patches band = Band(segment.line, segment.half, segment.half);
     const std::string_view name = segment.way->tags.Get("name");
-    ground.Lay(segment.id + (name.empty() ? "" : " " + std::string(name)), "ground/road", RoadSurface(segment, scene.options.seed), band, -kRoadDrop, StreetUv(segment.line), true);
-    for (size_t k = 0; k + 1 < segment.line.size(); ++k)
-      near.roads.Add(segment.line[k], segment.line[k + 1], static_cast<uint32_t>(i));
+    ground.Lay(segment.id + (name.empty() ? "" : " " + std::string(name)), "ground/road", RoadSurface(segment, scene.options.seed), band,
+               -kRoadDrop, StreetUv(segment.line), true);
+    for (size_t k = 0; k + 1 < segment.line.size(); ++k) near.roads.Add(segment.line[k], segment.line[k + 1], static_cast<uint32_t>(i));
   }
   const size_t carriageways = ground.pieces().size();
   for (size_t i = 0; i < carriageways; ++i) {

@@ -119,7 +119,8 @@ class GroundBuilder {
       // Columns first, then the squares of each.
       const Patches whole{patch};
       for (double x = std::floor(box.min.x / cell) * cell; x < box.max.x; x += cell) {
-        const Patches column = Intersect(whole, Patches{{{{x, box.min.y - 1}, {x + cell, box.min.y - 1}, {x + cell, box.max.y + 1}, {x, box.max.y + 1}}, {}}});
+        const Patches column =
+            Intersect(whole, Patches{{{{x, box.min.y - 1}, {x + cell, box.min.y - 1}, {x + cell, box.max.y + 1}, {x, box.max.y + 1}}, {}}});
         for (double y = std::floor(box.min.y / cell) * cell; y < box.max.y; y += cell) {
           const Patches square{{{{x - 1, y}, {x + cell + 1, y}, {x + cell + 1, y + cell}, {x - 1, y + cell}}, {}}};
           for (const Patch& part : Intersect(column, square)) CoverOne(part, z, uv);
@@ -158,13 +159,15 @@ class GroundBuilder {
 
   // One straight piece of a rim whose side begins at `start`, where the texture has `u0`.
   void RimStep(Vec2d a, Vec2d b, Vec2d start, float u0, Vec2d out, double low, double width) {
-    const float u = u0 + static_cast<float>(std::hypot(a.x - start.x, a.y - start.y)), next = u0 + static_cast<float>(std::hypot(b.x - start.x, b.y - start.y));
+    const float u = u0 + static_cast<float>(std::hypot(a.x - start.x, a.y - start.y)),
+                next = u0 + static_cast<float>(std::hypot(b.x - start.x, b.y - start.y));
     mesh_.QuadUv(scene_.On(b, -low - 0.03), scene_.On(a, -low - 0.03), scene_.On(a, 0.004), scene_.On(b, 0.004),
                  {next, static_cast<float>(low)}, {u, static_cast<float>(low)}, {u, 0}, {next, 0});
     if (width <= 0) return;
     const Vec2d p = a + out * width, q = b + out * width;
     if (scene_.relief.flat()) {
-      mesh_.QuadUv(scene_.On(p, 0.004), scene_.On(q, 0.004), scene_.On(b, 0.004), scene_.On(a, 0.004), {u, 0.15f}, {next, 0.15f}, {next, 0}, {u, 0});
+      mesh_.QuadUv(scene_.On(p, 0.004), scene_.On(q, 0.004), scene_.On(b, 0.004), scene_.On(a, 0.004), {u, 0.15f}, {next, 0.15f}, {next, 0},
+                   {u, 0});
       return;
     }
     const auto uv = [&](Vec2d at) {

@@ -52,7 +52,8 @@ TEST(OsmCut, KeepsWhatReachesIntoThePieceWhole) {
 TEST(OsmCut, BothOrdersOfNumbersAreTaken) {
   TestMap map;
   map.Box({0, 0}, {10, 10}, {{"building", "yes"}});
-  for (const char* text : {"44.999,6.999,45.001,7.001", "6.999,44.999,7.001,45.001"}) EXPECT_NEAR(Read(map, CutByBox("--bbox", text)).origin.latitude_deg, 45, 1e-3) << text;
+  for (const char* text : {"44.999,6.999,45.001,7.001", "6.999,44.999,7.001,45.001"})
+    EXPECT_NEAR(Read(map, CutByBox("--bbox", text)).origin.latitude_deg, 45, 1e-3) << text;
   EXPECT_NE(ErrorOf(map, CutByBox("--bbox", "10,10,11,11")).find("--bbox 10,10,11,11"), std::string::npos);
   EXPECT_THROW(CutByBox("--bbox", "1,2,3"), InputError);
   EXPECT_THROW(CutByBox("--bbox", "1,2,3,4,5"), InputError);
@@ -82,12 +83,16 @@ TEST(OsmFile, AUselessHeaderBoxGivesWayToTheData) {
 
 TEST(OsmItems, CamerasMachinesAndStepsAreBuilt) {
   TestMap map(100, 100);
-  const int camera = map.Node({20, 20}, {{"man_made", "surveillance"}}), indoors = map.Node({22, 20}, {{"man_made", "surveillance"}, {"surveillance", "indoor"}});
-  const int drinks = map.Node({-20, 20}, {{"amenity", "vending_machine"}, {"vending", "drinks"}}), tickets = map.Node({-30, 20}, {{"amenity", "vending_machine"}, {"vending", "parking_tickets"}});
+  const int camera = map.Node({20, 20}, {{"man_made", "surveillance"}}),
+            indoors = map.Node({22, 20}, {{"man_made", "surveillance"}, {"surveillance", "indoor"}});
+  const int drinks = map.Node({-20, 20}, {{"amenity", "vending_machine"}, {"vending", "drinks"}}),
+            tickets = map.Node({-30, 20}, {{"amenity", "vending_machine"}, {"vending", "parking_tickets"}});
   map.Line({{-60, -20}, {60, -20}}, {{"highway", "footway"}, {"width", "6"}});
   const int steps = map.Line({{-2, -20}, {2, -20}}, {{"highway", "steps"}});
   const auto scene = map.Build();
-  const auto path = [&](const std::string& name) { return Find(*scene, name) ? scene->tree[Find(*scene, name)->category].path : std::string("nothing"); };
+  const auto path = [&](const std::string& name) {
+    return Find(*scene, name) ? scene->tree[Find(*scene, name)->category].path : std::string("nothing");
+  };
   EXPECT_EQ(path("node/" + std::to_string(camera)), "furniture/utility/camera");
   EXPECT_NEAR(static_cast<double>(Find(*scene, "node/" + std::to_string(camera))->bounds.max.z), 3.68, 0.1);
   EXPECT_EQ(path("node/" + std::to_string(indoors)), "nothing");

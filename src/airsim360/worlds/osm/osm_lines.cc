@@ -26,15 +26,18 @@ void Dresser::Barrier(const OsmWay& way) {
   const std::string id = OsmId("way", way.id);
   SemanticTree& tree = scene_.builder.tree();
   if (kind == "wall" || kind == "retaining_wall" || kind == "city_wall") {
-    const double height = ParseOsmLength(way.tags.Get("height"), 30).value_or(kind == "city_wall" ? 6 : 1.2), half = kind == "city_wall" ? 0.9 : 0.17;
+    const double height = ParseOsmLength(way.tags.Get("height"), 30).value_or(kind == "city_wall" ? 6 : 1.2),
+                 half = kind == "city_wall" ? 0.9 : 0.17;
     mesh_.SetEntity(scene_.builder.AddEntity(id, tree.At("barrier/wall")));
-    mesh_.SetMaterial(scene_.surfaces[way.tags.Is("wall", "brick") || way.tags.Is("material", "brick") ? Surface::kBrickRed : Surface::kLimestone]);
+    mesh_.SetMaterial(
+        scene_.surfaces[way.tags.Is("wall", "brick") || way.tags.Is("material", "brick") ? Surface::kBrickRed : Surface::kLimestone]);
     for (const Patch& patch : Band(way.line, half, half)) {
       const auto side = [&](const Ring& ring) {
         for (size_t i = 0; i < ring.size(); ++i) {
           const std::vector<Vec2d> steps = scene_.relief.Split(ring[i], ring[(i + 1) % ring.size()]);
           for (size_t k = 0; k + 1 < steps.size(); ++k)
-            mesh_.Quad(scene_.On(steps[k], -0.3), scene_.On(steps[k + 1], -0.3), scene_.On(steps[k + 1], height), scene_.On(steps[k], height));
+            mesh_.Quad(scene_.On(steps[k], -0.3), scene_.On(steps[k + 1], -0.3), scene_.On(steps[k + 1], height),
+                       scene_.On(steps[k], height));
         }
       };
       side(patch.outer);
@@ -42,12 +45,12 @@ void Dresser::Barrier(const OsmWay& way) {
       std::vector<Vec2d> points = patch.outer;
       for (const Ring& hole : patch.holes) points.insert(points.end(), hole.begin(), hole.end());
       const std::vector<uint32_t> t = Triangulate(patch);
-      for (size_t i = 0; i + 2 < t.size(); i += 3)
-        scene_.Drape(mesh_, points[t[i]], points[t[i + 1]], points[t[i + 2]], height, ToFloat);
+      for (size_t i = 0; i + 2 < t.size(); i += 3) scene_.Drape(mesh_, points[t[i]], points[t[i + 1]], points[t[i + 2]], height, ToFloat);
     }
     return;
   }
-  const bool hedge = kind == "hedge", fence = kind == "fence" || kind == "handrail" || kind == "guard_rail" || kind == "chain" || kind == "railing";
+  const bool hedge = kind == "hedge",
+             fence = kind == "fence" || kind == "handrail" || kind == "guard_rail" || kind == "chain" || kind == "railing";
   if (!hedge && !fence) return;
   const std::string_view type = way.tags.Get("fence_type");
   const std::string_view prop = hedge ? "hedge" : type == "wood" || type == "split_rail" || type == "pole" ? "wood_fence" : "rail";

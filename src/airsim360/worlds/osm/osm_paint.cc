@@ -13,8 +13,7 @@ constexpr double kLift = 0.006, kCrossing = 3.2;
 
 class Brush {
  public:
-  Brush(OsmScene& scene, MeshBuilder& mesh, const std::vector<Vec2d>& line, double z)
-      : scene_(scene), mesh_(mesh), line_(line), z_(z) {}
+  Brush(OsmScene& scene, MeshBuilder& mesh, const std::vector<Vec2d>& line, double z) : scene_(scene), mesh_(mesh), line_(line), z_(z) {}
   void Use(Surface surface) { mesh_.SetMaterial(scene_.surfaces[surface]); }
   // A strip between s0 and s1 along the line, d0 and d1 to its left; follows bends and the ground.
   void Strip(double s0, double s1, double d0, double d1) {

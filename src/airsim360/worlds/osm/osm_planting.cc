@@ -19,7 +19,8 @@ void Dresser::Areas() {
     if (tags.Is("natural", "wood") || tags.Is("landuse", "forest")) Plant(area, 46, 0);
     if (tags.Is("natural", "scrub")) Shrubs(area);
     if (tags.Is("landuse", "orchard")) Plant(area, 36, 0);
-    if (scene_.options.fill && (tags.Is("leisure", "park") || tags.Is("leisure", "garden") || tags.Is("leisure", "common"))) Plant(area, 150, 2);
+    if (scene_.options.fill && (tags.Is("leisure", "park") || tags.Is("leisure", "garden") || tags.Is("leisure", "common")))
+      Plant(area, 150, 2);
     if (tags.Is("leisure", "playground")) Playground(area);
     if (tags.Is("amenity", "parking") && scene_.options.fill) Parked(area);
     // Furniture that is mapped as an area.
@@ -109,8 +110,10 @@ void Dresser::Parked(const OsmArea& area) {
 void Dresser::Mow(EntityId lawn, const Patch& patch) {
   RngStream rng(scene_.options.seed, "mown grass", lawn);
   const Bounds2d box = BoundsOf(patch.outer);
-  const GroundRect near{static_cast<float>(std::max(box.min.x, scene_.focus.x - kLawnReach)), static_cast<float>(std::max(box.min.y, scene_.focus.y - kLawnReach)),
-                        static_cast<float>(std::min(box.max.x, scene_.focus.x + kLawnReach)), static_cast<float>(std::min(box.max.y, scene_.focus.y + kLawnReach))};
+  const GroundRect near{static_cast<float>(std::max(box.min.x, scene_.focus.x - kLawnReach)),
+                        static_cast<float>(std::max(box.min.y, scene_.focus.y - kLawnReach)),
+                        static_cast<float>(std::min(box.max.x, scene_.focus.x + kLawnReach)),
+                        static_cast<float>(std::min(box.max.y, scene_.focus.y + kLawnReach))};
   LayMownGrass(scene_.shelf, lawn, near, 0, rng, [&](Vec2f at) {
     const Vec2d p{at.x, at.y};
     if (!Inside(patch, p) || InBuilding(p, 0.3)) return -1.0f;

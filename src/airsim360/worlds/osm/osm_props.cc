@@ -141,7 +141,8 @@ void Dresser::Signals(const OsmNode& node) {
       const Vec2d in = entry.second ? at.along * -1.0 : at.along, right{in.y, -in.x};
       const Vec2d p = at.p + right * (segment.half + 0.6);
       ++number;
-      scene_.Put(number > 1 ? name + "/" + std::to_string(number) : name, "traffic_light", scene_.On(p), Yaw(in * -1.0), 1, number % 2 ? 0 : 1);
+      scene_.Put(number > 1 ? name + "/" + std::to_string(number) : name, "traffic_light", scene_.On(p), Yaw(in * -1.0), 1,
+                 number % 2 ? 0 : 1);
       scene_.occupancy.Add({ToFloat(p), {0.4f, 0.4f}, 0});
     }
   }
@@ -193,7 +194,8 @@ void Dresser::Camera(const OsmNode& node) {
   if (where == "indoor" || where == "indoors" || where == "interior" || Underground(node.tags)) return;
   const double height = ParseOsmLength(node.tags.Get("height"), 60).value_or(3.6);
   Vec2d at = node.p, front{0, -1};
-  if (const LineIndex::Near road = near_.roads.Find(node.p, 60); road.owner != UINT32_MAX && road.distance > 0.3) front = (road.point - node.p) * (1 / road.distance);
+  if (const LineIndex::Near road = near_.roads.Find(node.p, 60); road.owner != UINT32_MAX && road.distance > 0.3)
+    front = (road.point - node.p) * (1 / road.distance);
   const bool wall = InBuilding(node.p, 0.8);
   if (wall) {
     // Out to the nearest face of the wall.

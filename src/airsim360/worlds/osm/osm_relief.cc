@@ -144,7 +144,8 @@ std::vector<Vec2d> Relief::Split(Vec2d a, Vec2d b) const {
 
 double Relief::Raw(Vec2d p) const {
   const double lat = origin_.latitude_deg + p.y / metres_per_lat_, lon = origin_.longitude_deg + p.x / metres_per_lon_;
-  return Between(grid_.heights, grid_.columns, grid_.rows, (lon - grid_.longitude_west) / grid_.cell_lon, (grid_.latitude_north - lat) / grid_.cell_lat);
+  return Between(grid_.heights, grid_.columns, grid_.rows, (lon - grid_.longitude_west) / grid_.cell_lon,
+                 (grid_.latitude_north - lat) / grid_.cell_lat);
 }
 
 }  // namespace airsim360::internal

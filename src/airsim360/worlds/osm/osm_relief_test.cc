@@ -44,7 +44,8 @@ TEST(FillUnknown, HolesTakeTheHeightsAroundThemAndTheRestStays) {
 TEST(Relief, UnknownCellsAreNoPits) {
   HeightGrid grid = Hills();
   for (int row = 70; row < 80; ++row)
-    for (int column = 70; column < 80; ++column) grid.heights[static_cast<size_t>(row * grid.columns + column)] = std::numeric_limits<float>::quiet_NaN();
+    for (int column = 70; column < 80; ++column)
+      grid.heights[static_cast<size_t>(row * grid.columns + column)] = std::numeric_limits<float>::quiet_NaN();
   const Relief relief(grid, {52, 5, 0}, 1e6);
   for (double x = -200; x <= 200; x += 20) EXPECT_LT(std::abs(relief.At({x, 0})), 9) << x;
   EXPECT_NEAR(relief.zero(), 40, 4.5);
@@ -56,7 +57,8 @@ TEST(Relief, FollowsTheHeightsOfTheGrid) {
   const Relief relief(grid, {52, 5, 0}, 1e5);
   for (int row = 60; row < 90; ++row)
     for (int column = 60; column < 90; ++column) {
-      const Vec3d p = frame.ToWorld({grid.latitude_north - (row + 0.5) * grid.cell_lat, grid.longitude_west + (column + 0.5) * grid.cell_lon, 0});
+      const Vec3d p =
+          frame.ToWorld({grid.latitude_north - (row + 0.5) * grid.cell_lat, grid.longitude_west + (column + 0.5) * grid.cell_lon, 0});
       const auto height = static_cast<double>(grid.heights[static_cast<size_t>(row * grid.columns + column)]);
       // The lattice cuts the bend at a cell's middle by a quarter of a cell at most.
       EXPECT_NEAR(relief.At({p.x, p.y}) + relief.zero(), height, 0.45);
@@ -107,7 +109,8 @@ TEST(OsmWorld, RoadsPavementsAndMarkingsLieOnRollingGroundInTheirOrder) {
       const EntityId id = part.entity != kNoEntity ? part.entity : instance.entity;
       const Entity& entity = scene->entities[id - 1];
       const std::string& path = scene->tree[entity.category].path;
-      const bool flat = path == "ground/road" || path == "ground/sidewalk" || path == "ground/lane_marking" || path == "ground/crosswalk" || path == "ground/grass";
+      const bool flat = path == "ground/road" || path == "ground/sidewalk" || path == "ground/lane_marking" || path == "ground/crosswalk" ||
+                        path == "ground/grass";
       if (!flat) continue;
       for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
         const Vec3u corner = mesh.triangles[t];

@@ -156,8 +156,7 @@ void CoverPlane(MeshBuilder& mesh, const Patches& patches, const Plane& plane, d
   };
   const auto uv = [&](Vec2d p) {
     const Vec2d d = p - zero;
-    return Vec2f{static_cast<float>(d.x * along.x + d.y * along.y),
-                 static_cast<float>((d.x * down.x + d.y * down.y) * steep)};
+    return Vec2f{static_cast<float>(d.x * along.x + d.y * along.y), static_cast<float>((d.x * down.x + d.y * down.y) * steep)};
   };
   for (const Patch& patch : patches) {
     std::vector<Vec2d> points = patch.outer;
@@ -196,8 +195,7 @@ void GableWalls(MeshBuilder& mesh, const Patches& footprint, const std::vector<P
       const auto at = [&](Vec2d c, double z) {
         return Vec3f{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(eaves + z)};
       };
-      const auto up = static_cast<float>(s0 * length), uq = static_cast<float>(s1 * length),
-                 e = static_cast<float>(eaves);
+      const auto up = static_cast<float>(s0 * length), uq = static_cast<float>(s1 * length), e = static_cast<float>(eaves);
       const auto fp = static_cast<float>(zp), fq = static_cast<float>(zq);
       if (zq > 0.001) mesh.Triangle(at(p, 0), at(q, 0), at(q, zq), {up, -e}, {uq, -e}, {uq, -e - fq});
       if (zp > 0.001) mesh.Triangle(at(p, 0), at(q, zq), at(p, zp), {up, -e}, {uq, -e - fq}, {up, -e - fp});
@@ -213,8 +211,7 @@ void GableWalls(MeshBuilder& mesh, const Patches& footprint, const std::vector<P
 }
 
 // Rings of the outline drawn together over its middle: share of the outline and of the height, from the eaves up.
-void Turned(MeshBuilder& mesh, const Ring& outline, double eaves, double height,
-            const std::vector<std::pair<double, double>>& profile) {
+void Turned(MeshBuilder& mesh, const Ring& outline, double eaves, double height, const std::vector<std::pair<double, double>>& profile) {
   Vec2d middle{0, 0};
   double twice = 0;
   for (size_t i = 0; i < outline.size(); ++i) {
@@ -260,8 +257,7 @@ std::vector<std::pair<double, double>> ProfileOf(OsmRoof roof) {
 }
 
 // A deck with a rim: parapet, coping, the rim's inner side.
-void FlatRoof(MeshBuilder& mesh, const OsmVolume& volume, double base, EntityId walls, EntityId roof, MaterialId wall,
-              MaterialId cover) {
+void FlatRoof(MeshBuilder& mesh, const OsmVolume& volume, double base, EntityId walls, EntityId roof, MaterialId wall, MaterialId cover) {
   const double top = base + volume.top, deck = base + LowestRoof(volume), thick = 0.3;
   Patches inner;
   if (deck < top) {
@@ -303,8 +299,8 @@ void FlatRoof(MeshBuilder& mesh, const OsmVolume& volume, double base, EntityId 
 
 }  // namespace
 
-void BuildOsmRoof(MeshBuilder& mesh, const OsmVolume& volume, double base, EntityId walls, EntityId roof,
-                  MaterialId wall, MaterialId cover) {
+void BuildOsmRoof(MeshBuilder& mesh, const OsmVolume& volume, double base, EntityId walls, EntityId roof, MaterialId wall,
+                  MaterialId cover) {
   if (volume.roof == OsmRoof::kFlat || volume.roof_height < 0.05) {
     FlatRoof(mesh, volume, base, walls, roof, wall, cover);
     return;
@@ -313,11 +309,10 @@ void BuildOsmRoof(MeshBuilder& mesh, const OsmVolume& volume, double base, Entit
   mesh.SetTransform({});
   mesh.SetEntity(roof);
   mesh.SetMaterial(cover);
-  const bool turned = volume.roof == OsmRoof::kPyramidal || volume.roof == OsmRoof::kCone ||
-                      volume.roof == OsmRoof::kDome || volume.roof == OsmRoof::kOnion;
+  const bool turned = volume.roof == OsmRoof::kPyramidal || volume.roof == OsmRoof::kCone || volume.roof == OsmRoof::kDome ||
+                      volume.roof == OsmRoof::kOnion;
   if (turned) {
-    for (const Patch& patch : volume.footprint)
-      Turned(mesh, patch.outer, eaves, volume.roof_height, ProfileOf(volume.roof));
+    for (const Patch& patch : volume.footprint) Turned(mesh, patch.outer, eaves, volume.roof_height, ProfileOf(volume.roof));
     return;
   }
   const Frame frame = FrameOf(volume);
@@ -328,8 +323,7 @@ void BuildOsmRoof(MeshBuilder& mesh, const OsmVolume& volume, double base, Entit
   for (size_t i = 0; i < planes.size(); ++i) {
     const Ring reign = Reign(planes, i, box);
     if (reign.size() < 3) continue;
-    CoverPlane(mesh, planes.size() == 1 ? volume.footprint : Intersect(volume.footprint, Patches{{reign, {}}}), planes[i],
-               eaves, box.min);
+    CoverPlane(mesh, planes.size() == 1 ? volume.footprint : Intersect(volume.footprint, Patches{{reign, {}}}), planes[i], eaves, box.min);
   }
   mesh.SetEntity(walls);
   mesh.SetMaterial(wall);
@@ -344,8 +338,8 @@ MaterialId RoofCover(OsmScene& scene, const OsmVolume& volume, const OsmTags& bu
   const std::string_view material = tag("roof:material");
   const std::optional<Vec3f> colour = ParseOsmColour(tag("roof:colour"));
   const bool flat = volume.roof == OsmRoof::kFlat;
-  Surface base = flat ? (seed % 5 < 3 ? Surface::kRoofGravel : Surface::kRoofBitumen)
-                      : (seed % 3 == 0 ? Surface::kRoofSlate : Surface::kRoofTile);
+  Surface base =
+      flat ? (seed % 5 < 3 ? Surface::kRoofGravel : Surface::kRoofBitumen) : (seed % 3 == 0 ? Surface::kRoofSlate : Surface::kRoofTile);
   float mean = flat ? 0.15f : 0.2f;
   if (material == "roof_tiles" || material == "tile" || material == "tiles") base = Surface::kRoofTile, mean = 0.2f;
   if (material == "slate") base = Surface::kRoofSlate, mean = 0.05f;

@@ -64,8 +64,8 @@ struct OsmScene {
   /// A triangle of the plane (counter-clockwise) `lift` over the ground, bent with it.
   void Drape(MeshBuilder& mesh, Vec2d a, Vec2d b, Vec2d c, double lift, const GroundUv& uv) const;
   /// A prop of its own entity `name`, category of its kind.
-  EntityId Put(const std::string& name, std::string_view kind, Vec3f p_W, double yaw, float scale = 1,
-               uint32_t variant = 0, Vec3f tint = {1, 1, 1});
+  EntityId Put(const std::string& name, std::string_view kind, Vec3f p_W, double yaw, float scale = 1, uint32_t variant = 0,
+               Vec3f tint = {1, 1, 1});
 };
 
 inline Vec2f ToFloat(Vec2d p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
@@ -81,9 +81,9 @@ struct Neighbours {
   };
   std::vector<Other> volumes;
   BoxIndex boxes;
-  LineIndex roads;                 ///< centre lines; owner = index into graph->segments
-  LineIndex shops;                 ///< places of shops and cafés
-  std::shared_ptr<const RoadGraph> graph;  ///< set by BuildOsmGround
+  LineIndex roads;                                  ///< centre lines; owner = index into graph->segments
+  LineIndex shops;                                  ///< places of shops and cafés
+  std::shared_ptr<const RoadGraph> graph;           ///< set by BuildOsmGround
   std::vector<std::pair<EntityId, Patches>> lawns;  ///< near the focus, set by BuildOsmGround
   struct Yard {
     std::string name;
@@ -97,8 +97,8 @@ struct Neighbours {
 std::vector<EntityId> BuildOsmBuildings(OsmScene& scene, const std::vector<OsmBuilding>& buildings, const Neighbours& near);
 
 /// The roof of a volume, and its walls above the eaves (as `walls`); `base` is the z of its foot.
-void BuildOsmRoof(MeshBuilder& mesh, const OsmVolume& volume, double base, EntityId walls, EntityId roof,
-                  MaterialId wall, MaterialId cover);
+void BuildOsmRoof(MeshBuilder& mesh, const OsmVolume& volume, double base, EntityId walls, EntityId roof, MaterialId wall,
+                  MaterialId cover);
 /// The world of a map that has been read or drawn. `dress`: what a drawn town has beyond its map.
 std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmData& data, const OsmOptions& options,
                                            const std::string& attribution, OsmReport* report = nullptr, MapDress* dress = nullptr);

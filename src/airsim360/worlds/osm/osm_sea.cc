@@ -10,9 +10,9 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kGap = 1;       // metres: joints wider than this are worth a word
-constexpr double kDeep = 250;    // metres from the border: ends farther inside were not cut off there
-constexpr double kChord = 400;   // metres of the coast that tell where it goes on
+constexpr double kGap = 1;      // metres: joints wider than this are worth a word
+constexpr double kDeep = 250;   // metres from the border: ends farther inside were not cut off there
+constexpr double kChord = 400;  // metres of the coast that tell where it goes on
 
 double Distance(Vec2d a, Vec2d b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -102,10 +102,14 @@ double Along(const OsmBox& box, Vec2d p) {
   const double w = box.width(), h = box.depth();
   const double d[4] = {std::abs(p.y - box.y1), std::abs(p.x - box.x1), std::abs(p.y - box.y0), std::abs(p.x - box.x0)};
   switch (std::min_element(d, d + 4) - d) {
-    case 0: return p.x - box.x0;
-    case 1: return w + box.y1 - p.y;
-    case 2: return w + h + box.x1 - p.x;
-    default: return 2 * w + h + p.y - box.y0;
+    case 0:
+      return p.x - box.x0;
+    case 1:
+      return w + box.y1 - p.y;
+    case 2:
+      return w + h + box.x1 - p.x;
+    default:
+      return 2 * w + h + p.y - box.y0;
   }
 }
 
@@ -142,7 +146,8 @@ class SeaMaker {
         const double gap = Distance(a, b);
         if (gap < 0.5 * std::min(ToBorder(box_, a), ToBorder(box_, b))) joints.push_back({gap, i, k});
       }
-    std::sort(joints.begin(), joints.end(), [](const Joint& a, const Joint& b) { return std::tie(a.gap, a.from, a.to) < std::tie(b.gap, b.from, b.to); });
+    std::sort(joints.begin(), joints.end(),
+              [](const Joint& a, const Joint& b) { return std::tie(a.gap, a.from, a.to) < std::tie(b.gap, b.from, b.to); });
     std::map<size_t, size_t> next;
     std::vector<bool> follows(pieces_.size(), false);
     for (const Joint& joint : joints) {
@@ -166,7 +171,8 @@ class SeaMaker {
     for (Ring& ring : WalkAround()) water.push_back({std::move(ring), {}});
     water = water.empty() ? BaseOf(lines) : Unite(water);
     // Islands and the waters in them, from the largest to the smallest.
-    std::stable_sort(rings_.begin(), rings_.end(), [](const Ring& a, const Ring& b) { return std::abs(SignedArea(a)) > std::abs(SignedArea(b)); });
+    std::stable_sort(rings_.begin(), rings_.end(),
+                     [](const Ring& a, const Ring& b) { return std::abs(SignedArea(a)) > std::abs(SignedArea(b)); });
     for (size_t i = 0; i < rings_.size();) {
       const bool island = SignedArea(rings_[i]) > 0;
       Patches same;
@@ -180,12 +186,14 @@ class SeaMaker {
 
  private:
   void Fault(Vec2d p, const std::string& what) {
-    faults_.push_back("the coastline ends at x = " + std::to_string(std::lround(p.x)) + ", y = " + std::to_string(std::lround(p.y)) + " m: " + what);
+    faults_.push_back("the coastline ends at x = " + std::to_string(std::lround(p.x)) + ", y = " + std::to_string(std::lround(p.y)) +
+                      " m: " + what);
   }
 
   Vec2d LeadOut(const Ring& line) {
     const Vec2d to = GoesOnTo(box_, line);
-    if (ToBorder(box_, line.back()) > kDeep) Fault(line.back(), "it goes on straight for " + std::to_string(std::lround(Distance(line.back(), to))) + " m");
+    if (ToBorder(box_, line.back()) > kDeep)
+      Fault(line.back(), "it goes on straight for " + std::to_string(std::lround(Distance(line.back(), to))) + " m");
     return to;
   }
 
@@ -259,7 +267,8 @@ class SeaMaker {
 
   void AddCorners(double from, double to, Ring& ring) const {
     const double w = box_.width(), h = box_.depth();
-    const std::pair<double, Vec2d> corners[] = {{w, {box_.x1, box_.y1}}, {w + h, {box_.x1, box_.y0}}, {2 * w + h, {box_.x0, box_.y0}}, {2 * w + 2 * h, {box_.x0, box_.y1}}};
+    const std::pair<double, Vec2d> corners[] = {
+        {w, {box_.x1, box_.y1}}, {w + h, {box_.x1, box_.y0}}, {2 * w + h, {box_.x0, box_.y0}}, {2 * w + 2 * h, {box_.x0, box_.y1}}};
     for (double turn : {0.0, 2 * (w + h)})
       for (const auto& corner : corners)
         if (corner.first + turn > from && corner.first + turn < to) ring.push_back(corner.second);

@@ -210,10 +210,12 @@ Seen Below(const Scene& scene, Vec2d p) {
     for (const MeshPart& part : mesh.parts)
       for (uint32_t i = 0; i < part.triangle_count; ++i) {
         const Vec3u t = mesh.triangles[part.first_triangle + i];
-        const Vec3d a = VecCast<double>(mesh.positions[t.x]), b = VecCast<double>(mesh.positions[t.y]), c = VecCast<double>(mesh.positions[t.z]);
+        const Vec3d a = VecCast<double>(mesh.positions[t.x]), b = VecCast<double>(mesh.positions[t.y]),
+                    c = VecCast<double>(mesh.positions[t.z]);
         const double det = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
         if (std::abs(det) < 1e-9) continue;
-        const double u = ((p.x - a.x) * (c.y - a.y) - (c.x - a.x) * (p.y - a.y)) / det, v = ((b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y)) / det;
+        const double u = ((p.x - a.x) * (c.y - a.y) - (c.x - a.x) * (p.y - a.y)) / det,
+                     v = ((b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y)) / det;
         const double z = a.z + u * (b.z - a.z) + v * (c.z - a.z);
         if (u < 0 || v < 0 || u + v > 1 || z <= seen.z) continue;
         const Entity& entity = scene.entity(part.entity);
@@ -233,7 +235,8 @@ TestMap CoastTown() {
   map.Box({-350, -120}, {-200, 30}, {{"natural", "bay"}, {"name", "Small Bay"}});
   map.Box({300, -20}, {330, 200}, {{"natural", "water"}});
   for (int i = 0; i < 9; ++i)
-    for (int k = 0; k < 5; ++k) map.Box({-390.0 + 85 * i, 40.0 + 52 * k}, {-330.0 + 85 * i, 80.0 + 52 * k}, {{"building", "yes"}, {"height", "12"}});
+    for (int k = 0; k < 5; ++k)
+      map.Box({-390.0 + 85 * i, 40.0 + 52 * k}, {-330.0 + 85 * i, 80.0 + 52 * k}, {{"building", "yes"}, {"height", "12"}});
   return map;
 }
 
@@ -243,9 +246,9 @@ TEST(OsmSea, ATownByTheSea) {
   const auto at = [&](double x, double y) { return Below(*scene, {x, y}); };
   EXPECT_EQ(at(-150, -100).path, "water/sea");
   EXPECT_NEAR(at(-150, -100).z, -0.28, 1e-3);
-  EXPECT_EQ(at(0, -50).name, "sea");       // under the reserve
+  EXPECT_EQ(at(0, -50).name, "sea");  // under the reserve
   EXPECT_EQ(at(0, 50).path, "ground/terrain/landscape");
-  EXPECT_NEAR(at(153, -30).z, 0, 1e-3);    // the pier as an area
+  EXPECT_NEAR(at(153, -30).z, 0, 1e-3);  // the pier as an area
   EXPECT_EQ(at(250, -40).path, "ground/pavement/modular");
   EXPECT_EQ(at(-250, -60).name, "way/5 Small Bay");
   EXPECT_EQ(at(-250, -60).path, "water/sea");
@@ -288,7 +291,9 @@ TEST(OsmSea, TheGroundIsStillCoveredOnce) {
       for (uint32_t i = 0; i < part.triangle_count; ++i) {
         const Vec3u t = mesh.triangles[part.first_triangle + i];
         const Vec3f a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-        if (std::max({std::abs(a.x), std::abs(b.x), std::abs(c.x)}) > 430.5f || std::max({std::abs(a.y), std::abs(b.y), std::abs(c.y)}) > 330.5f) continue;
+        if (std::max({std::abs(a.x), std::abs(b.x), std::abs(c.x)}) > 430.5f ||
+            std::max({std::abs(a.y), std::abs(b.y), std::abs(c.y)}) > 330.5f)
+          continue;
         sum += static_cast<double>(Cross(b - a, c - a).z) / 2;
       }
     }
@@ -300,7 +305,8 @@ TEST(OsmSea, TheGroundIsStillCoveredOnce) {
 TEST(OsmSea, NoTownIsInventedBehindAPark) {
   TestMap map(400, 300);
   for (int i = 0; i < 9; ++i)
-    for (int k = 0; k < 10; ++k) map.Box({-390.0 + 85 * i, -280.0 + 52 * k}, {-330.0 + 85 * i, -240.0 + 52 * k}, {{"building", "yes"}, {"height", "12"}});
+    for (int k = 0; k < 10; ++k)
+      map.Box({-390.0 + 85 * i, -280.0 + 52 * k}, {-330.0 + 85 * i, -240.0 + 52 * k}, {{"building", "yes"}, {"height", "12"}});
   map.Box({-450, 240}, {450, 400}, {{"leisure", "park"}});
   const auto scene = map.Build(nullptr, {});
   int north = 0, south = 0;

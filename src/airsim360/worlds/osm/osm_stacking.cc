@@ -6,8 +6,8 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kTouch = 1;       // metres: gaps below this are no passages but rounding (levels, feet)
-constexpr double kBehind = 0.01;   // of a closing wall behind the outline, so that it lies in no gable's plane
+constexpr double kTouch = 1;      // metres: gaps below this are no passages but rounding (levels, feet)
+constexpr double kBehind = 0.01;  // of a closing wall behind the outline, so that it lies in no gable's plane
 constexpr int kMostStacked = 8;
 
 bool InsideAny(const Patches& patches, Vec2d p) {
@@ -53,8 +53,7 @@ void WallsWithin(MeshBuilder& mesh, const Patches& edges, const Patches& area, d
         const Vec2f p = ToFloat(a + v * cuts[k] + in * kBehind), q = ToFloat(a + v * cuts[k + 1] + in * kBehind);
         const auto low = static_cast<float>(z0), high = static_cast<float>(z1);
         const auto u0 = static_cast<float>(cuts[k] * length), u1 = static_cast<float>(cuts[k + 1] * length);
-        mesh.QuadUv({p.x, p.y, low}, {q.x, q.y, low}, {q.x, q.y, high}, {p.x, p.y, high}, {u0, -low}, {u1, -low}, {u1, -high},
-                    {u0, -high});
+        mesh.QuadUv({p.x, p.y, low}, {q.x, q.y, low}, {q.x, q.y, high}, {p.x, p.y, high}, {u0, -low}, {u1, -low}, {u1, -high}, {u0, -high});
       }
     }
   });
@@ -97,8 +96,7 @@ double GroundUnder(const OsmScene& scene, const Neighbours& near, const OsmVolum
   return GroundUnder(scene, near, volume, scene.relief.flat() ? kMostStacked : 0);
 }
 
-void CloseOnSupports(MeshBuilder& mesh, const Neighbours& near, const OsmVolume& volume, double ground, MaterialId wall,
-                     EntityId entity) {
+void CloseOnSupports(MeshBuilder& mesh, const Neighbours& near, const OsmVolume& volume, double ground, MaterialId wall, EntityId entity) {
   for (const OsmVolume* below : SupportsOf(near, volume)) {
     const double low = LowestRoof(*below);
     if (volume.bottom < low + 0.01) continue;

@@ -20,7 +20,6 @@ std::vector<const OsmVolume*> SupportsOf(const Neighbours& near, const OsmVolume
 double GroundUnder(const OsmScene& scene, const Neighbours& near, const OsmVolume& volume);
 
 /// Walls from the foot of `volume` down to the roofs that it stands on, as part of `entity`; `ground` as GroundUnder.
-void CloseOnSupports(MeshBuilder& mesh, const Neighbours& near, const OsmVolume& volume, double ground, MaterialId wall,
-                     EntityId entity);
+void CloseOnSupports(MeshBuilder& mesh, const Neighbours& near, const OsmVolume& volume, double ground, MaterialId wall, EntityId entity);
 
 }  // namespace airsim360::internal

@@ -46,8 +46,8 @@ bool Meets(const std::vector<Corners>& triangles, Vec3d p, Vec3d q) {
   return false;
 }
 
-constexpr const char* kShapes[] = {"flat",      "gabled",  "hipped", "half-hipped", "gambrel",  "mansard", "pyramidal",
-                                   "cone",      "dome",    "onion",  "round",       "skillion", "saltbox", "sawtooth"};
+constexpr const char* kShapes[] = {"flat", "gabled", "hipped", "half-hipped", "gambrel",  "mansard", "pyramidal",
+                                   "cone", "dome",   "onion",  "round",       "skillion", "saltbox", "sawtooth"};
 
 struct Stack {
   std::string shape;
@@ -85,14 +85,21 @@ TEST(OsmStacking, NobodySeesThroughBetweenVolumesOfAnyRoof) {
         stacks.push_back({shape, storeys, inset, {-330 + 60 * std::fmod(n, 12), -330 + 60 * std::floor(n / 12)}});
         const Stack& stack = stacks.back();
         const double tall = 3.2 * storeys;
-        const auto box = [&](double x, double y, TestMap::Tags tags) { map.Box(stack.middle - Vec2d{x, y}, stack.middle + Vec2d{x, y}, tags); };
+        const auto box = [&](double x, double y, TestMap::Tags tags) {
+          map.Box(stack.middle - Vec2d{x, y}, stack.middle + Vec2d{x, y}, tags);
+        };
         box(14, 11, {{"building", "yes"}, {"height", std::to_string(3 * tall)}});
         for (int i = 0; i < 3; ++i)
-          box(10 - inset * i, 7 - inset * i, {{"building:part", "yes"}, {"height", std::to_string(tall * (i + 1))}, {"min_height", std::to_string(tall * i)},
-                                              {"roof:shape", shape}, {"roof:height", "2.2"}});
+          box(10 - inset * i, 7 - inset * i,
+              {{"building:part", "yes"},
+               {"height", std::to_string(tall * (i + 1))},
+               {"min_height", std::to_string(tall * i)},
+               {"roof:shape", shape},
+               {"roof:height", "2.2"}});
       }
   const std::vector<Corners> triangles = BuildingTriangles(*map.Build());
-  for (const Stack& stack : stacks) EXPECT_EQ(Slits(stack, triangles), 0) << stack.shape << ", " << stack.storeys << " storeys, inset " << stack.inset;
+  for (const Stack& stack : stacks)
+    EXPECT_EQ(Slits(stack, triangles), 0) << stack.shape << ", " << stack.storeys << " storeys, inset " << stack.inset;
 }
 
 // What the map leaves open stays open: a bridge between two towers, a floor a storey above a roof.
@@ -119,8 +126,7 @@ TEST(OsmStacking, AStackOnASlopeStaysTogether) {
   map.Box({-20, -10}, {20, 10}, {{"building:part", "yes"}, {"height", "12"}});
   map.Box({14, -6}, {19, 6}, {{"building:part", "yes"}, {"height", "24"}, {"min_height", "12"}});
   HeightGrid grid{41, 41, 6.98, 45.02, 0.001, 0.001, {}};
-  for (int i = 0; i < 41 * 41; ++i)
-    grid.heights.push_back(static_cast<float>(100 + 0.1 * 78846.8 * ((i % 41 + 0.5) * 0.001 - 0.02)));
+  for (int i = 0; i < 41 * 41; ++i) grid.heights.push_back(static_cast<float>(100 + 0.1 * 78846.8 * ((i % 41 + 0.5) * 0.001 - 0.02)));
   const std::vector<Corners> triangles =
       BuildingTriangles(*map.Build(nullptr, {.heights = [&](const GeoBox&) { return grid; }, .fill = false}));
   for (double z = 7; z < 18; z += 0.1) EXPECT_TRUE(Meets(triangles, {16.5, -30, z}, {16.5, 30, z})) << z;
@@ -131,7 +137,8 @@ TEST(OsmBuildings, AnOutlineThatIsAPartKeepsItsRoof) {
   const auto dome = [](bool cross) {
     TestMap map(60, 60);
     map.Box({-22, -22}, {22, 22}, {{"building", "cathedral"}, {"height", "13"}});
-    const int drum = map.Box({-11, -11}, {11, 11}, {{"building", "church"}, {"building:part", "yes"}, {"height", "38"}, {"roof:shape", "dome"}});
+    const int drum =
+        map.Box({-11, -11}, {11, 11}, {{"building", "church"}, {"building:part", "yes"}, {"height", "38"}, {"roof:shape", "dome"}});
     if (cross) map.Box({-1, -1}, {1, 1}, {{"building:part", "yes"}, {"height", "41"}, {"min_height", "37"}});
     const auto scene = map.Build();
     for (const Entity& entity : scene->entities)

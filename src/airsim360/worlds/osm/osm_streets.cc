@@ -15,12 +15,10 @@ struct RoadClass {
   double parking;  // both sides together
 };
 constexpr RoadClass kClasses[] = {
-    {"motorway", 0, 3.6, 4, 0},       {"motorway_link", 0, 3.8, 1, 0}, {"trunk", 1, 3.5, 4, 0},
-    {"trunk_link", 1, 3.8, 1, 0},     {"primary", 1, 3.3, 4, 0},       {"primary_link", 1, 3.8, 1, 0},
-    {"secondary", 2, 3.3, 3, 2.2},    {"secondary_link", 2, 3.8, 1, 0}, {"tertiary", 3, 3.2, 2, 4.2},
-    {"tertiary_link", 3, 3.6, 1, 0},  {"unclassified", 4, 3.1, 2, 4.2}, {"residential", 4, 3.0, 2, 4.2},
-    {"living_street", 5, 3.0, 2, 0},  {"busway", 4, 3.4, 2, 0},        {"road", 4, 3.1, 2, 0},
-    {"service", 6, 3.0, 1, 0},
+    {"motorway", 0, 3.6, 4, 0},      {"motorway_link", 0, 3.8, 1, 0}, {"trunk", 1, 3.5, 4, 0},          {"trunk_link", 1, 3.8, 1, 0},
+    {"primary", 1, 3.3, 4, 0},       {"primary_link", 1, 3.8, 1, 0},  {"secondary", 2, 3.3, 3, 2.2},    {"secondary_link", 2, 3.8, 1, 0},
+    {"tertiary", 3, 3.2, 2, 4.2},    {"tertiary_link", 3, 3.6, 1, 0}, {"unclassified", 4, 3.1, 2, 4.2}, {"residential", 4, 3.0, 2, 4.2},
+    {"living_street", 5, 3.0, 2, 0}, {"busway", 4, 3.4, 2, 0},        {"road", 4, 3.1, 2, 0},           {"service", 6, 3.0, 1, 0},
 };
 constexpr double kMostArm = 24;  // metres a junction reaches at most
 
@@ -133,8 +131,7 @@ RoadGraph PlanRoads(const OsmData& data, const LineIndex& walls) {
     if (RoadRank(way.tags.Get("highway")) < 0 || area || way.line.size() < 2) continue;
     if (Underground(way.tags) || OnBridge(way.tags)) continue;
     ways.push_back(&way);
-    for (size_t i = 0; i < way.nodes.size(); ++i)
-      uses[way.nodes[i]] += i == 0 || i + 1 == way.nodes.size() ? 2 : 1;
+    for (size_t i = 0; i < way.nodes.size(); ++i) uses[way.nodes[i]] += i == 0 || i + 1 == way.nodes.size() ? 2 : 1;
   }
   std::map<int64_t, size_t> index;
   const auto node_at = [&](int64_t id, Vec2d p) {
@@ -152,7 +149,8 @@ RoadGraph PlanRoads(const OsmData& data, const LineIndex& walls) {
       segment.way = way;
       segment.line.assign(way->line.begin() + static_cast<std::ptrdiff_t>(first), way->line.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       segment.rank = RoadRank(way->tags.Get("highway"));
-      segment.oneway = way->tags.Is("oneway", "yes") || way->tags.Is("oneway", "1") || way->tags.Is("oneway", "-1") || way->tags.Is("junction", "roundabout");
+      segment.oneway = way->tags.Is("oneway", "yes") || way->tags.Is("oneway", "1") || way->tags.Is("oneway", "-1") ||
+                       way->tags.Is("junction", "roundabout");
       segment.lanes = LanesOf(way->tags, segment.rank, segment.oneway);
       segment.half = HalfWidthOf(way->tags, segment.rank, segment.lanes, segment.oneway);
       segment.from = node_at(way->nodes[first], way->line[first]);
@@ -180,8 +178,8 @@ namespace {
 /// A road that leaves a junction.
 struct Arm {
   RoadSegment* segment;
-  bool out;       // from its start
-  Vec2d along;    // unit vector away from the junction
+  bool out;     // from its start
+  Vec2d along;  // unit vector away from the junction
   double angle, half, reach, most;
 
   Vec2d left() const { return {-along.y, along.x}; }
@@ -202,8 +200,7 @@ std::vector<Arm> ArmsOf(RoadGraph& graph, const RoadNode& node) {
     const double length = segment.Length(), look = std::min(8.0, length);
     const Vec2d q = PointAt(segment.line, entry.second ? look : length - look).p - node.p;
     const double d = std::max(std::hypot(q.x, q.y), 1e-9);
-    arms.push_back({&segment, entry.second, q * (1 / d), std::atan2(q.y, q.x), segment.half, 0,
-                    std::min(kMostArm, length * 0.48)});
+    arms.push_back({&segment, entry.second, q * (1 / d), std::atan2(q.y, q.x), segment.half, 0, std::min(kMostArm, length * 0.48)});
   }
   std::stable_sort(arms.begin(), arms.end(), [](const Arm& a, const Arm& b) { return a.angle < b.angle; });
   return arms;

@@ -10,13 +10,13 @@ namespace airsim360::internal {
 
 /// One way between two nodes of the graph.
 struct RoadSegment {
-  std::string id;           ///< "way/123", or "way/123/2" for its second segment
+  std::string id;  ///< "way/123", or "way/123/2" for its second segment
   const OsmWay* way = nullptr;
-  std::vector<Vec2d> line;  ///< at least two points
-  size_t from = 0, to = 0;  ///< nodes of the graph
-  double half = 4;          ///< centre to kerb
+  std::vector<Vec2d> line;      ///< at least two points
+  size_t from = 0, to = 0;      ///< nodes of the graph
+  double half = 4;              ///< centre to kerb
   double pavement[2] = {0, 0};  ///< width on the left and on the right
-  int rank = 3;             ///< 0 motorway … 6 service
+  int rank = 3;                 ///< 0 motorway … 6 service
   int lanes = 2;
   bool oneway = false;
   double start = 0, end = 0;  ///< metres of the junctions at both ends

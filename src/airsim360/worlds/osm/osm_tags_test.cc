@@ -22,16 +22,13 @@ constexpr double kPi = std::numbers::pi;
 // "natural=water" as the name of a test.
 std::string TestName(const std::string& text) {
   std::string name;
-  for (char c : text)
-    name += std::isalnum(static_cast<unsigned char>(c)) ? std::string(1, c) : c == '-' ? "_dash_" : "_";
+  for (char c : text) name += std::isalnum(static_cast<unsigned char>(c)) ? std::string(1, c) : c == '-' ? "_dash_" : "_";
   return name;
 }
 
 // A map that has one row of a table in each cell of a grid, far enough apart, built once.
 constexpr double kPitch = 40;
-Vec2d CellOf(size_t i) {
-  return {kPitch * (static_cast<double>(i % 8) - 3.5), kPitch * (static_cast<double>(i / 8) - 3)};
-}
+Vec2d CellOf(size_t i) { return {kPitch * (static_cast<double>(i % 8) - 3.5), kPitch * (static_cast<double>(i / 8) - 3)}; }
 
 struct Named {
   std::shared_ptr<const Scene> scene;
@@ -128,9 +125,8 @@ class EveryAreaTag : public testing::TestWithParam<size_t> {
       TestMap map(180, 160);
       for (size_t i = 0; i < std::size(kAreaTags); ++i) {
         const Vec2d o = CellOf(i);
-        map.Ring(
-            {o, o + Vec2d{24, 0}, o + Vec2d{24, 9}, o + Vec2d{12, 9}, o + Vec2d{12, 18}, o + Vec2d{0, 18}},
-            {{kAreaTags[i].key, kAreaTags[i].value}, {"area", "yes"}});
+        map.Ring({o, o + Vec2d{24, 0}, o + Vec2d{24, 9}, o + Vec2d{12, 9}, o + Vec2d{12, 18}, o + Vec2d{0, 18}},
+                 {{kAreaTags[i].key, kAreaTags[i].value}, {"area", "yes"}});
       }
       return Named(map.Build());
     }();
@@ -140,11 +136,9 @@ class EveryAreaTag : public testing::TestWithParam<size_t> {
   std::string id() const { return "way/" + std::to_string(GetParam() + 1); }
 };
 
-INSTANTIATE_TEST_SUITE_P(OsmTags, EveryAreaTag, testing::Range<size_t>(0, std::size(kAreaTags)),
-                         [](const auto& info) {
-                           return TestName(std::string(kAreaTags[info.param].key) + "_" +
-                                           kAreaTags[info.param].value);
-                         });
+INSTANTIATE_TEST_SUITE_P(OsmTags, EveryAreaTag, testing::Range<size_t>(0, std::size(kAreaTags)), [](const auto& info) {
+  return TestName(std::string(kAreaTags[info.param].key) + "_" + kAreaTags[info.param].value);
+});
 
 TEST_P(EveryAreaTag, BecomesItsGroundWithItsAreaInItsPlace) {
   const Entity* entity = World().Find(id());
@@ -211,11 +205,8 @@ constexpr NodeTag kNodeTags[] = {
 std::string ExpectedPath(const NodeTag& tag) {
   if (tag.category != std::string_view("*")) return tag.category;
   for (const NodeKind& row : NodeKinds())
-    if (row.key == tag.key && (row.value == tag.value || row.value == "*"))
-      return std::string(FindPropKind(row.kind).category);
-  return tag.value == std::string_view("traffic_signals")
-             ? std::string(FindPropKind("traffic_light").category)
-             : "?";
+    if (row.key == tag.key && (row.value == tag.value || row.value == "*")) return std::string(FindPropKind(row.kind).category);
+  return tag.value == std::string_view("traffic_signals") ? std::string(FindPropKind("traffic_light").category) : "?";
 }
 
 class EveryNodeTag : public testing::TestWithParam<size_t> {
@@ -223,19 +214,16 @@ class EveryNodeTag : public testing::TestWithParam<size_t> {
   static const Named& World() {
     static const Named world = [] {
       TestMap map(180, 160);
-      for (size_t i = 0; i < std::size(kNodeTags); ++i)
-        map.Node(CellOf(i), {{kNodeTags[i].key, kNodeTags[i].value}});
+      for (size_t i = 0; i < std::size(kNodeTags); ++i) map.Node(CellOf(i), {{kNodeTags[i].key, kNodeTags[i].value}});
       return Named(map.Build());
     }();
     return world;
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(OsmTags, EveryNodeTag, testing::Range<size_t>(0, std::size(kNodeTags)),
-                         [](const auto& info) {
-                           return TestName(std::string(kNodeTags[info.param].key) + "_" +
-                                           kNodeTags[info.param].value);
-                         });
+INSTANTIATE_TEST_SUITE_P(OsmTags, EveryNodeTag, testing::Range<size_t>(0, std::size(kNodeTags)), [](const auto& info) {
+  return TestName(std::string(kNodeTags[info.param].key) + "_" + kNodeTags[info.param].value);
+});
 
 // Without a street near by, things stand where the map has them.
 TEST_P(EveryNodeTag, BecomesItsThingInItsPlaceOnTheGround) {
@@ -248,8 +236,7 @@ TEST_P(EveryNodeTag, BecomesItsThingInItsPlaceOnTheGround) {
   const Box3f& box = entity->bounds;
   EXPECT_TRUE(std::isfinite(box.min.x + box.max.x + box.min.y + box.max.y + box.min.z + box.max.z));
   EXPECT_TRUE(box.Contains({static_cast<float>(p.x), static_cast<float>(p.y), box.center().z}));
-  EXPECT_LT(std::hypot(static_cast<double>(box.center().x) - p.x, static_cast<double>(box.center().y) - p.y),
-            3.5);
+  EXPECT_LT(std::hypot(static_cast<double>(box.center().x) - p.x, static_cast<double>(box.center().y) - p.y), 3.5);
   EXPECT_GE(box.min.z, -0.4f);
   EXPECT_LE(box.min.z, 0.05f);
   EXPECT_LE(box.max.z, 25);
@@ -258,9 +245,8 @@ TEST_P(EveryNodeTag, BecomesItsThingInItsPlaceOnTheGround) {
 TEST(OsmTagTables, HoldEveryKindOfNodeThatTheReaderKnows) {
   for (const NodeKind& row : NodeKinds()) {
     if (row.kind.empty()) continue;
-    const bool tested = std::any_of(std::begin(kNodeTags), std::end(kNodeTags), [&](const NodeTag& tag) {
-      return row.key == tag.key && (row.value == tag.value || row.value == "*");
-    });
+    const bool tested = std::any_of(std::begin(kNodeTags), std::end(kNodeTags),
+                                    [&](const NodeTag& tag) { return row.key == tag.key && (row.value == tag.value || row.value == "*"); });
     EXPECT_TRUE(tested) << row.key << "=" << row.value;
     EXPECT_NO_THROW(FindPropKind(row.kind)) << row.kind;
   }
@@ -385,8 +371,7 @@ INSTANTIATE_TEST_SUITE_P(OsmTags, EveryBarrierTag, testing::Range<size_t>(0, std
 TEST_P(EveryBarrierTag, StandsAlongItsLine) {
   const BarrierTag& tag = kBarriers[GetParam()];
   const std::string name = "way/" + std::to_string(GetParam() + 1), category = tag.category;
-  const std::string path =
-      category[0] == '*' ? std::string(FindPropKind(category.substr(1)).category) : category;
+  const std::string path = category[0] == '*' ? std::string(FindPropKind(category.substr(1)).category) : category;
   EXPECT_EQ(World().Path(name), path);
   const Entity* entity = World().Find(name);
   if (path == "nothing") return;
@@ -445,15 +430,12 @@ struct Plans {
   std::vector<OsmArea> areas;
   std::vector<OsmBuilding> buildings;
   explicit Plans(const TestMap& map)
-      : data(ReadOsm("test.osm", AsBytes(map.Text()))),
-        areas(FindAreas(data)),
-        buildings(PlanOsmBuildings(data, areas)) {}
+      : data(ReadOsm("test.osm", AsBytes(map.Text()))), areas(FindAreas(data)), buildings(PlanOsmBuildings(data, areas)) {}
 };
 
 class EveryBuildingTag : public testing::TestWithParam<BuildingTag> {};
 
-INSTANTIATE_TEST_SUITE_P(OsmTags, EveryBuildingTag, testing::ValuesIn(kBuildings),
-                         [](const auto& info) { return info.param.kind; });
+INSTANTIATE_TEST_SUITE_P(OsmTags, EveryBuildingTag, testing::ValuesIn(kBuildings), [](const auto& info) { return info.param.kind; });
 
 TEST_P(EveryBuildingTag, IsAsHighAsItsUseSuggestsUnlessTheMapKnowsBetter) {
   TestMap map(100, 100);
@@ -519,8 +501,7 @@ void PrintTo(const Plot& plot, std::ostream* out) { *out << plot.name; }
 
 std::vector<Vec2d> Round(int corners, double radius) {
   std::vector<Vec2d> ring;
-  for (int i = 0; i < corners; ++i)
-    ring.push_back({radius * std::cos(2 * kPi * i / corners), radius * std::sin(2 * kPi * i / corners)});
+  for (int i = 0; i < corners; ++i) ring.push_back({radius * std::cos(2 * kPi * i / corners), radius * std::sin(2 * kPi * i / corners)});
   return ring;
 }
 const Plot kPlots[] = {{"oblong", {{0, 0}, {18, 0}, {18, 10}, {0, 10}}},
@@ -532,11 +513,9 @@ const Plot kPlots[] = {{"oblong", {{0, 0}, {18, 0}, {18, 10}, {0, 10}}},
 
 class EveryRoofShape : public testing::TestWithParam<std::tuple<RoofShape, Plot>> {};
 
-INSTANTIATE_TEST_SUITE_P(OsmTags, EveryRoofShape,
-                         testing::Combine(testing::ValuesIn(kRoofShapes), testing::ValuesIn(kPlots)),
+INSTANTIATE_TEST_SUITE_P(OsmTags, EveryRoofShape, testing::Combine(testing::ValuesIn(kRoofShapes), testing::ValuesIn(kPlots)),
                          [](const auto& info) {
-                           return TestName(std::string(std::get<0>(info.param).value) + "_" +
-                                           std::get<1>(info.param).name);
+                           return TestName(std::string(std::get<0>(info.param).value) + "_" + std::get<1>(info.param).name);
                          });
 
 // Rain falls on the roof wherever the outline is, and nowhere beside it; it lies between eaves and the tagged
@@ -544,8 +523,7 @@ INSTANTIATE_TEST_SUITE_P(OsmTags, EveryRoofShape,
 TEST_P(EveryRoofShape, CoversItsOutlineBetweenEavesAndTop) {
   const auto& [shape, plot] = GetParam();
   TestMap map(100, 100);
-  map.Ring(plot.ring,
-           {{"building", "yes"}, {"height", "11"}, {"roof:height", "4"}, {"roof:shape", shape.value}});
+  map.Ring(plot.ring, {{"building", "yes"}, {"height", "11"}, {"roof:height", "4"}, {"roof:shape", shape.value}});
   const Plans plans(map);
   ASSERT_EQ(plans.buildings.size(), 1u);
   ASSERT_EQ(plans.buildings[0].volumes.size(), 1u);
@@ -596,11 +574,8 @@ INSTANTIATE_TEST_SUITE_P(OsmTags, EveryCompassDirection, testing::Range(0, 360, 
 
 TEST_P(EveryCompassDirection, IsWhereASlopeWithItFaces) {
   const std::string degrees = std::to_string(GetParam());
-  const Mesh mesh = RoofOf({{"building", "yes"},
-                            {"height", "9"},
-                            {"roof:height", "3"},
-                            {"roof:shape", "skillion"},
-                            {"roof:direction", degrees}});
+  const Mesh mesh =
+      RoofOf({{"building", "yes"}, {"height", "9"}, {"roof:height", "3"}, {"roof:shape", "skillion"}, {"roof:direction", degrees}});
   const double a = GetParam() * kPi / 180;
   int slopes = 0;
   ForTriangles(mesh, [&](const MeshPart& part, Vec3f p, Vec3f q, Vec3f r) {
@@ -634,18 +609,13 @@ TEST(OsmRoofTags, RidgesRunAlongTheHouseUnlessTheMapSaysAcross) {
 
 TEST(OsmRoofTags, HeightsAreTakenFromAngleAndLevelsToo) {
   TestMap map(100, 100);
-  map.Box({0, 0}, {18, 10},
-          {{"building", "yes"}, {"height", "12"}, {"roof:shape", "gabled"}, {"roof:angle", "45"}});
-  map.Box({30, 0}, {48, 10},
-          {{"building", "yes"}, {"height", "12"}, {"roof:shape", "skillion"}, {"roof:angle", "10"}});
-  map.Box({0, 30}, {18, 40},
-          {{"building", "yes"}, {"height", "12"}, {"roof:shape", "hipped"}, {"roof:levels", "2"}});
-  map.Box({30, 30}, {48, 40},
-          {{"building", "yes"}, {"height", "4"}, {"roof:shape", "dome"}, {"roof:height", "30"}});
+  map.Box({0, 0}, {18, 10}, {{"building", "yes"}, {"height", "12"}, {"roof:shape", "gabled"}, {"roof:angle", "45"}});
+  map.Box({30, 0}, {48, 10}, {{"building", "yes"}, {"height", "12"}, {"roof:shape", "skillion"}, {"roof:angle", "10"}});
+  map.Box({0, 30}, {18, 40}, {{"building", "yes"}, {"height", "12"}, {"roof:shape", "hipped"}, {"roof:levels", "2"}});
+  map.Box({30, 30}, {48, 40}, {{"building", "yes"}, {"height", "4"}, {"roof:shape", "dome"}, {"roof:height", "30"}});
   const Plans plans(map);
   const double expected[] = {5, 10 * std::tan(kPi / 18), 5.6, 4};  // the last: no more than there is
-  for (size_t i = 0; i < 4; ++i)
-    EXPECT_NEAR(plans.buildings.at(i).volumes.at(0).roof_height, expected[i], 0.02) << i;
+  for (size_t i = 0; i < 4; ++i) EXPECT_NEAR(plans.buildings.at(i).volumes.at(0).roof_height, expected[i], 0.02) << i;
 }
 
 }  // namespace

@@ -224,7 +224,9 @@ TEST(OsmGround, EverySpotOfTheExtractBelongsToOneEntity) {
   const Built& world = World();
   Patches all;
   double sum = 0;
-  const std::set<std::string> ground{"ground/road", "ground/sidewalk", "ground/path/park_walkway", "ground/terrain/landscape", "ground/pavement/modular", "water/lake", "ground/sand", "ground/grass"};
+  const std::set<std::string> ground{
+      "ground/road", "ground/sidewalk", "ground/path/park_walkway", "ground/terrain/landscape", "ground/pavement/modular", "water/lake",
+      "ground/sand", "ground/grass"};
   for (const Instance& instance : world.scene->instances) {
     const Mesh& mesh = world.scene->meshes[instance.mesh];
     if (mesh.name != "ground") continue;
@@ -262,7 +264,8 @@ TEST(OsmProps, EveryTreeLampAndBenchIsAnEntityInItsPlace) {
   const Built& world = World();
   int found = 0;
   for (const OsmNode& node : data.nodes) {
-    const bool tree = node.tags.Is("natural", "tree"), lamp = node.tags.Is("highway", "street_lamp"), bench = node.tags.Is("amenity", "bench");
+    const bool tree = node.tags.Is("natural", "tree"), lamp = node.tags.Is("highway", "street_lamp"),
+               bench = node.tags.Is("amenity", "bench");
     if (!tree && !lamp && !bench) continue;
     const Entity* entity = world.Find(OsmId("node", node.id));
     ASSERT_NE(entity, nullptr) << node.id;
@@ -281,7 +284,9 @@ TEST(OsmProps, GardensAreFilledAroundHousesAndOnlyOnDemand) {
   const OsmData data = Fixture();
   const std::vector<OsmArea> areas = FindAreas(data);
   const std::vector<OsmBuilding> plans = PlanOsmBuildings(data, areas);
-  const auto by_rule = [](const Entity& entity) { return (entity.name.starts_with("green ") || entity.name.starts_with("yard ")) && entity.name.find('/') != std::string::npos; };
+  const auto by_rule = [](const Entity& entity) {
+    return (entity.name.starts_with("green ") || entity.name.starts_with("yard ")) && entity.name.find('/') != std::string::npos;
+  };
   int things = 0;
   for (const Entity& entity : World().scene->entities) {
     if (!by_rule(entity) || entity.name.ends_with("/gardens")) continue;
@@ -290,7 +295,8 @@ TEST(OsmProps, GardensAreFilledAroundHousesAndOnlyOnDemand) {
     for (const OsmBuilding& building : plans)
       for (const OsmVolume& volume : building.volumes)
         for (const Patch& patch : volume.footprint)
-          EXPECT_FALSE(volume.bottom <= 3 && Inside(patch, {static_cast<double>(c.x), static_cast<double>(c.y)})) << entity.name << " in " << building.id;
+          EXPECT_FALSE(volume.bottom <= 3 && Inside(patch, {static_cast<double>(c.x), static_cast<double>(c.y)}))
+              << entity.name << " in " << building.id;
   }
   EXPECT_GT(things, 50);
   const auto bare = BuildOsmWorld(kFixture, {.fill = false});
@@ -343,7 +349,8 @@ TEST(Patches, BooleansAndTrianglesKeepTheArea) {
 // What osmium-tool counts for a filter, by kind; nullopt where it is not installed.
 std::optional<std::array<int, 3>> OsmiumCount(const fs::path& file, const std::string& filter) {
   const fs::path out = fs::temp_directory_path() / ("airsim360_osm_" + std::to_string(getpid()) + ".opl");
-  const std::string command = "osmium tags-filter -R --no-progress '" + file.string() + "' " + filter + " -o '" + out.string() + "' --overwrite >/dev/null 2>&1";
+  const std::string command =
+      "osmium tags-filter -R --no-progress '" + file.string() + "' " + filter + " -o '" + out.string() + "' --overwrite >/dev/null 2>&1";
   if (std::system(command.c_str()) != 0) return std::nullopt;
   std::array<int, 3> counts{};
   const std::string text = ReadTextFile(out);
@@ -413,9 +420,10 @@ TEST_P(OsmExtracts, MeetTheBars) {
     EXPECT_TRUE(named.contains(OsmId("node", node.id))) << node.id;
     ++things;
   }
-  std::printf("%s: buildings n %d w %d r %d; %d heights, worst %.3f m; %d footprints, worst overlap %.4f (%s), mean %.5f; %d trees, lamps, benches; %zu entities\n",
-              GetParam(), counts[0], counts[1], counts[2], measured, worst, agreement.count, agreement.worst, agreement.where.c_str(),
-              agreement.mean, things, built.scene->entities.size());
+  std::printf(
+      "%s: buildings n %d w %d r %d; %d heights, worst %.3f m; %d footprints, worst overlap %.4f (%s), mean %.5f; %d trees, lamps, benches; %zu entities\n",
+      GetParam(), counts[0], counts[1], counts[2], measured, worst, agreement.count, agreement.worst, agreement.where.c_str(),
+      agreement.mean, things, built.scene->entities.size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Shared, OsmExtracts, testing::Values("nyc.osm.pbf", "berlin-siegessaeule.osm.gz", "west-oakland.osm.bz2"));

@@ -12,8 +12,8 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kSetBack = 0.16;                               // of dressed walls from the outline
-constexpr double kChunk = 120;                            // metres of one merged mesh
+constexpr double kSetBack = 0.16;  // of dressed walls from the outline
+constexpr double kChunk = 120;     // metres of one merged mesh
 
 // How one volume is dressed.
 struct Look {
@@ -32,9 +32,7 @@ bool IsAny(std::string_view value, std::initializer_list<std::string_view> choic
 
 FacadeStyle PickFacadeStyle(const OsmTags& tags, std::string_view material, int floors, bool europe, RngStream& rng) {
   using F = FacadeStyle;
-  const auto one = [&](std::initializer_list<F> list) {
-    return *(list.begin() + rng.Index(static_cast<uint32_t>(list.size())));
-  };
+  const auto one = [&](std::initializer_list<F> list) { return *(list.begin() + rng.Index(static_cast<uint32_t>(list.size()))); };
   if (material == "glass" || material == "mirror") return F::kCurtainWall;
   if (material == "metal" || material == "steel") return floors > 5 ? F::kCurtainWall : F::kRibbon;
   if (material == "brick" || material == "bricks") return floors > 2 && rng.Chance(0.4) ? F::kBrickLoft : F::kBrickWalkUp;
@@ -44,8 +42,10 @@ FacadeStyle PickFacadeStyle(const OsmTags& tags, std::string_view material, int 
   const std::string_view kind = tags.Get("building");
   if (IsAny(kind, {"church", "cathedral", "chapel", "public", "civic", "museum", "government", "university"})) return F::kClassicStone;
   if (IsAny(kind, {"industrial", "warehouse", "manufacture"})) return one({F::kBrickLoft, F::kRibbon, F::kConcreteGrid});
-  if (IsAny(kind, {"office", "commercial"})) return floors > 8 ? one({F::kCurtainWall, F::kRibbon, F::kConcreteGrid}) : one({F::kClassicStone, F::kRibbon, F::kBrickLoft});
-  if (IsAny(kind, {"house", "detached", "terrace", "semidetached_house", "bungalow"})) return europe ? one({F::kStuccoShutters, F::kBrickWalkUp}) : one({F::kBrickWalkUp, F::kStuccoShutters});
+  if (IsAny(kind, {"office", "commercial"}))
+    return floors > 8 ? one({F::kCurtainWall, F::kRibbon, F::kConcreteGrid}) : one({F::kClassicStone, F::kRibbon, F::kBrickLoft});
+  if (IsAny(kind, {"house", "detached", "terrace", "semidetached_house", "bungalow"}))
+    return europe ? one({F::kStuccoShutters, F::kBrickWalkUp}) : one({F::kBrickWalkUp, F::kStuccoShutters});
   if (floors > 14) return one({F::kCurtainWall, F::kRibbon, F::kConcreteGrid, F::kClassicStone});
   if (floors > 7) return one({F::kClassicStone, F::kBrickLoft, F::kConcreteGrid, F::kBrickWalkUp});
   if (europe) return one({F::kStuccoShutters, F::kClassicStone, F::kClassicStone, F::kBrickWalkUp, F::kStuccoShutters});
@@ -100,7 +100,8 @@ Look LookOf(OsmScene& scene, const OsmBuilding& building, const OsmVolume& volum
   const double walls = volume.top - volume.bottom - volume.roof_height;
   look.plain = HasNoWindows(building, volume);
   const MapWall* own_wall = scene.dress ? scene.dress->FindWall(material) : nullptr;
-  look.plan.style = own_wall ? own_wall->style : PickFacadeStyle(*building.tags, material, static_cast<int>(walls / 3.3), scene.europe, rng);
+  look.plan.style =
+      own_wall ? own_wall->style : PickFacadeStyle(*building.tags, material, static_cast<int>(walls / 3.3), scene.europe, rng);
   look.plan.palette = static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(look.plan.style).palettes)));
   // The storeys that need the least stretching; the roof's parapet is not the facade's affair.
   look.plan.roof = RoofKind::kHipTile;
@@ -109,7 +110,8 @@ Look LookOf(OsmScene& scene, const OsmBuilding& building, const OsmVolume& volum
   look.plan.floors = std::max(0, static_cast<int>(std::lround(storeys)));
   look.stretch = static_cast<float>(walls / static_cast<double>(look.plan.height()));
   const std::string_view kind = building.tags->Get("building");
-  look.plan.shops = volume.bottom < 0.5 && !IsAny(kind, {"house", "detached", "terrace", "semidetached_house", "church", "cathedral", "chapel", "school", "garage", "garages", "shed", "industrial"});
+  look.plan.shops = volume.bottom < 0.5 && !IsAny(kind, {"house", "detached", "terrace", "semidetached_house", "church", "cathedral",
+                                                         "chapel", "school", "garage", "garages", "shed", "industrial"});
   // Colour.
   const Dress dress = DressOf(look.plan);
   look.wall = dress.wall;
@@ -119,7 +121,9 @@ Look LookOf(OsmScene& scene, const OsmBuilding& building, const OsmVolume& volum
     const bool gold = look.plain && colour->x > 0.7f && colour->z < 0.1f;
     const MaterialId own = gold ? scene.tints.Get(scene.surfaces[Surface::kMetal], *colour, 0.42f, 0.9f, 0.35f)
                                 : Coloured(scene, look.wall, *colour, material);
-    look.surfaces = look.surfaces.With(look.wall, own).With(dress.party, own).With(dress.far, scene.tints.Get(scene.surfaces[Surface::kFarWalls1], *colour, 0.4f));
+    look.surfaces = look.surfaces.With(look.wall, own)
+                        .With(dress.party, own)
+                        .With(dress.far, scene.tints.Get(scene.surfaces[Surface::kFarWalls1], *colour, 0.4f));
   }
   if (own_wall) {
     const auto colour = ParseOsmColour(tag("building:colour"));
@@ -177,8 +181,7 @@ EdgeFacts FactsOf(const Neighbours& near, const OsmVolume& self, Vec2d a, Vec2d 
 // Bare wall of one edge, in the volume's colour; u runs on along the outline.
 void PlainWall(MeshBuilder& mesh, Vec2f a, Vec2f b, float z0, float z1, float u) {
   const float w = std::hypot(b.x - a.x, b.y - a.y);
-  mesh.QuadUv({a.x, a.y, z0}, {b.x, b.y, z0}, {b.x, b.y, z1}, {a.x, a.y, z1}, {u, -z0}, {u + w, -z0}, {u + w, -z1},
-              {u, -z1});
+  mesh.QuadUv({a.x, a.y, z0}, {b.x, b.y, z0}, {b.x, b.y, z1}, {a.x, a.y, z1}, {u, -z0}, {u + w, -z0}, {u + w, -z1}, {u, -z1});
 }
 
 // The outline with each edge moved inwards by its own distance.
@@ -196,8 +199,7 @@ std::vector<Vec2f> SetBack(const Ring& ring, const std::vector<double>& back) {
     const Vec2d n0 = inward(before, p), n1 = inward(p, after);
     const double det = n0.x * n1.y - n0.y * n1.x;
     Vec2d q = (n0 * back[k] + n1 * back[i]) * 0.5;
-    if (std::abs(det) > 0.15)
-      q = {(back[k] * n1.y - back[i] * n0.y) / det, (n0.x * back[i] - n1.x * back[k]) / det};
+    if (std::abs(det) > 0.15) q = {(back[k] * n1.y - back[i] * n0.y) / det, (n0.x * back[i] - n1.x * back[k]) / det};
     moved.push_back(ToFloat(p + q));
   }
   return moved;
@@ -221,8 +223,8 @@ void BuildLowWall(MeshBuilder& mesh, const Surfaces& surfaces, const Dress& dres
       pen.Front(x0, x0 + w, 0, height, 0);
     } else {
       const bool door = i % 3 == 0;
-      SimpleOpening(pen, dress, x0, x0 + w, 0, height, m - (door ? 0.5f : 0.6f), m + (door ? 0.5f : 0.6f),
-                    door ? 0.05f : 0.95f, head, 0.12f, rng);
+      SimpleOpening(pen, dress, x0, x0 + w, 0, height, m - (door ? 0.5f : 0.6f), m + (door ? 0.5f : 0.6f), door ? 0.05f : 0.95f, head,
+                    0.12f, rng);
     }
   }
   mesh.SetTransform({});
@@ -253,7 +255,9 @@ class WallBuilder {
     std::vector<Vec2d> points = patch.outer;
     for (const Ring& hole : patch.holes) points.insert(points.end(), hole.begin(), hole.end());
     const std::vector<uint32_t> t = Triangulate(patch);
-    const auto at = [&](uint32_t i) { return Vec3f{static_cast<float>(points[i].x), static_cast<float>(points[i].y), static_cast<float>(base)}; };
+    const auto at = [&](uint32_t i) {
+      return Vec3f{static_cast<float>(points[i].x), static_cast<float>(points[i].y), static_cast<float>(base)};
+    };
     const auto uv = [&](uint32_t i) { return ToFloat(points[i]); };
     for (size_t i = 0; i + 2 < t.size(); i += 3) mesh_.Triangle(at(t[i]), at(t[i + 2]), at(t[i + 1]), uv(t[i]), uv(t[i + 2]), uv(t[i + 1]));
   }
@@ -299,7 +303,7 @@ class WallBuilder {
     Look own = look;
     own.plan.edges.assign(n, EdgeKind::kParty);
     own.plan.party_height.assign(n, 1e6f);  // left as it is, BuildFacades draws nothing there
-    own.plan.canopies = false;  // nothing leaves the outline
+    own.plan.canopies = false;              // nothing leaves the outline
     own.plan.cornice = 0.45f;
     std::vector<Edge> edges(n);
     std::vector<FacadeDetail> detail(n);
@@ -322,7 +326,8 @@ class WallBuilder {
 
   // All of an edge but a dressed wall; u is where its texture begins. Returns where that of the next does.
   float BuildEdge(Look& own, const Ring& ring, const Edge& edge, size_t i, const Walls& walls, float u) {
-    const auto z0 = static_cast<float>(walls.base), z1 = static_cast<float>(walls.base + walls.height), height = static_cast<float>(walls.height);
+    const auto z0 = static_cast<float>(walls.base), z1 = static_cast<float>(walls.base + walls.height),
+               height = static_cast<float>(walls.height);
     const Vec2f a = own.plan.outline[i], b = own.plan.outline[(i + 1) % ring.size()];
     const float length = std::hypot(b.x - a.x, b.y - a.y);
     const bool distant = scene_.Far(ring[i]) > kSimpleDetail;
@@ -423,8 +428,7 @@ void Clutter(OsmScene& scene, const OsmVolume& volume, double base, uint64_t see
 }  // namespace
 
 std::vector<EntityId> BuildOsmBuildings(OsmScene& scene, const std::vector<OsmBuilding>& buildings, const Neighbours& near) {
-  const MeshId balcony = AddBalconyMesh(scene.builder, scene.surfaces),
-               window_box = AddWindowBoxMesh(scene.builder, scene.surfaces);
+  const MeshId balcony = AddBalconyMesh(scene.builder, scene.surfaces), window_box = AddWindowBoxMesh(scene.builder, scene.surfaces);
   SemanticTree& tree = scene.builder.tree();
   const CategoryId walls_are = tree.At("construction/building"), roofs_are = tree.At("construction/building/roof");
   std::map<std::pair<int, int>, MeshBuilder> chunks;
@@ -432,8 +436,7 @@ std::vector<EntityId> BuildOsmBuildings(OsmScene& scene, const std::vector<OsmBu
   for (size_t i = 0; i < buildings.size(); ++i) {
     const OsmBuilding& building = buildings[i];
     const CategoryId category = building.orphan ? tree.At("construction/building/part") : walls_are;
-    const EntityId entity =
-        scene.builder.AddEntity(building.id + (building.name.empty() ? "" : " " + building.name), category);
+    const EntityId entity = scene.builder.AddEntity(building.id + (building.name.empty() ? "" : " " + building.name), category);
     entities.push_back(entity);
     for (const OsmVolume& volume : building.volumes) {
       if (volume.footprint.empty()) continue;
@@ -447,16 +450,16 @@ std::vector<EntityId> BuildOsmBuildings(OsmScene& scene, const std::vector<OsmBu
       else
         WallBuilder(scene, near, mesh, balcony, window_box).Build(volume, look, ground, entity);
       CloseOnSupports(mesh, near, volume, ground, look.surfaces[look.wall], entity);
-      BuildOsmRoof(mesh, volume, ground, entity, roof, look.surfaces[look.wall],
-                   RoofCover(scene, volume, *building.tags, look.plan.seed));
+      BuildOsmRoof(mesh, volume, ground, entity, roof, look.surfaces[look.wall], RoofCover(scene, volume, *building.tags, look.plan.seed));
       if (!look.plain && !volume.canopy) Clutter(scene, volume, ground, look.plan.seed);
     }
   }
   for (auto& chunk : chunks) {
     if (chunk.second.empty()) continue;
-    scene.builder.AddInstance({scene.builder.AddMesh(chunk.second.Finish(
-                                   "buildings " + std::to_string(chunk.first.first) + "," + std::to_string(chunk.first.second))),
-                               {}, kNoEntity});
+    scene.builder.AddInstance({scene.builder.AddMesh(chunk.second.Finish("buildings " + std::to_string(chunk.first.first) + "," +
+                                                                         std::to_string(chunk.first.second))),
+                               {},
+                               kNoEntity});
   }
   return entities;
 }

@@ -38,8 +38,7 @@ void OsmScene::Drape(MeshBuilder& mesh, Vec2d a, Vec2d b, Vec2d c, double lift, 
       mesh.Triangle(On(piece[0], lift), On(piece[i], lift), On(piece[i + 1], lift), uv(piece[0]), uv(piece[i]), uv(piece[i + 1]));
 }
 
-EntityId OsmScene::Put(const std::string& name, std::string_view kind, Vec3f p_W, double yaw, float scale, uint32_t variant,
-                       Vec3f tint) {
+EntityId OsmScene::Put(const std::string& name, std::string_view kind, Vec3f p_W, double yaw, float scale, uint32_t variant, Vec3f tint) {
   const PropKind& row = FindPropKind(kind);
   const EntityId entity = builder.AddEntity(name, builder.tree().At(row.category));
   shelf.PlaceAs(entity, kind, PlaceUpright(p_W, static_cast<float>(yaw), scale), variant % static_cast<uint32_t>(row.variants), tint);
@@ -119,8 +118,11 @@ std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmDat
   EndAtTheCoast(areas, sea.water);
   WarnOfBroken(name, areas);
   const Vec2d middle{(data.extent.x0 + data.extent.x1) / 2, (data.extent.y0 + data.extent.y1) / 2};
-  OsmScene scene{builder, surfaces, shelf, occupancy, tints, data, areas, sea.water, ReliefOf(data, options), options, middle,
-                 data.origin.longitude_deg > -30, dress};
+  OsmScene scene{builder,   surfaces,  shelf,
+                 occupancy, tints,     data,
+                 areas,     sea.water, ReliefOf(data, options),
+                 options,   middle,    data.origin.longitude_deg > -30,
+                 dress};
   const std::vector<OsmBuilding> buildings = PlanOsmBuildings(data, areas);
 
   // What stands where, for party walls, fronts and free places.
@@ -136,7 +138,8 @@ std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmDat
     }
   for (const OsmNode& node : data.nodes) {
     const std::string_view amenity = node.tags.Get("amenity");
-    if (node.tags.Has("shop") || amenity == "cafe" || amenity == "restaurant" || amenity == "fast_food" || amenity == "bar" || amenity == "pub" || amenity == "bank" || amenity == "pharmacy")
+    if (node.tags.Has("shop") || amenity == "cafe" || amenity == "restaurant" || amenity == "fast_food" || amenity == "bar" ||
+        amenity == "pub" || amenity == "bank" || amenity == "pharmacy")
       near.shops.Add(node.p, node.p, 0);
   }
   BuildOsmGround(scene, buildings, near);
@@ -166,9 +169,9 @@ bool IsOsmFile(const std::filesystem::path& file) { return internal::IsOsmName(f
 
 std::shared_ptr<const Scene> BuildOsmWorld(const std::string& name, std::span<const std::byte> bytes, const OsmOptions& options,
                                            OsmReport* report) {
-  return internal::BuildMapScene(
-      name, internal::ReadOsm(name, bytes, {}, options.cut), options,
-      "map data (c) OpenStreetMap contributors, Open Database License 1.0 (openstreetmap.org/copyright)", report);
+  return internal::BuildMapScene(name, internal::ReadOsm(name, bytes, {}, options.cut), options,
+                                 "map data (c) OpenStreetMap contributors, Open Database License 1.0 (openstreetmap.org/copyright)",
+                                 report);
 }
 
 std::shared_ptr<const Scene> BuildOsmWorld(const std::filesystem::path& file, const OsmOptions& options, OsmReport* report) {

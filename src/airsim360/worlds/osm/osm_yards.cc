@@ -21,8 +21,10 @@ constexpr std::array<YardThing, 6> kGarden{{{"tree_narrowleaf", 0.10, 3.0, 0.6f}
                                             {"green_pot", 0.10, 1.0, 1},
                                             {"bench_wood", 0.03, 1.4, 1},
                                             {"plant", 0.12, 1.0, 1}}};
-constexpr std::array<YardThing, 4> kCourtyard{{{"car", 0.10, 2.6, 1}, {"trash_can", 0.06, 1.0, 1}, {"green_pot", 0.05, 1.0, 1}, {"tree_narrowleaf", 0.02, 3.0, 0.6f}}};
-constexpr std::array<YardThing, 4> kMeadow{{{"tree_generic", 0.012, 3.5, 0.7f}, {"tree_narrowleaf", 0.008, 3.5, 0.8f}, {"shrub", 0.04, 1.2, 1}, {"plant", 0.03, 1.0, 1}}};
+constexpr std::array<YardThing, 4> kCourtyard{
+    {{"car", 0.10, 2.6, 1}, {"trash_can", 0.06, 1.0, 1}, {"green_pot", 0.05, 1.0, 1}, {"tree_narrowleaf", 0.02, 3.0, 0.6f}}};
+constexpr std::array<YardThing, 4> kMeadow{
+    {{"tree_generic", 0.012, 3.5, 0.7f}, {"tree_narrowleaf", 0.008, 3.5, 0.8f}, {"shrub", 0.04, 1.2, 1}, {"plant", 0.03, 1.0, 1}}};
 
 // What `pick` of [0, 1) draws.
 const YardThing* Draw(std::span<const YardThing> things, double pick) {
@@ -55,17 +57,21 @@ void Dresser::Yards() {
           const double pick = rng.Uniform(), yaw = 2 * M_PI * rng.Uniform();
           const uint32_t variant = rng.Index(36);
           const YardThing* thing = Draw(ThingsOf(yard.kind), pick);
-          if (!thing || !Here(p) || OnRoad(p, 3) || !Inside(patch, p) || InBuilding(p, thing->room) || paths_.Find(p, 2.2).owner != UINT32_MAX) continue;
+          if (!thing || !Here(p) || OnRoad(p, 3) || !Inside(patch, p) || InBuilding(p, thing->room) ||
+              paths_.Find(p, 2.2).owner != UINT32_MAX)
+            continue;
           const bool tree = std::string_view(thing->kind).starts_with("tree");
           if (tree && planted_ >= kMostPlanted) continue;
-          if (scene_.dress && ((tree && !scene_.dress->yard_trees) || (std::string_view(thing->kind) == "car" && !scene_.dress->yard_cars))) continue;
+          if (scene_.dress && ((tree && !scene_.dress->yard_trees) || (std::string_view(thing->kind) == "car" && !scene_.dress->yard_cars)))
+            continue;
           // Cars stand square to each other; everything else as it likes.
           const double turn = std::string_view(thing->kind) == "car" ? std::round(yaw) * (M_PI / 2) : yaw;
           const Footprint place = FootprintOf(thing->kind, ToFloat(p), static_cast<float>(turn), thing->scale);
           if (!scene_.occupancy.IsFree(place)) continue;
           scene_.occupancy.Add(place);
           planted_ += tree;
-          scene_.Put(yard.name + "/" + thing->kind + " " + std::to_string(++number), thing->kind, scene_.On(p, tree ? -0.03 : 0), turn, thing->scale, variant);
+          scene_.Put(yard.name + "/" + thing->kind + " " + std::to_string(++number), thing->kind, scene_.On(p, tree ? -0.03 : 0), turn,
+                     thing->scale, variant);
         }
     }
   }

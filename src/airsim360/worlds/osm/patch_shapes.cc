@@ -46,8 +46,7 @@ void Bounds2d::Add(Vec2d p) {
 }
 
 bool Bounds2d::Overlaps(const Bounds2d& other, double margin) const {
-  return min.x <= other.max.x + margin && other.min.x <= max.x + margin && min.y <= other.max.y + margin &&
-         other.min.y <= max.y + margin;
+  return min.x <= other.max.x + margin && other.min.x <= max.x + margin && min.y <= other.max.y + margin && other.min.y <= max.y + margin;
 }
 
 Bounds2d BoundsOf(std::span<const Vec2d> ring) {

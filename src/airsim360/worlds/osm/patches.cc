@@ -19,9 +19,7 @@ constexpr double kFarthest = 500000;  // metres; beyond, corners are moved in
 constexpr double kSmallest = 0.02;    // m^2
 
 Point Snap(Vec2d p) {
-  const auto unit = [](double x) {
-    return static_cast<int>(std::lround(std::clamp(x, -kFarthest, kFarthest) * kGrid));
-  };
+  const auto unit = [](double x) { return static_cast<int>(std::lround(std::clamp(x, -kFarthest, kFarthest) * kGrid)); };
   return {unit(p.x), unit(p.y)};
 }
 
@@ -58,8 +56,7 @@ Set SetOf(std::span<const Patch> patches) {
 template <class Corners>
 Ring RingOf(const Corners& begin, const Corners& end) {
   Ring ring;
-  for (auto it = begin; it != end; ++it)
-    ring.push_back({static_cast<double>(it->x()) / kGrid, static_cast<double>(it->y()) / kGrid});
+  for (auto it = begin; it != end; ++it) ring.push_back({static_cast<double>(it->x()) / kGrid, static_cast<double>(it->y()) / kGrid});
   while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
   return ring;
 }
@@ -106,9 +103,7 @@ Patches Band(std::span<const Vec2d> line, double left, double right) {
     const double length = std::hypot(v.x, v.y);
     if (length < 1e-6) continue;
     const Vec2d side{-v.y / length, v.x / length};
-    pieces.push_back({{line[i] - side * right, line[i + 1] - side * right, line[i + 1] + side * left,
-                       line[i] + side * left},
-                      {}});
+    pieces.push_back({{line[i] - side * right, line[i + 1] - side * right, line[i + 1] + side * left, line[i] + side * left}, {}});
     if (i + 2 >= n) continue;
     // The wedge on the outside of the bend.
     const Vec2d w = line[i + 2] - line[i + 1];
@@ -127,8 +122,7 @@ Patches Band(std::span<const Vec2d> line, double left, double right) {
       const double a0 = std::atan2(a.y, a.x);
       double sweep = std::atan2(b.y, b.x) - a0;
       sweep -= 2 * M_PI * std::round(sweep / (2 * M_PI));
-      for (int k = 1; k < 8; ++k)
-        wedge.push_back(p + Vec2d{std::cos(a0 + sweep * k / 8), std::sin(a0 + sweep * k / 8)} * r);
+      for (int k = 1; k < 8; ++k) wedge.push_back(p + Vec2d{std::cos(a0 + sweep * k / 8), std::sin(a0 + sweep * k / 8)} * r);
     }
     wedge.push_back(p + b);
     pieces.push_back({std::move(wedge), {}});

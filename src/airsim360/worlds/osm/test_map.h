@@ -21,10 +21,12 @@ class TestMap {
     if (half_x > 0) Bounds({-half_x, -half_y}, {half_x, half_y});
   }
   void Bounds(Vec2d low, Vec2d high) {
-    text_ += "<bounds minlat='" + Lat(low.y) + "' minlon='" + Lon(low.x) + "' maxlat='" + Lat(high.y) + "' maxlon='" + Lon(high.x) + "'/>\n";
+    text_ +=
+        "<bounds minlat='" + Lat(low.y) + "' minlon='" + Lon(low.x) + "' maxlat='" + Lat(high.y) + "' maxlon='" + Lon(high.x) + "'/>\n";
   }
   int Node(Vec2d p, Tags tags = {}) {
-    nodes_ += "<node id='" + std::to_string(++node_) + "' version='1' lat='" + Lat(p.y) + "' lon='" + Lon(p.x) + "'>" + TagText(tags) + "</node>\n";
+    nodes_ += "<node id='" + std::to_string(++node_) + "' version='1' lat='" + Lat(p.y) + "' lon='" + Lon(p.x) + "'>" + TagText(tags) +
+              "</node>\n";
     return node_;
   }
   /// A way over nodes that are there (or, with an id that was never given, missing).

@@ -13,17 +13,17 @@ namespace {
 // Quantiles 0, 1/40, …, 1 of what real towns measure, counted over OpenStreetMap extracts ((c) OpenStreetMap
 // contributors, ODbL 1.0; data/osm/distributions.csv): areas and heights of 1,520 buildings of New York's West
 // Village.
-constexpr double kAreas[] = {12.43, 39.91, 50.89, 57.48, 61.66, 65.56, 68.72, 71.84, 74.56, 77.14, 81, 84.21, 87.54,
-90.28, 93.03, 95.5, 98.85, 102.24, 106.27, 109.76, 113.26, 119.54, 124.4, 132.11, 142.46, 149.85, 158.54, 166.48,
-172.89, 180.02, 190.06, 204.49, 225.61, 248.21, 285.09, 332.37, 384.6, 497.22, 619.78, 932.37, 27507};
-constexpr double kHeights[] = {2.7, 5.2, 7.34, 8.6, 9.7, 10.3, 10.7, 11, 11.2, 11.7, 11.9, 12.1, 12.4, 12.6, 12.8,
-13.1, 13.3, 13.5, 13.7, 14, 14.2, 14.5, 14.8, 15.3, 15.8, 16.3, 16.6, 17, 17.3, 17.7, 18.1, 18.3, 18.64, 19.1, 19.7,
-20.2, 20.8, 21.5, 24.12, 33.94, 69.4};
+constexpr double kAreas[] = {12.43,  39.91,  50.89,  57.48,  61.66,  65.56,  68.72,  71.84,  74.56, 77.14,  81,     84.21,  87.54,  90.28,
+                             93.03,  95.5,   98.85,  102.24, 106.27, 109.76, 113.26, 119.54, 124.4, 132.11, 142.46, 149.85, 158.54, 166.48,
+                             172.89, 180.02, 190.06, 204.49, 225.61, 248.21, 285.09, 332.37, 384.6, 497.22, 619.78, 932.37, 27507};
+constexpr double kHeights[] = {2.7,  5.2,  7.34, 8.6,  9.7,   10.3, 10.7, 11,   11.2, 11.7, 11.9,  12.1,  12.4, 12.6,
+                               12.8, 13.1, 13.3, 13.5, 13.7,  14,   14.2, 14.5, 14.8, 15.3, 15.8,  16.3,  16.6, 17,
+                               17.3, 17.7, 18.1, 18.3, 18.64, 19.1, 19.7, 20.2, 20.8, 21.5, 24.12, 33.94, 69.4};
 
 // Metres to the nearest other tree, of 117 in Berlin's Tiergarten.
-constexpr double kTreeSpacing[] = {3.37, 4.14, 7.35, 7.92, 8.06, 8.06, 8.06, 8.06, 8.08, 8.16, 8.16, 8.16, 8.16,
-8.17, 8.39, 8.39, 8.4, 8.4, 8.4, 8.4, 8.4, 8.4, 8.41, 8.44, 9, 9.27, 9.33, 9.38, 9.47, 9.48, 9.48, 9.83, 9.84, 10.24,
-10.8, 13.23, 14.04, 17.56, 26.04, 29.17, 81.61};
+constexpr double kTreeSpacing[] = {3.37, 4.14, 7.35, 7.92, 8.06, 8.06,  8.06, 8.06,  8.08,  8.16,  8.16,  8.16,  8.16, 8.17,
+                                   8.39, 8.39, 8.4,  8.4,  8.4,  8.4,   8.4,  8.4,   8.41,  8.44,  9,     9.27,  9.33, 9.38,
+                                   9.47, 9.48, 9.48, 9.83, 9.84, 10.24, 10.8, 13.23, 14.04, 17.56, 26.04, 29.17, 81.61};
 constexpr int kColumns = 3, kRows = 6;
 constexpr double kPavement = 3.6, kHalfStreet = 4.8, kHalfAvenue = 6.5;
 
@@ -80,7 +80,11 @@ class Drawer {
 
   void Streets() {
     for (size_t i = 0; i < avenues_.size(); ++i) {
-      OsmWay way = WayOf(static_cast<int64_t>(10 + i), Tags({{"highway", "secondary"}, {"name", "Avenue " + std::string(1, static_cast<char>('A' + i))}, {"width", "13"}, {"lanes", "3"}, {"oneway", i % 2 ? "yes" : "no"}}));
+      OsmWay way = WayOf(static_cast<int64_t>(10 + i), Tags({{"highway", "secondary"},
+                                                             {"name", "Avenue " + std::string(1, static_cast<char>('A' + i))},
+                                                             {"width", "13"},
+                                                             {"lanes", "3"},
+                                                             {"oneway", i % 2 ? "yes" : "no"}}));
       if (i == 1) way.tags.Add("cycleway", "lane");
       for (size_t k = 0; k < streets_.size(); ++k) {
         way.nodes.push_back(CrossingId(i, k));
@@ -90,7 +94,9 @@ class Drawer {
       data_.ways.push_back(std::move(way));
     }
     for (size_t k = 0; k < streets_.size(); ++k) {
-      OsmWay way = WayOf(static_cast<int64_t>(50 + k), Tags({{"highway", "residential"}, {"name", "Street " + std::to_string(k + 1)}, {"width", "9.6"}, {"oneway", "yes"}}));
+      OsmWay way =
+          WayOf(static_cast<int64_t>(50 + k),
+                Tags({{"highway", "residential"}, {"name", "Street " + std::to_string(k + 1)}, {"width", "9.6"}, {"oneway", "yes"}}));
       for (size_t i = 0; i < avenues_.size(); ++i) {
         way.nodes.push_back(CrossingId(i, k));
         way.line.push_back({avenues_[i], streets_[k]});
@@ -173,7 +179,8 @@ class Drawer {
     data_.ways.push_back(std::move(path));
     for (double y : {y0 + 5, y1 - 5})
       for (double x = x0 + 5, pitch = RowPitch(); x < x1 - 4; x += pitch) Node({x, y}, {{"natural", "tree"}, {"height", "10"}});
-    for (double x = x0 + 20; x < x1 - 15; x += 18) Node({x, (y0 + y1) / 2 + 9 * std::sin((x - x0) / (x1 - x0) * 6.24) + 2.2}, {{"amenity", "bench"}});
+    for (double x = x0 + 20; x < x1 - 15; x += 18)
+      Node({x, (y0 + y1) / 2 + 9 * std::sin((x - x0) / (x1 - x0) * 6.24) + 2.2}, {{"amenity", "bench"}});
   }
 
   RngStream rng_;

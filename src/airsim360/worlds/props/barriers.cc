@@ -20,11 +20,9 @@ Model MakeWoodFence(uint32_t variant, uint64_t seed) {
   b.BevelBox({-1.0f, -0.05f, -0.3f}, {-0.90f, 0.05f, 1.22f}, 0.008f);
   for (float z : {0.28f, 0.88f}) b.BevelBox({-1.0f, 0.012f, z}, {1.0f, 0.05f, z + 0.085f}, 0.006f);
   for (int i = 0; i < 15; ++i) {
-    const float x = -0.885f + 0.125f * static_cast<float>(i),
-                top = 1.10f + 0.02f * static_cast<float>(random.Uniform(-1, 1));
+    const float x = -0.885f + 0.125f * static_cast<float>(i), top = 1.10f + 0.02f * static_cast<float>(random.Uniform(-1, 1));
     const float low = 0.05f + 0.01f * static_cast<float>(random.Uniform());
-    const Vec2f outline[] = {
-        {x, low}, {x + 0.095f, low}, {x + 0.095f, top - 0.06f}, {x + 0.0475f, top}, {x, top - 0.06f}};
+    const Vec2f outline[] = {{x, low}, {x + 0.095f, low}, {x + 0.095f, top - 0.06f}, {x + 0.0475f, top}, {x, top - 0.06f}};
     // The outline stands up: builder y becomes z, builder z becomes -y.
     b.Place(Turn(90, 0, 0));
     b.Prism(outline, -0.012f, 0.010f);
@@ -66,8 +64,7 @@ Model MakeRailPillar(uint32_t variant, uint64_t) {
   b.BevelBox({-0.27f, -0.27f, 1.125f}, {0.27f, 0.27f, 1.20f}, 0.02f);
   for (int i = 0; i < 4; ++i) {
     b.Place(Turn(0, 0, 90.0f * static_cast<float>(i)));
-    b.mesh().Triangle({-0.24f, -0.24f, 1.199f}, {0.24f, -0.24f, 1.199f}, {0, 0, 1.30f}, {0, 0.3f},
-                      {0.48f, 0.3f}, {0.24f, 0});
+    b.mesh().Triangle({-0.24f, -0.24f, 1.199f}, {0.24f, -0.24f, 1.199f}, {0, 0, 1.30f}, {0, 0.3f}, {0.48f, 0.3f}, {0.24f, 0});
   }
   return b.Finish();
 }
@@ -77,9 +74,8 @@ Model MakeCarPillar(uint32_t variant, uint64_t) {
   PropBuilder b("car_pillar");
   if (variant == 0) {
     b.Use(Metal({0.58f, 0.58f, 0.57f}, 0.32f));
-    const Vec2f body[] = {{0.085f, -0.2f},  {0.085f, 0.0f},  {0.10f, 0.0f},    {0.10f, 0.012f},
-                          {0.057f, 0.013f}, {0.057f, 0.86f}, {0.055f, 0.885f}, {0.046f, 0.905f},
-                          {0.028f, 0.918f}, {0, 0.922f}};
+    const Vec2f body[] = {{0.085f, -0.2f}, {0.085f, 0.0f},   {0.10f, 0.0f},    {0.10f, 0.012f},  {0.057f, 0.013f},
+                          {0.057f, 0.86f}, {0.055f, 0.885f}, {0.046f, 0.905f}, {0.028f, 0.918f}, {0, 0.922f}};
     b.Lathe(body, 24);
     b.Use(Paint({0.75f, 0.55f, 0.04f}));
     for (float z : {0.62f, 0.74f}) {
@@ -89,11 +85,10 @@ Model MakeCarPillar(uint32_t variant, uint64_t) {
     return b.Finish();
   }
   b.Use(variant == 1 ? CastIron() : Paint({0.03f, 0.075f, 0.055f}));
-  const Vec2f body[] = {{0.12f, -0.2f},  {0.12f, 0.06f},   {0.115f, 0.075f}, {0.095f, 0.09f},
-                        {0.08f, 0.16f},  {0.092f, 0.175f}, {0.092f, 0.195f}, {0.078f, 0.21f},
-                        {0.062f, 0.70f}, {0.08f, 0.715f},  {0.08f, 0.735f},  {0.062f, 0.75f},
-                        {0.06f, 0.80f},  {0.085f, 0.83f},  {0.098f, 0.88f},  {0.085f, 0.93f},
-                        {0.05f, 0.965f}, {0.02f, 0.975f},  {0.012f, 1.0f},   {0, 1.003f}};
+  const Vec2f body[] = {{0.12f, -0.2f},   {0.12f, 0.06f},   {0.115f, 0.075f}, {0.095f, 0.09f}, {0.08f, 0.16f},
+                        {0.092f, 0.175f}, {0.092f, 0.195f}, {0.078f, 0.21f},  {0.062f, 0.70f}, {0.08f, 0.715f},
+                        {0.08f, 0.735f},  {0.062f, 0.75f},  {0.06f, 0.80f},   {0.085f, 0.83f}, {0.098f, 0.88f},
+                        {0.085f, 0.93f},  {0.05f, 0.965f},  {0.02f, 0.975f},  {0.012f, 1.0f},  {0, 1.003f}};
   b.Lathe(body, 24);
   return b.Finish();
 }

@@ -12,8 +12,8 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
-constexpr Vec3f kWhite{0.76f, 0.76f, 0.74f}, kBlack{0.012f, 0.012f, 0.013f}, kRed{0.55f, 0.012f, 0.015f},
-    kYellow{0.80f, 0.48f, 0.012f}, kSkin{0.50f, 0.30f, 0.21f};
+constexpr Vec3f kWhite{0.76f, 0.76f, 0.74f}, kBlack{0.012f, 0.012f, 0.013f}, kRed{0.55f, 0.012f, 0.015f}, kYellow{0.80f, 0.48f, 0.012f},
+    kSkin{0.50f, 0.30f, 0.21f};
 
 // Filled ellipse, radii in picture widths and heights.
 void Ellipse(Canvas& c, Vec2f size, Vec2f middle, Vec2f r, Vec3f color) {
@@ -77,30 +77,49 @@ struct Advert {
   const char* name;
   const char* line;
 };
-constexpr Advert kAdverts[] = {{"NORTHFIELD", "THE LONG WAY HOME"},      {"LAKE & PINE", "CABINS BY THE WEEK"},    {"HELIA", "SUN CARE SINCE 1974"},
-                               {"AURELIO", "OLIVE OIL FROM THE COAST"},  {"MERIDIAN BANK", "A PLAN FOR LATER"},    {"SOLWAY FERRIES", "FOUR SAILINGS A DAY"},
-                               {"TIDEWATER FM", "98.3 MORNINGS"},        {"HARROW COATS", "WINTER COLLECTION"},    {"ALTO WATER", "FROM 2100 METRES"},
-                               {"KESTREL", "BOOTS FOR LIFE"},            {"COLD HARBOR", "A NEW SERIES"},          {"VALE INSURANCE", "CALL BEFORE IT RAINS"},
-                               {"GRANDVIEW", "APARTMENTS FROM SPRING"},  {"THE ORCHARD", "CIDER AS IT WAS"},       {"OSPREY RAIL", "CITY TO SEA IN 90 MIN"},
-                               {"FOLKLORE", "FESTIVAL 12 - 14 JUNE"},    {"MUSEUM OF THE SEA", "OPEN LATE FRIDAYS"}, {"EASTERLY", "COFFEE ROASTERS"},
-                               {"PLATEAU", "TYRES FOR ALL SEASONS"},     {"BRIGHT & DAWE", "ATTORNEYS AT LAW"}};
+constexpr Advert kAdverts[] = {{"NORTHFIELD", "THE LONG WAY HOME"},
+                               {"LAKE & PINE", "CABINS BY THE WEEK"},
+                               {"HELIA", "SUN CARE SINCE 1974"},
+                               {"AURELIO", "OLIVE OIL FROM THE COAST"},
+                               {"MERIDIAN BANK", "A PLAN FOR LATER"},
+                               {"SOLWAY FERRIES", "FOUR SAILINGS A DAY"},
+                               {"TIDEWATER FM", "98.3 MORNINGS"},
+                               {"HARROW COATS", "WINTER COLLECTION"},
+                               {"ALTO WATER", "FROM 2100 METRES"},
+                               {"KESTREL", "BOOTS FOR LIFE"},
+                               {"COLD HARBOR", "A NEW SERIES"},
+                               {"VALE INSURANCE", "CALL BEFORE IT RAINS"},
+                               {"GRANDVIEW", "APARTMENTS FROM SPRING"},
+                               {"THE ORCHARD", "CIDER AS IT WAS"},
+                               {"OSPREY RAIL", "CITY TO SEA IN 90 MIN"},
+                               {"FOLKLORE", "FESTIVAL 12 - 14 JUNE"},
+                               {"MUSEUM OF THE SEA", "OPEN LATE FRIDAYS"},
+                               {"EASTERLY", "COFFEE ROASTERS"},
+                               {"PLATEAU", "TYRES FOR ALL SEASONS"},
+                               {"BRIGHT & DAWE", "ATTORNEYS AT LAW"}};
 static_assert(std::size(kAdverts) == kVistaBoards);
 
 // A photographed country: sky with clouds, ridges one behind the other in haze, a near slope or water, and a line of print.
 Texture Vista(uint32_t k) {
   constexpr Vec2f kSize{480, 288};
   Canvas c(static_cast<int>(kSize.x), static_cast<int>(kSize.y), kBlack);
-  const auto dice = [&](uint32_t i) { return TileNoise(static_cast<float>(k) * 2.31f + 0.5f, static_cast<float>(i) * 1.7f + 0.3f, 64, 64, 401); };
+  const auto dice = [&](uint32_t i) {
+    return TileNoise(static_cast<float>(k) * 2.31f + 0.5f, static_cast<float>(i) * 1.7f + 0.3f, 64, 64, 401);
+  };
   const float evening = k % 3 == 0 ? 1.0f : k % 3 == 1 ? 0.25f : 0.0f, horizon = 0.42f + 0.16f * dice(1);
   const bool water = k % 4 == 1;
-  const Vec3f zenith = Vec3f{0.10f, 0.20f, 0.42f} * (1 - 0.5f * evening), low = Vec3f{0.55f, 0.60f, 0.66f} * (1 - evening) + Vec3f{0.66f, 0.36f, 0.17f} * evening;
+  const Vec3f zenith = Vec3f{0.10f, 0.20f, 0.42f} * (1 - 0.5f * evening),
+              low = Vec3f{0.55f, 0.60f, 0.66f} * (1 - evening) + Vec3f{0.66f, 0.36f, 0.17f} * evening;
   const Vec3f ground = water ? Vec3f{0.05f, 0.10f, 0.13f} : k % 2 ? Vec3f{0.09f, 0.12f, 0.035f} : Vec3f{0.20f, 0.15f, 0.07f};
   c.Paint([&](float u, float v, Vec3f) {
-    const float up = std::clamp(v / horizon, 0.0f, 1.0f), cloud = std::clamp((TileFractal(u, v * 1.6f, 3, 4, 6, 411 + k) - 0.50f) * 5, 0.0f, 1.0f);
+    const float up = std::clamp(v / horizon, 0.0f, 1.0f),
+                cloud = std::clamp((TileFractal(u, v * 1.6f, 3, 4, 6, 411 + k) - 0.50f) * 5, 0.0f, 1.0f);
     Vec3f color = zenith * (1 - up * up) + low * (up * up);
-    color = color * (1 - 0.7f * cloud) + (Vec3f{0.72f, 0.70f, 0.68f} * (1 - evening) + Vec3f{0.62f, 0.34f, 0.22f} * evening) * (0.7f * cloud);
+    color =
+        color * (1 - 0.7f * cloud) + (Vec3f{0.72f, 0.70f, 0.68f} * (1 - evening) + Vec3f{0.62f, 0.34f, 0.22f} * evening) * (0.7f * cloud);
     for (int layer = 0; layer < 3; ++layer) {
-      const float base = horizon + 0.05f * static_cast<float>(layer), rough = TileFractal(u + 0.31f * static_cast<float>(layer), 0.2f, 3 + 2 * layer, 2, 6, 421 + k * 5);
+      const float base = horizon + 0.05f * static_cast<float>(layer),
+                  rough = TileFractal(u + 0.31f * static_cast<float>(layer), 0.2f, 3 + 2 * layer, 2, 6, 421 + k * 5);
       if (v < base - (0.26f - 0.06f * static_cast<float>(layer)) * (rough - 0.22f)) continue;
       const float haze = 0.70f - 0.28f * static_cast<float>(layer), light = 0.6f + 0.8f * TileFractal(u, v, 24, 24, 4, 431 + k);
       color = (ground * 0.6f + Vec3f{0.02f, 0.03f, 0.035f}) * light * (1 - haze) + low * (0.62f * haze);
@@ -116,7 +135,8 @@ Texture Vista(uint32_t k) {
   const Advert& advert = kAdverts[k];
   const bool above = dice(3) < 0.5f, panel = k % 5 == 2;
   const float y = above ? 0.16f : 0.78f, wide = 0.62f + 0.25f * dice(4);
-  if (panel) c.Rectangle({0, above ? 0.0f : 0.66f}, {1, above ? 0.32f : 1.0f}, k % 2 ? Vec3f{0.58f, 0.57f, 0.53f} : Vec3f{0.05f, 0.07f, 0.09f});
+  if (panel)
+    c.Rectangle({0, above ? 0.0f : 0.66f}, {1, above ? 0.32f : 1.0f}, k % 2 ? Vec3f{0.58f, 0.57f, 0.53f} : Vec3f{0.05f, 0.07f, 0.09f});
   const Vec3f ink = panel && k % 2 ? kBlack : kWhite;
   const auto letters = static_cast<float>(std::string_view(advert.name).size());
   c.Letters(advert.name, {0.5f, y}, std::min(0.17f, 1.62f / letters), ink, wide);
@@ -185,8 +205,8 @@ void BlackAndWhiteBoard(Canvas& c) {
 // A man in a blue suit.
 void BlueSuitBoard(Canvas& c) {
   Gradient(c, {0.62f, 0.60f, 0.55f}, {0.72f, 0.70f, 0.65f});
-  Portrait(c, 0.30f, {kSkin, {0.035f, 0.022f, 0.015f}, {0.10f, 0.16f, 0.22f}, {0.015f, 0.055f, 0.34f}, kWhite, {0.02f, 0.03f, 0.12f}, 0.25f},
-           false);
+  Portrait(c, 0.30f,
+           {kSkin, {0.035f, 0.022f, 0.015f}, {0.10f, 0.16f, 0.22f}, {0.015f, 0.055f, 0.34f}, kWhite, {0.02f, 0.03f, 0.12f}, 0.25f}, false);
   c.Letters("SHARP", {0.73f, 0.34f}, 0.20f, {0.015f, 0.055f, 0.34f}, 0.8f);
   c.Letters("SUITS", {0.73f, 0.60f}, 0.20f, {0.015f, 0.055f, 0.34f}, 0.8f);
   c.Letters("5TH AVENUE", {0.73f, 0.83f}, 0.075f, kBlack, 0.9f);
@@ -206,8 +226,7 @@ void BlueAirBoard(Canvas& c) {
   Gradient(c, {0.02f, 0.16f, 0.62f}, {0.05f, 0.30f, 0.80f});
   c.Disc({0.87f, 0.30f}, 0.12f, {0.85f, 0.85f, 0.83f});
   for (int i = 0; i < 3; ++i)
-    c.Line({-0.05f, 0.66f + 0.1f * static_cast<float>(i)}, {1.05f, 0.60f + 0.1f * static_cast<float>(i)},
-           0.035f, {0.35f, 0.62f, 0.85f});
+    c.Line({-0.05f, 0.66f + 0.1f * static_cast<float>(i)}, {1.05f, 0.60f + 0.1f * static_cast<float>(i)}, 0.035f, {0.35f, 0.62f, 0.85f});
   c.Letters("BLUE AIR", {0.38f, 0.32f}, 0.21f, kWhite, 0.75f);
 }
 
@@ -222,19 +241,11 @@ void RunningBoard(Canvas& c) {
   Gradient(c, {0.60f, 0.02f, 0.02f}, {0.42f, 0.01f, 0.012f});
   c.Letters("RUN CITY", {0.5f, 0.24f}, 0.24f, kWhite, 0.85f);
   Shape(c, kBoard,
-        {{0.14f, 0.84f},
-         {0.12f, 0.62f},
-         {0.30f, 0.56f},
-         {0.44f, 0.66f},
-         {0.70f, 0.72f},
-         {0.86f, 0.80f},
-         {0.87f, 0.87f},
-         {0.15f, 0.88f}},
+        {{0.14f, 0.84f}, {0.12f, 0.62f}, {0.30f, 0.56f}, {0.44f, 0.66f}, {0.70f, 0.72f}, {0.86f, 0.80f}, {0.87f, 0.87f}, {0.15f, 0.88f}},
         {0.05f, 0.06f, 0.12f});
   for (int i = 0; i < 4; ++i)
-    c.Line({0.34f + 0.07f * static_cast<float>(i), 0.83f},
-           {0.40f + 0.07f * static_cast<float>(i), 0.66f + 0.015f * static_cast<float>(i)}, 0.02f,
-           kWhite);
+    c.Line({0.34f + 0.07f * static_cast<float>(i), 0.83f}, {0.40f + 0.07f * static_cast<float>(i), 0.66f + 0.015f * static_cast<float>(i)},
+           0.02f, kWhite);
   c.Rectangle({0.14f, 0.88f}, {0.88f, 0.93f}, kWhite);
 }
 
@@ -256,8 +267,7 @@ void MarketBoard(Canvas& c) {
   Gradient(c, {0.02f, 0.20f, 0.09f}, {0.01f, 0.10f, 0.05f});
   for (int i = 0; i < 9; ++i) {
     const float a = kTau * static_cast<float>(i) / 9;
-    Ellipse(c, kBoard, {0.77f + 0.10f * std::cos(a), 0.5f + 0.17f * std::sin(a)}, {0.06f, 0.10f},
-            {0.75f, 0.55f, 0.60f});
+    Ellipse(c, kBoard, {0.77f + 0.10f * std::cos(a), 0.5f + 0.17f * std::sin(a)}, {0.06f, 0.10f}, {0.75f, 0.55f, 0.60f});
   }
   c.Disc({0.77f, 0.5f}, 0.11f, kYellow);
   c.Letters("FRESH", {0.32f, 0.36f}, 0.20f, kWhite, 0.9f);
@@ -266,8 +276,7 @@ void MarketBoard(Canvas& c) {
 
 void CoffeeBoard(Canvas& c) {
   Gradient(c, {0.70f, 0.68f, 0.62f}, {0.60f, 0.56f, 0.48f});
-  Shape(c, kBoard, {{0.58f, 0.34f}, {0.88f, 0.34f}, {0.83f, 0.80f}, {0.63f, 0.80f}},
-        {0.10f, 0.045f, 0.02f});
+  Shape(c, kBoard, {{0.58f, 0.34f}, {0.88f, 0.34f}, {0.83f, 0.80f}, {0.63f, 0.80f}}, {0.10f, 0.045f, 0.02f});
   Ellipse(c, kBoard, {0.73f, 0.34f}, {0.15f, 0.05f}, {0.045f, 0.02f, 0.01f});
   c.Line({0.88f, 0.42f}, {0.93f, 0.52f}, 0.035f, {0.10f, 0.045f, 0.02f});
   c.Line({0.93f, 0.52f}, {0.86f, 0.62f}, 0.035f, {0.10f, 0.045f, 0.02f});
@@ -279,17 +288,15 @@ void CoffeeBoard(Canvas& c) {
 void JazzBoard(Canvas& c) {
   Gradient(c, {0.30f, 0.02f, 0.30f}, {0.05f, 0.02f, 0.20f});
   for (int i = 0; i < 7; ++i)
-    c.Disc(
-        {0.15f + 0.12f * static_cast<float>(i), 0.72f + 0.08f * std::sin(1.7f * static_cast<float>(i))},
-        0.07f,
-        i % 3 == 0   ? kYellow
-        : i % 3 == 1 ? Vec3f{0.05f, 0.55f, 0.55f}
-                     : Vec3f{0.75f, 0.08f, 0.25f});
+    c.Disc({0.15f + 0.12f * static_cast<float>(i), 0.72f + 0.08f * std::sin(1.7f * static_cast<float>(i))}, 0.07f,
+           i % 3 == 0   ? kYellow
+           : i % 3 == 1 ? Vec3f{0.05f, 0.55f, 0.55f}
+                        : Vec3f{0.75f, 0.08f, 0.25f});
   c.Letters("JAZZ CLUB", {0.5f, 0.30f}, 0.24f, {0.10f, 0.70f, 0.62f}, 0.85f);
 }
 
-constexpr void (*kBoardPainters[])(Canvas&) = {BlackAndWhiteBoard, BlueSuitBoard, RedCar,      PortraitBoard, BlueAirBoard, EnergyBoard,
-                                               RunningBoard,       SkylineBoard,  TaxiBoard,   MarketBoard,   CoffeeBoard,  JazzBoard};
+constexpr void (*kBoardPainters[])(Canvas&) = {BlackAndWhiteBoard, BlueSuitBoard, RedCar,    PortraitBoard, BlueAirBoard, EnergyBoard,
+                                               RunningBoard,       SkylineBoard,  TaxiBoard, MarketBoard,   CoffeeBoard,  JazzBoard};
 static_assert(std::size(kBoardPainters) == kDrawnBoards);
 
 }  // namespace
@@ -298,7 +305,8 @@ void PrintAndAge(Canvas& c, uint32_t seed, int sheets_x, int sheets_y) {
   const auto dice = [&](int k) { return TileNoise(static_cast<float>(seed % 61) + 0.37f * static_cast<float>(k), 0.5f, 64, 64, 301); };
   const float faded = 0.16f + 0.22f * dice(1), lift = 0.012f + 0.02f * dice(2);
   c.Paint([&](float u, float v, Vec3f old) {
-    const float su = u * static_cast<float>(sheets_x), sv = v * static_cast<float>(sheets_y), fu = su - std::floor(su), fv = sv - std::floor(sv);
+    const float su = u * static_cast<float>(sheets_x), sv = v * static_cast<float>(sheets_y), fu = su - std::floor(su),
+                fv = sv - std::floor(sv);
     const float sheet = TileNoise(std::floor(su) * 3.7f + 0.4f, std::floor(sv) * 5.3f + 0.6f, 64, 64, 311 + seed);
     const bool seam = (fu < 0.012f && su >= 1) || (fv < 0.016f && sv >= 1);
     const float cloud = TileFractal(u, v, 4, 3, 4, 321 + seed), streak = TileFractal(u, 0.3f, 37, 2, 2, 331 + seed);

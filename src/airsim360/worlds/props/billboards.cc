@@ -29,8 +29,7 @@ void AddBoard(PropBuilder& b, float w, float h, Texture face, float glow) {
   picture.emission = Vec3f{1, 1, 1} * (glow * kNit);
   picture.lamp = true;
   b.Use(picture, face);
-  b.Picture({-w / 2, -0.405f, 0.12f}, {w / 2, -0.405f, 0.12f}, {w / 2, -0.405f, 0.12f + h},
-            {-w / 2, -0.405f, 0.12f + h});
+  b.Picture({-w / 2, -0.405f, 0.12f}, {w / 2, -0.405f, 0.12f}, {w / 2, -0.405f, 0.12f + h}, {-w / 2, -0.405f, 0.12f + h});
 }
 
 Model MakeBillboard(uint32_t variant, uint64_t) {
@@ -45,8 +44,9 @@ Model MakeBanner(uint32_t variant, uint64_t) {
   return b.Finish();
 }
 
-constexpr const char* kBoxes[] = {"NY PUPPETS",  "CAFE BISTRO",  "HOTEL ASTOR", "ARCADE",       "PIZZA SLICE",   "CINEMA",        "DANCE STUDIO", "PAWN & LOAN",
-                                  "MUSIC HALL", "STEAK HOUSE", "BILLIARDS",   "TEXTILE CO", "ROOMS BY DAY", "CAMERA WORLD", "THE OYSTER BAR", "PARKING"};
+constexpr const char* kBoxes[] = {"NY PUPPETS",   "CAFE BISTRO",  "HOTEL ASTOR",    "ARCADE",      "PIZZA SLICE", "CINEMA",
+                                  "DANCE STUDIO", "PAWN & LOAN",  "MUSIC HALL",     "STEAK HOUSE", "BILLIARDS",   "TEXTILE CO",
+                                  "ROOMS BY DAY", "CAMERA WORLD", "THE OYSTER BAR", "PARKING"};
 static_assert(std::size(kBoxes) == kLightBoxes);
 
 Model MakeLightBox(uint32_t variant, uint64_t) {

@@ -24,17 +24,14 @@ void AddBusBody(PropBuilder& b, const Material& paint, Vec3f stripe) {
   const auto outline = RoundedRectangle({-kHalfWidth, 0.32f}, {kHalfWidth, kHeight}, 0.20f, 5);
   b.Place(Turn(90, 0, 0));
   b.Prism(outline, -kHalfLength + 0.12f, kHalfLength - 0.12f);
-  const auto face =
-      RoundedRectangle({-kHalfWidth + 0.06f, 0.36f}, {kHalfWidth - 0.06f, kHeight - 0.06f}, 0.20f, 5);
+  const auto face = RoundedRectangle({-kHalfWidth + 0.06f, 0.36f}, {kHalfWidth - 0.06f, kHeight - 0.06f}, 0.20f, 5);
   b.Prism(face, -kHalfLength, kHalfLength);
   b.Place({});
   b.Use(CarPaint(stripe));
-  for (float side : {1.0f, -1.0f})
-    SideWindow(b, side, -kHalfLength + 0.15f, kHalfLength - 0.15f, 0.62f, 0.86f);
+  for (float side : {1.0f, -1.0f}) SideWindow(b, side, -kHalfLength + 0.15f, kHalfLength - 0.15f, 0.62f, 0.86f);
   b.Use(Plastic({0.02f, 0.02f, 0.021f}, 0.5f));
   b.BevelBox({-1.15f, -kHalfLength + 0.2f, 0.22f}, {1.15f, kHalfLength - 0.2f, 0.40f}, 0.03f);
-  for (float side : {1.0f, -1.0f})
-    SideWindow(b, side, -kHalfLength + 0.45f, kHalfLength - 0.35f, 1.28f, 2.42f);
+  for (float side : {1.0f, -1.0f}) SideWindow(b, side, -kHalfLength + 0.45f, kHalfLength - 0.35f, 1.28f, 2.42f);
 }
 
 // Panes over the black band; the doors reach down.
@@ -49,8 +46,7 @@ void AddBusGlass(PropBuilder& b) {
   }
   // Doors are on the pavement side: the right of a bus that drives towards -Y is -X.
   for (float y : {-4.95f, 0.3f}) {
-    for (float leaf : {0.0f, 0.62f})
-      b.BevelBox({-kHalfWidth - 0.012f, y + leaf, 0.42f}, {-kHalfWidth, y + leaf + 0.58f, 2.40f}, 0.003f);
+    for (float leaf : {0.0f, 0.62f}) b.BevelBox({-kHalfWidth - 0.012f, y + leaf, 0.42f}, {-kHalfWidth, y + leaf + 0.58f, 2.40f}, 0.003f);
   }
   b.BevelBox({-1.08f, -kHalfLength - 0.012f, 1.05f}, {1.08f, -kHalfLength + 0.02f, 2.45f}, 0.01f);
   b.BevelBox({-0.95f, kHalfLength - 0.02f, 1.55f}, {0.95f, kHalfLength + 0.012f, 2.35f}, 0.01f);
@@ -64,31 +60,26 @@ void AddBusDisplay(PropBuilder& b, uint32_t variant) {
   display.emission = Vec3f{1, 1, 1} * (900 * kNit);
   display.lamp = true;
   b.Use(display, sign.Finish(variant ? "line 24" : "line 7"));
-  b.Picture({-0.80f, -kHalfLength - 0.002f, 2.52f}, {0.80f, -kHalfLength - 0.002f, 2.52f},
-            {0.80f, -kHalfLength - 0.002f, 2.80f}, {-0.80f, -kHalfLength - 0.002f, 2.80f});
+  b.Picture({-0.80f, -kHalfLength - 0.002f, 2.52f}, {0.80f, -kHalfLength - 0.002f, 2.52f}, {0.80f, -kHalfLength - 0.002f, 2.80f},
+            {-0.80f, -kHalfLength - 0.002f, 2.80f});
 }
 
 // Head and tail lamps, mirrors, wheels.
 void AddBusSides(PropBuilder& b) {
   for (float x : {-1.0f, 1.0f}) {
     b.Use(Glass({0.42f, 0.43f, 0.44f}));
-    b.BevelBox({x * 0.90f - 0.17f, -kHalfLength - 0.015f, 0.62f},
-               {x * 0.90f + 0.17f, -kHalfLength + 0.02f, 0.80f}, 0.03f);
+    b.BevelBox({x * 0.90f - 0.17f, -kHalfLength - 0.015f, 0.62f}, {x * 0.90f + 0.17f, -kHalfLength + 0.02f, 0.80f}, 0.03f);
     b.Use(Glass({0.28f, 0.008f, 0.008f}));
-    b.BevelBox({x * 1.02f - 0.07f, kHalfLength - 0.02f, 0.75f},
-               {x * 1.02f + 0.07f, kHalfLength + 0.015f, 1.30f}, 0.02f);
+    b.BevelBox({x * 1.02f - 0.07f, kHalfLength - 0.02f, 0.75f}, {x * 1.02f + 0.07f, kHalfLength + 0.015f, 1.30f}, 0.02f);
     b.Use(Plastic({0.02f, 0.02f, 0.021f}));
-    const Vec3f arm[] = {{x * 1.20f, -kHalfLength + 0.15f, 2.50f},
-                         {x * 1.38f, -kHalfLength - 0.10f, 2.48f},
-                         {x * 1.40f, -kHalfLength - 0.14f, 2.30f}};
+    const Vec3f arm[] = {
+        {x * 1.20f, -kHalfLength + 0.15f, 2.50f}, {x * 1.38f, -kHalfLength - 0.10f, 2.48f}, {x * 1.40f, -kHalfLength - 0.14f, 2.30f}};
     b.Bar(arm, 0.018f, 6);
-    b.BevelBox({x * 1.40f - 0.09f, -kHalfLength - 0.19f, 1.90f},
-               {x * 1.40f + 0.09f, -kHalfLength - 0.09f, 2.32f}, 0.03f);
+    b.BevelBox({x * 1.40f - 0.09f, -kHalfLength - 0.19f, 1.90f}, {x * 1.40f + 0.09f, -kHalfLength - 0.09f, 2.32f}, 0.03f);
     for (float y : {-3.25f, 2.75f}) {
       // A dark disc stands for the wheel arch.
       b.Use(Plastic({0.012f, 0.012f, 0.013f}, 0.8f));
-      b.mesh().Tube({x * (kHalfWidth - 0.03f), y, 0.60f}, {x * (kHalfWidth + 0.006f), y, 0.60f}, 0.54f, 0.54f,
-                    32, false);
+      b.mesh().Tube({x * (kHalfWidth - 0.03f), y, 0.60f}, {x * (kHalfWidth + 0.006f), y, 0.60f}, 0.54f, 0.54f, 32, false);
       AddWheel(b, {x * (kHalfWidth - 0.13f), y, 0.48f}, 0.48f, 0.30f, x);
     }
   }

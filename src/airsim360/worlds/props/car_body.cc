@@ -66,14 +66,11 @@ std::vector<float> Stations(const CarShape& s) {
 enum class Skin { kPaint, kGlass, kBlack };
 
 Skin SkinAt(const CarShape& s, float y, size_t row, float cabin_height) {
-  const bool pillar =
-      std::any_of(s.pillars.begin(), s.pillars.end(), [&](const CarRange& r) { return r.Holds(y); });
-  if ((row == 5 || row == 6) && s.side_glass.Holds(y) && cabin_height > 0.10f)
-    return pillar ? Skin::kBlack : Skin::kGlass;
+  const bool pillar = std::any_of(s.pillars.begin(), s.pillars.end(), [&](const CarRange& r) { return r.Holds(y); });
+  if ((row == 5 || row == 6) && s.side_glass.Holds(y) && cabin_height > 0.10f) return pillar ? Skin::kBlack : Skin::kGlass;
   if (row >= 8 && (s.windscreen.Holds(y) || s.rear_window.Holds(y))) return Skin::kGlass;
   const auto seams = DoorSeams(s);
-  const bool seam =
-      std::any_of(seams.begin(), seams.end(), [&](float at) { return std::abs(y - at) < kSeam; });
+  const bool seam = std::any_of(seams.begin(), seams.end(), [&](float at) { return std::abs(y - at) < kSeam; });
   return row == 0 || (seam && row >= 1 && row <= 4) ? Skin::kBlack : Skin::kPaint;
 }
 
@@ -98,9 +95,7 @@ void AddCarBody(PropBuilder& b, const CarShape& s, const Material& paint) {
             : skin == Skin::kBlack ? Plastic({0.012f, 0.012f, 0.013f}, 0.5f)
                                    : paint);
       for (float side : {1.0f, -1.0f}) {
-        const auto p = [&](size_t a, size_t c) {
-          return Vec3f{grid[a][c].x * side, grid[a][c].y, grid[a][c].z};
-        };
+        const auto p = [&](size_t a, size_t c) { return Vec3f{grid[a][c].x * side, grid[a][c].y, grid[a][c].z}; };
         const auto n = [&](size_t a, size_t c) {
           const Vec3f v = normal(a, c);
           return Vec3f{v.x * side, v.y, v.z};
@@ -122,8 +117,7 @@ void AddCarBody(PropBuilder& b, const CarShape& s, const Material& paint) {
     const auto& ring = tail ? grid.back() : grid.front();
     const Vec3f c{0, ring[0].y, (ring[0].z + ring[kPoints - 1].z) / 2};
     const auto at = [&](size_t k) {
-      return k < kPoints ? ring[k]
-                         : Vec3f{-ring[2 * kPoints - 1 - k].x, ring[0].y, ring[2 * kPoints - 1 - k].z};
+      return k < kPoints ? ring[k] : Vec3f{-ring[2 * kPoints - 1 - k].x, ring[0].y, ring[2 * kPoints - 1 - k].z};
     };
     for (size_t k = 0; k < 2 * kPoints; ++k) {
       const Vec3f p = at(k), q = at((k + 1) % (2 * kPoints));

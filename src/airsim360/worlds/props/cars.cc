@@ -13,8 +13,8 @@ namespace {
 
 // Bumper inserts, grille, lights, plates, mirrors, door lines and the dark underside.
 void AddDetails(PropBuilder& b, const CarShape& s, const Material& paint) {
-  const float nose = s.top.front().x, tail = s.top.back().x, low = Lookup(s.belt, nose),
-              high = Lookup(s.belt, tail), w = Lookup(s.width, nose + 0.1f);
+  const float nose = s.top.front().x, tail = s.top.back().x, low = Lookup(s.belt, nose), high = Lookup(s.belt, tail),
+              w = Lookup(s.width, nose + 0.1f);
   const Material black = Plastic({0.012f, 0.012f, 0.013f}, 0.5f);
   b.Use(black);
   b.BevelBox({-0.52f, nose - 0.02f, low - 0.20f}, {0.52f, nose + 0.2f, low - 0.06f}, 0.02f);
@@ -33,18 +33,17 @@ void AddDetails(PropBuilder& b, const CarShape& s, const Material& paint) {
     // Mirror at the front end of the side window.
     const float y = s.side_glass.from + 0.18f, z = Lookup(s.belt, y) + 0.10f, x0 = Lookup(s.width, y);
     b.Use(paint);
-    b.BevelBox({x > 0 ? x0 - 0.03f : -x0 - 0.17f, y - 0.06f, z - 0.06f},
-               {x > 0 ? x0 + 0.17f : -x0 + 0.03f, y + 0.05f, z + 0.07f}, 0.04f);
+    b.BevelBox({x > 0 ? x0 - 0.03f : -x0 - 0.17f, y - 0.06f, z - 0.06f}, {x > 0 ? x0 + 0.17f : -x0 + 0.03f, y + 0.05f, z + 0.07f}, 0.04f);
   }
   // Plates.
   Canvas plate(128, 64, {0.72f, 0.73f, 0.70f});
   plate.Rectangle({0, 0}, {1, 0.2f}, {0.02f, 0.06f, 0.25f});
   plate.Letters("7KR360", {0.5f, 0.6f}, 0.36f, {0.03f, 0.04f, 0.12f});
   b.Use(Paint({1, 1, 1}), plate.Finish("plate"));
-  b.Picture({-0.15f, nose - 0.022f, low - 0.21f}, {0.15f, nose - 0.022f, low - 0.21f},
-            {0.15f, nose - 0.022f, low - 0.07f}, {-0.15f, nose - 0.022f, low - 0.07f});
-  b.Picture({0.15f, tail + 0.003f, high - 0.28f}, {-0.15f, tail + 0.003f, high - 0.28f},
-            {-0.15f, tail + 0.003f, high - 0.14f}, {0.15f, tail + 0.003f, high - 0.14f});
+  b.Picture({-0.15f, nose - 0.022f, low - 0.21f}, {0.15f, nose - 0.022f, low - 0.21f}, {0.15f, nose - 0.022f, low - 0.07f},
+            {-0.15f, nose - 0.022f, low - 0.07f});
+  b.Picture({0.15f, tail + 0.003f, high - 0.28f}, {-0.15f, tail + 0.003f, high - 0.28f}, {-0.15f, tail + 0.003f, high - 0.14f},
+            {0.15f, tail + 0.003f, high - 0.14f});
   for (float x : {-1.0f, 1.0f}) {
     for (float y : {s.front_axle, s.rear_axle})
       AddWheel(b, {x * (Lookup(s.width, y) - 0.125f), y, s.wheel_radius}, s.wheel_radius, 0.21f, x);
@@ -61,8 +60,7 @@ void Append(Model& model, Model more) {
   join(model.mesh.positions, more.mesh.positions);
   join(model.mesh.normals, more.mesh.normals);
   join(model.mesh.uvs, more.mesh.uvs);
-  for (Vec3u t : more.mesh.triangles)
-    model.mesh.triangles.push_back({t.x + vertices, t.y + vertices, t.z + vertices});
+  for (Vec3u t : more.mesh.triangles) model.mesh.triangles.push_back({t.x + vertices, t.y + vertices, t.z + vertices});
   for (MeshPart part : more.mesh.parts) {
     part.first_triangle += triangles;
     part.material += materials;
@@ -89,10 +87,9 @@ Model Assemble(const char* name, const CarShape& s, Vec3f color) {
 
 Model MakeCar(uint32_t variant, uint64_t) {
   // White, greys, black, silver are most of the cars on a street; a few are coloured.
-  constexpr Vec3f colors[12] = {{0.68f, 0.68f, 0.66f},  {0.022f, 0.023f, 0.025f}, {0.33f, 0.34f, 0.35f},
-                                {0.10f, 0.105f, 0.11f}, {0.28f, 0.018f, 0.015f},  {0.02f, 0.05f, 0.17f},
-                                {0.60f, 0.60f, 0.58f},  {0.16f, 0.165f, 0.17f},   {0.012f, 0.013f, 0.015f},
-                                {0.05f, 0.075f, 0.06f}, {0.42f, 0.42f, 0.41f},    {0.30f, 0.26f, 0.20f}};
+  constexpr Vec3f colors[12] = {{0.68f, 0.68f, 0.66f},    {0.022f, 0.023f, 0.025f}, {0.33f, 0.34f, 0.35f}, {0.10f, 0.105f, 0.11f},
+                                {0.28f, 0.018f, 0.015f},  {0.02f, 0.05f, 0.17f},    {0.60f, 0.60f, 0.58f}, {0.16f, 0.165f, 0.17f},
+                                {0.012f, 0.013f, 0.015f}, {0.05f, 0.075f, 0.06f},   {0.42f, 0.42f, 0.41f}, {0.30f, 0.26f, 0.20f}};
   const CarShape* shapes[3] = {&Sedan(), &Suv(), &Hatchback()};
   return Assemble("car", *shapes[variant % 3], colors[variant]);
 }
@@ -111,10 +108,8 @@ Model MakeTaxi(uint32_t variant, uint64_t) {
   sign.emission = Vec3f{1, 1, 1} * (250 * kNit);
   sign.lamp = true;
   b.Use(sign, canvas.Finish("taxi sign"));
-  b.Picture({-0.36f, 0.046f, roof}, {0.36f, 0.046f, roof}, {0.36f, 0.046f, roof + 0.18f},
-            {-0.36f, 0.046f, roof + 0.18f});
-  b.Picture({0.36f, 0.254f, roof}, {-0.36f, 0.254f, roof}, {-0.36f, 0.254f, roof + 0.18f},
-            {0.36f, 0.254f, roof + 0.18f});
+  b.Picture({-0.36f, 0.046f, roof}, {0.36f, 0.046f, roof}, {0.36f, 0.046f, roof + 0.18f}, {-0.36f, 0.046f, roof + 0.18f});
+  b.Picture({0.36f, 0.254f, roof}, {-0.36f, 0.254f, roof}, {-0.36f, 0.254f, roof + 0.18f}, {0.36f, 0.254f, roof + 0.18f});
   Append(model, b.Finish());
   return model;
 }

@@ -13,9 +13,7 @@ constexpr float kTau = 6.2831853f;
 
 void SpokedWheel(PropBuilder& b, Vec3f hub, float r) {
   std::array<Vec3f, 37> circle;
-  const auto at = [&](float radius, float turn) {
-    return hub + Vec3f{0, radius * std::cos(turn), radius * std::sin(turn)};
-  };
+  const auto at = [&](float radius, float turn) { return hub + Vec3f{0, radius * std::cos(turn), radius * std::sin(turn)}; };
   const auto ring = [&](float radius, float thickness, int sides) {
     for (size_t k = 0; k < circle.size(); ++k) circle[k] = at(radius, kTau * static_cast<float>(k % 36) / 36);
     b.Bar(circle, thickness, sides);
@@ -26,8 +24,7 @@ void SpokedWheel(PropBuilder& b, Vec3f hub, float r) {
   ring(r - 0.042f, 0.010f, 6);
   for (int i = 0; i < 18; ++i) {
     const float a = kTau * static_cast<float>(i) / 18;
-    b.mesh().Tube(hub + Vec3f{i % 2 ? 0.025f : -0.025f, 0, 0}, at(r - 0.045f, a), 0.0015f, 0.0015f, 3, false,
-                  false);
+    b.mesh().Tube(hub + Vec3f{i % 2 ? 0.025f : -0.025f, 0, 0}, at(r - 0.045f, a), 0.0015f, 0.0015f, 3, false, false);
   }
   b.mesh().Tube(hub - Vec3f{0.05f, 0, 0}, hub + Vec3f{0.05f, 0, 0}, 0.02f, 0.02f, 10);
 }
@@ -36,8 +33,8 @@ Model MakeBicycle(uint32_t variant, uint64_t) {
   PropBuilder b("bicycle");
   constexpr Vec3f tones[3] = {{0.30f, 0.03f, 0.02f}, {0.02f, 0.10f, 0.14f}, {0.03f, 0.03f, 0.032f}};
   const float r = 0.345f;
-  const Vec3f front{0, -0.54f, r}, rear{0, 0.52f, r}, bracket{0, 0.09f, 0.29f}, seat_top{0, 0.26f, 0.80f},
-      head_top{0, -0.33f, 0.86f}, head_low{0, -0.375f, 0.72f};
+  const Vec3f front{0, -0.54f, r}, rear{0, 0.52f, r}, bracket{0, 0.09f, 0.29f}, seat_top{0, 0.26f, 0.80f}, head_top{0, -0.33f, 0.86f},
+      head_low{0, -0.375f, 0.72f};
   SpokedWheel(b, front, r);
   SpokedWheel(b, rear, r);
   b.Use(Paint(tones[variant], 0.25f));
@@ -66,8 +63,8 @@ Model MakeBicycle(uint32_t variant, uint64_t) {
   b.Use(Rubber());
   for (float side : {-1.0f, 1.0f}) {
     tube({side * 0.245f, -0.215f, 1.01f}, {side * 0.31f, -0.15f, 1.0f}, 0.016f);
-    b.BevelBox({side * 0.125f - 0.045f, 0.055f, side > 0 ? 0.108f : 0.448f},
-               {side * 0.125f + 0.045f, 0.125f, side > 0 ? 0.132f : 0.472f}, 0.006f);
+    b.BevelBox({side * 0.125f - 0.045f, 0.055f, side > 0 ? 0.108f : 0.448f}, {side * 0.125f + 0.045f, 0.125f, side > 0 ? 0.132f : 0.472f},
+               0.006f);
   }
   const Vec3f saddle[] = {{0, 0.12f, 0.915f}, {0, 0.22f, 0.92f}, {0, 0.34f, 0.925f}, {0, 0.40f, 0.93f}};
   const float widths[] = {0.022f, 0.035f, 0.07f, 0.055f};

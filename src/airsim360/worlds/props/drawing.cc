@@ -15,8 +15,7 @@ namespace airsim360::internal {
 namespace {
 
 float Lattice(int x, int y, uint64_t seed) {
-  const uint64_t key =
-      MixBits(seed ^ (static_cast<uint64_t>(static_cast<uint32_t>(x)) << 32 | static_cast<uint32_t>(y)));
+  const uint64_t key = MixBits(seed ^ (static_cast<uint64_t>(static_cast<uint32_t>(x)) << 32 | static_cast<uint32_t>(y)));
   return static_cast<float>(key >> 40) * 0x1p-24f;
 }
 
@@ -31,9 +30,7 @@ float TileNoise(float x, float y, int period_x, int period_y, uint64_t seed) {
   const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
   const auto ease = [](float t) { return t * t * (3 - 2 * t); };
   const float s = ease(x - fx), t = ease(y - fy);
-  const auto at = [&](int dx, int dy) {
-    return Lattice(Wrapped(ix + dx, period_x), Wrapped(iy + dy, period_y), seed);
-  };
+  const auto at = [&](int dx, int dy) { return Lattice(Wrapped(ix + dx, period_x), Wrapped(iy + dy, period_y), seed); };
   const float a = at(0, 0) + (at(1, 0) - at(0, 0)) * s, b = at(0, 1) + (at(1, 1) - at(0, 1)) * s;
   return a + (b - a) * t;
 }
@@ -42,8 +39,7 @@ float TileFractal(float u, float v, int cells_x, int cells_y, int octaves, uint6
   float sum = 0, weight = 0, gain = 1;
   for (int i = 0; i < octaves; ++i) {
     const int nx = cells_x << i, ny = cells_y << i;
-    sum += gain * TileNoise(u * static_cast<float>(nx), v * static_cast<float>(ny), nx, ny,
-                            seed + static_cast<uint64_t>(i));
+    sum += gain * TileNoise(u * static_cast<float>(nx), v * static_cast<float>(ny), nx, ny, seed + static_cast<uint64_t>(i));
     weight += gain;
     gain *= 0.5f;
   }
@@ -54,26 +50,22 @@ Image<Rgba8> Shade(int width, int height, const std::function<Vec3f(float, float
   Image<Rgba8> image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      image(x, y) = Encode(color((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
-                                 (static_cast<float>(y) + 0.5f) / static_cast<float>(height)));
+      image(x, y) = Encode(
+          color((static_cast<float>(x) + 0.5f) / static_cast<float>(width), (static_cast<float>(y) + 0.5f) / static_cast<float>(height)));
     }
   }
   return image;
 }
 
-Texture NormalsFromHeight(std::string name, int width, int height, float aspect,
-                          const std::function<float(float, float)>& height_at) {
+Texture NormalsFromHeight(std::string name, int width, int height, float aspect, const std::function<float(float, float)>& height_at) {
   std::vector<float> field(static_cast<size_t>(width) * height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      field[static_cast<size_t>(y) * width + x] =
-          height_at((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
-                    (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
+      field[static_cast<size_t>(y) * width + x] = height_at((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
+                                                            (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
     }
   }
-  const auto at = [&](int x, int y) {
-    return field[static_cast<size_t>(Wrapped(y, height)) * width + Wrapped(x, width)];
-  };
+  const auto at = [&](int x, int y) { return field[static_cast<size_t>(Wrapped(y, height)) * width + Wrapped(x, width)]; };
   const auto encode = [](float v) { return static_cast<uint8_t>((v * 0.5f + 0.5f) * 255 + 0.5f); };
   Image<Rgba8> image(width, height);
   for (int y = 0; y < height; ++y) {
@@ -89,15 +81,11 @@ Texture NormalsFromHeight(std::string name, int width, int height, float aspect,
 }
 
 Canvas::Canvas(int width, int height, Vec3f background)
-    : width_(static_cast<float>(width)),
-      height_(static_cast<float>(height)),
-      image_(width, height, Encode(background)) {}
+    : width_(static_cast<float>(width)), height_(static_cast<float>(height)), image_(width, height, Encode(background)) {}
 
 void Canvas::Fill(Vec2f min_px, Vec2f max_px, const std::function<bool(float, float)>& inside, Vec3f color) {
-  const int x0 = std::max(0, static_cast<int>(std::floor(min_px.x))),
-            x1 = std::min(image_.width(), static_cast<int>(std::ceil(max_px.x)));
-  const int y0 = std::max(0, static_cast<int>(std::floor(min_px.y))),
-            y1 = std::min(image_.height(), static_cast<int>(std::ceil(max_px.y)));
+  const int x0 = std::max(0, static_cast<int>(std::floor(min_px.x))), x1 = std::min(image_.width(), static_cast<int>(std::ceil(max_px.x)));
+  const int y0 = std::max(0, static_cast<int>(std::floor(min_px.y))), y1 = std::min(image_.height(), static_cast<int>(std::ceil(max_px.y)));
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
       int hits = 0;
@@ -124,15 +112,13 @@ void Canvas::Disc(Vec2f center, float r, Vec3f color) {
   const Vec2f c{center.x * width_, center.y * height_};
   const float radius = r * height_;
   Fill(
-      c - Vec2f{radius, radius}, c + Vec2f{radius, radius},
-      [&](float x, float y) { return std::hypot(x - c.x, y - c.y) < radius; }, color);
+      c - Vec2f{radius, radius}, c + Vec2f{radius, radius}, [&](float x, float y) { return std::hypot(x - c.x, y - c.y) < radius; }, color);
 }
 
 void Canvas::Line(Vec2f a, Vec2f b, float thickness, Vec3f color) {
   const Vec2f p{a.x * width_, a.y * height_}, q{b.x * width_, b.y * height_}, d = q - p;
   const float half = thickness * height_ / 2, length2 = std::max(1e-6f, d.x * d.x + d.y * d.y);
-  const Vec2f lo{std::min(p.x, q.x) - half, std::min(p.y, q.y) - half},
-      hi{std::max(p.x, q.x) + half, std::max(p.y, q.y) + half};
+  const Vec2f lo{std::min(p.x, q.x) - half, std::min(p.y, q.y) - half}, hi{std::max(p.x, q.x) + half, std::max(p.y, q.y) + half};
   Fill(
       lo, hi,
       [&](float x, float y) {
@@ -144,8 +130,7 @@ void Canvas::Line(Vec2f a, Vec2f b, float thickness, Vec3f color) {
 
 void Canvas::RegularPolygon(Vec2f center, float r, int sides, float turn, Vec3f color) {
   const Vec2f c{center.x * width_, center.y * height_};
-  const float radius = r * height_, step = 2 * std::numbers::pi_v<float> / static_cast<float>(sides),
-              apothem = radius * std::cos(step / 2);
+  const float radius = r * height_, step = 2 * std::numbers::pi_v<float> / static_cast<float>(sides), apothem = radius * std::cos(step / 2);
   Fill(
       c - Vec2f{radius, radius}, c + Vec2f{radius, radius},
       [&](float x, float y) {
@@ -161,8 +146,9 @@ void Canvas::Letters(std::string_view text, Vec2f center, float size, Vec3f colo
   const float high = size * height_, cells = 6 * static_cast<float>(text.size()) - 1;
   const float wide = high * std::clamp(cells / 7 * stretch / std::max(0.1f, line.width()), 0.6f, 1.15f);
   const float x0 = center.x * width_ - line.width() * wide / 2, y0 = center.y * height_ - high / 2;
-  Fill({x0, y0}, {x0 + line.width() * wide, y0 + high}, [&](float x, float y) { return line.Inked((x - x0) / wide, (y - y0) / high); },
-       color);
+  Fill(
+      {x0, y0}, {x0 + line.width() * wide, y0 + high}, [&](float x, float y) { return line.Inked((x - x0) / wide, (y - y0) / high); },
+      color);
 }
 
 void Canvas::Paint(const std::function<Vec3f(float, float, Vec3f)>& color) {
@@ -175,8 +161,6 @@ void Canvas::Paint(const std::function<Vec3f(float, float, Vec3f)>& color) {
   });
 }
 
-Texture Canvas::Finish(std::string name) {
-  return Texture::FromImage(std::move(name), std::exchange(image_, Image<Rgba8>{}), true);
-}
+Texture Canvas::Finish(std::string name) { return Texture::FromImage(std::move(name), std::exchange(image_, Image<Rgba8>{}), true); }
 
 }  // namespace airsim360::internal

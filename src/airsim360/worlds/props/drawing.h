@@ -19,8 +19,7 @@ float TileFractal(float u, float v, int cells_x, int cells_y, int octaves, uint6
 Image<Rgba8> Shade(int width, int height, const std::function<Vec3f(float u, float v)>& color);
 /// A tangent-space normal map of a repeating height field given in tile widths, for a tile of width:height =
 /// `aspect`.
-Texture NormalsFromHeight(std::string name, int width, int height, float aspect,
-                          const std::function<float(float u, float v)>& height_at);
+Texture NormalsFromHeight(std::string name, int width, int height, float aspect, const std::function<float(float u, float v)>& height_at);
 
 /// Paints in linear colours; coordinates are 0..1 across the picture, y downwards.
 class Canvas {

@@ -128,7 +128,8 @@ void AddVehicleLamps(Model& model, bool lit_inside) {
       if (side != Lens::kNone) {
         Material lit = model.materials[part.material];
         const bool head = side == Lens::kHead;
-        const float nits = 2 * (head ? kLowBeamCandela : kTailCandela) / std::max(area[static_cast<size_t>(side)], 0.01f) / MeanOf(lit, model);
+        const float nits =
+            2 * (head ? kLowBeamCandela : kTailCandela) / std::max(area[static_cast<size_t>(side)], 0.01f) / MeanOf(lit, model);
         lit.emission = (head ? Vec3f{1, 1, 1} : kTailRed / Luminance(kTailRed)) * (nits * kNit);
         lit.emission_texture = lit.base_color_texture;
         lit.beam = head ? kLowBeamSharpness : -kTailSharpness;

@@ -31,8 +31,8 @@ std::vector<PropKind> PlanterKinds();
 std::vector<PropKind> GroundPlantKinds();  // grass, litter, flowers
 std::vector<PropKind> ShrubKinds();        // shrubs, hedges
 std::vector<PropKind> BillboardKinds();
-std::vector<PropKind> LandmarkKinds();  // phone booth, flags, food truck, bottle
-std::vector<PropKind> NewYorkKinds();   // road works, newspaper boxes, fences, hot dog carts
+std::vector<PropKind> LandmarkKinds();      // phone booth, flags, food truck, bottle
+std::vector<PropKind> NewYorkKinds();       // road works, newspaper boxes, fences, hot dog carts
 std::vector<PropKind> SanFranciscoKinds();  // its lamps, poles, bins, ropes and barriers
 std::vector<PropKind> BroadleafKinds();
 std::vector<PropKind> ConiferKinds();

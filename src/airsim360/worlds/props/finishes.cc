@@ -89,61 +89,58 @@ void UseWood(PropBuilder& b, Vec3f tint, Grain grain) {
 }
 
 const Texture& WoodTexture() {
-  static const Texture texture =
-      Texture::FromImage("wood",
-                         Shade(128, 512,
-                               [](float u, float v) {
-                                 const float bend = 0.06f * TileFractal(u, v, 2, 2, 2, 21);
-                                 const float rings = TileFractal(u + bend, v, 10, 1, 3, 22),
-                                             fibre = TileFractal(u, v, 48, 4, 2, 23);
-                                 const float tone = 0.62f + 0.55f * rings + 0.22f * (fibre - 0.5f);
-                                 return Vec3f{0.30f, 0.175f, 0.088f} * tone;
-                               }),
-                         true);
+  static const Texture texture = Texture::FromImage("wood",
+                                                    Shade(128, 512,
+                                                          [](float u, float v) {
+                                                            const float bend = 0.06f * TileFractal(u, v, 2, 2, 2, 21);
+                                                            const float rings = TileFractal(u + bend, v, 10, 1, 3, 22),
+                                                                        fibre = TileFractal(u, v, 48, 4, 2, 23);
+                                                            const float tone = 0.62f + 0.55f * rings + 0.22f * (fibre - 0.5f);
+                                                            return Vec3f{0.30f, 0.175f, 0.088f} * tone;
+                                                          }),
+                                                    true);
   return texture;
 }
 
 const Texture& ConcreteTexture() {
+  static const Texture texture = Texture::FromImage("concrete",
+                                                    Shade(256, 256,
+                                                          [](float u, float v) {
+                                                            const float tone = 0.70f + 0.25f * TileFractal(u, v, 3, 3, 4, 31) +
+                                                                               0.10f * TileNoise(u * 128, v * 128, 128, 128, 32);
+                                                            return Vec3f{1.0f, 0.985f, 0.96f} * std::min(1.0f, tone);
+                                                          }),
+                                                    true);
+  return texture;
+}
+
+const Texture& BarkTexture() {
   static const Texture texture =
-      Texture::FromImage("concrete",
-                         Shade(256, 256,
+      Texture::FromImage("bark",
+                         Shade(256, 512,
                                [](float u, float v) {
-                                 const float tone = 0.70f + 0.25f * TileFractal(u, v, 3, 3, 4, 31) +
-                                                    0.10f * TileNoise(u * 128, v * 128, 128, 128, 32);
-                                 return Vec3f{1.0f, 0.985f, 0.96f} * std::min(1.0f, tone);
+                                 const float h = BarkHeight(u, v), patch = TileFractal(u, v, 2, 3, 3, 15);
+                                 return (Vec3f{0.16f, 0.135f, 0.115f} * (1 - h) + Vec3f{1.0f, 0.97f, 0.92f} * h) * (0.75f + 0.4f * patch);
                                }),
                          true);
   return texture;
 }
 
-const Texture& BarkTexture() {
-  static const Texture texture = Texture::FromImage(
-      "bark",
-      Shade(256, 512,
-            [](float u, float v) {
-              const float h = BarkHeight(u, v), patch = TileFractal(u, v, 2, 3, 3, 15);
-              return (Vec3f{0.16f, 0.135f, 0.115f} * (1 - h) + Vec3f{1.0f, 0.97f, 0.92f} * h) *
-                     (0.75f + 0.4f * patch);
-            }),
-      true);
-  return texture;
-}
-
 const Texture& BarkNormals() {
-  static const Texture texture = NormalsFromHeight(
-      "bark normals", 256, 512, 0.5f, [](float u, float v) { return 0.020f * BarkHeight(u, v); });
+  static const Texture texture =
+      NormalsFromHeight("bark normals", 256, 512, 0.5f, [](float u, float v) { return 0.020f * BarkHeight(u, v); });
   return texture;
 }
 
 const Texture& ScratchedTexture() {
-  static const Texture texture = Texture::FromImage(
-      "scratched",
-      Shade(256, 256,
-            [](float u, float v) {
-              const float stains = TileFractal(u, v, 4, 3, 4, 41), streaks = TileFractal(u, v, 32, 2, 2, 42);
-              return Vec3f{1, 1, 1} * std::min(1.0f, 0.72f + 0.26f * stains + 0.12f * streaks);
-            }),
-      true);
+  static const Texture texture =
+      Texture::FromImage("scratched",
+                         Shade(256, 256,
+                               [](float u, float v) {
+                                 const float stains = TileFractal(u, v, 4, 3, 4, 41), streaks = TileFractal(u, v, 32, 2, 2, 42);
+                                 return Vec3f{1, 1, 1} * std::min(1.0f, 0.72f + 0.26f * stains + 0.12f * streaks);
+                               }),
+                         true);
   return texture;
 }
 

@@ -16,11 +16,10 @@ constexpr Vec3f kGreenBlack{0.020f, 0.030f, 0.026f};
 Model MakeLampPost(uint32_t variant, uint64_t) {
   PropBuilder b("lamp_post");
   b.Use(Paint(kGreenBlack, 0.35f));
-  const Vec2f post[] = {{0.24f, -0.2f},  {0.24f, 0.05f},  {0.22f, 0.07f},  {0.20f, 0.075f}, {0.19f, 0.30f},
-                        {0.165f, 0.34f}, {0.165f, 0.72f}, {0.185f, 0.75f}, {0.185f, 0.79f}, {0.13f, 0.85f},
-                        {0.095f, 1.0f},  {0.075f, 1.2f},  {0.09f, 1.22f},  {0.09f, 1.26f},  {0.072f, 1.29f},
-                        {0.055f, 3.35f}, {0.085f, 3.37f}, {0.085f, 3.42f}, {0.055f, 3.46f}, {0.05f, 3.75f},
-                        {0.09f, 3.80f},  {0.09f, 3.84f},  {0.03f, 3.86f},  {0, 3.86f}};
+  const Vec2f post[] = {{0.24f, -0.2f},  {0.24f, 0.05f},  {0.22f, 0.07f},  {0.20f, 0.075f}, {0.19f, 0.30f},  {0.165f, 0.34f},
+                        {0.165f, 0.72f}, {0.185f, 0.75f}, {0.185f, 0.79f}, {0.13f, 0.85f},  {0.095f, 1.0f},  {0.075f, 1.2f},
+                        {0.09f, 1.22f},  {0.09f, 1.26f},  {0.072f, 1.29f}, {0.055f, 3.35f}, {0.085f, 3.37f}, {0.085f, 3.42f},
+                        {0.055f, 3.46f}, {0.05f, 3.75f},  {0.09f, 3.80f},  {0.09f, 3.84f},  {0.03f, 3.86f},  {0, 3.86f}};
   b.Lathe(post, 20);
   const int arms = variant == 0 ? 3 : variant == 1 ? 4 : 2;
   std::vector<Vec3f> globes = {{0, 0, 4.03f}};
@@ -28,8 +27,7 @@ Model MakeLampPost(uint32_t variant, uint64_t) {
     const float a = kTau * static_cast<float>(i) / static_cast<float>(arms);
     const Vec3f d{std::cos(a), std::sin(a), 0};
     const auto at = [&](float r, float z) { return d * r + Vec3f{0, 0, z}; };
-    const Vec3f arm[] = {at(0.04f, 3.40f), at(0.18f, 3.34f), at(0.32f, 3.33f), at(0.44f, 3.39f),
-                         at(0.48f, 3.50f)};
+    const Vec3f arm[] = {at(0.04f, 3.40f), at(0.18f, 3.34f), at(0.32f, 3.33f), at(0.44f, 3.39f), at(0.48f, 3.50f)};
     const Vec3f curl[] = {at(0.05f, 3.05f), at(0.12f, 3.10f), at(0.20f, 3.22f), at(0.25f, 3.33f)};
     b.Bar(arm, 0.022f, 10);
     b.Bar(curl, 0.013f, 8);
@@ -54,8 +52,7 @@ Model MakeStreetLight(uint32_t variant, uint64_t) {
   const float height = variant == 0 ? 8.6f : 9.2f, reach = variant == 0 ? 2.4f : 1.8f;
   b.Use(Metal({0.50f, 0.51f, 0.52f}, 0.42f), ScratchedTexture());
   b.BevelBox({-0.17f, -0.17f, 0}, {0.17f, 0.17f, 0.025f}, 0.006f);
-  const Vec2f mast[] = {{0.125f, 0.02f}, {0.125f, 0.05f},         {0.11f, 0.07f},
-                        {0.10f, 1.2f},   {0.058f, height - 0.9f}, {0, height - 0.88f}};
+  const Vec2f mast[] = {{0.125f, 0.02f}, {0.125f, 0.05f}, {0.11f, 0.07f}, {0.10f, 1.2f}, {0.058f, height - 0.9f}, {0, height - 0.88f}};
   b.Lathe(mast, 18);
   b.BevelBox({-0.06f, -0.122f, 0.55f}, {0.06f, -0.085f, 0.95f}, 0.008f);
   for (float x : {-0.13f, 0.13f}) {
@@ -82,8 +79,7 @@ Model MakeStreetLight(uint32_t variant, uint64_t) {
   b.BevelBox({-0.10f, -0.30f, -0.045f}, {0.10f, 0.02f, -0.029f}, 0.012f);
   // The light itself faces the road alone: 1000 cd straight down, 14 lx from 8.6 m.
   b.Use(WhiteGlow({1.0f, 0.80f, 0.56f}, 20500));
-  b.mesh().Quad({-0.085f, -0.285f, -0.046f}, {-0.085f, 0.005f, -0.046f}, {0.085f, 0.005f, -0.046f},
-                {0.085f, -0.285f, -0.046f});
+  b.mesh().Quad({-0.085f, -0.285f, -0.046f}, {-0.085f, 0.005f, -0.046f}, {0.085f, 0.005f, -0.046f}, {0.085f, -0.285f, -0.046f});
   return b.Finish();
 }
 
@@ -105,8 +101,8 @@ Model MakeCrookLamp(uint32_t variant, uint64_t) {
   const Vec3f tip{0, -2 * reach, 5.26f};
   crook.push_back(tip);
   b.Bar(crook, 0.034f, 12);
-  const Vec2f shade[] = {{0.24f, -0.42f}, {0.235f, -0.36f}, {0.21f, -0.26f}, {0.165f, -0.16f},
-                         {0.10f, -0.09f}, {0.07f, -0.05f},  {0.06f, 0.0f},   {0.045f, 0.06f}, {0, 0.07f}};
+  const Vec2f shade[] = {{0.24f, -0.42f}, {0.235f, -0.36f}, {0.21f, -0.26f}, {0.165f, -0.16f}, {0.10f, -0.09f},
+                         {0.07f, -0.05f}, {0.06f, 0.0f},    {0.045f, 0.06f}, {0, 0.07f}};
   b.Lathe(shade, 24, tip);
   // 150 cd straight down: 6 lx from 5 m.
   b.Use(WhiteGlow({0.86f, 0.84f, 0.78f}, 1200));
@@ -121,7 +117,7 @@ Model MakeBollardLamp(uint32_t variant, uint64_t) {
   const Material iron = Paint({0.020f, 0.021f, 0.023f}, 0.40f);
   b.Use(iron);
   const float neck = variant == 0 ? 0.92f : 0.84f;
-  const Vec2f post[] = {{0.085f, -0.15f}, {0.085f, 0.02f}, {0.055f, 0.05f}, {0.048f, neck},
+  const Vec2f post[] = {{0.085f, -0.15f},      {0.085f, 0.02f},        {0.055f, 0.05f},  {0.048f, neck},
                         {0.09f, neck + 0.05f}, {0.095f, neck + 0.07f}, {0, neck + 0.07f}};
   b.Lathe(post, 16);
   const Vec2f cap[] = {{0.125f, 0}, {0.125f, 0.025f}, {0.09f, 0.055f}, {0.03f, 0.075f}, {0, 0.078f}};

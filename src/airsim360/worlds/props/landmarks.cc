@@ -23,8 +23,7 @@ Model MakePhoneBooth(uint32_t, uint64_t) {
   b.BevelBox({-0.48f, -0.48f, 0}, {0.48f, 0.48f, 0.10f}, 0.01f);
   b.Use(red);
   for (float x : {-0.40f, 0.40f})
-    for (float y : {-0.40f, 0.40f})
-      b.BevelBox({x - 0.06f, y - 0.06f, 0.1f}, {x + 0.06f, y + 0.06f, 2.2f}, 0.01f);
+    for (float y : {-0.40f, 0.40f}) b.BevelBox({x - 0.06f, y - 0.06f, 0.1f}, {x + 0.06f, y + 0.06f, 2.2f}, 0.01f);
   b.BevelBox({-0.46f, -0.46f, 0.1f}, {0.46f, 0.46f, 0.32f}, 0.01f);
   b.BevelBox({-0.48f, -0.48f, 2.12f}, {0.48f, 0.48f, 2.38f}, 0.02f);
   b.BevelBox({-0.43f, -0.43f, 2.38f}, {0.43f, 0.43f, 2.44f}, 0.02f);
@@ -44,11 +43,9 @@ Model MakePhoneBooth(uint32_t, uint64_t) {
       b.mesh().Box({-0.35f, -0.425f, z - 0.012f}, {0.35f, -0.395f, z + 0.012f});
     }
     b.Use(Glass({0.10f, 0.105f, 0.10f}));
-    b.mesh().Quad({-0.35f, -0.405f, 0.32f}, {0.35f, -0.405f, 0.32f}, {0.35f, -0.405f, 2.12f},
-                  {-0.35f, -0.405f, 2.12f});
+    b.mesh().Quad({-0.35f, -0.405f, 0.32f}, {0.35f, -0.405f, 0.32f}, {0.35f, -0.405f, 2.12f}, {-0.35f, -0.405f, 2.12f});
     b.Use(Paint({1, 1, 1}), letters);
-    b.Picture({-0.34f, -0.484f, 2.19f}, {0.34f, -0.484f, 2.19f}, {0.34f, -0.484f, 2.32f},
-              {-0.34f, -0.484f, 2.32f});
+    b.Picture({-0.34f, -0.484f, 2.19f}, {0.34f, -0.484f, 2.19f}, {0.34f, -0.484f, 2.32f}, {-0.34f, -0.484f, 2.32f});
   }
   b.Place({});
   return b.Finish();
@@ -63,8 +60,7 @@ Texture FlagPicture() {
   c.Rectangle({0, 0}, {0.4f, 7.0f / 13}, {0.012f, 0.025f, 0.13f});
   for (int row = 0; row < 9; ++row) {
     for (int i = 0; i < (row % 2 ? 5 : 6); ++i) {
-      const float x = 0.4f * (static_cast<float>(2 * i + (row % 2 ? 2 : 1))) / 12,
-                  y = 7.0f / 13 * static_cast<float>(row + 1) / 10;
+      const float x = 0.4f * (static_cast<float>(2 * i + (row % 2 ? 2 : 1))) / 12, y = 7.0f / 13 * static_cast<float>(row + 1) / 10;
       // A star of five points: two triangles of lines are too coarse at this size, a small pentagon does.
       c.RegularPolygon({x, y}, 0.018f, 5, kTau / 4, {0.75f, 0.75f, 0.73f});
     }
@@ -93,8 +89,7 @@ Model MakeUsFlag(uint32_t variant, uint64_t) {
   PropBuilder b("us_flag");
   b.Use(Metal({0.55f, 0.55f, 0.54f}, 0.35f));
   if (variant == 0) {
-    const Vec2f mast[] = {{0.22f, 0},    {0.22f, 0.06f}, {0.09f, 0.10f},
-                          {0.08f, 0.2f}, {0.035f, 8.9f}, {0, 8.91f}};
+    const Vec2f mast[] = {{0.22f, 0}, {0.22f, 0.06f}, {0.09f, 0.10f}, {0.08f, 0.2f}, {0.035f, 8.9f}, {0, 8.91f}};
     b.Lathe(mast, 16);
     b.mesh().Sphere({0, 0, 8.96f}, {0.08f, 0.08f, 0.08f}, 8, 12);
     AddFlag(b, Move({0.05f, 0, 8.75f}), 2.6f);
@@ -110,8 +105,7 @@ Model MakeUsFlag(uint32_t variant, uint64_t) {
     b.Sheet(24, 8,
             [&](float u, float v) {
               const Vec3f top = foot + (tip - foot) * (0.16f + 0.8f * u);
-              return Vec3f{0.10f * std::sin(8 * u + v) * (1 - 0.5f * v), top.y,
-                           top.z - 1.25f * (1 - v) * (1 - 0.25f * u)};
+              return Vec3f{0.10f * std::sin(8 * u + v) * (1 - 0.5f * v), top.y, top.z - 1.25f * (1 - v) * (1 - 0.25f * u)};
             },
             {2.2f, 1.25f});
   }
@@ -129,8 +123,7 @@ Model MakeFoodTruck(uint32_t, uint64_t) {
   b.BevelBox({-1.135f, -2.25f, 0.95f}, {1.135f, 3.15f, 1.25f}, 0.01f);
   b.Use(Glass());
   b.BevelBox({-0.98f, -2.33f, 1.75f}, {0.98f, -2.25f, 2.60f}, 0.02f);
-  for (float x : {-1.0f, 1.0f})
-    b.BevelBox({x * 1.05f - 0.085f, -2.0f, 1.65f}, {x * 1.05f + 0.085f, -1.2f, 2.45f}, 0.01f);
+  for (float x : {-1.0f, 1.0f}) b.BevelBox({x * 1.05f - 0.085f, -2.0f, 1.65f}, {x * 1.05f + 0.085f, -1.2f, 2.45f}, 0.01f);
   b.Use(Plastic({0.015f, 0.015f, 0.016f}));
   b.BevelBox({-1.08f, -3.12f, 0.45f}, {1.08f, -2.95f, 0.72f}, 0.03f);
   b.BevelBox({-0.55f, -3.08f, 0.85f}, {0.55f, -3.03f, 1.25f}, 0.01f);
@@ -177,8 +170,7 @@ Model MakeOrangeMailbox(uint32_t, uint64_t seed) {
   const PropKind& blue = FindPropKind("mailbox");
   Model model = blue.make(0, seed);
   for (Material& m : model.materials)
-    if (m.name == "paint" && m.base_color.z > 0.15f && m.base_color.x < 0.02f)
-      m.base_color = {0.78f, 0.20f, 0.012f};
+    if (m.name == "paint" && m.base_color.z > 0.15f && m.base_color.x < 0.02f) m.base_color = {0.78f, 0.20f, 0.012f};
   return model;
 }
 
@@ -191,9 +183,8 @@ Model MakeGiantBottle(uint32_t, uint64_t) {
   Material glass = Paint({0.09f, 0.022f, 0.010f}, 0.08f);
   glass.clear_coat = 1;
   b.Use(glass);
-  const Vec2f body[] = {{1.15f, 0.45f}, {1.25f, 0.7f}, {1.25f, 2.0f}, {1.08f, 2.9f},
-                        {1.06f, 3.4f},  {1.25f, 4.5f}, {1.22f, 5.4f}, {0.95f, 6.4f},
-                        {0.55f, 7.4f},  {0.42f, 8.4f}, {0.42f, 8.7f}};
+  const Vec2f body[] = {{1.15f, 0.45f}, {1.25f, 0.7f}, {1.25f, 2.0f}, {1.08f, 2.9f}, {1.06f, 3.4f}, {1.25f, 4.5f},
+                        {1.22f, 5.4f},  {0.95f, 6.4f}, {0.55f, 7.4f}, {0.42f, 8.4f}, {0.42f, 8.7f}};
   b.Lathe(body, 36);
   b.Use(Paint({0.55f, 0.015f, 0.015f}, 0.3f));
   const Vec2f cap[] = {{0.47f, 8.65f}, {0.50f, 9.0f}, {0.44f, 9.1f}, {0, 9.12f}};
@@ -224,8 +215,7 @@ Model MakeBankSign(uint32_t, uint64_t) {
   Material face = Paint({1, 1, 1}, 0.4f);
   face.emission = Vec3f{1, 1, 1} * (120 * kNit);
   b.Use(face, c.Finish("union bank"));
-  b.Picture({-2.92f, -0.304f, 0.08f}, {2.92f, -0.304f, 0.08f}, {2.92f, -0.304f, 1.42f},
-            {-2.92f, -0.304f, 1.42f});
+  b.Picture({-2.92f, -0.304f, 0.08f}, {2.92f, -0.304f, 0.08f}, {2.92f, -0.304f, 1.42f}, {-2.92f, -0.304f, 1.42f});
   return b.Finish();
 }
 
@@ -233,8 +223,7 @@ Model MakeBankSign(uint32_t, uint64_t) {
 Model MakeRedTree(uint32_t, uint64_t seed) {
   Model model = FindPropKind("tree_generic").make(2, seed);
   for (Material& m : model.materials)
-    if (m.kind == SurfaceKind::kFoliage)
-      m.base_color = {m.base_color.x * 5.0f, m.base_color.y * 0.30f, m.base_color.z * 0.55f};
+    if (m.kind == SurfaceKind::kFoliage) m.base_color = {m.base_color.x * 5.0f, m.base_color.y * 0.30f, m.base_color.z * 0.55f};
   return model;
 }
 

@@ -17,8 +17,7 @@ constexpr float kTau = 2 * std::numbers::pi_v<float>;
 // Box on a pedestal with a window that shows the front page.
 Model MakeNewspaperBox(uint32_t variant, uint64_t) {
   PropBuilder b("newspaper_box");
-  constexpr Vec3f kTones[4] = {
-      {0.30f, 0.045f, 0.040f}, {0.045f, 0.075f, 0.19f}, {0.46f, 0.31f, 0.09f}, {0.05f, 0.14f, 0.08f}};
+  constexpr Vec3f kTones[4] = {{0.30f, 0.045f, 0.040f}, {0.045f, 0.075f, 0.19f}, {0.46f, 0.31f, 0.09f}, {0.05f, 0.14f, 0.08f}};
   constexpr const char* kTitles[4] = {"THE DAILY", "CITY POST", "VOICE", "METRO"};
   b.Use(Paint(kTones[variant], 0.4f), ScratchedTexture());
   b.BevelBox({-0.24f, -0.20f, 0.42f}, {0.24f, 0.20f, 1.10f}, 0.03f);
@@ -34,8 +33,7 @@ Model MakeNewspaperBox(uint32_t variant, uint64_t) {
     page.Line({i < 6 ? 0.66f : 0.06f, y}, {0.94f, y}, 0.025f, {0.22f, 0.22f, 0.21f});
   }
   b.Use(Plastic({1, 1, 1}, 0.2f), page.Finish(std::string("news ") + kTitles[variant]));
-  b.Picture({-0.20f, -0.203f, 0.64f}, {0.20f, -0.203f, 0.64f}, {0.20f, -0.203f, 1.00f},
-            {-0.20f, -0.203f, 1.00f});
+  b.Picture({-0.20f, -0.203f, 0.64f}, {0.20f, -0.203f, 0.64f}, {0.20f, -0.203f, 1.00f}, {-0.20f, -0.203f, 1.00f});
   b.Use(Metal());
   b.BevelBox({-0.12f, -0.23f, 0.55f}, {0.12f, -0.20f, 0.58f}, 0.006f);
   return b.Finish();
@@ -57,8 +55,7 @@ Model MakeConcreteBlock(uint32_t variant, uint64_t) {
       stripes.Line({x, 1.2f}, {x + 0.14f, -0.2f}, 0.3f, {0.72f, 0.72f, 0.70f});
     }
     b.Use(Paint({1, 1, 1}, 0.6f), stripes.Finish("barrier stripes"));
-    b.Picture({-1.1f, -0.135f, 0.50f}, {1.1f, -0.135f, 0.50f}, {1.1f, -0.115f, 0.68f},
-              {-1.1f, -0.115f, 0.68f});
+    b.Picture({-1.1f, -0.135f, 0.50f}, {1.1f, -0.135f, 0.50f}, {1.1f, -0.115f, 0.68f}, {-1.1f, -0.115f, 0.68f});
     b.Picture({1.1f, 0.135f, 0.50f}, {-1.1f, 0.135f, 0.50f}, {-1.1f, 0.115f, 0.68f}, {1.1f, 0.115f, 0.68f});
   }
   return b.Finish();
@@ -72,8 +69,7 @@ Model MakeCone(uint32_t variant, uint64_t) {
   const auto ring = [&](float from, float to, Vec3f color) {
     b.Use(Plastic(color, 0.5f));
     const auto r = [&](float t) { return 0.145f - 0.115f * t; };
-    b.mesh().Tube({0, 0, 0.035f + (h - 0.035f) * from}, {0, 0, 0.035f + (h - 0.035f) * to}, r(from), r(to),
-                  20, false, to > 0.99f);
+    b.mesh().Tube({0, 0, 0.035f + (h - 0.035f) * from}, {0, 0, 0.035f + (h - 0.035f) * to}, r(from), r(to), 20, false, to > 0.99f);
   };
   const Vec3f orange{0.80f, 0.16f, 0.015f}, white{0.74f, 0.74f, 0.72f};
   ring(0, 0.45f, orange);
@@ -107,8 +103,7 @@ Model MakeMetalFence(uint32_t variant, uint64_t) {
         const auto clip = [&](float x) { return std::clamp(x, -0.97f, 0.97f); };
         const float t0 = (clip(x0) - x0) / (x1 - x0), t1 = (clip(x1) - x0) / (x1 - x0);
         if (t1 - t0 < 0.02f) continue;
-        b.mesh().Beam({x0 + (x1 - x0) * t0, 0, 0.09f + 1.72f * t0},
-                      {x0 + (x1 - x0) * t1, 0, 0.09f + 1.72f * t1}, 0.006f);
+        b.mesh().Beam({x0 + (x1 - x0) * t0, 0, 0.09f + 1.72f * t0}, {x0 + (x1 - x0) * t1, 0, 0.09f + 1.72f * t1}, 0.006f);
       }
     }
   }
@@ -174,13 +169,11 @@ Model MakeHotdogCart(uint32_t variant, uint64_t) {
   b.BevelBox({-1.05f, -0.52f, 1.10f}, {1.05f, 0.50f, 1.15f}, 0.01f);
   for (float x : {-0.6f, -0.1f, 0.4f}) b.BevelBox({x - 0.2f, -0.2f, 1.15f}, {x + 0.2f, 0.2f, 1.22f}, 0.02f);
   Canvas board(256, 96, variant ? Vec3f{0.045f, 0.085f, 0.22f} : Vec3f{0.46f, 0.31f, 0.09f});
-  board.Letters("HOT DOGS", {0.5f, 0.34f}, 0.36f,
-                variant ? Vec3f{0.60f, 0.45f, 0.16f} : Vec3f{0.33f, 0.050f, 0.045f}, 0.85f);
+  board.Letters("HOT DOGS", {0.5f, 0.34f}, 0.36f, variant ? Vec3f{0.60f, 0.45f, 0.16f} : Vec3f{0.33f, 0.050f, 0.045f}, 0.85f);
   board.Letters("PRETZEL   COLD DRINKS", {0.5f, 0.78f}, 0.14f, {0.62f, 0.62f, 0.58f});
   const Texture face = board.Finish(variant ? "hot dogs blue" : "hot dogs yellow");
   b.Use(Paint({1, 1, 1}, 0.4f), face);
-  b.Picture({-0.88f, -0.424f, 0.48f}, {0.88f, -0.424f, 0.48f}, {0.88f, -0.424f, 1.06f},
-            {-0.88f, -0.424f, 1.06f});
+  b.Picture({-0.88f, -0.424f, 0.48f}, {0.88f, -0.424f, 0.48f}, {0.88f, -0.424f, 1.06f}, {-0.88f, -0.424f, 1.06f});
   b.Picture({0.88f, 0.424f, 0.48f}, {-0.88f, 0.424f, 0.48f}, {-0.88f, 0.424f, 1.06f}, {0.88f, 0.424f, 1.06f});
   b.Use(Rubber());
   for (float x : {-0.7f, 0.7f})
@@ -223,15 +216,19 @@ Model MakeTrashBags(uint32_t variant, uint64_t seed) {
   for (int i = 0; i < bags; ++i) {
     b.Use(Plastic(i % 4 == 3 ? Vec3f{0.34f, 0.36f, 0.37f} : Vec3f{0.017f, 0.017f, 0.019f}, 0.34f));
     const float r = uniform(0.24, 0.34), h = uniform(0.42, 0.60), p1 = uniform(0, kTau), p2 = uniform(0, kTau);
-    const Vec3f foot{0.42f * static_cast<float>(i) - 0.21f * static_cast<float>(bags - 1) + uniform(-0.06, 0.06), uniform(-0.16, 0.16), -0.01f};
+    const Vec3f foot{0.42f * static_cast<float>(i) - 0.21f * static_cast<float>(bags - 1) + uniform(-0.06, 0.06), uniform(-0.16, 0.16),
+                     -0.01f};
     // A sack: wide and creased below, drawn together under the knot, the ends of which stand up.
-    b.Sheet(14, 10, [&](float u, float v) {
-      const float a = kTau * u, neck = std::max(0.0f, v - 0.72f) / 0.28f;
-      const float belly = std::sqrt(std::max(0.0f, 1 - std::pow(std::abs(2 * std::min(v, 0.72f) / 0.9f - 0.72f), 2.6f)));
-      const float crease = 1 + 0.09f * std::sin(3 * a + p1 + 4 * v) + 0.05f * std::sin(7 * a + p2 - 9 * v);
-      const float radius = v <= 0 ? 0.0f : neck > 0 ? r * (0.62f * (1 - neck) * (1 - neck) + 0.06f + 0.10f * neck) : r * belly * crease;
-      return foot + Vec3f{radius * std::cos(a), radius * std::sin(a), h * std::max(0.0f, v - 0.04f)};
-    }, {1, 1});
+    b.Sheet(
+        14, 10,
+        [&](float u, float v) {
+          const float a = kTau * u, neck = std::max(0.0f, v - 0.72f) / 0.28f;
+          const float belly = std::sqrt(std::max(0.0f, 1 - std::pow(std::abs(2 * std::min(v, 0.72f) / 0.9f - 0.72f), 2.6f)));
+          const float crease = 1 + 0.09f * std::sin(3 * a + p1 + 4 * v) + 0.05f * std::sin(7 * a + p2 - 9 * v);
+          const float radius = v <= 0 ? 0.0f : neck > 0 ? r * (0.62f * (1 - neck) * (1 - neck) + 0.06f + 0.10f * neck) : r * belly * crease;
+          return foot + Vec3f{radius * std::cos(a), radius * std::sin(a), h * std::max(0.0f, v - 0.04f)};
+        },
+        {1, 1});
   }
   for (int i = 0; i < 1 + static_cast<int>(variant % 2); ++i) {
     b.Use(Stone({0.30f, 0.205f, 0.125f}, 0.85f));

@@ -5,8 +5,7 @@ namespace airsim360::internal {
 void AddPlacedModels(SceneBuilder& builder, PropShelf& shelf, const std::vector<PlacedModel>& models) {
   for (const PlacedModel& placed : models) {
     const EntityId entity = builder.AddEntity(placed.name, builder.tree().Add(placed.category));
-    builder.AddInstance(
-        {shelf.Add(placed.model), PlaceUpright(placed.p_W, placed.yaw, placed.scale), entity});
+    builder.AddInstance({shelf.Add(placed.model), PlaceUpright(placed.p_W, placed.yaw, placed.scale), entity});
   }
 }
 

@@ -16,9 +16,7 @@ using namespace internal;
 float Uniform(RngStream& rng, double a, double b) { return static_cast<float>(rng.Uniform(a, b)); }
 
 Footprint RandomFootprint(RngStream& rng, double reach) {
-  return {{Uniform(rng, -reach, reach), Uniform(rng, -reach, reach)},
-          {Uniform(rng, 0.05, 4), Uniform(rng, 0.05, 2)},
-          Uniform(rng, -7, 7)};
+  return {{Uniform(rng, -reach, reach), Uniform(rng, -reach, reach)}, {Uniform(rng, 0.05, 4), Uniform(rng, 0.05, 2)}, Uniform(rng, -7, 7)};
 }
 
 std::vector<Vec2f> CornersOf(const Footprint& f) {
@@ -96,8 +94,7 @@ TEST_P(EverySeedOfPlaces, OccupancyAnswersAsALookAtAllOfThem) {
   int free_places = 0;
   for (int i = 0; i < 1500; ++i) {
     const Footprint f = RandomFootprint(rng, 60);
-    const bool free =
-        std::none_of(all.begin(), all.end(), [&](const Footprint& other) { return other.Overlaps(f); });
+    const bool free = std::none_of(all.begin(), all.end(), [&](const Footprint& other) { return other.Overlaps(f); });
     ASSERT_EQ(occupancy.IsFree(f), free) << i;
     if (!free && i % 7) continue;  // some are put in each other all the same
     occupancy.Add(f);
@@ -117,8 +114,7 @@ TEST_P(EverySeedOfPlaces, ThePlacerTakesEveryPlaceOnceAndKeepsOffReservedOnes) {
   placer.Reserve(reserved);
   int refused = 0;
   for (int i = 0; i < 300; ++i) {
-    const char* kind =
-        std::array{"trash_can", "fire_hydrant", "bench_wood", "car_pillar"}[static_cast<size_t>(i % 4)];
+    const char* kind = std::array{"trash_can", "fire_hydrant", "bench_wood", "car_pillar"}[static_cast<size_t>(i % 4)];
     const Vec3f p{Uniform(rng, -14, 14), Uniform(rng, -14, 14), 0.5f};
     refused += !placer.Try(kind, p, Uniform(rng, 0, 6.28));
   }
@@ -133,8 +129,7 @@ TEST_P(EverySeedOfPlaces, ThePlacerTakesEveryPlaceOnceAndKeepsOffReservedOnes) {
   EXPECT_EQ(scene->entities.size(), placed.size());
   for (const Placement& p : placed) {
     EXPECT_TRUE(scene->entity(p.entity).name.starts_with(p.kind));
-    EXPECT_TRUE(scene->entity(p.entity).bounds.Contains(
-        {p.p_W.x, p.p_W.y, scene->entity(p.entity).bounds.center().z}));
+    EXPECT_TRUE(scene->entity(p.entity).bounds.Contains({p.p_W.x, p.p_W.y, scene->entity(p.entity).bounds.center().z}));
   }
 }
 
@@ -148,17 +143,12 @@ class EveryPropOnTheGround : public testing::TestWithParam<std::string> {
  protected:
   const PropKind& kind() const { return FindPropKind(GetParam()); }
   // Those that take long to grow or to paint; of them one individual is asked.
-  bool dear() const {
-    return kind().max_triangles > 6000 || GetParam() == "mural" || GetParam() == "billboard";
-  }
+  bool dear() const { return kind().max_triangles > 6000 || GetParam() == "mural" || GetParam() == "billboard"; }
   int individuals() const { return dear() ? 1 : kind().variants; }
-  Model Make(int variant, uint64_t seed) const {
-    return MakeProp(kind(), static_cast<uint32_t>(variant), seed, nullptr);
-  }
+  Model Make(int variant, uint64_t seed) const { return MakeProp(kind(), static_cast<uint32_t>(variant), seed, nullptr); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Placing, EveryPropOnTheGround, testing::ValuesIn(Names()),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Placing, EveryPropOnTheGround, testing::ValuesIn(Names()), [](const auto& info) { return info.param; });
 
 // What touches the ground lies in the circle that the kind asks for, corners a quarter beyond it at most,
 // wherever its crown or sign reaches. Blades and leaves are of the ground that they lie on; a flag may hang
@@ -185,8 +175,7 @@ TEST_P(EveryPropOnTheGround, StandsWithinItsRadiusOfMaterialsThatNatureHas) {
 
 // The rectangle that it occupies is no larger than its circle's square, turns and grows with it.
 TEST_P(EveryPropOnTheGround, ItsFootprintTurnsAndGrowsWithIt) {
-  const Footprint plain = FootprintOf(GetParam(), {3, 4}, 0),
-                  turned = FootprintOf(GetParam(), {3, 4}, 1.1f, 2);
+  const Footprint plain = FootprintOf(GetParam(), {3, 4}, 0), turned = FootprintOf(GetParam(), {3, 4}, 1.1f, 2);
   EXPECT_GT(plain.half.x, 0.03f);
   EXPECT_GT(plain.half.y, 0.03f);
   EXPECT_EQ(plain.center, (Vec2f{3, 4}));
@@ -213,8 +202,7 @@ TEST_P(EveryPropOnTheGround, StandsWhereItIsPutTurnedAndScaled) {
   if (dear()) return;
   SceneBuilder builder("shelf");
   PropShelf shelf(builder, nullptr, 7);
-  const EntityId plain = shelf.Place(GetParam(), {}),
-                 put = shelf.Place(GetParam(), {100, -50, 3}, 1.5707963f, 0, 1.5f);
+  const EntityId plain = shelf.Place(GetParam(), {}), put = shelf.Place(GetParam(), {100, -50, 3}, 1.5707963f, 0, 1.5f);
   const auto scene = builder.Build();
   const Box3f a = scene->entity(plain).bounds, b = scene->entity(put).bounds;
   // A quarter turn takes x to y and y to -x.

@@ -16,13 +16,11 @@ struct Extent {
 };
 // Long things, seen from their front (towards -Y).
 constexpr Extent kExtents[] = {
-    {"car", 0.98f, 2.45f},          {"van", 1.08f, 2.9f},           {"bus", 1.35f, 6.3f},
-    {"bench_wood", 0.95f, 0.42f},   {"bus_stop", 2.1f, 0.85f},      {"bicycle", 0.32f, 0.92f},
-    {"hedge", 0.5f, 0.35f},         {"rail", 1.0f, 0.06f},          {"wood_fence", 1.0f, 0.08f},
-    {"traffic_light", 0.3f, 0.3f},  {"street_light", 0.25f, 0.25f}, {"lamp_post", 0.3f, 0.3f},
-    {"food_cart", 1.5f, 1.0f},      {"poster_stand", 0.5f, 0.4f},   {"traffic_sign", 0.15f, 0.15f},
-    {"playground", 2.0f, 2.9f},     {"road_block", 0.78f, 0.26f},   {"picnic_table", 0.95f, 0.85f},
-    {"bollard_lamp", 0.15f, 0.15f}, {"crook_lamp", 0.2f, 0.2f},
+    {"car", 0.98f, 2.45f},        {"van", 1.08f, 2.9f},           {"bus", 1.35f, 6.3f},           {"bench_wood", 0.95f, 0.42f},
+    {"bus_stop", 2.1f, 0.85f},    {"bicycle", 0.32f, 0.92f},      {"hedge", 0.5f, 0.35f},         {"rail", 1.0f, 0.06f},
+    {"wood_fence", 1.0f, 0.08f},  {"traffic_light", 0.3f, 0.3f},  {"street_light", 0.25f, 0.25f}, {"lamp_post", 0.3f, 0.3f},
+    {"food_cart", 1.5f, 1.0f},    {"poster_stand", 0.5f, 0.4f},   {"traffic_sign", 0.15f, 0.15f}, {"playground", 2.0f, 2.9f},
+    {"road_block", 0.78f, 0.26f}, {"picnic_table", 0.95f, 0.85f}, {"bollard_lamp", 0.15f, 0.15f}, {"crook_lamp", 0.2f, 0.2f},
 };
 
 Vec2f AxisX(const Footprint& f) { return {std::cos(f.yaw), std::sin(f.yaw)}; }
@@ -66,8 +64,7 @@ bool Occupancy::IsFree(const Footprint& footprint) const {
   ForCells(footprint, [&](int64_t key) {
     const auto it = cells_.find(key);
     if (!free || it == cells_.end()) return;
-    free = std::none_of(it->second.begin(), it->second.end(),
-                        [&](uint32_t i) { return all_[i].Overlaps(footprint); });
+    free = std::none_of(it->second.begin(), it->second.end(), [&](uint32_t i) { return all_[i].Overlaps(footprint); });
   });
   return free;
 }
@@ -87,8 +84,8 @@ Footprint FootprintOf(std::string_view kind, Vec2f at, float yaw, float scale) {
   return {at, {r, r}, yaw};
 }
 
-std::optional<EntityId> Placer::Try(std::string_view kind, Vec3f p, float yaw, float scale, Vec3f tint,
-                                    std::optional<uint32_t> variant, Engine engine) {
+std::optional<EntityId> Placer::Try(std::string_view kind, Vec3f p, float yaw, float scale, Vec3f tint, std::optional<uint32_t> variant,
+                                    Engine engine) {
   const Footprint footprint = FootprintOf(kind, {p.x, p.y}, yaw, scale);
   if (!occupancy_.IsFree(footprint)) return std::nullopt;
   occupancy_.Add(footprint);
@@ -97,8 +94,7 @@ std::optional<EntityId> Placer::Try(std::string_view kind, Vec3f p, float yaw, f
   return entity;
 }
 
-EntityId Placer::Put(std::string_view kind, Vec3f p, float yaw, float scale, Vec3f tint,
-                     std::optional<uint32_t> variant) {
+EntityId Placer::Put(std::string_view kind, Vec3f p, float yaw, float scale, Vec3f tint, std::optional<uint32_t> variant) {
   occupancy_.Add(FootprintOf(kind, {p.x, p.y}, yaw, scale));
   return shelf_.Place(kind, p, yaw, Pick(kind, variant), scale, tint);
 }

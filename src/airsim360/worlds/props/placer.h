@@ -47,19 +47,15 @@ struct Placement {
 /// Places props by kind with their footprints; refuses what does not fit.
 class Placer {
  public:
-  Placer(PropShelf& shelf, Occupancy& occupancy, uint64_t seed)
-      : shelf_(shelf), occupancy_(occupancy), rng_(seed, "placer") {}
+  Placer(PropShelf& shelf, Occupancy& occupancy, uint64_t seed) : shelf_(shelf), occupancy_(occupancy), rng_(seed, "placer") {}
 
   /// Keeps a place free of later props.
   void Reserve(const Footprint& footprint) { occupancy_.Add(footprint); }
   /// Places a prop if its footprint is free. A random individual where `variant` is not given.
-  std::optional<EntityId> Try(std::string_view kind, Vec3f p_W, float yaw = 0, float scale = 1,
-                              Vec3f tint = {1, 1, 1}, std::optional<uint32_t> variant = {},
-                              Engine engine = Engine::kOff);
+  std::optional<EntityId> Try(std::string_view kind, Vec3f p_W, float yaw = 0, float scale = 1, Vec3f tint = {1, 1, 1},
+                              std::optional<uint32_t> variant = {}, Engine engine = Engine::kOff);
   /// Puts a vehicle into traffic if its footprint is free: its lamps are on by night.
-  std::optional<EntityId> Drive(std::string_view kind, Vec3f p_W, float yaw) {
-    return Try(kind, p_W, yaw, 1, {1, 1, 1}, {}, Engine::kOn);
-  }
+  std::optional<EntityId> Drive(std::string_view kind, Vec3f p_W, float yaw) { return Try(kind, p_W, yaw, 1, {1, 1, 1}, {}, Engine::kOn); }
   /// Places without looking: for things made to touch, as fence panels, or to stand in each other, as
   /// umbrella and table.
   EntityId Put(std::string_view kind, Vec3f p_W, float yaw = 0, float scale = 1, Vec3f tint = {1, 1, 1},

@@ -34,16 +34,16 @@ float Carve(float a, float b, float k) { return -Join(-a, b, k); }
 // The head about its own middle, z to the viewer, y up, half symmetrical.
 float Face(Vec3f p) {
   const Vec3f s{std::abs(p.x), p.y, p.z};
-  float d = Ellipsoid(p, {0, 0.12f, -0.02f}, {0.335f, 0.40f, 0.385f});              // skull
-  d = Join(d, Ellipsoid(p, {0, -0.18f, 0.08f}, {0.245f, 0.29f, 0.27f}), 0.14f);      // jaw
-  d = Join(d, Ellipsoid(p, {0, -0.385f, 0.215f}, {0.085f, 0.07f, 0.075f}), 0.10f);   // chin
-  d = Join(d, Ellipsoid(s, {0.175f, -0.04f, 0.245f}, {0.085f, 0.07f, 0.06f}), 0.12f);  // cheekbones
+  float d = Ellipsoid(p, {0, 0.12f, -0.02f}, {0.335f, 0.40f, 0.385f});                             // skull
+  d = Join(d, Ellipsoid(p, {0, -0.18f, 0.08f}, {0.245f, 0.29f, 0.27f}), 0.14f);                    // jaw
+  d = Join(d, Ellipsoid(p, {0, -0.385f, 0.215f}, {0.085f, 0.07f, 0.075f}), 0.10f);                 // chin
+  d = Join(d, Ellipsoid(s, {0.175f, -0.04f, 0.245f}, {0.085f, 0.07f, 0.06f}), 0.12f);              // cheekbones
   d = Join(d, Capsule(s, {0.03f, 0.155f, 0.345f}, {0.19f, 0.15f, 0.275f}, 0.035f, 0.03f), 0.07f);  // brow ridge
-  d = Carve(d, Ellipsoid(s, {0.125f, 0.07f, 0.375f}, {0.075f, 0.05f, 0.055f}), 0.07f);  // sockets
-  d = Join(d, Capsule(p, {0, 0.11f, 0.335f}, {0, -0.085f, 0.43f}, 0.028f, 0.045f), 0.06f);  // nose
-  d = Join(d, Ellipsoid(s, {0.05f, -0.095f, 0.38f}, {0.035f, 0.03f, 0.04f}), 0.04f);   // nostrils
-  d = Join(d, Ellipsoid(s, {0.345f, 0.02f, -0.02f}, {0.035f, 0.11f, 0.07f}), 0.04f);   // ears
-  d = Join(d, Ellipsoid(s, {0.118f, 0.098f, 0.305f}, {0.075f, 0.03f, 0.045f}), 0.03f);  // lids
+  d = Carve(d, Ellipsoid(s, {0.125f, 0.07f, 0.375f}, {0.075f, 0.05f, 0.055f}), 0.07f);             // sockets
+  d = Join(d, Capsule(p, {0, 0.11f, 0.335f}, {0, -0.085f, 0.43f}, 0.028f, 0.045f), 0.06f);         // nose
+  d = Join(d, Ellipsoid(s, {0.05f, -0.095f, 0.38f}, {0.035f, 0.03f, 0.04f}), 0.04f);               // nostrils
+  d = Join(d, Ellipsoid(s, {0.345f, 0.02f, -0.02f}, {0.035f, 0.11f, 0.07f}), 0.04f);               // ears
+  d = Join(d, Ellipsoid(s, {0.118f, 0.098f, 0.305f}, {0.075f, 0.03f, 0.045f}), 0.03f);             // lids
   return d;
 }
 

@@ -13,10 +13,9 @@ constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr float kCreaseCosine = 0.766f;  // corners sharper than 40 degrees stay sharp
 
 auto Fields(const Material& m) {
-  return std::tie(m.name, m.kind, m.alpha_mode, m.alpha_cutoff, m.base_color, m.base_alpha, m.metallic,
-                  m.roughness, m.emission, m.lamp, m.beam, m.normal_scale, m.transmission, m.macro_variation,
-                  m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture,
-                  m.uv_scale, m.uv_offset, m.uv_rotation);
+  return std::tie(m.name, m.kind, m.alpha_mode, m.alpha_cutoff, m.base_color, m.base_alpha, m.metallic, m.roughness, m.emission, m.lamp,
+                  m.beam, m.normal_scale, m.transmission, m.macro_variation, m.base_color_texture, m.metallic_roughness_texture,
+                  m.normal_texture, m.emission_texture, m.uv_scale, m.uv_offset, m.uv_rotation);
 }
 
 Vec2f Unit(Vec2f v) {
@@ -45,9 +44,7 @@ std::vector<std::pair<Vec2f, Vec2f>> ProfileNormals(std::span<const Vec2f> line,
   return normals;
 }
 
-Vec3f Across(Vec3f axis) {
-  return Normalized(Cross(axis, std::abs(axis.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0}));
-}
+Vec3f Across(Vec3f axis) { return Normalized(Cross(axis, std::abs(axis.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0})); }
 
 }  // namespace
 
@@ -134,8 +131,7 @@ void PropBuilder::BevelBox(Vec3f lo, Vec3f hi, float bevel) {
   }
   for (int k = 0; k < 8; ++k) {
     const Vec3f s{k & 1 ? 1.0f : -1.0f, k & 2 ? 1.0f : -1.0f, k & 4 ? 1.0f : -1.0f};
-    triangle(corner(s, 0), axis_normal(s, 0), corner(s, 1), axis_normal(s, 1), corner(s, 2),
-             axis_normal(s, 2), 0, 1);
+    triangle(corner(s, 0), axis_normal(s, 0), corner(s, 1), axis_normal(s, 1), corner(s, 2), axis_normal(s, 2), 0, 1);
   }
 }
 
@@ -150,19 +146,15 @@ void PropBuilder::Lathe(std::span<const Vec2f> profile, int sides, Vec3f base) {
     for (int j = 0; j < sides; ++j) {
       const float a0 = kTau * static_cast<float>(j) / static_cast<float>(sides);
       const float a1 = kTau * static_cast<float>((j + 1) % sides) / static_cast<float>(sides);
-      const auto at = [&](Vec2f rz, float a) {
-        return base + Vec3f{rz.x * std::cos(a), rz.x * std::sin(a), rz.y};
-      };
+      const auto at = [&](Vec2f rz, float a) { return base + Vec3f{rz.x * std::cos(a), rz.x * std::sin(a), rz.y}; };
       const auto out = [&](Vec2f n, float a) { return Vec3f{n.x * std::cos(a), n.x * std::sin(a), n.y}; };
       const float u0 = widest * kTau * static_cast<float>(j) / static_cast<float>(sides);
       const float u1 = widest * kTau * static_cast<float>(j + 1) / static_cast<float>(sides);
       const Vec2f n0 = normals[i].first, n1 = normals[i].second;
       if (p0.x > 0)
-        mesh_.SmoothTriangle({at(p0, a0), at(p0, a1), at(p1, a1)}, {out(n0, a0), out(n0, a1), out(n1, a1)},
-                             {{u0, v}, {u1, v}, {u1, v1}});
+        mesh_.SmoothTriangle({at(p0, a0), at(p0, a1), at(p1, a1)}, {out(n0, a0), out(n0, a1), out(n1, a1)}, {{u0, v}, {u1, v}, {u1, v1}});
       if (p1.x > 0)
-        mesh_.SmoothTriangle({at(p0, a0), at(p1, a1), at(p1, a0)}, {out(n0, a0), out(n1, a1), out(n1, a0)},
-                             {{u0, v}, {u1, v1}, {u0, v1}});
+        mesh_.SmoothTriangle({at(p0, a0), at(p1, a1), at(p1, a0)}, {out(n0, a0), out(n1, a1), out(n1, a0)}, {{u0, v}, {u1, v1}, {u0, v1}});
     }
     v = v1;
   }
@@ -192,16 +184,14 @@ void PropBuilder::Bar(std::span<const Vec3f> path, std::span<const float> radii,
       const float u0 = kTau * radius(0) * static_cast<float>(j) / static_cast<float>(sides);
       const float u1 = kTau * radius(0) * static_cast<float>(j + 1) / static_cast<float>(sides);
       mesh_.SmoothTriangle({p00, p10, p11}, {n00, n10, n11}, {{u0, v}, {u1, v}, {u1, v1}});
-      if (radius(i + 1) > 0)
-        mesh_.SmoothTriangle({p00, p11, p01}, {n00, n11, n01}, {{u0, v}, {u1, v1}, {u0, v1}});
+      if (radius(i + 1) > 0) mesh_.SmoothTriangle({p00, p11, p01}, {n00, n11, n01}, {{u0, v}, {u1, v1}, {u0, v1}});
     }
     v = v1;
   }
   for (int j = 0; j < sides; ++j) {
     mesh_.Triangle(path[0], path[0] + spoke(0, j + 1) * radius(0), path[0] + spoke(0, j) * radius(0));
     if (radius(n - 1) > 0)
-      mesh_.Triangle(path[n - 1], path[n - 1] + spoke(n - 1, j) * radius(n - 1),
-                     path[n - 1] + spoke(n - 1, j + 1) * radius(n - 1));
+      mesh_.Triangle(path[n - 1], path[n - 1] + spoke(n - 1, j) * radius(n - 1), path[n - 1] + spoke(n - 1, j + 1) * radius(n - 1));
   }
 }
 
@@ -211,8 +201,7 @@ void PropBuilder::Prism(std::span<const Vec2f> outline, float z0, float z1) {
   for (size_t i = 0; i < outline.size(); ++i) {
     const Vec2f a = outline[i], b = outline[(i + 1) % outline.size()];
     const float u1 = u + std::hypot(b.x - a.x, b.y - a.y);
-    const Vec3f na{normals[i].first.x, normals[i].first.y, 0},
-        nb{normals[i].second.x, normals[i].second.y, 0};
+    const Vec3f na{normals[i].first.x, normals[i].first.y, 0}, nb{normals[i].second.x, normals[i].second.y, 0};
     const Vec3f p[4] = {{a.x, a.y, z0}, {b.x, b.y, z0}, {b.x, b.y, z1}, {a.x, a.y, z1}};
     mesh_.SmoothTriangle({p[0], p[1], p[2]}, {na, nb, nb}, {{u, -z0}, {u1, -z0}, {u1, -z1}});
     mesh_.SmoothTriangle({p[0], p[2], p[3]}, {na, nb, na}, {{u, -z0}, {u1, -z1}, {u, -z1}});
@@ -226,8 +215,7 @@ void PropBuilder::Sheet(int nu, int nv, const std::function<Vec3f(float, float)>
   // Normals from differences that stay inside the sheet.
   const auto normal = [&](float u, float v) {
     constexpr float h = 0.01f;
-    const float u0 = std::max(0.0f, u - h), u1 = std::min(1.0f, u + h), v0 = std::max(0.0f, v - h),
-                v1 = std::min(1.0f, v + h);
+    const float u0 = std::max(0.0f, u - h), u1 = std::min(1.0f, u + h), v0 = std::max(0.0f, v - h), v1 = std::min(1.0f, v + h);
     return Normalized(Cross(at(u1, std::max(v, h)) - at(u0, std::max(v, h)), at(u, v1) - at(u, v0)));
   };
   for (int j = 0; j < nv; ++j) {
@@ -250,9 +238,7 @@ void PropBuilder::Sheet(int nu, int nv, const std::function<Vec3f(float, float)>
   }
 }
 
-void PropBuilder::Picture(Vec3f a, Vec3f b, Vec3f c, Vec3f d) {
-  mesh_.QuadUv(a, b, c, d, {0, 1}, {1, 1}, {1, 0}, {0, 0});
-}
+void PropBuilder::Picture(Vec3f a, Vec3f b, Vec3f c, Vec3f d) { mesh_.QuadUv(a, b, c, d, {0, 1}, {1, 1}, {1, 0}, {0, 0}); }
 
 Model PropBuilder::Finish() {
   model_.mesh = mesh_.Finish(name_);

@@ -28,8 +28,7 @@ class PropBuilder {
   /// What the following shapes are made of.
   void Use(const Material& material);
   /// Same, with a base colour texture (and a normal map) whose tile is `tile` metres wide and high; what shines shines in it.
-  void Use(Material material, const Texture& base_color, Vec2f tile = {1, 1},
-           const Texture* normal = nullptr);
+  void Use(Material material, const Texture& base_color, Vec2f tile = {1, 1}, const Texture* normal = nullptr);
 
   /// Box with rounded-looking edges of width `bevel` (44 triangles).
   void BevelBox(Vec3f min, Vec3f max, float bevel);
@@ -39,9 +38,7 @@ class PropBuilder {
   /// Round bar along a path with a radius per point (or one for all), with round-looking joints and flat
   /// caps.
   void Bar(std::span<const Vec3f> path, std::span<const float> radii, int sides);
-  void Bar(std::span<const Vec3f> path, float radius, int sides) {
-    Bar(path, std::span<const float>(&radius, 1), sides);
-  }
+  void Bar(std::span<const Vec3f> path, float radius, int sides) { Bar(path, std::span<const float>(&radius, 1), sides); }
   /// Extruded outline (counter-clockwise from above), closed, walls smooth at corners below 40 degrees.
   void Prism(std::span<const Vec2f> outline, float z0, float z1);
   /// Open surface at(u, v) over the unit square in nu x nv cells with smooth normals, its front where dat/du

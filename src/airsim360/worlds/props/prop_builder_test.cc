@@ -57,8 +57,7 @@ TEST(BevelBox, IsClosedAndLosesOnlyItsEdges) {
   // A bevel of width c takes a prism of area c^2 / 2 off each edge between the corners, and at each corner
   // all of a cube of side c but the tetrahedron c^3 / 6 that its cut leaves.
   const double a = 2, d = 4, h = 3, c = 0.1;
-  const double edges = 4 * (c * c / 2) * ((a - 2 * c) + (d - 2 * c) + (h - 2 * c)),
-               corners = 8 * (c * c * c - c * c * c / 6);
+  const double edges = 4 * (c * c / 2) * ((a - 2 * c) + (d - 2 * c) + (h - 2 * c)), corners = 8 * (c * c * c - c * c * c / 6);
   EXPECT_NEAR(SignedVolume(mesh), a * d * h - edges - corners, 1e-4);
 }
 

@@ -18,10 +18,9 @@ namespace {
 // Equal for textures that look the same: name, pixels of the finest level (the others follow from it) and
 // settings.
 std::string TextureKey(const Texture& t) {
-  std::string key = t.name + (t.srgb ? " srgb " : " linear ") + std::to_string(static_cast<int>(t.wrap_u)) +
-                    std::to_string(static_cast<int>(t.wrap_v));
-  if (!t.levels.empty())
-    key += std::to_string(t.levels[0].width()) + " " + Sha256Hex(std::as_bytes(t.levels[0].pixels()));
+  std::string key =
+      t.name + (t.srgb ? " srgb " : " linear ") + std::to_string(static_cast<int>(t.wrap_u)) + std::to_string(static_cast<int>(t.wrap_v));
+  if (!t.levels.empty()) key += std::to_string(t.levels[0].width()) + " " + Sha256Hex(std::as_bytes(t.levels[0].pixels()));
   return key;
 }
 
@@ -53,12 +52,10 @@ const std::vector<PropKind>& PropKinds() {
   static const std::vector<PropKind> kinds = [] {
     using namespace internal;
     std::vector<PropKind> all;
-    for (auto family : {BarrierKinds, BusKinds,     CarKinds,          CycleKinds,    FountainKinds,
-                        LampKinds,    RockKinds,    RooftopKinds,      SeatingKinds,  ShadeKinds,
-                        SignageKinds, StreetKinds,  TrafficLightKinds, UtilityKinds,  VendingKinds,
-                        WasteKinds,   PlanterKinds, GroundPlantKinds,  ShrubKinds,    BroadleafKinds,
-                        ConiferKinds, ParkKinds,    BillboardKinds,    LandmarkKinds, NewYorkKinds, SanFranciscoKinds,
-                        FurnishingKinds}) {
+    for (auto family : {BarrierKinds, BusKinds,       CarKinds,      CycleKinds,       FountainKinds,     LampKinds,         RockKinds,
+                        RooftopKinds, SeatingKinds,   ShadeKinds,    SignageKinds,     StreetKinds,       TrafficLightKinds, UtilityKinds,
+                        VendingKinds, WasteKinds,     PlanterKinds,  GroundPlantKinds, ShrubKinds,        BroadleafKinds,    ConiferKinds,
+                        ParkKinds,    BillboardKinds, LandmarkKinds, NewYorkKinds,     SanFranciscoKinds, FurnishingKinds}) {
       std::vector<PropKind> rows = family();
       std::move(rows.begin(), rows.end(), std::back_inserter(all));
     }
@@ -70,8 +67,7 @@ const std::vector<PropKind>& PropKinds() {
 
 const PropKind& FindPropKind(std::string_view name) {
   const auto& kinds = PropKinds();
-  const auto it = std::lower_bound(kinds.begin(), kinds.end(), name,
-                                   [](const PropKind& k, std::string_view n) { return k.name < n; });
+  const auto it = std::lower_bound(kinds.begin(), kinds.end(), name, [](const PropKind& k, std::string_view n) { return k.name < n; });
   if (it != kinds.end() && it->name == name) return *it;
   std::vector<std::string> names;
   for (const PropKind& kind : kinds) names.emplace_back(kind.name);
@@ -99,11 +95,9 @@ Model MakeProp(const PropKind& kind, uint32_t variant, uint64_t seed, const Mode
   return model;
 }
 
-PropShelf::PropShelf(SceneBuilder& builder, const ModelSource* models, uint64_t seed)
-    : builder_(builder), models_(models), seed_(seed) {}
+PropShelf::PropShelf(SceneBuilder& builder, const ModelSource* models, uint64_t seed) : builder_(builder), models_(models), seed_(seed) {}
 
-EntityId PropShelf::Place(std::string_view kind, Vec3f p_W, float yaw, uint32_t variant, float scale,
-                          Vec3f tint, Engine engine) {
+EntityId PropShelf::Place(std::string_view kind, Vec3f p_W, float yaw, uint32_t variant, float scale, Vec3f tint, Engine engine) {
   const PropKind& found = FindPropKind(kind);
   const EntityId entity = builder_.AddEntity(std::string(found.name), builder_.tree().At(found.category));
   const AffineTransform placed = PlaceUpright(p_W, yaw, scale);
@@ -112,8 +106,7 @@ EntityId PropShelf::Place(std::string_view kind, Vec3f p_W, float yaw, uint32_t 
   return entity;
 }
 
-void PropShelf::PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant,
-                        Vec3f tint) {
+void PropShelf::PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant, Vec3f tint) {
   const PropKind& found = FindPropKind(kind);
   builder_.AddInstance({Get(found, variant), lay_ ? lay_(found.name, X_WM) : X_WM, entity, tint,
                         internal::EveningGlow(found.name, found.category, X_WM.p, Engine::kOff)});
@@ -124,9 +117,8 @@ MeshId PropShelf::Get(const PropKind& kind, uint32_t variant) {
   if (meshes.empty()) {
     // Make in parallel, add in order.
     std::vector<Model> models(static_cast<size_t>(kind.variants));
-    ParallelFor(kind.variants, [&](int64_t i) {
-      models[static_cast<size_t>(i)] = MakeProp(kind, static_cast<uint32_t>(i), seed_, models_);
-    });
+    ParallelFor(kind.variants,
+                [&](int64_t i) { models[static_cast<size_t>(i)] = MakeProp(kind, static_cast<uint32_t>(i), seed_, models_); });
     for (Model& model : models) meshes.push_back(Add(std::move(model)));
   }
   return meshes[variant % meshes.size()];
@@ -142,14 +134,13 @@ MeshId PropShelf::Add(Model model) {
     // No paint is whiter than snow, and a filtered white texture must not round to more than 1.
     const Vec3f c = material.base_color;
     if (material.kind == SurfaceKind::kStandard) material.base_color = c * std::min(1.0f, kWhitest / std::max({c.x, c.y, c.z, kWhitest}));
-    for (TextureId* id : {&material.base_color_texture, &material.metallic_roughness_texture,
-                          &material.normal_texture, &material.emission_texture}) {
+    for (TextureId* id :
+         {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture, &material.emission_texture}) {
       if (*id != kNoTexture) *id = texture_ids.at(static_cast<size_t>(*id));
     }
     material_ids.push_back(AddMaterial(material));
   }
-  if (model.mesh.parts.empty())
-    model.mesh.parts.push_back({0, static_cast<uint32_t>(model.mesh.triangles.size()), 0, kNoEntity});
+  if (model.mesh.parts.empty()) model.mesh.parts.push_back({0, static_cast<uint32_t>(model.mesh.triangles.size()), 0, kNoEntity});
   for (MeshPart& part : model.mesh.parts) part.material = material_ids.at(part.material);
   if (!model.attribution.empty()) builder_.AddAttribution(std::move(model.attribution));
   return builder_.AddMesh(std::move(model.mesh));

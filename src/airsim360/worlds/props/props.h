@@ -32,10 +32,10 @@ struct PropKind {
   std::string_view category;                                 ///< path in the semantic tree
   int variants = 1;                                          ///< different individuals
   Model (*make)(uint32_t variant, uint64_t seed) = nullptr;  ///< procedural individual, variant < variants
-  float footprint_radius = 0.5f;           ///< metres of ground it needs free of other props
-  float min_height = 0, max_height = 0;    ///< of all individuals, metres above the ground
-  uint32_t max_triangles = 5000;           ///< budget of one procedural individual
-  std::vector<LibraryModel> library = {};  ///< variant i asks for library[i]; past the end = procedural
+  float footprint_radius = 0.5f;                             ///< metres of ground it needs free of other props
+  float min_height = 0, max_height = 0;                      ///< of all individuals, metres above the ground
+  uint32_t max_triangles = 5000;                             ///< budget of one procedural individual
+  std::vector<LibraryModel> library = {};                    ///< variant i asks for library[i]; past the end = procedural
 };
 
 /// All kinds, by name: the rows of the families in props/ and vegetation/.
@@ -53,11 +53,10 @@ class PropShelf {
   PropShelf(SceneBuilder& builder, const ModelSource* models, uint64_t seed);
   /// Places one prop as an entity of its own, named after the kind, and returns it. `variant` is taken modulo
   /// the kind's variants. `engine` matters to vehicles alone.
-  EntityId Place(std::string_view kind, Vec3f p_W, float yaw = 0, uint32_t variant = 0, float scale = 1,
-                 Vec3f tint = {1, 1, 1}, Engine engine = Engine::kOff);
+  EntityId Place(std::string_view kind, Vec3f p_W, float yaw = 0, uint32_t variant = 0, float scale = 1, Vec3f tint = {1, 1, 1},
+                 Engine engine = Engine::kOff);
   /// Adds an instance of a kind to an existing entity (grass tufts of one lawn, say).
-  void PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant = 0,
-               Vec3f tint = {1, 1, 1});
+  void PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant = 0, Vec3f tint = {1, 1, 1});
   /// Everything placed from now on comes to stand where `lay` (kind, as placed) puts it: on a slope, say. Null = as placed.
   using Lay = std::function<AffineTransform(std::string_view kind, const AffineTransform& placed)>;
   void SetLay(Lay lay) { lay_ = std::move(lay); }

@@ -21,16 +21,14 @@ bool SameMesh(const Mesh& a, const Mesh& b) {
 bool SamePictures(const Model& a, const Model& b) {
   if (a.textures.size() != b.textures.size()) return false;
   for (size_t i = 0; i < a.textures.size(); ++i) {
-    if (a.textures[i].name != b.textures[i].name || a.textures[i].levels[0] != b.textures[i].levels[0])
-      return false;
+    if (a.textures[i].name != b.textures[i].name || a.textures[i].levels[0] != b.textures[i].levels[0]) return false;
   }
   return true;
 }
 
 bool SameColors(const Model& a, const Model& b) {
-  return std::equal(
-      a.materials.begin(), a.materials.end(), b.materials.begin(), b.materials.end(),
-      [](const Material& x, const Material& y) { return x.base_color == y.base_color && x.name == y.name; });
+  return std::equal(a.materials.begin(), a.materials.end(), b.materials.begin(), b.materials.end(),
+                    [](const Material& x, const Material& y) { return x.base_color == y.base_color && x.name == y.name; });
 }
 
 // A library with one model: a square of 2 m x 4 m x 1 m, painted "paint" and "rubber".
@@ -67,12 +65,9 @@ class EveryKind : public testing::TestWithParam<std::string> {
   Model Make(int variant) const { return MakeProp(kind(), static_cast<uint32_t>(variant), 7, nullptr); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Props, EveryKind, testing::ValuesIn(KindNames()),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Props, EveryKind, testing::ValuesIn(KindNames()), [](const auto& info) { return info.param; });
 
-TEST_P(EveryKind, HasACategoryOfTheTree) {
-  EXPECT_TRUE(SemanticTree().Find(kind().category)) << kind().category;
-}
+TEST_P(EveryKind, HasACategoryOfTheTree) { EXPECT_TRUE(SemanticTree().Find(kind().category)) << kind().category; }
 
 TEST_P(EveryKind, StandsOnTheGroundAtItsSize) {
   for (int v = 0; v < kind().variants; ++v) {
@@ -135,8 +130,7 @@ TEST_P(EveryKind, HasShadingNormalsOnTheSideOfItsFaces) {
     if (model.materials[part.material].kind == SurfaceKind::kFoliage) continue;
     for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
       const Vec3u t = mesh.triangles[k];
-      const Vec3f n =
-          Cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
+      const Vec3f n = Cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
       const Vec3f shading = mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z];
       ++faces;
       wrong += Norm(n) > 1e-9f && Dot(n, shading) < 0;
@@ -154,8 +148,7 @@ TEST_P(EveryKind, IsTheSameFromTheSameSeed) {
 TEST_P(EveryKind, HasVariantsThatDiffer) {
   for (int v = 1; v < kind().variants; ++v) {
     const Model a = Make(v - 1), b = Make(v);
-    EXPECT_FALSE(SameMesh(a.mesh, b.mesh) && SamePictures(a, b) && SameColors(a, b))
-        << "variants " << v - 1 << " and " << v;
+    EXPECT_FALSE(SameMesh(a.mesh, b.mesh) && SamePictures(a, b) && SameColors(a, b)) << "variants " << v - 1 << " and " << v;
   }
 }
 
@@ -228,9 +221,7 @@ TEST(PropShelf, SharesEqualTexturesAndMaterialsBetweenProps) {
   shelf.Place("dining_chair", {});
   shelf.Place("dining_table", {});
   const auto scene = builder.Build();
-  EXPECT_EQ(std::count_if(scene->textures.begin(), scene->textures.end(),
-                          [](const Texture& t) { return t.name == "wood"; }),
-            1);
+  EXPECT_EQ(std::count_if(scene->textures.begin(), scene->textures.end(), [](const Texture& t) { return t.name == "wood"; }), 1);
   for (size_t i = 0; i < scene->materials.size(); ++i) {
     for (size_t j = 0; j < i; ++j) {
       const Material &a = scene->materials[i], &b = scene->materials[j];
@@ -251,14 +242,12 @@ TEST(PropShelf, GivesTheSameSceneWithAnyNumberOfThreads) {
   };
   const auto one = build(1), many = build(0);
   ASSERT_EQ(one->meshes.size(), many->meshes.size());
-  for (size_t i = 0; i < one->meshes.size(); ++i)
-    EXPECT_TRUE(SameMesh(one->meshes[i], many->meshes[i])) << one->meshes[i].name;
+  for (size_t i = 0; i < one->meshes.size(); ++i) EXPECT_TRUE(SameMesh(one->meshes[i], many->meshes[i])) << one->meshes[i].name;
 }
 
 TEST(PropShelf, PrefersTheModelOfTheLibraryAndRecordsItsAttribution) {
   const PropKind& car = FindPropKind("car");
-  const auto row = std::find_if(car.library.begin(), car.library.end(),
-                                [](const LibraryModel& m) { return m.name == "suv"; });
+  const auto row = std::find_if(car.library.begin(), car.library.end(), [](const LibraryModel& m) { return m.name == "suv"; });
   ASSERT_NE(row, car.library.end());
   const OneModel library("suv");
   SceneBuilder builder("shelf");
@@ -287,8 +276,7 @@ TEST(MakeProp, TurnsAndScalesALibraryModelAsItsRowAsks) {
 
 TEST(MakeProp, FallsBackToTheProceduralOneWhereTheLibraryLacksTheModel) {
   const OneModel library("something else");
-  const Model with = MakeProp(FindPropKind("car"), 0, 1, &library),
-              without = MakeProp(FindPropKind("car"), 0, 1, nullptr);
+  const Model with = MakeProp(FindPropKind("car"), 0, 1, &library), without = MakeProp(FindPropKind("car"), 0, 1, nullptr);
   EXPECT_TRUE(SameMesh(with.mesh, without.mesh));
   EXPECT_TRUE(with.attribution.empty());
 }

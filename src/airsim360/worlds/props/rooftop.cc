@@ -17,8 +17,7 @@ void Louvres(PropBuilder& b, float x0, float x1, float y0, float z0, float z1) {
   const int count = static_cast<int>((z1 - z0) / 0.06f);
   for (int i = 0; i < count; ++i) {
     const float z = z0 + (z1 - z0) * (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
-    b.mesh().Quad({x0, y0 - 0.025f, z - 0.02f}, {x1, y0 - 0.025f, z - 0.02f}, {x1, y0 - 0.002f, z + 0.018f},
-                  {x0, y0 - 0.002f, z + 0.018f});
+    b.mesh().Quad({x0, y0 - 0.025f, z - 0.02f}, {x1, y0 - 0.025f, z - 0.02f}, {x1, y0 - 0.002f, z + 0.018f}, {x0, y0 - 0.002f, z + 0.018f});
   }
 }
 
@@ -37,11 +36,7 @@ void FanTop(PropBuilder& b, Vec3f c, float r) {
   b.Lathe(collar, 28);
   for (int k = 1; k <= 4; ++k) {
     const float q = r * static_cast<float>(k) / 4;
-    const Vec2f ring[] = {{q - 0.004f, 0.08f},
-                          {q + 0.004f, 0.08f},
-                          {q + 0.004f, 0.086f},
-                          {q - 0.004f, 0.086f},
-                          {q - 0.004f, 0.08f}};
+    const Vec2f ring[] = {{q - 0.004f, 0.08f}, {q + 0.004f, 0.08f}, {q + 0.004f, 0.086f}, {q - 0.004f, 0.086f}, {q - 0.004f, 0.08f}};
     b.Lathe(ring, 24);
   }
   for (int i = 0; i < 4; ++i) {
@@ -56,8 +51,7 @@ Model MakeAcUnit(uint32_t variant, uint64_t) {
   PropBuilder b("ac_unit");
   const float w = variant == 0 ? 0.55f : 1.1f, d = 0.5f, h = variant == 0 ? 0.95f : 1.25f;
   b.Use(Metal({0.35f, 0.35f, 0.36f}, 0.5f));
-  for (float y : {-d + 0.1f, d - 0.1f})
-    b.BevelBox({-w - 0.05f, y - 0.04f, 0}, {w + 0.05f, y + 0.04f, 0.10f}, 0.006f);
+  for (float y : {-d + 0.1f, d - 0.1f}) b.BevelBox({-w - 0.05f, y - 0.04f, 0}, {w + 0.05f, y + 0.04f, 0.10f}, 0.006f);
   b.Use(Paint({0.55f, 0.55f, 0.52f}, 0.5f), ScratchedTexture());
   b.BevelBox({-w, -d, 0.10f}, {w, d, h}, 0.02f);
   for (int side = 0; side < 2; ++side) {
@@ -71,8 +65,7 @@ Model MakeAcUnit(uint32_t variant, uint64_t) {
     for (float x : {-0.53f, 0.53f}) FanTop(b, {x, 0, h}, 0.38f);
   }
   b.Use(Metal({0.5f, 0.3f, 0.2f}, 0.4f));
-  const Vec3f pipe[] = {
-      {w - 0.02f, 0.3f, 0.35f}, {w + 0.10f, 0.3f, 0.35f}, {w + 0.15f, 0.3f, 0.30f}, {w + 0.15f, 0.3f, 0.0f}};
+  const Vec3f pipe[] = {{w - 0.02f, 0.3f, 0.35f}, {w + 0.10f, 0.3f, 0.35f}, {w + 0.15f, 0.3f, 0.30f}, {w + 0.15f, 0.3f, 0.0f}};
   b.Bar(pipe, 0.025f, 8);
   return b.Finish();
 }
@@ -100,8 +93,7 @@ Model MakeRoofVent(uint32_t variant, uint64_t) {
       for (int k = 0; k < 6; ++k) {
         const auto at = [&](int j, bool inner) {
           const float t = std::numbers::pi_v<float> * static_cast<float>(j) / 6;
-          return Vec3f{(inner ? 0.10f : 0.14f) + 0.10f * std::sin(t), inner ? 0.035f : -0.015f,
-                       0.45f + 0.15f * (1 - std::cos(t))};
+          return Vec3f{(inner ? 0.10f : 0.14f) + 0.10f * std::sin(t), inner ? 0.035f : -0.015f, 0.45f + 0.15f * (1 - std::cos(t))};
         };
         b.mesh().Quad(at(k, false), at(k, true), at(k + 1, true), at(k + 1, false));
         b.mesh().Quad(at(k, true), at(k, false), at(k + 1, false), at(k + 1, true));
@@ -111,8 +103,7 @@ Model MakeRoofVent(uint32_t variant, uint64_t) {
     const Vec2f cap[] = {{0.16f, 0.735f}, {0.12f, 0.76f}, {0, 0.775f}};
     b.Lathe(cap, 20);
   } else {
-    const Vec2f hood[] = {{0.16f, 0.50f}, {0.32f, 0.48f}, {0.34f, 0.50f},
-                          {0.30f, 0.58f}, {0.16f, 0.65f}, {0, 0.67f}};
+    const Vec2f hood[] = {{0.16f, 0.50f}, {0.32f, 0.48f}, {0.34f, 0.50f}, {0.30f, 0.58f}, {0.16f, 0.65f}, {0, 0.67f}};
     b.Lathe(hood, 24);
   }
   return b.Finish();
@@ -124,40 +115,34 @@ Model MakeWaterTank(uint32_t variant, uint64_t) {
   const float legs = variant == 0 ? 2.6f : 1.6f, r = 1.55f, h = 3.2f;
   b.Use(Paint({0.055f, 0.045f, 0.04f}, 0.7f));
   for (float x : {-1.05f, 1.05f}) {
-    for (float y : {-1.05f, 1.05f})
-      b.BevelBox({x - 0.08f, y - 0.08f, 0}, {x + 0.08f, y + 0.08f, legs}, 0.01f);
+    for (float y : {-1.05f, 1.05f}) b.BevelBox({x - 0.08f, y - 0.08f, 0}, {x + 0.08f, y + 0.08f, legs}, 0.01f);
     b.mesh().Beam({x, -1.05f, 0.15f}, {x, 1.05f, legs - 0.15f}, 0.05f);
     b.mesh().Beam({x, 1.05f, 0.15f}, {x, -1.05f, legs - 0.15f}, 0.05f);
     b.mesh().Beam({-1.05f, x, 0.15f}, {1.05f, x, legs - 0.15f}, 0.05f);
     b.mesh().Beam({1.05f, x, 0.15f}, {-1.05f, x, legs - 0.15f}, 0.05f);
   }
-  for (float y : {-1.05f, -0.35f, 0.35f, 1.05f})
-    b.BevelBox({-1.6f, y - 0.07f, legs}, {1.6f, y + 0.07f, legs + 0.16f}, 0.008f);
+  for (float y : {-1.05f, -0.35f, 0.35f, 1.05f}) b.BevelBox({-1.6f, y - 0.07f, legs}, {1.6f, y + 0.07f, legs + 0.16f}, 0.008f);
   UseWood(b, {0.62f, 0.58f, 0.54f});
   const int staves = 40;
   for (int i = 0; i < staves; ++i) {
     b.Place(Turn(0, 0, 360.0f * static_cast<float>(i) / staves));
     const float half = r * std::tan(std::numbers::pi_v<float> / staves) * 0.985f;
-    b.BevelBox({r - 0.05f, -half, legs + 0.16f}, {r + (i % 2 ? 0.004f : 0.0f), half, legs + 0.16f + h},
-               0.012f);
+    b.BevelBox({r - 0.05f, -half, legs + 0.16f}, {r + (i % 2 ? 0.004f : 0.0f), half, legs + 0.16f + h}, 0.012f);
   }
   b.Place({});
   b.Use(Metal({0.25f, 0.20f, 0.17f}, 0.6f));
   for (int k = 0; k < 9; ++k) {
     const float z = legs + 0.32f + h * std::pow(static_cast<float>(k) / 9, 1.25f);
-    const Vec2f hoop[] = {
-        {r + 0.016f, z}, {r + 0.026f, z + 0.004f}, {r + 0.026f, z + 0.026f}, {r + 0.016f, z + 0.03f}};
+    const Vec2f hoop[] = {{r + 0.016f, z}, {r + 0.026f, z + 0.004f}, {r + 0.026f, z + 0.026f}, {r + 0.016f, z + 0.03f}};
     b.Lathe(hoop, 40);
   }
   b.Use(Stone({0.10f, 0.095f, 0.09f}), ConcreteTexture());
-  const Vec2f roof[] = {{0, legs + h + 0.14f},         {r + 0.12f, legs + h + 0.13f},
-                        {r + 0.14f, legs + h + 0.16f}, {0.12f, legs + h + 1.05f},
-                        {0.10f, legs + h + 1.12f},     {0, legs + h + 1.14f}};
+  const Vec2f roof[] = {{0, legs + h + 0.14f},     {r + 0.12f, legs + h + 0.13f}, {r + 0.14f, legs + h + 0.16f},
+                        {0.12f, legs + h + 1.05f}, {0.10f, legs + h + 1.12f},     {0, legs + h + 1.14f}};
   b.Lathe(roof, 40);
   b.Use(Metal(kGalvanised, 0.5f));
   b.mesh().Tube({0, 0, 0}, {0, 0, legs + 0.2f}, 0.10f, 0.10f, 14, false, false);
-  for (float x : {-0.2f, 0.2f})
-    b.mesh().Tube({x, -r - 0.14f, legs + 0.1f}, {x, -r - 0.14f, legs + h + 0.5f}, 0.015f, 0.015f, 6);
+  for (float x : {-0.2f, 0.2f}) b.mesh().Tube({x, -r - 0.14f, legs + 0.1f}, {x, -r - 0.14f, legs + h + 0.5f}, 0.015f, 0.015f, 6);
   for (int k = 0; k < 12; ++k)
     b.mesh().Tube({-0.2f, -r - 0.14f, legs + 0.35f + 0.26f * static_cast<float>(k)},
                   {0.2f, -r - 0.14f, legs + 0.35f + 0.26f * static_cast<float>(k)}, 0.01f, 0.01f, 5);

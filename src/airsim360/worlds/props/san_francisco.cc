@@ -18,9 +18,9 @@ Model MakeBoulevardLamp(uint32_t variant, uint64_t) {
   PropBuilder b("boulevard_lamp");
   const Material iron = Paint(variant ? Vec3f{0.020f, 0.045f, 0.040f} : Vec3f{0.16f, 0.13f, 0.075f}, 0.4f);
   b.Use(iron);
-  const Vec2f post[] = {{0.30f, -0.2f}, {0.30f, 0.06f}, {0.25f, 0.09f}, {0.23f, 0.50f}, {0.26f, 0.54f}, {0.20f, 0.62f}, {0.14f, 1.05f},
-                        {0.15f, 1.10f}, {0.10f, 1.18f}, {0.08f, 4.9f},  {0.12f, 4.95f}, {0.12f, 5.02f}, {0.07f, 5.10f}, {0.06f, 5.75f},
-                        {0.09f, 5.82f}, {0.03f, 5.98f}, {0.05f, 6.05f}, {0, 6.16f}};
+  const Vec2f post[] = {{0.30f, -0.2f}, {0.30f, 0.06f}, {0.25f, 0.09f}, {0.23f, 0.50f}, {0.26f, 0.54f}, {0.20f, 0.62f},
+                        {0.14f, 1.05f}, {0.15f, 1.10f}, {0.10f, 1.18f}, {0.08f, 4.9f},  {0.12f, 4.95f}, {0.12f, 5.02f},
+                        {0.07f, 5.10f}, {0.06f, 5.75f}, {0.09f, 5.82f}, {0.03f, 5.98f}, {0.05f, 6.05f}, {0, 6.16f}};
   b.Lathe(post, 20);
   for (int i = 0; i < 8; ++i) {
     const float a = kTau * static_cast<float>(i) / 8, c = std::cos(a), s = std::sin(a);
@@ -51,8 +51,8 @@ Model MakeHillLamp(uint32_t variant, uint64_t) {
   const Material iron = Paint({0.022f, 0.024f, 0.026f}, 0.4f);
   b.Use(iron);
   const float neck = variant ? 3.6f : 4.1f;
-  const Vec2f post[] = {{0.20f, -0.2f}, {0.20f, 0.05f}, {0.15f, 0.09f}, {0.14f, 0.7f}, {0.16f, 0.74f}, {0.08f, 0.86f},
-                        {0.055f, neck}, {0.10f, neck + 0.05f}, {0.10f, neck + 0.09f}, {0, neck + 0.09f}};
+  const Vec2f post[] = {{0.20f, -0.2f}, {0.20f, 0.05f}, {0.15f, 0.09f},        {0.14f, 0.7f},         {0.16f, 0.74f},
+                        {0.08f, 0.86f}, {0.055f, neck}, {0.10f, neck + 0.05f}, {0.10f, neck + 0.09f}, {0, neck + 0.09f}};
   b.Lathe(post, 16);
   const Vec2f hood[] = {{0.27f, 0.55f}, {0.26f, 0.60f}, {0.14f, 0.74f}, {0.05f, 0.80f}, {0.05f, 0.86f}, {0, 0.90f}};
   b.Lathe(hood, 6, {0, 0, neck});
@@ -166,7 +166,8 @@ Model MakePicketFence(uint32_t variant, uint64_t) {
 Model MakeWaterBarrier(uint32_t variant, uint64_t) {
   PropBuilder b("water_barrier");
   b.Use(Plastic(variant ? Vec3f{0.70f, 0.70f, 0.68f} : Vec3f{0.74f, 0.15f, 0.012f}, 0.5f));
-  const std::vector<Vec2f> side = {{-0.27f, 0.03f}, {0.27f, 0.03f}, {0.27f, 0.12f}, {0.13f, 0.34f}, {0.09f, 0.86f}, {-0.09f, 0.86f}, {-0.13f, 0.34f}, {-0.27f, 0.12f}};
+  const std::vector<Vec2f> side = {{-0.27f, 0.03f}, {0.27f, 0.03f},  {0.27f, 0.12f},  {0.13f, 0.34f},
+                                   {0.09f, 0.86f},  {-0.09f, 0.86f}, {-0.13f, 0.34f}, {-0.27f, 0.12f}};
   b.Place(AffineTransform{Mat3f::FromColumns({0, 1, 0}, {0, 0, 1}, {1, 0, 0}), {}});
   b.Prism(side, -0.8f, 0.8f);
   b.Place({});
@@ -257,7 +258,11 @@ Model MakeCableCar(uint32_t variant, uint64_t) {
   for (float y : {0.12f, 4.0f}) b.mesh().Box({-1.06f, y, 1.55f}, {1.06f, y + 0.015f, 2.55f});
   for (float x : {-0.36f, 0.0f}) b.mesh().Box({x, -3.94f, 1.55f}, {x + 0.36f, -3.93f, 2.5f});
   b.Use(Paint({0.30f, 0.31f, 0.31f}, 0.6f));
-  b.Sheet(8, 2, [](float u, float v) { return Vec3f{1.3f * (2 * u - 1), 8.5f * v - 4.25f, 2.72f + 0.22f * (1 - (2 * u - 1) * (2 * u - 1))}; }, {2.6f, 8.5f});
+  b.Sheet(8, 2,
+          [](float u, float v) {
+            return Vec3f{1.3f * (2 * u - 1), 8.5f * v - 4.25f, 2.72f + 0.22f * (1 - (2 * u - 1) * (2 * u - 1))};
+          },
+          {2.6f, 8.5f});
   b.Use(trim);
   b.BevelBox({-0.6f, -3.4f, 2.88f}, {0.6f, 3.4f, 3.12f}, 0.03f);
   Canvas sign(256, 40, body * 0.7f);

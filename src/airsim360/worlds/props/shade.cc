@@ -12,16 +12,14 @@ namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
-const Vec3f kCloth[4] = {
-    {0.62f, 0.58f, 0.47f}, {0.30f, 0.085f, 0.070f}, {0.070f, 0.135f, 0.105f}, {0.085f, 0.115f, 0.19f}};
+const Vec3f kCloth[4] = {{0.62f, 0.58f, 0.47f}, {0.30f, 0.085f, 0.070f}, {0.070f, 0.135f, 0.105f}, {0.085f, 0.115f, 0.19f}};
 
 // Cloth of two colours in stripes across u, with a weave.
 Texture Stripes(const char* name, Vec3f a, Vec3f b) {
   return Texture::FromImage(name,
                             Shade(256, 64,
                                   [&](float u, float v) {
-                                    const float weave =
-                                        0.92f + 0.08f * TileNoise(u * 128, v * 32, 128, 32, 51);
+                                    const float weave = 0.92f + 0.08f * TileNoise(u * 128, v * 32, 128, 32, 51);
                                     return (u < 0.5f ? a : b) * weave;
                                   }),
                             true);
@@ -35,8 +33,7 @@ Model MakeUmbrella(uint32_t variant, uint64_t) {
   UseWood(b);
   b.mesh().Tube({0, 0, 0.05f}, {0, 0, top}, 0.024f, 0.022f, 14);
   b.Use(CastIron());
-  const Vec2f base[] = {{0.30f, 0},      {0.30f, 0.035f}, {0.27f, 0.055f}, {0.08f, 0.075f},
-                        {0.045f, 0.10f}, {0.04f, 0.34f},  {0.02f, 0.345f}};
+  const Vec2f base[] = {{0.30f, 0}, {0.30f, 0.035f}, {0.27f, 0.055f}, {0.08f, 0.075f}, {0.045f, 0.10f}, {0.04f, 0.34f}, {0.02f, 0.345f}};
   b.Lathe(base, 28);
   const auto rib = [&](int i) {
     const float a = kTau * (static_cast<float>(i) + 0.5f) / gores;
@@ -79,24 +76,18 @@ Model MakeTarp(uint32_t variant, uint64_t) {
   PropBuilder b("tarp");
   const Vec3f white{0.72f, 0.70f, 0.65f};
   const Texture cloth =
-      Stripes("tarp stripes", {1, 1, 1},
-              {kCloth[variant].x / white.x, kCloth[variant].y / white.y, kCloth[variant].z / white.z});
+      Stripes("tarp stripes", {1, 1, 1}, {kCloth[variant].x / white.x, kCloth[variant].y / white.y, kCloth[variant].z / white.z});
   b.Use(Fabric(white), cloth, {0.6f, 0.6f});
   const auto at = [](float u, float v) {
     const float x = 2 * u - 1, y = 2 * v - 1;
     // A ridge in the middle; the edges hang between the corners, which are at the hooks of tarp posts.
     const float edge = 0.16f * (1 - x * x) * y * y + 0.12f * (1 - y * y) * x * x;
     const float ridge = 0.42f * (1 - x * x) * (0.55f + 0.45f * (1 - y * y));
-    return Vec3f{1.5f * x * (1 - 0.05f * (1 - y * y)), 1.5f * y * (1 - 0.05f * (1 - x * x)),
-                 2.46f + ridge - edge};
+    return Vec3f{1.5f * x * (1 - 0.05f * (1 - y * y)), 1.5f * y * (1 - 0.05f * (1 - x * x)), 2.46f + ridge - edge};
   };
   b.Sheet(12, 12, at, {3, 3});
   // Valance along the front edge.
-  b.Sheet(12, 1,
-          [&](float u, float v) {
-            return at(u, 0) + Vec3f{0, -0.01f * (1 - v), -0.22f * (1 - v)};
-          },
-          {3, 0.22f});
+  b.Sheet(12, 1, [&](float u, float v) { return at(u, 0) + Vec3f{0, -0.01f * (1 - v), -0.22f * (1 - v)}; }, {3, 0.22f});
   return b.Finish();
 }
 
@@ -113,8 +104,7 @@ Model MakeTarpPost(uint32_t variant, uint64_t) {
     b.mesh().Tube({0, 0, 0.015f}, {0, 0, 2.42f}, 0.03f, 0.03f, 16);
   }
   b.Use(Metal());
-  const Vec3f hook[] = {
-      {0, 0, 2.40f}, {0, 0, 2.46f}, {0.02f, 0, 2.49f}, {0.045f, 0, 2.48f}, {0.05f, 0, 2.455f}};
+  const Vec3f hook[] = {{0, 0, 2.40f}, {0, 0, 2.46f}, {0.02f, 0, 2.49f}, {0.045f, 0, 2.48f}, {0.05f, 0, 2.455f}};
   b.Bar(hook, 0.006f, 6);
   return b.Finish();
 }

@@ -12,19 +12,17 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
-constexpr Vec3f kWhite{0.80f, 0.80f, 0.80f}, kBlack{0.015f, 0.015f, 0.015f}, kRed{0.50f, 0.015f, 0.02f},
-    kGreen{0.0f, 0.13f, 0.06f}, kYellow{0.85f, 0.50f, 0.01f};
+constexpr Vec3f kWhite{0.80f, 0.80f, 0.80f}, kBlack{0.015f, 0.015f, 0.015f}, kRed{0.50f, 0.015f, 0.02f}, kGreen{0.0f, 0.13f, 0.06f},
+    kYellow{0.85f, 0.50f, 0.01f};
 
 // Four posters of our own: a concert, a market, an exhibition, a run along the river.
 Texture Poster(uint32_t variant) {
-  const Vec3f grounds[4] = {
-      {0.02f, 0.03f, 0.09f}, {0.70f, 0.60f, 0.38f}, {0.72f, 0.70f, 0.64f}, {0.03f, 0.22f, 0.33f}};
+  const Vec3f grounds[4] = {{0.02f, 0.03f, 0.09f}, {0.70f, 0.60f, 0.38f}, {0.72f, 0.70f, 0.64f}, {0.03f, 0.22f, 0.33f}};
   Canvas c(256, 384, grounds[variant]);
   switch (variant) {
     case 0:
       for (int i = 6; i > 0; --i)
-        c.Disc({0.5f, 0.42f}, 0.045f * static_cast<float>(i),
-               i % 2 ? Vec3f{0.75f, 0.20f, 0.05f} : Vec3f{0.85f, 0.55f, 0.08f});
+        c.Disc({0.5f, 0.42f}, 0.045f * static_cast<float>(i), i % 2 ? Vec3f{0.75f, 0.20f, 0.05f} : Vec3f{0.85f, 0.55f, 0.08f});
       c.Letters("NIGHT", {0.5f, 0.09f}, 0.085f, kWhite);
       c.Letters("MUSIC", {0.5f, 0.76f}, 0.085f, {0.85f, 0.55f, 0.08f});
       c.Letters("PLAZA STAGE 8 PM", {0.5f, 0.90f}, 0.032f, kWhite);
@@ -36,8 +34,8 @@ Texture Poster(uint32_t variant) {
         c.Disc({0.18f + 0.16f * static_cast<float>(i), 0.50f + 0.06f * static_cast<float>(i % 2)}, 0.075f,
                i % 2 ? Vec3f{0.55f, 0.04f, 0.02f} : Vec3f{0.30f, 0.38f, 0.04f});
       for (int i = 0; i < 5; ++i)
-        c.Line({0.18f + 0.16f * static_cast<float>(i), 0.45f}, {0.20f + 0.16f * static_cast<float>(i), 0.38f},
-               0.012f, {0.08f, 0.12f, 0.02f});
+        c.Line({0.18f + 0.16f * static_cast<float>(i), 0.45f}, {0.20f + 0.16f * static_cast<float>(i), 0.38f}, 0.012f,
+               {0.08f, 0.12f, 0.02f});
       c.Rectangle({0.08f, 0.68f}, {0.92f, 0.72f}, {0.20f, 0.10f, 0.04f});
       c.Letters("EVERY SATURDAY", {0.5f, 0.82f}, 0.042f, kBlack);
       c.Letters("9 - 14", {0.5f, 0.91f}, 0.05f, {0.28f, 0.05f, 0.03f});
@@ -55,8 +53,8 @@ Texture Poster(uint32_t variant) {
     default:
       c.Disc({0.72f, 0.22f}, 0.10f, {0.85f, 0.62f, 0.15f});
       for (int i = 0; i < 4; ++i)
-        c.Line({-0.1f, 0.50f + 0.05f * static_cast<float>(i)}, {1.1f, 0.40f + 0.05f * static_cast<float>(i)},
-               0.022f, i % 2 ? Vec3f{0.10f, 0.45f, 0.60f} : kWhite);
+        c.Line({-0.1f, 0.50f + 0.05f * static_cast<float>(i)}, {1.1f, 0.40f + 0.05f * static_cast<float>(i)}, 0.022f,
+               i % 2 ? Vec3f{0.10f, 0.45f, 0.60f} : kWhite);
       c.Letters("RIVER", {0.36f, 0.13f}, 0.075f, kWhite);
       c.Letters("RUN", {0.36f, 0.23f}, 0.075f, kWhite);
       c.Letters("10 K", {0.5f, 0.75f}, 0.12f, {0.85f, 0.62f, 0.15f});
@@ -80,8 +78,7 @@ Model MakePosterStand(uint32_t variant, uint64_t) {
   for (uint32_t side = 0; side < 2; ++side) {
     b.Place(Turn(0, 0, side ? 180 : 0));
     b.Use(Plastic({1, 1, 1}, 0.25f), Poster((variant + side) % 4));
-    b.Picture({-0.44f, -0.034f, 0.58f}, {0.44f, -0.034f, 0.58f}, {0.44f, -0.034f, 1.90f},
-              {-0.44f, -0.034f, 1.90f});
+    b.Picture({-0.44f, -0.034f, 0.58f}, {0.44f, -0.034f, 0.58f}, {0.44f, -0.034f, 1.90f}, {-0.44f, -0.034f, 1.90f});
   }
   return b.Finish();
 }
@@ -137,8 +134,7 @@ std::vector<Vec2f> PlateOutline(uint32_t variant) {
     case 0: {
       std::vector<Vec2f> octagon;
       for (int i = 0; i < 8; ++i)
-        octagon.push_back(Vec2f{std::cos(kTau * (static_cast<float>(i) + 0.5f) / 8),
-                                std::sin(kTau * (static_cast<float>(i) + 0.5f) / 8)} *
+        octagon.push_back(Vec2f{std::cos(kTau * (static_cast<float>(i) + 0.5f) / 8), std::sin(kTau * (static_cast<float>(i) + 0.5f) / 8)} *
                           0.40f);
       return octagon;
     }

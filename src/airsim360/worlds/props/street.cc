@@ -32,17 +32,16 @@ Model MakeManhole(uint32_t variant, uint64_t) {
   iron.base_color = {1, 1, 1};
   iron.roughness = 0.55f;
   const std::string name = "manhole " + std::to_string(variant);
-  const Texture color = Texture::FromImage(name,
-                                           Shade(256, 256,
-                                                 [&](float u, float v) {
-                                                   const float wear = TileFractal(u, v, 4, 4, 4, 61);
-                                                   return Vec3f{0.085f, 0.078f, 0.070f} *
-                                                          (0.35f + 0.65f * CoverRelief(variant, u, v)) *
-                                                          (0.7f + 0.6f * wear);
-                                                 }),
-                                           true);
-  const Texture normals = NormalsFromHeight(
-      name + " normals", 256, 256, 1, [&](float u, float v) { return 0.008f * CoverRelief(variant, u, v); });
+  const Texture color =
+      Texture::FromImage(name,
+                         Shade(256, 256,
+                               [&](float u, float v) {
+                                 const float wear = TileFractal(u, v, 4, 4, 4, 61);
+                                 return Vec3f{0.085f, 0.078f, 0.070f} * (0.35f + 0.65f * CoverRelief(variant, u, v)) * (0.7f + 0.6f * wear);
+                               }),
+                         true);
+  const Texture normals =
+      NormalsFromHeight(name + " normals", 256, 256, 1, [&](float u, float v) { return 0.008f * CoverRelief(variant, u, v); });
   b.Use(iron, color, {2 * r, 2 * r}, &normals);
   const int sides = 40;
   const auto at = [&](int i, float radius, float z) {
@@ -55,8 +54,7 @@ Model MakeManhole(uint32_t variant, uint64_t) {
     b.mesh().Triangle({0, 0, 0.005f}, p, q, {r, r}, uv(p), uv(q));
   }
   b.Use(CastIron());
-  const Vec2f ring[] = {
-      {r + 0.035f, -0.02f}, {r + 0.035f, 0.003f}, {r + 0.030f, 0.006f}, {r, 0.0055f}, {r, 0.004f}};
+  const Vec2f ring[] = {{r + 0.035f, -0.02f}, {r + 0.035f, 0.003f}, {r + 0.030f, 0.006f}, {r, 0.0055f}, {r, 0.004f}};
   b.Lathe(ring, sides);
   return b.Finish();
 }
@@ -94,8 +92,7 @@ Model MakeBusStop(uint32_t variant, uint64_t) {
   // Bench and sign.
   UseWood(b, {0.9f, 0.85f, 0.8f}, Grain::kAlongX);
   for (int i = 0; i < 4; ++i)
-    b.BevelBox({-1.5f, 0.16f + 0.09f * static_cast<float>(i), 0.45f},
-               {1.2f, 0.235f + 0.09f * static_cast<float>(i), 0.48f}, 0.006f);
+    b.BevelBox({-1.5f, 0.16f + 0.09f * static_cast<float>(i), 0.45f}, {1.2f, 0.235f + 0.09f * static_cast<float>(i), 0.48f}, 0.006f);
   b.Use(frame);
   for (float x : {-1.3f, 0.0f, 1.0f}) {
     b.BevelBox({x - 0.02f, 0.16f, 0.42f}, {x + 0.02f, 0.60f, 0.45f}, 0.004f);
@@ -104,8 +101,7 @@ Model MakeBusStop(uint32_t variant, uint64_t) {
   Canvas sign(256, 64, {0.02f, 0.10f, 0.30f});
   sign.Letters(variant ? "GROVE AVE 24" : "MARKET ST 7", {0.5f, 0.5f}, 0.42f, {0.8f, 0.8f, 0.8f});
   b.Use(Plastic({1, 1, 1}, 0.3f), sign.Finish(variant ? "stop grove" : "stop market"));
-  b.Picture({-0.6f, -0.852f, 2.445f}, {0.6f, -0.852f, 2.445f}, {0.6f, -0.852f, 2.512f},
-            {-0.6f, -0.852f, 2.512f});
+  b.Picture({-0.6f, -0.852f, 2.445f}, {0.6f, -0.852f, 2.445f}, {0.6f, -0.852f, 2.512f}, {-0.6f, -0.852f, 2.512f});
   return b.Finish();
 }
 

@@ -15,16 +15,14 @@ Model MakeFireHydrant(uint32_t variant, uint64_t) {
   PropBuilder b("fire_hydrant");
   const Vec3f tones[3] = {{0.42f, 0.02f, 0.015f}, {0.62f, 0.42f, 0.02f}, {0.55f, 0.56f, 0.57f}};
   b.Use(Paint(tones[variant], 0.45f), ScratchedTexture());
-  const Vec2f body[] = {{0.16f, -0.1f},  {0.16f, 0.03f},  {0.155f, 0.04f}, {0.105f, 0.042f}, {0.105f, 0.10f},
-                        {0.15f, 0.102f}, {0.15f, 0.125f}, {0.105f, 0.13f}, {0.10f, 0.50f},   {0.14f, 0.505f},
-                        {0.14f, 0.535f}, {0.115f, 0.54f}, {0.11f, 0.60f},  {0.085f, 0.655f}, {0.05f, 0.69f},
-                        {0.03f, 0.70f},  {0.03f, 0.745f}, {0, 0.745f}};
+  const Vec2f body[] = {{0.16f, -0.1f},  {0.16f, 0.03f},   {0.155f, 0.04f}, {0.105f, 0.042f}, {0.105f, 0.10f}, {0.15f, 0.102f},
+                        {0.15f, 0.125f}, {0.105f, 0.13f},  {0.10f, 0.50f},  {0.14f, 0.505f},  {0.14f, 0.535f}, {0.115f, 0.54f},
+                        {0.11f, 0.60f},  {0.085f, 0.655f}, {0.05f, 0.69f},  {0.03f, 0.70f},   {0.03f, 0.745f}, {0, 0.745f}};
   b.Lathe(body, 24);
   const auto nozzle = [&](float turn, float radius, float z) {
     b.Place(Turn(90, 0, turn, {0, 0, z}));
-    const Vec2f profile[] = {
-        {radius, 0.05f},         {radius, 0.125f},       {radius * 1.28f, 0.128f}, {radius * 1.28f, 0.175f},
-        {radius * 1.1f, 0.185f}, {radius * 0.4f, 0.19f}, {radius * 0.4f, 0.215f},  {0, 0.215f}};
+    const Vec2f profile[] = {{radius, 0.05f},         {radius, 0.125f},       {radius * 1.28f, 0.128f}, {radius * 1.28f, 0.175f},
+                             {radius * 1.1f, 0.185f}, {radius * 0.4f, 0.19f}, {radius * 0.4f, 0.215f},  {0, 0.215f}};
     b.Lathe(profile, 16);
     b.Place({});
   };
@@ -57,8 +55,7 @@ Model MakeMailbox(uint32_t, uint64_t) {
   b.Prism(side, -0.25f, 0.25f);
   b.Place({});
   for (float x : {-0.21f, 0.21f}) {
-    for (float y : {-0.22f, 0.22f})
-      b.BevelBox({x - 0.025f, y - 0.025f, 0}, {x + 0.025f, y + 0.025f, 0.19f}, 0.004f);
+    for (float y : {-0.22f, 0.22f}) b.BevelBox({x - 0.025f, y - 0.025f, 0}, {x + 0.025f, y + 0.025f, 0.19f}, 0.004f);
   }
   b.BevelBox({-0.26f, -0.27f, 0.17f}, {0.26f, 0.27f, 0.20f}, 0.006f);
   // Door: a panel over the front of the rounded top with a handle.
@@ -71,8 +68,7 @@ Model MakeMailbox(uint32_t, uint64_t) {
   label.Letters("CITY MAIL", {0.5f, 0.34f}, 0.30f, blue);
   label.Letters("PICK UP 5 PM", {0.5f, 0.75f}, 0.16f, {0.35f, 0.02f, 0.02f});
   b.Use(Paint({1, 1, 1}), label.Finish("city mail"));
-  b.Picture({-0.18f, -0.2615f, 0.62f}, {0.18f, -0.2615f, 0.62f}, {0.18f, -0.2615f, 0.755f},
-            {-0.18f, -0.2615f, 0.755f});
+  b.Picture({-0.18f, -0.2615f, 0.62f}, {0.18f, -0.2615f, 0.62f}, {0.18f, -0.2615f, 0.755f}, {-0.18f, -0.2615f, 0.755f});
   return b.Finish();
 }
 
@@ -127,8 +123,7 @@ Model MakeElectricBox(uint32_t variant, uint64_t) {
   label.Line({0.44f, 0.58f}, {0.56f, 0.58f}, 0.06f, {0.75f, 0.50f, 0.02f});
   label.Line({0.56f, 0.58f}, {0.47f, 0.76f}, 0.06f, {0.75f, 0.50f, 0.02f});
   b.Use(Paint({1, 1, 1}), label.Finish("high voltage"));
-  b.Picture({0.15f, -0.2635f, 0.78f}, {0.27f, -0.2635f, 0.78f}, {0.27f, -0.2635f, 0.90f},
-            {0.15f, -0.2635f, 0.90f});
+  b.Picture({0.15f, -0.2635f, 0.78f}, {0.27f, -0.2635f, 0.78f}, {0.27f, -0.2635f, 0.90f}, {0.15f, -0.2635f, 0.90f});
   return b.Finish();
 }
 

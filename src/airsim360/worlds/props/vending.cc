@@ -21,8 +21,7 @@ Texture MenuBoard(uint32_t variant) {
   const char* lines[3][4] = {{"CLASSIC    4.50", "CHILI      5.50", "PRETZEL    3.00", "LEMONADE   2.50"},
                              {"AL PASTOR  4.00", "CARNITAS   4.25", "FISH       5.00", "HORCHATA   3.00"},
                              {"VANILLA    3.50", "PISTACHIO  4.00", "SUNDAE     6.00", "WATER      1.50"}};
-  for (int i = 0; i < 4; ++i)
-    canvas.Letters(lines[variant][i], {0.5f, 0.33f + 0.17f * static_cast<float>(i)}, 0.075f, chalk);
+  for (int i = 0; i < 4; ++i) canvas.Letters(lines[variant][i], {0.5f, 0.33f + 0.17f * static_cast<float>(i)}, 0.075f, chalk);
   return canvas.Finish(std::string("menu ") + kNames[variant]);
 }
 
@@ -63,8 +62,7 @@ void Awning(PropBuilder& b, uint32_t variant) {
                                            true);
   b.Use(Fabric(white), cloth, {0.36f, 0.36f});
   const Vec3f l{-1.15f, -0.85f, 2.12f}, r{1.15f, 0.62f, 2.12f};
-  const Vec3f a{l.x, l.y, l.z}, c{r.x, l.y, l.z}, d{r.x, r.y, l.z}, e{l.x, r.y, l.z}, p{-0.75f, -0.1f, 2.46f},
-      q{0.75f, -0.1f, 2.46f};
+  const Vec3f a{l.x, l.y, l.z}, c{r.x, l.y, l.z}, d{r.x, r.y, l.z}, e{l.x, r.y, l.z}, p{-0.75f, -0.1f, 2.46f}, q{0.75f, -0.1f, 2.46f};
   b.mesh().QuadUv(a, c, q, p, {-1.15f, 0.85f}, {1.15f, 0.85f}, {0.75f, 0}, {-0.75f, 0});
   b.mesh().QuadUv(d, e, p, q, {1.15f, 0.85f}, {-1.15f, 0.85f}, {-0.75f, 0}, {0.75f, 0});
   b.mesh().Triangle(e, a, p, {-0.72f, 0.5f}, {0.72f, 0.5f}, {0, 0});
@@ -77,8 +75,7 @@ void Awning(PropBuilder& b, uint32_t variant) {
       const float t0 = static_cast<float>(i) / static_cast<float>(scallops * 4),
                   t1 = static_cast<float>(i + 1) / static_cast<float>(scallops * 4);
       const auto drop = [&](int k) {
-        return Vec3f{0, 0,
-                     -0.10f - 0.045f * std::sin(kTau / 2 * static_cast<float>(k % 4 == 0 ? 0 : k % 4) / 4)};
+        return Vec3f{0, 0, -0.10f - 0.045f * std::sin(kTau / 2 * static_cast<float>(k % 4 == 0 ? 0 : k % 4) / 4)};
       };
       const Vec3f x0 = from + (to - from) * t0, x1 = from + (to - from) * t1;
       const float u0 = 0.18f * static_cast<float>(i) / 4, u1 = 0.18f * static_cast<float>(i + 1) / 4;
@@ -114,13 +111,11 @@ Model MakeFoodCart(uint32_t variant, uint64_t) {
   b.BevelBox({0.09f, -0.21f, 1.375f}, {0.86f, 0.26f, 1.395f}, 0.006f);
   b.Use(Stone({0.55f, 0.30f, 0.11f}, 0.7f));
   for (int i = 0; i < 10; ++i)
-    b.mesh().Sphere({0.19f + 0.14f * static_cast<float>(i % 5), i < 5 ? -0.08f : 0.12f, 1.075f},
-                    {0.055f, 0.08f, 0.035f}, 6, 10);
+    b.mesh().Sphere({0.19f + 0.14f * static_cast<float>(i % 5), i < 5 ? -0.08f : 0.12f, 1.075f}, {0.055f, 0.08f, 0.035f}, 6, 10);
   const Vec3f bottles[3] = {{0.45f, 0.02f, 0.01f}, {0.70f, 0.48f, 0.03f}, {0.62f, 0.60f, 0.55f}};
   for (int i = 0; i < 3; ++i) {
     b.Use(Plastic(bottles[i], 0.25f));
-    const Vec2f bottle[] = {{0.032f, 1.015f}, {0.032f, 1.13f}, {0.025f, 1.155f},
-                            {0.010f, 1.17f},  {0.006f, 1.21f}, {0, 1.212f}};
+    const Vec2f bottle[] = {{0.032f, 1.015f}, {0.032f, 1.13f}, {0.025f, 1.155f}, {0.010f, 1.17f}, {0.006f, 1.21f}, {0, 1.212f}};
     b.Lathe(bottle, 12, {-0.06f, -0.30f + 0.085f * static_cast<float>(i), 0});
   }
   for (float x : {-0.62f, 0.62f}) {
@@ -138,20 +133,15 @@ Model MakeFoodCart(uint32_t variant, uint64_t) {
   }
   Awning(b, variant);
   b.Use(Paint({1, 1, 1}), MenuBoard(variant));
-  b.Picture({-0.88f, -0.375f, 0.40f}, {-0.42f, -0.375f, 0.40f}, {-0.42f, -0.375f, 0.74f},
-            {-0.88f, -0.375f, 0.74f});
+  b.Picture({-0.88f, -0.375f, 0.40f}, {-0.42f, -0.375f, 0.40f}, {-0.42f, -0.375f, 0.74f}, {-0.88f, -0.375f, 0.74f});
   b.Use(Paint({1, 1, 1}), NameBoard(variant));
-  b.Picture({-0.85f, -0.405f, 1.82f}, {0.85f, -0.405f, 1.82f}, {0.85f, -0.405f, 2.02f},
-            {-0.85f, -0.405f, 2.02f});
-  b.Picture({0.85f, -0.385f, 1.82f}, {-0.85f, -0.385f, 1.82f}, {-0.85f, -0.385f, 2.02f},
-            {0.85f, -0.385f, 2.02f});
+  b.Picture({-0.85f, -0.405f, 1.82f}, {0.85f, -0.405f, 1.82f}, {0.85f, -0.405f, 2.02f}, {-0.85f, -0.405f, 2.02f});
+  b.Picture({0.85f, -0.385f, 1.82f}, {-0.85f, -0.385f, 1.82f}, {-0.85f, -0.385f, 2.02f}, {0.85f, -0.385f, 2.02f});
   return b.Finish();
 }
 
 }  // namespace
 
-std::vector<PropKind> VendingKinds() {
-  return {{"food_cart", "furniture/vending/food_cart", 3, MakeFoodCart, 1.4f, 2.3f, 2.6f, 7000}};
-}
+std::vector<PropKind> VendingKinds() { return {{"food_cart", "furniture/vending/food_cart", 3, MakeFoodCart, 1.4f, 2.3f, 2.6f, 7000}}; }
 
 }  // namespace airsim360::internal

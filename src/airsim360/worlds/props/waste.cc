@@ -44,8 +44,7 @@ Model MakeRecycleBin(uint32_t variant, uint64_t) {
   const auto rim = RoundedRectangle({-0.295f, -0.255f}, {0.295f, 0.255f}, 0.065f, 4);
   b.Prism(rim, 0.84f, 0.88f);
   // Hood: a wedge that slopes to the front.
-  const Vec2f hood[] = {{-0.22f, 0.88f}, {0.22f, 0.88f},  {0.22f, 1.14f},
-                        {0.14f, 1.18f},  {-0.05f, 1.16f}, {-0.20f, 0.96f}};
+  const Vec2f hood[] = {{-0.22f, 0.88f}, {0.22f, 0.88f}, {0.22f, 1.14f}, {0.14f, 1.18f}, {-0.05f, 1.16f}, {-0.20f, 0.96f}};
   b.Place(AffineTransform{Mat3f::FromColumns({0, 1, 0}, {0, 0, 1}, {1, 0, 0}), {}});
   b.Prism(hood, -0.26f, 0.26f);
   // Opening: a dark disc with a ring, flush on the slope of the hood.
@@ -57,8 +56,7 @@ Model MakeRecycleBin(uint32_t variant, uint64_t) {
   b.Use(Paint({0.006f, 0.006f, 0.006f}, 0.9f));
   b.mesh().Tube(c - n * 0.01f, c + n * 0.008f, 0.083f, 0.083f, 24, false);
   b.Use(Plastic({1, 1, 1}), RecycleLabel(words[variant], tones[variant] * 0.7f));
-  b.Picture({-0.14f, -0.2415f, 0.28f}, {0.14f, -0.2415f, 0.28f}, {0.14f, -0.2415f, 0.70f},
-            {-0.14f, -0.2415f, 0.70f});
+  b.Picture({-0.14f, -0.2415f, 0.28f}, {0.14f, -0.2415f, 0.28f}, {0.14f, -0.2415f, 0.70f}, {-0.14f, -0.2415f, 0.70f});
   return b.Finish();
 }
 
@@ -68,14 +66,12 @@ Model MakeTrashCan(uint32_t variant, uint64_t) {
   const Vec3f tones[2] = {{0.018f, 0.05f, 0.032f}, {0.03f, 0.031f, 0.034f}};
   const Material iron = Paint(tones[variant], 0.4f);
   b.Use(Plastic({0.02f, 0.02f, 0.022f}));
-  const Vec2f liner[] = {{0, 0.08f},       {0.215f, 0.08f}, {0.235f, 0.82f},
-                         {0.215f, 0.825f}, {0.20f, 0.30f},  {0, 0.30f}};
+  const Vec2f liner[] = {{0, 0.08f}, {0.215f, 0.08f}, {0.235f, 0.82f}, {0.215f, 0.825f}, {0.20f, 0.30f}, {0, 0.30f}};
   b.Lathe(liner, 24);
   b.Use(iron);
   for (int i = 0; i < 26; ++i) {
     b.Place(Turn(0, 0, 360.0f * static_cast<float>(i) / 26));
-    const float profile[][2] = {
-        {0.245f, 0.03f}, {0.250f, 0.40f}, {0.255f, 0.65f}, {0.275f, 0.80f}, {0.315f, 0.90f}};
+    const float profile[][2] = {{0.245f, 0.03f}, {0.250f, 0.40f}, {0.255f, 0.65f}, {0.275f, 0.80f}, {0.315f, 0.90f}};
     for (int k = 0; k + 1 < 5; ++k) {
       const auto at = [&](int j, float y, float t) { return Vec3f{profile[j][0] + t, y, profile[j][1]}; };
       const float h = 0.016f, t = 0.007f;

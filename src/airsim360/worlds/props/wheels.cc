@@ -18,12 +18,10 @@ void AddWheel(PropBuilder& b, Vec3f hub, float radius, float width, float outsid
   const Vec2f dish[] = {{rim * 0.98f, h * 0.2f}, {0, h * 0.15f}};
   b.Lathe(dish, 20);
   b.Use(Metal({0.55f, 0.56f, 0.57f}, 0.3f));
-  const Vec2f ring[] = {
-      {rim, h * 0.9f}, {rim * 0.96f, h * 0.95f}, {rim * 0.90f, h * 0.8f}, {rim * 0.90f, h * 0.2f}};
+  const Vec2f ring[] = {{rim, h * 0.9f}, {rim * 0.96f, h * 0.95f}, {rim * 0.90f, h * 0.8f}, {rim * 0.90f, h * 0.2f}};
   b.Lathe(ring, 28);
   b.Use(Chrome());
-  const Vec2f cap[] = {
-      {rim * 0.24f, h * 0.3f}, {rim * 0.24f, h * 0.72f}, {rim * 0.16f, h * 0.80f}, {0, h * 0.81f}};
+  const Vec2f cap[] = {{rim * 0.24f, h * 0.3f}, {rim * 0.24f, h * 0.72f}, {rim * 0.16f, h * 0.80f}, {0, h * 0.81f}};
   b.Lathe(cap, 14);
   b.Use(Metal({0.55f, 0.56f, 0.57f}, 0.3f));
   for (int i = 0; i < 5; ++i) {

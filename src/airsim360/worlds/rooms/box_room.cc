@@ -8,8 +8,7 @@ namespace {
 // Corner i of the box [low, high]: bit 0 chooses x, bit 1 y, bit 2 z.
 std::vector<Vec3f> Corners(Vec3f low, Vec3f high) {
   std::vector<Vec3f> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+  for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
   return corners;
 }
 
@@ -46,9 +45,7 @@ void AddQuad(Mesh& mesh, const uint32_t (&c)[4]) {
 
 std::shared_ptr<const Scene> BuildBoxRoom(const WorldOptions&) {
   SceneBuilder builder("box_room");
-  const auto entity = [&](const char* name, const char* category) {
-    return builder.AddEntity(name, builder.tree().At(category));
-  };
+  const auto entity = [&](const char* name, const char* category) { return builder.AddEntity(name, builder.tree().At(category)); };
 
   // The shell: eight shared corners, so that no ray slips through an edge; faces look inwards.
   Mesh room;
@@ -58,8 +55,7 @@ std::shared_ptr<const Scene> BuildBoxRoom(const WorldOptions&) {
     const auto& c = face.corner;
     const auto first = static_cast<uint32_t>(room.triangles.size());
     AddQuad(room, {c[0], c[3], c[2], c[1]});
-    room.parts.push_back(
-        {first, 2, AddPaint(builder, face.name, face.color), entity(face.name, face.category)});
+    room.parts.push_back({first, 2, AddPaint(builder, face.name, face.color), entity(face.name, face.category)});
   }
 
   // The cube stands on the floor without a bottom face.
@@ -67,8 +63,8 @@ std::shared_ptr<const Scene> BuildBoxRoom(const WorldOptions&) {
   cube.name = "box";
   cube.positions = Corners({2.5f, -0.5f, 0}, {3.5f, 0.5f, 1});
   for (const auto& corners : kCubeFaces) AddQuad(cube, corners);
-  cube.parts.push_back({0, static_cast<uint32_t>(cube.triangles.size()),
-                        AddPaint(builder, "box", {0.75f, 0.45f, 0.12f}), entity("box", "furniture/box")});
+  cube.parts.push_back(
+      {0, static_cast<uint32_t>(cube.triangles.size()), AddPaint(builder, "box", {0.75f, 0.45f, 0.12f}), entity("box", "furniture/box")});
 
   builder.AddInstance({builder.AddMesh(std::move(room)), {}, kNoEntity});
   builder.AddInstance({builder.AddMesh(std::move(cube)), {}, kNoEntity});

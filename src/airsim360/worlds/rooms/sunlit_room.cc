@@ -78,8 +78,7 @@ void BuildWindow(RoomPen& pen, const char* name, float x0, float x1) {
   pen.Box({x0, y1, kSill}, {x1, -kHalfY + 0.12f, kSill + 0.03f});
   pen.Use(pen.builder().AddMaterial(glass));
   for (const auto& [a, b] : {std::pair{x0 + f, middle - f / 2}, std::pair{middle + f / 2, x1 - f}}) {
-    pen.mesh().Quad({a, pane_y, kSill + f}, {b, pane_y, kSill + f}, {b, pane_y, kLintel - f},
-                    {a, pane_y, kLintel - f});
+    pen.mesh().Quad({a, pane_y, kSill + f}, {b, pane_y, kSill + f}, {b, pane_y, kLintel - f}, {a, pane_y, kLintel - f});
   }
 }
 
@@ -130,10 +129,8 @@ void BuildWallThings(RoomPen& pen) {
   pen.Start("shelf", "furniture/shelf", pen.Paint("white board", {0.72f, 0.71f, 0.68f}, 0.5f));
   for (float z : {0.05f, 0.45f, 0.85f, 1.25f, 1.65f}) pen.Box({2.68f, 0.3f, z}, {3.0f, 2.0f, z + 0.03f});
   for (float y : {0.27f, 2.0f}) pen.Box({2.68f, y, 0}, {3.0f, y + 0.03f, 1.68f});
-  const MaterialId covers[4] = {pen.Paint("book red", {0.36f, 0.06f, 0.04f}, 0.6f),
-                                pen.Paint("book blue", {0.05f, 0.10f, 0.24f}, 0.6f),
-                                pen.Paint("book ochre", {0.45f, 0.30f, 0.08f}, 0.6f),
-                                pen.Paint("book grey", {0.30f, 0.30f, 0.29f}, 0.6f)};
+  const MaterialId covers[4] = {pen.Paint("book red", {0.36f, 0.06f, 0.04f}, 0.6f), pen.Paint("book blue", {0.05f, 0.10f, 0.24f}, 0.6f),
+                                pen.Paint("book ochre", {0.45f, 0.30f, 0.08f}, 0.6f), pen.Paint("book grey", {0.30f, 0.30f, 0.29f}, 0.6f)};
   pen.Start("books", "furniture/book", covers[0]);
   for (int i = 0; i < 44; ++i) {
     const int row = i / 15;
@@ -155,8 +152,8 @@ void BuildWallThings(RoomPen& pen) {
   pen.Use(pen.Paint("leaves", {0.06f, 0.16f, 0.04f}, 0.5f));
   for (int i = 0; i < 9; ++i) {
     const float a = 2.4f * static_cast<float>(i), r = 0.16f + 0.012f * static_cast<float>(i);
-    pen.mesh().Sphere({2.5f + r * std::cos(a), -2.0f + r * std::sin(a), 0.5f + 0.07f * static_cast<float>(i)},
-                      {0.13f, 0.13f, 0.09f}, 8, 14);
+    pen.mesh().Sphere({2.5f + r * std::cos(a), -2.0f + r * std::sin(a), 0.5f + 0.07f * static_cast<float>(i)}, {0.13f, 0.13f, 0.09f}, 8,
+                      14);
   }
 }
 

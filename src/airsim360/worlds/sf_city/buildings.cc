@@ -41,7 +41,9 @@ Texture BoardNormals() {
   for (int y = 0; y < 256; ++y) {
     const int in_board = y % 32;
     const float tilt = in_board < 28 ? 0.08f : -0.55f, z = 1 / std::hypot(tilt, 1.0f);
-    for (int x = 0; x < 256; ++x) image(x, y) = {128, static_cast<uint8_t>(std::lround(127.5f + 127.5f * tilt * z)), static_cast<uint8_t>(std::lround(127.5f + 127.5f * z)), 255};
+    for (int x = 0; x < 256; ++x)
+      image(x, y) = {128, static_cast<uint8_t>(std::lround(127.5f + 127.5f * tilt * z)),
+                     static_cast<uint8_t>(std::lround(127.5f + 127.5f * z)), 255};
   }
   return Texture::FromImage("siding normals", std::move(image), false);
 }
@@ -60,7 +62,8 @@ Texture BoardColors() {
 
 void Append(Mesh& all, const Mesh& mesh, const AffineTransform& X) {
   const auto base = static_cast<uint32_t>(all.positions.size()), first = static_cast<uint32_t>(all.triangles.size());
-  const Vec3f cx{X.A.m[0][0], X.A.m[1][0], X.A.m[2][0]}, cy{X.A.m[0][1], X.A.m[1][1], X.A.m[2][1]}, cz{X.A.m[0][2], X.A.m[1][2], X.A.m[2][2]};
+  const Vec3f cx{X.A.m[0][0], X.A.m[1][0], X.A.m[2][0]}, cy{X.A.m[0][1], X.A.m[1][1], X.A.m[2][1]},
+      cz{X.A.m[0][2], X.A.m[1][2], X.A.m[2][2]};
   const Vec3f nx = Cross(cy, cz), ny = Cross(cz, cx), nz = Cross(cx, cy);
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
     const Vec3f n = mesh.normals[i];
@@ -87,7 +90,8 @@ std::vector<FacadeDetail> DetailOf(const StreetPlan& plan, const BuildingPlan& b
 }
 
 AffineTransform PlanFromHouse(const RowHouse& house) {
-  return {Mat3f::FromColumns({house.along.x, house.along.y, 0}, {house.inward.x, house.inward.y, 0}, {0, 0, 1}), {house.origin.x, house.origin.y, 0}};
+  return {Mat3f::FromColumns({house.along.x, house.along.y, 0}, {house.inward.x, house.inward.y, 0}, {0, 0, 1}),
+          {house.origin.x, house.origin.y, 0}};
 }
 
 }  // namespace
@@ -137,7 +141,8 @@ void BuildSfBuildings(District& d, const Hills&, const SfPlan& city, SlopeLay& l
     const EntityId walls = d.builder.AddEntity(far ? "far house" : "row house", building_id), roof = d.builder.AddEntity("roof", roof_id);
     FacadeContext context{d.builder, schemes[static_cast<size_t>(house.scheme)], mesh, balcony, box};
     BuildBayHouse(context, house.shape, walls, roof);
-    Append(all, mesh.Finish("house"), lay.Rigid(house.At(house.shape.width / 2, house.shape.depth / 2), house.ground) * PlanFromHouse(house));
+    Append(all, mesh.Finish("house"),
+           lay.Rigid(house.At(house.shape.width / 2, house.shape.depth / 2), house.ground) * PlanFromHouse(house));
     if (i + 1 == city.houses.size() || city.houses[i + 1].block != house.block) flush(house.block);
   }
   EntityId walls = kNoEntity;
@@ -180,12 +185,16 @@ AffineTransform SlopeLay::operator()(std::string_view kind, const AffineTransfor
   const AffineTransform frame = hills_.drape().Frame({placed.p.x, placed.p.y});
   const Vec3f p = frame.p + Vec3f{0, 0, placed.p.z};
   Vec3f x{frame.A.m[0][0], frame.A.m[1][0], frame.A.m[2][0]}, y{frame.A.m[0][1], frame.A.m[1][1], frame.A.m[2][1]};
-  const auto any = [&](std::initializer_list<std::string_view> kinds) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); };
+  const auto any = [&](std::initializer_list<std::string_view> kinds) {
+    return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+  };
   // Fences and mown grass follow the ground with upright pales and blades.
-  if (any({"wood_fence", "metal_fence", "picket_fence", "rail", "rope_bollard", "metal_barricade", "hedge", "lawn_tile", "lawn_patch", "grass_tuft", "circle_fence"}))
+  if (any({"wood_fence", "metal_fence", "picket_fence", "rail", "rope_bollard", "metal_barricade", "hedge", "lawn_tile", "lawn_patch",
+           "grass_tuft", "circle_fence"}))
     return {Mat3f::FromColumns(x, y, {0, 0, 1}) * placed.A, p};
   // What lies flat or rolls leans with the ground.
-  if (any({"car", "taxi", "van", "bus", "cable_car", "food_truck", "bicycle", "manhole", "leaf_litter", "flower_bed", "rock", "water_barrier", "concrete_block"})) {
+  if (any({"car", "taxi", "van", "bus", "cable_car", "food_truck", "bicycle", "manhole", "leaf_litter", "flower_bed", "rock",
+           "water_barrier", "concrete_block"})) {
     x = Normalized(x);
     const Vec3f up = Normalized(Cross(x, y));
     return {Mat3f::FromColumns(x, Cross(up, x), up) * placed.A, p};

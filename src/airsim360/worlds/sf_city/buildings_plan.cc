@@ -68,7 +68,8 @@ class Planner {
       for (size_t i = first; i < city_.houses.size(); ++i) {
         const RowHouse& house = city_.houses[i];
         const float a = house.At(0, 0).x, b = house.At(house.shape.width, 0).x;
-        const GroundRect behind{std::max(std::min(a, b), garden.x0), std::min(house.At(0, house.shape.depth).y, c.y), std::min(std::max(a, b), garden.x1), std::max(house.At(0, house.shape.depth).y, c.y)};
+        const GroundRect behind{std::max(std::min(a, b), garden.x0), std::min(house.At(0, house.shape.depth).y, c.y),
+                                std::min(std::max(a, b), garden.x1), std::max(house.At(0, house.shape.depth).y, c.y)};
         if (side % 2 == 0 && behind.width() > 2) city_.yards.push_back({index, behind, side == 0 ? 1.0f : -1.0f});
       }
     }
@@ -97,7 +98,7 @@ class Planner {
       if (end - s < 1.75f * house.width) house.width = end - s > 10 ? (end - s) / 2 : end - s;
       scheme = (scheme + 1 + static_cast<int>(rng.Index(9))) % 11;
       house.seed = rng.Bits();
-      AddHouse(index, side, s, house, scheme, inner, s < skip + 0.1f, s + house.width > end - 0.1f);
+      AddHouse(index, side, s, house, scheme, inner, s<skip + 0.1f, s + house.width> end - 0.1f);
       s += house.width;
     }
     HideNeighbours(first);
@@ -149,7 +150,8 @@ class Planner {
   void PlanShops(size_t index) {
     const Block& block = plan_.blocks[index];
     const GroundRect inner = block.inner();
-    static constexpr std::array kStyles = {F::kBrickWalkUp, F::kClassicStone, F::kStuccoShutters, F::kBrickLoft, F::kDeco, F::kStuccoShutters, F::kRibbon};
+    static constexpr std::array kStyles = {F::kBrickWalkUp, F::kClassicStone,   F::kStuccoShutters, F::kBrickLoft,
+                                           F::kDeco,        F::kStuccoShutters, F::kRibbon};
     for (int row = 0; row < 2; ++row) {
       RngStream rng(seed_, "shops", index * 2 + static_cast<size_t>(row));
       float x = inner.x0;
@@ -159,14 +161,16 @@ class Planner {
         if (inner.x1 - x - w < 8) w = inner.x1 - x > 24 ? (inner.x1 - x) / 2 : inner.x1 - x;
         const auto depth = static_cast<float>(rng.Uniform(17, 24));
         const GroundRect r = row == 0 ? GroundRect{x, inner.y0, x + w, inner.y0 + depth} : GroundRect{x, inner.y1 - depth, x + w, inner.y1};
-        const bool west = x < inner.x0 + 0.1f, east = x + w > inner.x1 - 0.1f;
+        const bool west = x<inner.x0 + 0.1f, east = x + w> inner.x1 - 0.1f;
         BuildingPlan plan;
         do plan.style = kStyles[rng.Index(kStyles.size())];
         while (plan.style == before);
         before = plan.style;
         Fill(plan, index, r, rng);
-        plan.edges = row == 0 ? std::vector{EdgeKind::kStreet, east ? EdgeKind::kStreet : EdgeKind::kParty, EdgeKind::kRear, west ? EdgeKind::kStreet : EdgeKind::kParty}
-                              : std::vector{EdgeKind::kRear, east ? EdgeKind::kStreet : EdgeKind::kParty, EdgeKind::kStreet, west ? EdgeKind::kStreet : EdgeKind::kParty};
+        plan.edges = row == 0 ? std::vector{EdgeKind::kStreet, east ? EdgeKind::kStreet : EdgeKind::kParty, EdgeKind::kRear,
+                                            west ? EdgeKind::kStreet : EdgeKind::kParty}
+                              : std::vector{EdgeKind::kRear, east ? EdgeKind::kStreet : EdgeKind::kParty, EdgeKind::kStreet,
+                                            west ? EdgeKind::kStreet : EdgeKind::kParty};
         plan.floors = 1 + static_cast<int>(rng.Index(4)) + (west || east ? 1 : 0);
         plan.fire_escapes = rng.Chance(0.5);
         AddBuilding(std::move(plan), r);
@@ -196,7 +200,8 @@ class Planner {
       const float w = inner.width() / static_cast<float>(lots);
       for (int i = 0; i < lots; ++i) {
         const float x0 = inner.x0 + w * static_cast<float>(i), half = inner.depth() / 2;
-        const GroundRect lot{x0 + (i ? 2.0f : 0.0f), row == 0 ? inner.y0 : inner.y0 + half + 3.2f, x0 + w - (i + 1 < lots ? 2.0f : 0.0f), row == 0 ? inner.y0 + half - 3.2f : inner.y1};
+        const GroundRect lot{x0 + (i ? 2.0f : 0.0f), row == 0 ? inner.y0 : inner.y0 + half + 3.2f, x0 + w - (i + 1 < lots ? 2.0f : 0.0f),
+                             row == 0 ? inner.y0 + half - 3.2f : inner.y1};
         if (block.kind == BlockKind::kBuilt && rng.Chance(0.09)) {
           city_.plazas.push_back(lot);
           continue;
@@ -207,7 +212,8 @@ class Planner {
   }
 
   void AddTower(size_t index, const GroundRect& lot, float core, RngStream& rng) {
-    static constexpr std::array kStyles = {F::kCurtainWall, F::kDeco, F::kConcreteGrid, F::kRibbon, F::kCurtainWall, F::kBracedGlass, F::kClassicStone, F::kBrickLoft, F::kConcreteGrid};
+    static constexpr std::array kStyles = {F::kCurtainWall, F::kDeco,         F::kConcreteGrid, F::kRibbon,      F::kCurtainWall,
+                                           F::kBracedGlass, F::kClassicStone, F::kBrickLoft,    F::kConcreteGrid};
     BuildingPlan base;
     base.style = kStyles[rng.Index(kStyles.size())];
     float height = static_cast<float>(18 + 26 * rng.Uniform() + core * (20 + 95 * rng.Uniform() * rng.Uniform() + 30 * rng.Uniform()));
@@ -254,13 +260,15 @@ class Planner {
       BuildingPlan& plan = all[i].plan;
       for (size_t e = 0; e < plan.edges.size(); ++e) {
         if (plan.edges[e] != EdgeKind::kParty) continue;
-        const Vec2f a = plan.outline[e], b = plan.outline[(e + 1) % plan.outline.size()], u = (b - a) * (1 / std::hypot(b.x - a.x, b.y - a.y));
+        const Vec2f a = plan.outline[e], b = plan.outline[(e + 1) % plan.outline.size()],
+                    u = (b - a) * (1 / std::hypot(b.x - a.x, b.y - a.y));
         const Vec2f out = Vec2f{u.y, -u.x} * 0.5f;
         float hidden = 1e9f;
         for (float t : {0.1f, 0.5f, 0.9f}) {
           float here = 0;
           for (size_t k = first; k < all.size(); ++k)
-            if (k != i && all[k].plan.bounds().Contains(a + (b - a) * t + out)) here = std::max(here, all[k].ground + all[k].plan.height() - all[i].ground);
+            if (k != i && all[k].plan.bounds().Contains(a + (b - a) * t + out))
+              here = std::max(here, all[k].ground + all[k].plan.height() - all[i].ground);
           hidden = std::min(hidden, here);
         }
         plan.party_height[e] = std::max(0.0f, hidden);

@@ -12,7 +12,8 @@ constexpr float kTau = 6.2831853f, kStreet = 12.5f, kCity = 1900;
 
 // Walls with pictured windows in the colours of the houses.
 std::vector<MaterialId> AddFarWalls(District& d) {
-  static constexpr Vec3f kTones[] = {{1.25f, 1.2f, 1.08f}, {1.2f, 0.98f, 0.85f}, {0.95f, 1.08f, 1.2f}, {1.1f, 1.12f, 0.95f}, {1.3f, 1.28f, 1.24f}, {1.12f, 0.9f, 0.8f}};
+  static constexpr Vec3f kTones[] = {{1.25f, 1.2f, 1.08f}, {1.2f, 0.98f, 0.85f}, {0.95f, 1.08f, 1.2f},
+                                     {1.1f, 1.12f, 0.95f}, {1.3f, 1.28f, 1.24f}, {1.12f, 0.9f, 0.8f}};
   std::vector<MaterialId> walls;
   for (size_t i = 0; i < std::size(kTones); ++i) {
     Material material = d.builder.material(d.surfaces[i % 2 ? Surface::kFarWalls1 : Surface::kFarWalls3]);
@@ -33,8 +34,9 @@ class FarBuilder {
     const float pitch_x = ring.width() / 8, pitch_y = ring.depth() / 8;
     for (int j = -18; j <= 12; ++j) {
       for (int i = -12; i <= 10; ++i) {
-        const GroundRect block{ring.x0 + pitch_x * static_cast<float>(i) + kStreet / 2, ring.y0 + pitch_y * static_cast<float>(j) + kStreet / 2,
-                               ring.x0 + pitch_x * static_cast<float>(i + 1) - kStreet / 2, ring.y0 + pitch_y * static_cast<float>(j + 1) - kStreet / 2};
+        const GroundRect block{
+            ring.x0 + pitch_x * static_cast<float>(i) + kStreet / 2, ring.y0 + pitch_y * static_cast<float>(j) + kStreet / 2,
+            ring.x0 + pitch_x * static_cast<float>(i + 1) - kStreet / 2, ring.y0 + pitch_y * static_cast<float>(j + 1) - kStreet / 2};
         const bool clear = block.x1 < ring.x0 || block.x0 > ring.x1 || block.y1 < ring.y0 || block.y0 > ring.y1;
         const Vec2f c = block.center();
         if (!clear || std::hypot(c.x, c.y) > kCity || block.x1 > 640 || block.y1 > 566) continue;
@@ -58,12 +60,15 @@ class FarBuilder {
       float x = block.x0 + 4;
       while (x < block.x1 - 8) {
         const bool tall = rng.Uniform() < 1.3 * towers;
-        const float w = std::min(tall ? static_cast<float>(rng.Uniform(20, 34)) : static_cast<float>(rng.Uniform(7.5, r < 1000 ? 14 : 26)), block.x1 - 4 - x);
+        const float w = std::min(tall ? static_cast<float>(rng.Uniform(20, 34)) : static_cast<float>(rng.Uniform(7.5, r < 1000 ? 14 : 26)),
+                                 block.x1 - 4 - x);
         const float depth = tall ? 28 : static_cast<float>(rng.Uniform(14, 19));
-        const GroundRect lot = row == 0 ? GroundRect{x, block.y0 + 4, x + w, block.y0 + 4 + depth} : GroundRect{x, block.y1 - 4 - depth, x + w, block.y1 - 4};
+        const GroundRect lot =
+            row == 0 ? GroundRect{x, block.y0 + 4, x + w, block.y0 + 4 + depth} : GroundRect{x, block.y1 - 4 - depth, x + w, block.y1 - 4};
         x += w;
         if (w < 5 || rng.Chance(0.03)) continue;
-        const float height = tall ? std::clamp(static_cast<float>(22 + 90 * towers * rng.Uniform()), 18.0f, 120.0f) : static_cast<float>(rng.Uniform(7.5, 12.5) + (rng.Chance(0.06) ? 9 : 0));
+        const float height = tall ? std::clamp(static_cast<float>(22 + 90 * towers * rng.Uniform()), 18.0f, 120.0f)
+                                  : static_cast<float>(rng.Uniform(7.5, 12.5) + (rng.Chance(0.06) ? 9 : 0));
         Box(lot, height, tall, shared, rng);
       }
     }
@@ -71,7 +76,8 @@ class FarBuilder {
     if (r > 1000) return;
     for (float x = block.x0 + 10; x < block.x1 - 8; x += static_cast<float>(rng.Uniform(12, 26))) {
       if (towers > 0.3f) break;
-      d_.placer.Put(rng.Chance(0.7) ? "tree_generic" : "tree_pine", {x, c.y + static_cast<float>(rng.Uniform(-8, 8)), -0.1f}, static_cast<float>(rng.Uniform(0, kTau)), static_cast<float>(rng.Uniform(0.7, 1.0)));
+      d_.placer.Put(rng.Chance(0.7) ? "tree_generic" : "tree_pine", {x, c.y + static_cast<float>(rng.Uniform(-8, 8)), -0.1f},
+                    static_cast<float>(rng.Uniform(0, kTau)), static_cast<float>(rng.Uniform(0.7, 1.0)));
     }
   }
 
@@ -84,9 +90,12 @@ class FarBuilder {
       high = std::max(high, at.z);
       outline.push_back({at.x, at.y});
     }
-    static constexpr Surface kTall[] = {Surface::kFarPiers0, Surface::kFarRibbons0, Surface::kFarRibbons1, Surface::kFarPiers1, Surface::kGlassBlue, Surface::kFarWalls2};
-    const EntityId walls = shared != kNoEntity ? shared : d_.builder.AddEntity("far building", d_.builder.tree().At("construction/building"));
-    const EntityId roof = shared != kNoEntity ? shared : d_.builder.AddEntity("far roof", d_.builder.tree().At("construction/building/roof"));
+    static constexpr Surface kTall[] = {Surface::kFarPiers0, Surface::kFarRibbons0, Surface::kFarRibbons1,
+                                        Surface::kFarPiers1, Surface::kGlassBlue,   Surface::kFarWalls2};
+    const EntityId walls =
+        shared != kNoEntity ? shared : d_.builder.AddEntity("far building", d_.builder.tree().At("construction/building"));
+    const EntityId roof =
+        shared != kNoEntity ? shared : d_.builder.AddEntity("far roof", d_.builder.tree().At("construction/building/roof"));
     MeshBuilder& mesh = far_.mesh();
     mesh.SetEntity(walls);
     mesh.SetMaterial(tall ? d_.surfaces[kTall[rng.Index(6)]] : walls_[rng.Index(static_cast<uint32_t>(walls_.size()))]);
@@ -153,12 +162,17 @@ void BuildGate(District& d, Ground& far) {
 }  // namespace
 
 void BuildFarSf(District& d, Ground& far, const Hills& hills) {
-  const GroundRect ring{d.plan.north_south.front().center - 6.2f, d.plan.east_west.front().center - 6.2f, d.plan.north_south.back().center + 6.2f, d.plan.east_west.back().center + 6.2f};
+  const GroundRect ring{d.plan.north_south.front().center - 6.2f, d.plan.east_west.front().center - 6.2f,
+                        d.plan.north_south.back().center + 6.2f, d.plan.east_west.back().center + 6.2f};
   FarBuilder(d, far, hills).BuildCity(ring);
   // Streets between the far blocks; land with woods to the horizon.
   const GroundRect streets{-1000, -1000, 640, 560}, world{-kWorldEdge, -kWorldEdge, kWorldEdge, kWorldEdge};
   const auto sheets = [&](const GroundRect& hole, const GroundRect& all, float z) {
-    for (const GroundRect& sheet : {GroundRect{all.x0, all.y0, all.x1, hole.y0}, {all.x0, hole.y1, all.x1, all.y1}, {all.x0, hole.y0, hole.x0, hole.y1}, {hole.x1, hole.y0, all.x1, hole.y1}}) d.ground.Rect(sheet, z);
+    for (const GroundRect& sheet : {GroundRect{all.x0, all.y0, all.x1, hole.y0},
+                                    {all.x0, hole.y1, all.x1, all.y1},
+                                    {all.x0, hole.y0, hole.x0, hole.y1},
+                                    {hole.x1, hole.y0, all.x1, hole.y1}})
+      d.ground.Rect(sheet, z);
   };
   d.ground.Begin("outer streets", "ground/road", Surface::kAsphalt);
   sheets(ring, streets, -0.13f);
@@ -175,8 +189,15 @@ void BuildFarSf(District& d, Ground& far, const Hills& hills) {
     float radius, from_deg, to_deg, height;
   };
   int index = 40;
-  for (const Ridge& r : {Ridge{4300, 10, 62, 260}, {5200, 55, 118, 420}, {4600, 104, 150, 330}, {7400, -30, 60, 620}, {8600, 60, 150, 900}, {6800, -75, -25, 420}, {6200, 200, 300, 520}})
-    RaiseRidge(d, index++, r.radius, r.from_deg * kTau / 360, r.to_deg * kTau / 360, r.height, r.radius > 5000 ? Surface::kMountainFar : Surface::kMountain);
+  for (const Ridge& r : {Ridge{4300, 10, 62, 260},
+                         {5200, 55, 118, 420},
+                         {4600, 104, 150, 330},
+                         {7400, -30, 60, 620},
+                         {8600, 60, 150, 900},
+                         {6800, -75, -25, 420},
+                         {6200, 200, 300, 520}})
+    RaiseRidge(d, index++, r.radius, r.from_deg * kTau / 360, r.to_deg * kTau / 360, r.height,
+               r.radius > 5000 ? Surface::kMountainFar : Surface::kMountain);
   BuildGate(d, far);
 }
 

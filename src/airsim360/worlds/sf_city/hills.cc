@@ -16,7 +16,7 @@ float Smooth(float from, float to, float x) {
 struct Hill {
   float x, y, height, radius;
 };
-constexpr Hill kHills[] = {{-290, 240, 64, 135}, {312, 262, 58, 102}, {-350, -270, 34, 105}, {-1700, 250, 260, 420},
+constexpr Hill kHills[] = {{-290, 240, 64, 135},     {312, 262, 58, 102},    {-350, -270, 34, 105},  {-1700, 250, 260, 420},
                            {-1500, -1100, 150, 450}, {100, -1800, 120, 480}, {-700, -2300, 210, 600}};
 
 // Level across every street, steeper between them: the coordinate that the hills see. It keeps the centre lines.
@@ -34,7 +34,8 @@ float Graded(const std::vector<StreetLine>& lines, float pavement, float x) {
     return a.center + (b.center - a.center) * sum / run;
   }
   // Beyond the outermost streets the ground goes on from their pavements.
-  const float low = lines.front().center, high = lines.back().center, before = lines.front().half_width + pavement, behind = lines.back().half_width + pavement;
+  const float low = lines.front().center, high = lines.back().center, before = lines.front().half_width + pavement,
+              behind = lines.back().half_width + pavement;
   return x < low ? std::min(low, x + before) : std::max(high, x - behind);
 }
 
@@ -70,8 +71,10 @@ StreetPlan PlanSfCity() {
   StreetPlan plan;
   plan.first_core = 1;
   plan.last_core = 7;
-  plan.north_south = {{-488, 6.2f}, {-366, 6.2f}, {-244, 6.6f}, {-122, 6.2f}, {0, 13, StreetKind::kAvenue}, {130, 6.8f}, {252, 6.8f}, {374, 6.2f}, {496, 6.2f}};
-  plan.east_west = {{-368, 6.2f}, {-276, 6.5f}, {-184, 6.5f}, {-96, 6.5f}, {0, 13, StreetKind::kAvenue}, {96, 6.2f}, {188, 6.2f}, {280, 6.2f}, {372, 6.2f}};
+  plan.north_south = {{-488, 6.2f}, {-366, 6.2f}, {-244, 6.6f}, {-122, 6.2f}, {0, 13, StreetKind::kAvenue},
+                      {130, 6.8f},  {252, 6.8f},  {374, 6.2f},  {496, 6.2f}};
+  plan.east_west = {{-368, 6.2f}, {-276, 6.5f}, {-184, 6.5f}, {-96, 6.5f}, {0, 13, StreetKind::kAvenue},
+                    {96, 6.2f},   {188, 6.2f},  {280, 6.2f},  {372, 6.2f}};
   for (int row = 0; row < 8; ++row) {
     for (int column = 0; column < 8; ++column) {
       const StreetLine &west = plan.north_south[static_cast<size_t>(column)], &east = plan.north_south[static_cast<size_t>(column + 1)];
@@ -80,7 +83,8 @@ StreetPlan PlanSfCity() {
       block.column = column;
       block.row = row;
       block.pavement = kPavement;
-      block.kerb = {west.center + west.half_width, south.center + south.half_width, east.center - east.half_width, north.center - north.half_width};
+      block.kerb = {west.center + west.half_width, south.center + south.half_width, east.center - east.half_width,
+                    north.center - north.half_width};
       if (column < 1 || column > 6 || row < 1 || row > 6) block.kind = BlockKind::kBackdrop;
       if (QuarterOf(block) == Quarter::kLake) block.kind = BlockKind::kPark;
       if (QuarterOf(block) == Quarter::kHillPark) block.kind = BlockKind::kPlaza;
@@ -100,7 +104,10 @@ Quarter QuarterOf(const Block& block) {
 }
 
 Hills::Hills(const StreetPlan& plan)
-    : ns_(plan.north_south), ew_(plan.east_west), pavement_(plan.blocks.front().pavement), scale_(kSteepest / SteepestStreet(plan)),
+    : ns_(plan.north_south),
+      ew_(plan.east_west),
+      pavement_(plan.blocks.front().pavement),
+      scale_(kSteepest / SteepestStreet(plan)),
       drape_(LatticeLines(), LatticeLines(), [this](Vec2f p) { return Ground(p); }) {}
 
 // Without the scale that makes the steepest street as steep as it shall be.
@@ -128,9 +135,7 @@ Vec3f Hills::Ground(Vec2f p) const {
 
 float Hills::SteepestStreet(const StreetPlan& plan) const {
   float most = 1e-6f;
-  const auto measure = [&](Vec2f p, Vec2f along) {
-    most = std::max(most, std::abs(Raw(p + along) - Raw(p - along)) / 2);
-  };
+  const auto measure = [&](Vec2f p, Vec2f along) { most = std::max(most, std::abs(Raw(p + along) - Raw(p - along)) / 2); };
   for (const StreetLine& line : plan.north_south)
     for (float y = plan.east_west[1].center; y < plan.east_west[7].center; y += 1) measure({line.center, y}, {0, 1});
   for (const StreetLine& line : plan.east_west)

@@ -9,9 +9,9 @@
 
 namespace airsim360::internal {
 
-inline constexpr float kSteepest = 0.31f;     ///< of the centre lines of its streets, as San Francisco's steepest
-inline constexpr float kLatticeEdge = 560;    ///< the lattice is fine up to there
-inline constexpr float kBayLevel = -1.6f;     ///< of the water of the bay
+inline constexpr float kSteepest = 0.31f;   ///< of the centre lines of its streets, as San Francisco's steepest
+inline constexpr float kLatticeEdge = 560;  ///< the lattice is fine up to there
+inline constexpr float kBayLevel = -1.6f;   ///< of the water of the bay
 inline constexpr float kWorldEdge = 15000;
 
 /// 6 x 6 core blocks in a ring of backdrop blocks. The lake is a kPark, the hill park a kPlaza.

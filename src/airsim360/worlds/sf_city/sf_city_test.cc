@@ -25,7 +25,8 @@ const SfPlan& City() {
 
 // Slope of the laid ground along a centre line, in W, over a metre.
 float SlopeAt(Vec2f p, Vec2f along) {
-  const Vec3f a = TheHills().drape().At({p.x - along.x / 2, p.y - along.y / 2, 0}), b = TheHills().drape().At({p.x + along.x / 2, p.y + along.y / 2, 0});
+  const Vec3f a = TheHills().drape().At({p.x - along.x / 2, p.y - along.y / 2, 0}),
+              b = TheHills().drape().At({p.x + along.x / 2, p.y + along.y / 2, 0});
   return std::abs(b.z - a.z) / std::hypot(b.x - a.x, b.y - a.y);
 }
 
@@ -124,7 +125,8 @@ TEST(SlopeLay, LeansWhatRollsAndKeepsPostsUpright) {
   for (float y = 20; y < 270; y += 1)
     if (const float s = SlopeAt({-244, y}, {0, 1}); s > most) most = s, at.y = y;
   ASSERT_GT(most, 0.1f);
-  const AffineTransform placed = PlaceUpright({at.x, at.y, 0.5f}, 0.4f), post = lay("hill_lamp", placed), car = lay("car", placed), fence = lay("wood_fence", placed);
+  const AffineTransform placed = PlaceUpright({at.x, at.y, 0.5f}, 0.4f), post = lay("hill_lamp", placed), car = lay("car", placed),
+                        fence = lay("wood_fence", placed);
   const auto up = [](const AffineTransform& X) { return Vec3f{X.A.m[0][2], X.A.m[1][2], X.A.m[2][2]}; };
   EXPECT_LT(Norm(up(post) - Vec3f{0, 0, 1}), 1e-5f);
   EXPECT_LT(Norm(up(fence) - Vec3f{0, 0, 1}), 1e-5f);

@@ -21,22 +21,27 @@ struct Rule {
   int group;
 };
 constexpr Rule kTowerRules[] = {
-    {"fire_hydrant", 46, 0.55f, true, 1}, {"trash_can", 26, 0.8f, false, 1}, {"newspaper_box", 44, 0.75f, false, 3}, {"mailbox", 80, 0.8f, false, 1},
-    {"traffic_sign", 28, 0.5f, true, 1},  {"bench_wood", 42, 1.0f, false, 1}, {"electric_box", 52, 0.85f, false, 1}, {"bicycle", 48, 1.1f, true, 3},
-    {"poster_stand", 85, 0.95f, false, 1}, {"parking_meter", 12.4f, 0.45f, false, 1}, {"recycle_bin", 60, 0.8f, false, 1}};
+    {"fire_hydrant", 46, 0.55f, true, 1},      {"trash_can", 26, 0.8f, false, 1},   {"newspaper_box", 44, 0.75f, false, 3},
+    {"mailbox", 80, 0.8f, false, 1},           {"traffic_sign", 28, 0.5f, true, 1}, {"bench_wood", 42, 1.0f, false, 1},
+    {"electric_box", 52, 0.85f, false, 1},     {"bicycle", 48, 1.1f, true, 3},      {"poster_stand", 85, 0.95f, false, 1},
+    {"parking_meter", 12.4f, 0.45f, false, 1}, {"recycle_bin", 60, 0.8f, false, 1}};
 constexpr Rule kShopRules[] = {
-    {"fire_hydrant", 46, 0.55f, true, 1}, {"trash_can", 24, 0.8f, false, 1}, {"newspaper_box", 36, 0.75f, false, 3}, {"mailbox", 75, 0.8f, false, 1},
-    {"traffic_sign", 24, 0.5f, true, 1},  {"bench_wood", 30, 1.0f, false, 1}, {"electric_box", 56, 0.85f, false, 1}, {"bicycle", 30, 1.1f, true, 3},
-    {"poster_stand", 40, 2.6f, false, 1}, {"parking_meter", 6.2f, 0.45f, false, 1}, {"wheelie_bin", 33, 1.0f, true, 2}, {"green_pot", 18, 3.4f, true, 1}};
-constexpr Rule kHouseRules[] = {
-    {"fire_hydrant", 55, 0.55f, true, 1}, {"traffic_sign", 38, 0.5f, true, 1}, {"electric_box", 70, 0.85f, false, 1}, {"wheelie_bin", 30, 0.6f, true, 2},
-    {"mailbox", 140, 0.8f, false, 1},     {"trash_can", 95, 0.8f, false, 1},   {"bicycle", 80, 1.1f, true, 1}};
+    {"fire_hydrant", 46, 0.55f, true, 1},     {"trash_can", 24, 0.8f, false, 1},   {"newspaper_box", 36, 0.75f, false, 3},
+    {"mailbox", 75, 0.8f, false, 1},          {"traffic_sign", 24, 0.5f, true, 1}, {"bench_wood", 30, 1.0f, false, 1},
+    {"electric_box", 56, 0.85f, false, 1},    {"bicycle", 30, 1.1f, true, 3},      {"poster_stand", 40, 2.6f, false, 1},
+    {"parking_meter", 6.2f, 0.45f, false, 1}, {"wheelie_bin", 33, 1.0f, true, 2},  {"green_pot", 18, 3.4f, true, 1}};
+constexpr Rule kHouseRules[] = {{"fire_hydrant", 55, 0.55f, true, 1},  {"traffic_sign", 38, 0.5f, true, 1},
+                                {"electric_box", 70, 0.85f, false, 1}, {"wheelie_bin", 30, 0.6f, true, 2},
+                                {"mailbox", 140, 0.8f, false, 1},      {"trash_can", 95, 0.8f, false, 1},
+                                {"bicycle", 80, 1.1f, true, 1}};
 
 void PlaceByRule(District& d, const PavementSide& side, std::span<const Rule> rules, RngStream& rng) {
   for (const Rule& rule : rules) {
-    for (float s = side.s0 + static_cast<float>(rng.Uniform(0.05, 0.9)) * rule.spacing; s < side.s1; s += rule.spacing * static_cast<float>(rng.Uniform(0.85, 1.15)))
+    for (float s = side.s0 + static_cast<float>(rng.Uniform(0.05, 0.9)) * rule.spacing; s < side.s1;
+         s += rule.spacing * static_cast<float>(rng.Uniform(0.85, 1.15)))
       for (int i = 0; i < rule.group; ++i)
-        d.placer.Try(rule.kind, side.At(s + 0.68f * static_cast<float>(i), rule.depth), FacingYaw(rule.to_street ? side.street() : side.line.inward));
+        d.placer.Try(rule.kind, side.At(s + 0.68f * static_cast<float>(i), rule.depth),
+                     FacingYaw(rule.to_street ? side.street() : side.line.inward));
   }
 }
 
@@ -46,15 +51,16 @@ void PlantTrees(District& d, const PavementSide& side, float pitch, double chanc
     uint32_t variant;
     float scale;
   };
-  static constexpr Tree kTrees[] = {{"tree_generic", 3, 0.66f}, {"tree_generic", 2, 0.72f}, {"tree_generic", 5, 0.8f}, {"tree_generic", 0, 0.68f},
-                                    {"tree_narrowleaf", 0, 0.8f}, {"tree_narrowleaf", 2, 0.85f}};
+  static constexpr Tree kTrees[] = {{"tree_generic", 3, 0.66f}, {"tree_generic", 2, 0.72f},   {"tree_generic", 5, 0.8f},
+                                    {"tree_generic", 0, 0.68f}, {"tree_narrowleaf", 0, 0.8f}, {"tree_narrowleaf", 2, 0.85f}};
   const uint32_t kin = rng.Index(6);
   const EntityId litter = d.builder.AddEntity("fallen leaves", d.builder.tree().At("vegetation/plant"));
   for (float s = side.s0 + 3.5f; s < side.s1 - 2; s += pitch) {
     if (!rng.Chance(chance)) continue;
     const Tree& tree = kTrees[rng.Chance(0.7) ? kin : rng.Index(6)];
     const Vec3f p = side.At(s + static_cast<float>(rng.Uniform(-0.4, 0.4)), 1.1f);
-    if (d.placer.Try(tree.kind, p, static_cast<float>(rng.Uniform(0, kTau)), size * tree.scale * static_cast<float>(rng.Uniform(0.85, 1.1)), {1, 1, 1}, tree.variant)) {
+    if (d.placer.Try(tree.kind, p, static_cast<float>(rng.Uniform(0, kTau)), size * tree.scale * static_cast<float>(rng.Uniform(0.85, 1.1)),
+                     {1, 1, 1}, tree.variant)) {
       LayTreePit(d.ground, {p.x, p.y});
       DropLeaves(d, litter, {p.x, p.y}, 1.0f, 9, 0.012f);
     }
@@ -66,27 +72,35 @@ void PlaceQueues(District& d, const PavementSide& side, RngStream& rng) {
   const auto s = static_cast<float>(rng.Uniform(side.s0 + 4, side.s1 - 18));
   if (rng.Chance(0.45)) {
     const Vec3f a = side.At(s, side.depth - 1.2f), b = side.At(s + 6, side.depth - 1.2f);
-    if (d.placer.Try("rope_bollard", side.At(s + 7.1f, side.depth - 1.2f), FacingYaw(side.street()))) PlaceRun(d, "rope_bollard", {a.x, a.y}, {b.x, b.y}, 0);
+    if (d.placer.Try("rope_bollard", side.At(s + 7.1f, side.depth - 1.2f), FacingYaw(side.street())))
+      PlaceRun(d, "rope_bollard", {a.x, a.y}, {b.x, b.y}, 0);
   }
   if (rng.Chance(0.4))
-    for (int i = 0; i < 5; ++i) d.placer.Try("metal_barricade", side.At(s + 8 + 2.05f * static_cast<float>(i), 0.45f), FacingYaw(side.street()));
+    for (int i = 0; i < 5; ++i)
+      d.placer.Try("metal_barricade", side.At(s + 8 + 2.05f * static_cast<float>(i), 0.45f), FacingYaw(side.street()));
 }
 
 void FurnishSide(District& d, const Block& block, int k, const PavementSide& side, RngStream& rng) {
   const Quarter quarter = QuarterOf(block);
   const std::vector<float> lamps = LampsAlong(d.plan, block, k, side.s0, side.s1, rng);
-  const bool boulevard = (k == 1 && block.column == 3) || (k == 3 && block.column == 4) || (k == 2 && block.row == 3) || (k == 0 && block.row == 4);
+  const bool boulevard =
+      (k == 1 && block.column == 3) || (k == 3 && block.column == 4) || (k == 2 && block.row == 3) || (k == 0 && block.row == 4);
   for (float s : lamps) {
-    const char* kind = boulevard ? "boulevard_lamp" : quarter == Quarter::kHouses || quarter == Quarter::kHillPark ? "hill_lamp" : quarter == Quarter::kShops ? "boulevard_lamp" : "street_light";
+    const char* kind = boulevard                                                      ? "boulevard_lamp"
+                       : quarter == Quarter::kHouses || quarter == Quarter::kHillPark ? "hill_lamp"
+                       : quarter == Quarter::kShops                                   ? "boulevard_lamp"
+                                                                                      : "street_light";
     d.placer.Try(kind, side.At(s, 0.6f), FacingYaw(kind == std::string_view("boulevard_lamp") ? side.line.along : side.street()));
   }
   // Tall lights of the boulevard stand between its globes.
   if (boulevard)
     for (float s = side.s0 + 14; s < side.s1 - 8; s += 33) d.placer.Try("street_light", side.At(s, 0.62f), FacingYaw(side.street()));
   if (quarter == Quarter::kTowers || quarter == Quarter::kShops) {
-    if (k == static_cast<int>((block.column + block.row) % 4) || boulevard) d.placer.Try("bus_stop", side.At((side.s0 + side.s1) / 2 + 3, 1.3f), FacingYaw(side.street()));
+    if (k == static_cast<int>((block.column + block.row) % 4) || boulevard)
+      d.placer.Try("bus_stop", side.At((side.s0 + side.s1) / 2 + 3, 1.3f), FacingYaw(side.street()));
     PlantTrees(d, side, boulevard ? 8.6f : 10.4f, boulevard ? 0.97 : 0.8, boulevard ? 0.9f : 1.0f, rng);
-    if (quarter == Quarter::kShops && rng.Chance(0.75)) PlaceCafeRow(d, side, static_cast<float>(rng.Uniform(side.s0 + 4, side.s1 - 10)), kCafe, rng);
+    if (quarter == Quarter::kShops && rng.Chance(0.75))
+      PlaceCafeRow(d, side, static_cast<float>(rng.Uniform(side.s0 + 4, side.s1 - 10)), kCafe, rng);
     if (quarter == Quarter::kTowers) PlaceQueues(d, side, rng);
     PlaceByRule(d, side, quarter == Quarter::kTowers ? std::span<const Rule>(kTowerRules) : std::span<const Rule>(kShopRules), rng);
     for (float s = side.s0 + 2; s < side.s1 - 2; s += static_cast<float>(rng.Uniform(7, 13)))
@@ -98,7 +112,8 @@ void FurnishSide(District& d, const Block& block, int k, const PavementSide& sid
     PlaceByRule(d, side, kShopRules, rng);
     if (k == 1) PlaceQueues(d, side, rng);
   } else {
-    if (k == static_cast<int>((block.column + 2 * block.row) % 4) && rng.Chance(0.4)) d.placer.Try("bus_stop", side.At((side.s0 + side.s1) / 2, 1.3f), FacingYaw(side.street()));
+    if (k == static_cast<int>((block.column + 2 * block.row) % 4) && rng.Chance(0.4))
+      d.placer.Try("bus_stop", side.At((side.s0 + side.s1) / 2, 1.3f), FacingYaw(side.street()));
     PlaceByRule(d, side, kHouseRules, rng);
   }
 }
@@ -111,12 +126,15 @@ void PlaceRoadWorks(District& d, const StreetStretch& street, float s0, float s1
   d.ground.Begin("open road", "ground/dirt", Surface::kDirt);
   StreetStretch hole = street;
   for (float s = s0 + 9; s < s1 - 8; s += 1)
-    d.ground.Quad(hole.At(s, lane - 0.8f, 0.011f), hole.At(s + 1, lane - 0.8f, 0.011f), hole.At(s + 1, lane + 0.8f, 0.011f), hole.At(s, lane + 0.8f, 0.011f));
+    d.ground.Quad(hole.At(s, lane - 0.8f, 0.011f), hole.At(s + 1, lane - 0.8f, 0.011f), hole.At(s + 1, lane + 0.8f, 0.011f),
+                  hole.At(s, lane + 0.8f, 0.011f));
   for (float s = s0; s < s1; s += 2.4f) d.placer.Try("traffic_tube", at(s, inner), 0, 1, {1, 1, 1});
   for (int i = 0; i < 6; ++i) {
     const float t = static_cast<float>(i) / 5;
-    d.placer.Try("traffic_cone", at(s0 - 1.5f - 1.2f * static_cast<float>(i), inner + (outer - inner) * t), static_cast<float>(rng.Uniform(0, kTau)));
-    d.placer.Try("traffic_cone", at(s1 + 1.5f + 0.8f * static_cast<float>(i), inner + (outer - inner) * t), static_cast<float>(rng.Uniform(0, kTau)));
+    d.placer.Try("traffic_cone", at(s0 - 1.5f - 1.2f * static_cast<float>(i), inner + (outer - inner) * t),
+                 static_cast<float>(rng.Uniform(0, kTau)));
+    d.placer.Try("traffic_cone", at(s1 + 1.5f + 0.8f * static_cast<float>(i), inner + (outer - inner) * t),
+                 static_cast<float>(rng.Uniform(0, kTau)));
   }
   for (float s : {s0 + 4, s1 - 4}) {
     d.placer.Try("water_barrier", at(s, lane - 0.9f), FacingYaw(along));
@@ -167,10 +185,12 @@ void FurnishSfStreets(District& d, const Hills&, const std::vector<StreetStretch
     for (float side : {-1.0f, 1.0f}) {
       const Vec2f heading = forward * -side;
       // A bus at each stop of the avenue; parked cars else.
-      if (avenue && rng.Chance(0.75)) d.placer.Drive("bus", street.At(middle + uniform(-6, 6), side * (hw - 1.7f), -0.004f), FacingYaw(heading));
+      if (avenue && rng.Chance(0.75))
+        d.placer.Drive("bus", street.At(middle + uniform(-6, 6), side * (hw - 1.7f), -0.004f), FacingYaw(heading));
       for (float s = s0 + 3.1f; s + 3.1f < s1 + 0.1f; s += 6.2f) {
         if (!rng.Chance(0.78)) continue;
-        d.placer.Try(rng.Chance(0.86) ? "car" : "van", street.At(s + uniform(-0.25, 0.25), side * (hw - 1.22f), -0.004f), FacingYaw(heading) + uniform(-0.015, 0.015));
+        d.placer.Try(rng.Chance(0.86) ? "car" : "van", street.At(s + uniform(-0.25, 0.25), side * (hw - 1.22f), -0.004f),
+                     FacingYaw(heading) + uniform(-0.015, 0.015));
       }
       std::vector<float> lanes{side * (hw - 2.35f) * 0.5f};
       if (avenue) lanes = {side * 2.0f, side * 5.45f};
@@ -179,7 +199,8 @@ void FurnishSfStreets(District& d, const Hills&, const std::vector<StreetStretch
         for (float s = s0 + uniform(2, 30); s < s1 - 2.5f; s += uniform(avenue ? 16 : 26, avenue ? 60 : 90)) {
           const double pick = rng.Uniform();
           const char* kind = pick < 0.76 ? "car" : pick < 0.88 ? "van" : pick < 0.95 ? "taxi" : "bus";
-          d.placer.Drive(avenue || kind[0] != 'b' ? kind : "car", street.At(s, lane + uniform(-0.2, 0.2), -0.004f), FacingYaw(heading) + uniform(-0.02, 0.02));
+          d.placer.Drive(avenue || kind[0] != 'b' ? kind : "car", street.At(s, lane + uniform(-0.2, 0.2), -0.004f),
+                         FacingYaw(heading) + uniform(-0.02, 0.02));
         }
       }
     }

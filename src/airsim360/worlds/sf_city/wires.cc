@@ -124,7 +124,8 @@ void LayCableCarLine(District& d, const Hills&) {
     const float y = from + (to - from) * (0.12f + 0.25f * static_cast<float>(i)), side = i % 2 ? 1.0f : -1.0f;
     const float track = side * 1.65f;
     d.placer.Reserve({{line.center + track, y}, {1.3f, 4.4f}, 0});
-    d.placer.shelf().Place("cable_car", {line.center + track, y, height(track, y) + 0.016f}, FacingYaw({0, side}), static_cast<uint32_t>(i));
+    d.placer.shelf().Place("cable_car", {line.center + track, y, height(track, y) + 0.016f}, FacingYaw({0, side}),
+                           static_cast<uint32_t>(i));
   }
 }
 

@@ -34,16 +34,19 @@ void LayFrontGarden(District& d, const RowHouse& house, RngStream& rng) {
       for (float s = from + 0.4f; s < s0 - 0.3f; s += static_cast<float>(rng.Uniform(0.6, 1.2))) {
         static constexpr const char* kGreen[] = {"shrub", "plant", "flower_bed", "green_pot", "shrub"};
         const Vec2f p = house.At(s, -static_cast<float>(rng.Uniform(0.5, kSetback - 0.4)));
-        d.placer.Try(kGreen[rng.Index(5)], {p.x, p.y, 0.03f}, static_cast<float>(rng.Uniform(0, kTau)), static_cast<float>(rng.Uniform(0.5, 0.8)));
+        d.placer.Try(kGreen[rng.Index(5)], {p.x, p.y, 0.03f}, static_cast<float>(rng.Uniform(0, kTau)),
+                     static_cast<float>(rng.Uniform(0.5, 0.8)));
       }
-      if (s0 - from > 1.2f && rng.Chance(0.35)) PlaceRun(d, "picket_fence", house.At(from + 0.1f, -kSetback + 0.12f), house.At(s0 - 0.1f, -kSetback + 0.12f), 0.0f);
+      if (s0 - from > 1.2f && rng.Chance(0.35))
+        PlaceRun(d, "picket_fence", house.At(from + 0.1f, -kSetback + 0.12f), house.At(s0 - 0.1f, -kSetback + 0.12f), 0.0f);
     }
     from = std::max(from, s1);
   }
   // Bins by the garage.
   if (rng.Chance(0.55)) {
     for (uint32_t i = 0; i < 3; ++i) {
-      const Vec2f p = house.At(drive + (drive < stoop ? -1.75f : 1.75f) + (drive < stoop ? -0.05f : 0.05f) * static_cast<float>(i), -0.45f - 0.7f * static_cast<float>(i));
+      const Vec2f p = house.At(drive + (drive < stoop ? -1.75f : 1.75f) + (drive < stoop ? -0.05f : 0.05f) * static_cast<float>(i),
+                               -0.45f - 0.7f * static_cast<float>(i));
       d.placer.Try("wheelie_bin", {p.x, p.y, 0.03f}, FacingYaw(house.inward * -1.0f), 1, {1, 1, 1}, i);
     }
   }
@@ -55,9 +58,16 @@ void LayBackYard(District& d, const HillYard& yard, size_t index) {
   const GroundRect plot = yard.rect;
   if (plot.width() < 1 || plot.depth() < 1) return;
   const double pick = rng.Uniform();
-  const bool lawn = pick < 0.74, terrace = pick > 0.8;
-  const EntityId ground = d.ground.Begin(lawn ? "garden lawn" : terrace ? "terrace" : "yard soil", lawn ? "ground/grass" : terrace ? "ground/sidewalk" : "ground/dirt",
-                                         lawn ? Surface::kLawn : terrace ? Surface::kPlazaBrick : Surface::kSoil);
+  const bool lawn = pick<0.74, terrace = pick> 0.8;
+  const EntityId ground = d.ground.Begin(lawn      ? "garden lawn"
+                                         : terrace ? "terrace"
+                                                   : "yard soil",
+                                         lawn      ? "ground/grass"
+                                         : terrace ? "ground/sidewalk"
+                                                   : "ground/dirt",
+                                         lawn      ? Surface::kLawn
+                                         : terrace ? Surface::kPlazaBrick
+                                                   : Surface::kSoil);
   d.ground.Rect(plot, kTop);
   const Vec2f middle = plot.center();
   const float lane = yard.out > 0 ? plot.y1 : plot.y0, house = yard.out > 0 ? plot.y0 : plot.y1;
@@ -65,7 +75,8 @@ void LayBackYard(District& d, const HillYard& yard, size_t index) {
   for (int i = 0; i < (backdrop ? 1 : 2); ++i) {
     const Vec2f p{uniform(plot.x0 + 1.6f, plot.x1 - 1.6f), house + yard.out * uniform(plot.depth() * 0.35f, plot.depth() - 1.5f)};
     const char* kind = rng.Chance(0.55) ? "tree_generic" : rng.Chance(0.6) ? "tree_narrowleaf" : "tree_pine";
-    if (rng.Chance(0.62) && d.placer.Try(kind, {p.x, p.y, kTop - 0.05f}, uniform(0, kTau), uniform(0.5f, 0.8f)) && !backdrop) DropLeaves(d, ground, p, 2.2f, 9, kTop);
+    if (rng.Chance(0.62) && d.placer.Try(kind, {p.x, p.y, kTop - 0.05f}, uniform(0, kTau), uniform(0.5f, 0.8f)) && !backdrop)
+      DropLeaves(d, ground, p, 2.2f, 9, kTop);
   }
   if (backdrop) return;
   PlaceRun(d, "wood_fence", {plot.x0 + 0.06f, house + 0.3f * yard.out}, {plot.x0 + 0.06f, lane - 0.1f * yard.out}, 0);
@@ -73,7 +84,8 @@ void LayBackYard(District& d, const HillYard& yard, size_t index) {
   if (rng.Chance(0.4)) d.placer.Try("bench_wood", {middle.x, house + 1.3f * yard.out, kTop}, FacingYaw({0, yard.out}));
   for (float t = 2; t < plot.depth() - 1.2f; t += uniform(1.0f, 2.2f)) {
     static constexpr const char* kGreen[] = {"shrub", "plant", "green_pot", "shrub", "flower_bed"};
-    d.placer.Try(kGreen[rng.Index(5)], {rng.Chance(0.5) ? plot.x0 + 0.75f : plot.x1 - 0.65f, house + t * yard.out, kTop - 0.01f}, uniform(0, kTau), uniform(0.5f, 0.85f));
+    d.placer.Try(kGreen[rng.Index(5)], {rng.Chance(0.5) ? plot.x0 + 0.75f : plot.x1 - 0.65f, house + t * yard.out, kTop - 0.01f},
+                 uniform(0, kTau), uniform(0.5f, 0.85f));
   }
   if (lawn) GrowGrass(d, ground, plot.Outline(), kTop, 2);
 }
@@ -102,12 +114,14 @@ void PlantBetweenHouses(District& d) {
     if (QuarterOf(block) != Quarter::kHouses) continue;
     const GroundRect inner = block.inner();
     RngStream rng(d.seed, "end yards", i);
-    for (const GroundRect& strip : {GroundRect{inner.x0 + kSetback + 16.1f, inner.y0 + 19, inner.x0 + 24, inner.y1 - 19}, GroundRect{inner.x1 - 24, inner.y0 + 19, inner.x1 - kSetback - 16.1f, inner.y1 - 19}}) {
+    for (const GroundRect& strip : {GroundRect{inner.x0 + kSetback + 16.1f, inner.y0 + 19, inner.x0 + 24, inner.y1 - 19},
+                                    GroundRect{inner.x1 - 24, inner.y0 + 19, inner.x1 - kSetback - 16.1f, inner.y1 - 19}}) {
       const EntityId grass = d.ground.Begin("garden lawn", "ground/grass", Surface::kLawn);
       d.ground.Rect(strip, 0.02f);
       for (float y = strip.y0 + 3; y < strip.y1 - 2; y += static_cast<float>(rng.Uniform(6, 11))) {
         const Vec2f p{strip.center().x, y};
-        d.placer.Try(rng.Chance(0.7) ? "tree_generic" : "tree_pine", {p.x, p.y, 0}, static_cast<float>(rng.Uniform(0, kTau)), static_cast<float>(rng.Uniform(0.5, 0.7)));
+        d.placer.Try(rng.Chance(0.7) ? "tree_generic" : "tree_pine", {p.x, p.y, 0}, static_cast<float>(rng.Uniform(0, kTau)),
+                     static_cast<float>(rng.Uniform(0.5, 0.7)));
       }
       if (block.kind == BlockKind::kBuilt) GrowGrass(d, grass, strip.Outline(), 0.02f, 2);
     }
@@ -146,13 +160,16 @@ void LayOpenGround(District& d, const SfPlan& city) {
     const Quarter quarter = QuarterOf(block);
     if (quarter != Quarter::kShops && quarter != Quarter::kTowers) continue;
     const GroundRect inner = block.inner();
-    d.ground.Begin(quarter == Quarter::kShops ? "yard" : "alley", "ground/sidewalk", quarter == Quarter::kShops ? Surface::kAsphaltOld : Surface::kSlabs);
+    d.ground.Begin(quarter == Quarter::kShops ? "yard" : "alley", "ground/sidewalk",
+                   quarter == Quarter::kShops ? Surface::kAsphaltOld : Surface::kSlabs);
     d.ground.Rect(inner, 0);
     if (block.kind != BlockKind::kBuilt || quarter != Quarter::kShops) continue;
     RngStream rng(d.seed, "shop yard", i);
     const float middle = inner.center().y;
     for (float x = inner.x0 + 6; x < inner.x1 - 6; x += 3.0f) {
-      if (rng.Chance(0.6)) d.placer.Try(rng.Chance(0.8) ? "car" : "van", {x, middle + (rng.Chance(0.5) ? 3.2f : -3.2f), 0}, FacingYaw({0, rng.Chance(0.5) ? 1.0f : -1.0f}));
+      if (rng.Chance(0.6))
+        d.placer.Try(rng.Chance(0.8) ? "car" : "van", {x, middle + (rng.Chance(0.5) ? 3.2f : -3.2f), 0},
+                     FacingYaw({0, rng.Chance(0.5) ? 1.0f : -1.0f}));
       if (rng.Chance(0.2)) d.placer.Try("wheelie_bin", {x, middle + 7.0f, 0}, 0);
     }
     for (int k = 0; k < 6; ++k) {

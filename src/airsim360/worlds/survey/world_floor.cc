@@ -11,27 +11,80 @@ namespace airsim360 {
 namespace {
 
 // Categories that the AirSim360 paper lists for its scenes of these names.
-constexpr std::array kNewYork = {
-    "traffic/barrier/concrete_block", "furniture/misc", "traffic/temporary/cone", "barrier/fence/metal_fence",
-    "construction/pillar", "furniture/lighting/street_light", "furniture/waste/trash_can", "furniture/mail/post_box",
-    "furniture/shade/umbrella", "furniture/table", "furniture/seating/chair", "furniture/planter/green_pot",
-    "traffic/bollard/road_column", "signage/billboard", "construction/awning", "construction/scaffolding",
-    "signage/flag/usa", "vegetation/plant", "construction/rooftop/ventilation_tube", "construction/building",
-    "furniture/vending/hotdog_cart", "ground/road", "ground/sidewalk", "ground/dirt", "sky"};
-constexpr std::array kDowntown = {
-    "barrier/fence/wood_fence", "barrier/railing/pillar", "barrier/railing/rail", "construction/awning",
-    "construction/building", "construction/building/roof", "furniture/lighting/lamp_post", "furniture/lighting/street_light",
-    "furniture/planter/pot", "furniture/seating/bench/wood", "furniture/seating/chair", "furniture/shade/tarp",
-    "furniture/shade/tarp_post", "furniture/shade/umbrella", "furniture/table/dining_table", "furniture/vending/food_cart",
-    "furniture/waste/recycle_bin", "ground/path/park_walkway", "ground/pavement/modular", "ground/road",
-    "ground/terrain/landscape", "nature/mountain", "nature/rock", "signage/poster_stand", "traffic/bollard/car_pillar",
-    "vegetation/tree/broadleaf/generic", "vegetation/tree/broadleaf/narrowleaf", "vegetation/tree/conifer/pine", "sky"};
-constexpr std::array kSanFrancisco = {
-    "construction/building", "ground/sidewalk", "ground/road", "vehicle/bus", "barrier/fence", "traffic/temporary/cone",
-    "furniture/utility/fire_hydrant", "furniture/utility/parking_meter", "furniture/transit/bus_stop", "furniture/utility/electric_box",
-    "furniture/waste/trash", "traffic/temporary/tube", "traffic/barrier/barrier", "furniture/lighting/lamp_post/type_a",
-    "furniture/lighting/lamp_post/type_b", "water/lake", "barrier/rope_bollard", "traffic/barrier/metal_barricade",
-    "vegetation/tree/broadleaf/generic", "sky"};
+constexpr std::array kNewYork = {"traffic/barrier/concrete_block",
+                                 "furniture/misc",
+                                 "traffic/temporary/cone",
+                                 "barrier/fence/metal_fence",
+                                 "construction/pillar",
+                                 "furniture/lighting/street_light",
+                                 "furniture/waste/trash_can",
+                                 "furniture/mail/post_box",
+                                 "furniture/shade/umbrella",
+                                 "furniture/table",
+                                 "furniture/seating/chair",
+                                 "furniture/planter/green_pot",
+                                 "traffic/bollard/road_column",
+                                 "signage/billboard",
+                                 "construction/awning",
+                                 "construction/scaffolding",
+                                 "signage/flag/usa",
+                                 "vegetation/plant",
+                                 "construction/rooftop/ventilation_tube",
+                                 "construction/building",
+                                 "furniture/vending/hotdog_cart",
+                                 "ground/road",
+                                 "ground/sidewalk",
+                                 "ground/dirt",
+                                 "sky"};
+constexpr std::array kDowntown = {"barrier/fence/wood_fence",
+                                  "barrier/railing/pillar",
+                                  "barrier/railing/rail",
+                                  "construction/awning",
+                                  "construction/building",
+                                  "construction/building/roof",
+                                  "furniture/lighting/lamp_post",
+                                  "furniture/lighting/street_light",
+                                  "furniture/planter/pot",
+                                  "furniture/seating/bench/wood",
+                                  "furniture/seating/chair",
+                                  "furniture/shade/tarp",
+                                  "furniture/shade/tarp_post",
+                                  "furniture/shade/umbrella",
+                                  "furniture/table/dining_table",
+                                  "furniture/vending/food_cart",
+                                  "furniture/waste/recycle_bin",
+                                  "ground/path/park_walkway",
+                                  "ground/pavement/modular",
+                                  "ground/road",
+                                  "ground/terrain/landscape",
+                                  "nature/mountain",
+                                  "nature/rock",
+                                  "signage/poster_stand",
+                                  "traffic/bollard/car_pillar",
+                                  "vegetation/tree/broadleaf/generic",
+                                  "vegetation/tree/broadleaf/narrowleaf",
+                                  "vegetation/tree/conifer/pine",
+                                  "sky"};
+constexpr std::array kSanFrancisco = {"construction/building",
+                                      "ground/sidewalk",
+                                      "ground/road",
+                                      "vehicle/bus",
+                                      "barrier/fence",
+                                      "traffic/temporary/cone",
+                                      "furniture/utility/fire_hydrant",
+                                      "furniture/utility/parking_meter",
+                                      "furniture/transit/bus_stop",
+                                      "furniture/utility/electric_box",
+                                      "furniture/waste/trash",
+                                      "traffic/temporary/tube",
+                                      "traffic/barrier/barrier",
+                                      "furniture/lighting/lamp_post/type_a",
+                                      "furniture/lighting/lamp_post/type_b",
+                                      "water/lake",
+                                      "barrier/rope_bollard",
+                                      "traffic/barrier/metal_barricade",
+                                      "vegetation/tree/broadleaf/generic",
+                                      "sky"};
 
 // Those with three entities or more (there is one sky, and one lake is a lake).
 template <size_t N>
@@ -63,8 +116,8 @@ double SfStyles() {
 }
 
 struct Floor {
-  double area, inside, backdrop, styles, lamps, cars, manholes, instances, triangles, trees, species, meshes, road, pavement,
-      categories, entities;
+  double area, inside, backdrop, styles, lamps, cars, manholes, instances, triangles, trees, species, meshes, road, pavement, categories,
+      entities;
 };
 
 }  // namespace
@@ -74,9 +127,10 @@ std::vector<FloorRow> StructuralFloor(std::string_view world, const WorldSurvey&
   if (!new_york && !sf && world != "downtown_west") return {};
   const Floor floor = sf         ? Floor{250000, 110, 60, 10, 440, 710, 200, 110e3, 200e6, 500, 2, 8, 4100, 8100, 20, 10000}
                       : new_york ? Floor{44800, 20, 60, 8, 80, 130, 35, 20e3, 50e6, 60, 2, 6, 700, 1500, 25, 3000}
-                               : Floor{60000, 27, 60, 5, 100, 60, 30, 27e3, 60e6, 150, 3, 9, 1000, 1900, 29, 3000};
+                                 : Floor{60000, 27, 60, 5, 100, 60, 30, 27e3, 60e6, 150, 3, 9, 1000, 1900, 29, 3000};
   const StreetPlan plan = new_york ? PlanNewYorkCity() : PlanDowntownWest();
-  const double styles = sf ? SfStyles() : Styles(new_york ? internal::PlanManhattan(plan, {}).buildings : PlanBuildings(plan, 0), plan.reach());
+  const double styles =
+      sf ? SfStyles() : Styles(new_york ? internal::PlanManhattan(plan, {}).buildings : PlanBuildings(plan, 0), plan.reach());
   return {{"ground, m2", floor.area, s.ground_area_m2},
           {"buildings inside", floor.inside, static_cast<double>(s.buildings_inside)},
           {"buildings of the backdrop to 600 m", floor.backdrop, static_cast<double>(s.buildings_backdrop)},
@@ -92,7 +146,9 @@ std::vector<FloorRow> StructuralFloor(std::string_view world, const WorldSurvey&
           {"road, m", floor.road, s.road_m},
           {"pavement, m", floor.pavement, s.pavement_m},
           {"categories of the paper, three each", floor.categories,
-           sf ? Present(kSanFrancisco, s) : new_york ? Present(kNewYork, s) : Present(kDowntown, s)},
+           sf         ? Present(kSanFrancisco, s)
+           : new_york ? Present(kNewYork, s)
+                      : Present(kDowntown, s)},
           {"entities", floor.entities, static_cast<double>(s.counts.entities)}};
 }
 

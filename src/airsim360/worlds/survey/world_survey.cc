@@ -53,8 +53,7 @@ WorldSurvey SurveyWorld(const Scene& scene) {
     survey.cars += path == "vehicle/car" || path == "vehicle/van";
     survey.manholes += entity.name.starts_with("manhole");
     survey.trees += is_tree[entity.id];
-    if (path == "ground/road" && !entity.name.starts_with("junction"))
-      survey.road_m += Longest(entity.bounds);
+    if (path == "ground/road" && !entity.name.starts_with("junction")) survey.road_m += Longest(entity.bounds);
     if (entity.name.starts_with("pavement ")) survey.pavement_m += Longest(entity.bounds);
   }
   std::set<MeshId> meshes;

@@ -18,8 +18,8 @@ struct WorldSurvey {
   int buildings_inside = 0, buildings_backdrop = 0;
   int lamp_posts = 0, cars = 0, manholes = 0;        ///< inside
   int trees = 0, tree_species = 0, tree_meshes = 0;  ///< trees inside; species and individual meshes used
-  double road_m = 0, pavement_m = 0;      ///< longest sides of road segments, pavement fields inside
-  std::map<std::string, int> categories;  ///< entities by category path
+  double road_m = 0, pavement_m = 0;                 ///< longest sides of road segments, pavement fields inside
+  std::map<std::string, int> categories;             ///< entities by category path
 };
 WorldSurvey SurveyWorld(const Scene& scene);
 

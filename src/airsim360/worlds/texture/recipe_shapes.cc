@@ -23,8 +23,7 @@ Unit Bond(float u, float v, float tile, int columns, int rows, float offset) {
 }
 
 Unit Herringbone(float u, float v, float tile, int n) {
-  const float x = u * static_cast<float>(n), y = v * static_cast<float>(n),
-              cell = tile / static_cast<float>(n);
+  const float x = u * static_cast<float>(n), y = v * static_cast<float>(n), cell = tile / static_cast<float>(n);
   const int ix = static_cast<int>(x), iy = static_cast<int>(y);
   const float fx = x - std::floor(x), fy = y - std::floor(y);
   // In row iy the pattern is shifted by iy: two cells of a lying brick, then one cell each of two standing

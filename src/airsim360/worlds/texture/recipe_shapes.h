@@ -60,7 +60,6 @@ Texel Shop(float u, float v, uint32_t kind);
 struct Lattice {
   int columns, rows;
 };
-inline constexpr Lattice kSlabUnits{4, 6}, kBrickUnits{8, 26}, kAshlarUnits{5, 10}, kSettUnits{18, 18},
-    kSlateUnits{8, 10};
+inline constexpr Lattice kSlabUnits{4, 6}, kBrickUnits{8, 26}, kAshlarUnits{5, 10}, kSettUnits{18, 18}, kSlateUnits{8, 10};
 
 }  // namespace airsim360::internal

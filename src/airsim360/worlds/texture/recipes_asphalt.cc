@@ -28,8 +28,7 @@ Vec3f ChipColor(uint32_t id, uint32_t seed) {
 float Bareness(const AsphaltAge& age, uint32_t id, float top, float rim, float noise) {
   if (id == 0) return 0;
   const float kept = HashUnit(id, age.seed, 3) < 0.25f ? 0.35f : 0.0f;
-  return std::clamp(age.bare * (0.55f + 0.75f * top) + 0.1f * noise - kept, 0.0f, 1.0f) *
-         (1 - 0.5f * Step(0.6f, 1.0f, rim));
+  return std::clamp(age.bare * (0.55f + 0.75f * top) + 0.1f * noise - kept, 0.0f, 1.0f) * (1 - 0.5f * Step(0.6f, 1.0f, rim));
 }
 
 Field PaintAsphalt(SurfaceMaps& m, const AsphaltAge& age) {
@@ -42,8 +41,7 @@ Field PaintAsphalt(SurfaceMaps& m, const AsphaltAge& age) {
     const float bare = Bareness(age, stone.id[i], top, stone.rim[i], mid[i]);
     const float dust = std::clamp(0.35f * age.bare * (1 - top), 0.0f, 1.0f);
     const Vec3f binder = Mix(age.binder * (1 + 0.10f * fine[i]), Vec3f{0.20f, 0.185f, 0.165f}, 0.55f * dust);
-    m.SetColor(i,
-               Mix(binder, ChipColor(stone.id[i], age.seed) * age.chips, 0.8f * bare) * (1 + 0.05f * mid[i]));
+    m.SetColor(i, Mix(binder, ChipColor(stone.id[i], age.seed) * age.chips, 0.8f * bare) * (1 + 0.05f * mid[i]));
     m.height[i] = std::max(stone.height[i], -0.0023f) + 0.0001f * fine[i] + 0.0002f * mid[i];
     m.roughness[i] = 0.66f + 0.025f * fine[i] + 0.07f * (1 - top) - 0.05f * bare;
     tops[i] = top;
@@ -51,8 +49,8 @@ Field PaintAsphalt(SurfaceMaps& m, const AsphaltAge& age) {
   return tops;
 }
 
-constexpr AsphaltAge kAged{0.75f, {0.088f, 0.086f, 0.082f}, 1.0f, 11},
-    kFresh{0.12f, {0.044f, 0.044f, 0.046f}, 0.6f, 12}, kUnderPaint{0.8f, {0.095f, 0.092f, 0.087f}, 1.0f, 13};
+constexpr AsphaltAge kAged{0.75f, {0.088f, 0.086f, 0.082f}, 1.0f, 11}, kFresh{0.12f, {0.044f, 0.044f, 0.046f}, 0.6f, 12},
+    kUnderPaint{0.8f, {0.095f, 0.092f, 0.087f}, 1.0f, 13};
 
 }  // namespace
 
@@ -72,11 +70,10 @@ void PaintWorn(SurfaceMaps& m) {
   const Field grain = m.Noise(191, 0.02f, 5, 0.65f), soft = m.Noise(192, 0.4f, 5, 0.6f);
   const Field crack = LineField(m.size, m.tile, 4, 0.35f, 0.03f, 193);
   m.ForEach([&](size_t i, float, float) {
-    const float wear = 0.45f + 0.20f * soft[i] + 0.22f * grain[i] -
-                       0.55f * top[i] * Step(-1.2f, 1.4f, -soft[i]) - 1.2f * Step(0.008f, 0.002f, crack[i]);
+    const float wear =
+        0.45f + 0.20f * soft[i] + 0.22f * grain[i] - 0.55f * top[i] * Step(-1.2f, 1.4f, -soft[i]) - 1.2f * Step(0.008f, 0.002f, crack[i]);
     const float left = Step(-0.35f, 0.05f, wear), dirt = std::clamp(0.20f - 0.10f * soft[i], 0.0f, 1.0f);
-    const Vec3f paint =
-        Mix(Vec3f{0.70f, 0.695f, 0.66f}, Vec3f{0.19f, 0.175f, 0.15f}, 0.7f * dirt) * (1 + 0.03f * grain[i]);
+    const Vec3f paint = Mix(Vec3f{0.70f, 0.695f, 0.66f}, Vec3f{0.19f, 0.175f, 0.15f}, 0.7f * dirt) * (1 + 0.03f * grain[i]);
     // What is gone leaves paint in the pores.
     m.SetColor(i, Mix(Mix(m.color(i), Vec3f{0.34f, 0.335f, 0.32f}, 0.25f), paint, left));
     m.height[i] = Mix(m.height[i], 0.45f * m.height[i] + 0.0011f, 0.8f * left);

@@ -21,8 +21,7 @@ void PaintGravel(SurfaceMaps& m, const StoneOptions& stones, Vec3f fines, float 
   const Field fine = m.Noise(seed + 1, 0.012f, 3, 0.7f), soft = m.Noise(seed + 2, 0.25f, 5, 0.55f);
   m.ForEach([&](size_t i, float, float) {
     const uint32_t id = stone.id[i];
-    const Vec3f rock = kRocks[static_cast<size_t>(HashUnit(id, seed, 1) * 6)] *
-                       (pale * (0.8f + 0.4f * HashUnit(id, seed, 2)));
+    const Vec3f rock = kRocks[static_cast<size_t>(HashUnit(id, seed, 1) * 6)] * (pale * (0.8f + 0.4f * HashUnit(id, seed, 2)));
     // Deep stones and the rims between them lie in each other's shade.
     const float shade = 0.62f + 0.38f * Step(-0.011f, 0.0f, stone.height[i]);
     const Vec3f c = id == 0 ? fines * 0.7f : rock * (1 - 0.22f * Step(0.7f, 1.0f, stone.rim[i]));
@@ -47,8 +46,7 @@ void PaintBlade(SurfaceMaps& m, const Turf& turf, uint32_t k) {
   const float width = (0.0012f + 0.0016f * h(2)) * scale, bend = 1.6f * (h(3) - 0.5f);
   const float foot = -0.012f + 0.010f * h(4), rise = 0.004f + 0.016f * h(5), n = static_cast<float>(m.size);
   const bool dead = h(6) < turf.dry;
-  const Vec3f green =
-      Mix(Vec3f{0.075f, 0.112f, 0.026f}, Vec3f{0.205f, 0.235f, 0.070f}, h(7) * h(7) * 0.6f + 0.4f * h(8));
+  const Vec3f green = Mix(Vec3f{0.075f, 0.112f, 0.026f}, Vec3f{0.205f, 0.235f, 0.070f}, h(7) * h(7) * 0.6f + 0.4f * h(8));
   const Vec3f color = dead ? Mix(Vec3f{0.33f, 0.275f, 0.13f}, Vec3f{0.25f, 0.20f, 0.12f}, h(7)) : green;
   float x = h(9) * n, y = h(10) * n, angle = 6.2831853f * h(11);
   const int steps = std::max(2, static_cast<int>(length));
@@ -57,8 +55,7 @@ void PaintBlade(SurfaceMaps& m, const Turf& turf, uint32_t k) {
     const float height = foot + rise * t * (1.6f - t), light = 0.62f + 0.5f * t;
     const float across_x = -std::sin(angle), across_y = std::cos(angle);
     for (float s = -w; s <= w + 0.01f; s += 0.5f) {
-      const size_t i = m.height.Index(static_cast<int>(std::floor(x + s * across_x)),
-                                      static_cast<int>(std::floor(y + s * across_y)));
+      const size_t i = m.height.Index(static_cast<int>(std::floor(x + s * across_x)), static_cast<int>(std::floor(y + s * across_y)));
       if (height < m.height[i]) continue;
       m.height[i] = height - 0.0006f * s * s / std::max(w * w, 0.1f);
       m.SetColor(i, color * light);
@@ -81,15 +78,12 @@ void PaintTurf(SurfaceMaps& m, const Turf& turf) {
   for (uint32_t k = 0; k < blades; ++k) PaintBlade(m, turf, k);
   const auto leaves = static_cast<uint32_t>(turf.clover * m.tile * m.tile);
   for (uint32_t k = 0; k < leaves; ++k) {
-    const float n = static_cast<float>(m.size), x = HashUnit(k, turf.seed, 31) * n,
-                y = HashUnit(k, turf.seed, 32) * n;
-    const float r = (0.003f + 0.003f * HashUnit(k, turf.seed, 33)) * m.texels_per_metre(),
-                a = 6.28f * HashUnit(k, turf.seed, 34);
+    const float n = static_cast<float>(m.size), x = HashUnit(k, turf.seed, 31) * n, y = HashUnit(k, turf.seed, 32) * n;
+    const float r = (0.003f + 0.003f * HashUnit(k, turf.seed, 33)) * m.texels_per_metre(), a = 6.28f * HashUnit(k, turf.seed, 34);
     for (int leaf = 0; leaf < 3; ++leaf) {
       const float b = a + 2.094f * static_cast<float>(leaf);
       Stamp(m.height, x + 0.9f * r * std::cos(b), y + 0.9f * r * std::sin(b), r, [&](size_t i, float d) {
-        m.SetColor(i, Vec3f{0.072f, 0.125f, 0.036f} * (0.8f + 0.45f * HashUnit(k, turf.seed, 35)) *
-                          (1.1f - 0.3f * d));
+        m.SetColor(i, Vec3f{0.072f, 0.125f, 0.036f} * (0.8f + 0.45f * HashUnit(k, turf.seed, 35)) * (1.1f - 0.3f * d));
         m.height[i] = 0.004f - 0.001f * d * d;
         m.roughness[i] = 0.55f;
       });
@@ -103,13 +97,11 @@ void PaintTurf(SurfaceMaps& m, const Turf& turf) {
 }  // namespace
 
 void GravelPath(SurfaceMaps& m) {
-  PaintGravel(m, {0.003f, 0.011f, 1.7f, 0.45f, 0.42f, -0.008f, -0.002f, 0.15f}, {0.30f, 0.25f, 0.19f}, 1.4f,
-              61);
+  PaintGravel(m, {0.003f, 0.011f, 1.7f, 0.45f, 0.42f, -0.008f, -0.002f, 0.15f}, {0.30f, 0.25f, 0.19f}, 1.4f, 61);
 }
 
 void RoofGravel(SurfaceMaps& m) {
-  PaintGravel(m, {0.004f, 0.018f, 2.0f, 0.35f, 0.75f, -0.010f, -0.002f, 0.15f}, {0.12f, 0.115f, 0.11f}, 1,
-              131);
+  PaintGravel(m, {0.004f, 0.018f, 2.0f, 0.35f, 0.75f, -0.010f, -0.002f, 0.15f}, {0.12f, 0.115f, 0.11f}, 1, 131);
 }
 
 void Grass(SurfaceMaps& m) { PaintTurf(m, {26000, 0.012f, 0.055f, 0.13f, 260, 71}); }
@@ -140,11 +132,8 @@ Texel Rock(float u, float v) {
 Texel Fields(float u, float v) {
   const WorleyResult field = TilingWorley(181, u, v, 9);
   const float hedge = Step(0.06f, 0.02f, field.second - field.first), soft = TilingFbm(182, u, v, 12, 5);
-  constexpr std::array<Vec3f, 5> kCrops = {{{0.12f, 0.17f, 0.06f},
-                                            {0.20f, 0.20f, 0.09f},
-                                            {0.16f, 0.13f, 0.08f},
-                                            {0.09f, 0.14f, 0.05f},
-                                            {0.24f, 0.22f, 0.14f}}};
+  constexpr std::array<Vec3f, 5> kCrops = {
+      {{0.12f, 0.17f, 0.06f}, {0.20f, 0.20f, 0.09f}, {0.16f, 0.13f, 0.08f}, {0.09f, 0.14f, 0.05f}, {0.24f, 0.22f, 0.14f}}};
   const Vec3f crop = kCrops[static_cast<size_t>(HashUnit(field.cell, 1) * 5)];
   return {Mix(crop * (1 + 0.25f * soft), {0.05f, 0.08f, 0.035f}, hedge), 0, 0.9f};
 }

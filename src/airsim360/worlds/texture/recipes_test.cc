@@ -36,13 +36,11 @@ class EveryRecipe : public testing::TestWithParam<Recipe> {
   const TextureSet& set() const {
     static std::map<Recipe, TextureSet> sets;
     const auto it = sets.find(GetParam());
-    return it != sets.end() ? it->second
-                            : sets.emplace(GetParam(), SynthesizeTextures(recipe(), kSize)).first->second;
+    return it != sets.end() ? it->second : sets.emplace(GetParam(), SynthesizeTextures(recipe(), kSize)).first->second;
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Textures, EveryRecipe, testing::ValuesIn(AllRecipes()),
-                         [](const auto& info) { return NameOf(info.param); });
+INSTANTIATE_TEST_SUITE_P(Textures, EveryRecipe, testing::ValuesIn(AllRecipes()), [](const auto& info) { return NameOf(info.param); });
 
 // The step over the border is no larger than the largest inside, in all channels and both directions.
 TEST_P(EveryRecipe, TilesWithoutSeamsInEveryChannel) {
@@ -54,8 +52,7 @@ TEST_P(EveryRecipe, TilesWithoutSeamsInEveryChannel) {
       const auto step = [&](int i) {
         double sum = 0;
         for (int k = 0; k < kSize; ++k) {
-          const Rgba8 a = down ? image(k, i) : image(i, k),
-                      b = down ? image(k, (i + 1) % kSize) : image((i + 1) % kSize, k);
+          const Rgba8 a = down ? image(k, i) : image(i, k), b = down ? image(k, (i + 1) % kSize) : image((i + 1) % kSize, k);
           sum += std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
         }
         return sum;
@@ -110,8 +107,7 @@ TEST_P(EveryRecipe, LevelsHalveToOneTexelAndKeepTheMean) {
       means.push_back(sum / static_cast<double>(level.size()));
     }
     // Normals are made units again at every level, and may lean a little more or less.
-    for (double mean : means)
-      EXPECT_NEAR(mean, means[0], texture == &set().normal ? 0.03 : 0.012) << texture->name;
+    for (double mean : means) EXPECT_NEAR(mean, means[0], texture == &set().normal ? 0.03 : 0.012) << texture->name;
   }
   EXPECT_TRUE(set().color.srgb);
   EXPECT_FALSE(set().normal.srgb);
@@ -150,16 +146,14 @@ void PrintTo(const Pattern& pattern, std::ostream* out) { *out << pattern.name; 
 
 class EveryBond : public testing::TestWithParam<Pattern> {};
 
-INSTANTIATE_TEST_SUITE_P(
-    Textures, EveryBond,
-    testing::Values(Pattern{"brick", [](float u, float v) { return Bond(u, v, 2, 8, 26, 0.5f); }, 208, 2},
-                    Pattern{"slabs", [](float u, float v) { return Bond(u, v, 3, 4, 6, 0.5f); }, 24, 3},
-                    Pattern{"stack", [](float u, float v) { return Bond(u, v, 1, 5, 5, 0); }, 25, 1},
-                    Pattern{"third", [](float u, float v) { return Bond(u, v, 2, 6, 12, 0.33f); }, 72, 2},
-                    Pattern{"herringbone4", [](float u, float v) { return Herringbone(u, v, 1, 4); }, 8, 1},
-                    Pattern{"herringbone12", [](float u, float v) { return Herringbone(u, v, 2, 12); }, 72,
-                            2}),
-    [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Textures, EveryBond,
+                         testing::Values(Pattern{"brick", [](float u, float v) { return Bond(u, v, 2, 8, 26, 0.5f); }, 208, 2},
+                                         Pattern{"slabs", [](float u, float v) { return Bond(u, v, 3, 4, 6, 0.5f); }, 24, 3},
+                                         Pattern{"stack", [](float u, float v) { return Bond(u, v, 1, 5, 5, 0); }, 25, 1},
+                                         Pattern{"third", [](float u, float v) { return Bond(u, v, 2, 6, 12, 0.33f); }, 72, 2},
+                                         Pattern{"herringbone4", [](float u, float v) { return Herringbone(u, v, 1, 4); }, 8, 1},
+                                         Pattern{"herringbone12", [](float u, float v) { return Herringbone(u, v, 2, 12); }, 72, 2}),
+                         [](const auto& info) { return info.param.name; });
 
 TEST_P(EveryBond, UnitsAreEqualAndTheirEdgesAreJoints) {
   constexpr int kFine = 480;
@@ -167,8 +161,7 @@ TEST_P(EveryBond, UnitsAreEqualAndTheirEdgesAreJoints) {
   std::vector<Unit> units;
   for (int y = 0; y < kFine; ++y)
     for (int x = 0; x < kFine; ++x) {
-      const Unit unit =
-          GetParam().at((static_cast<float>(x) + 0.5f) / kFine, (static_cast<float>(y) + 0.5f) / kFine);
+      const Unit unit = GetParam().at((static_cast<float>(x) + 0.5f) / kFine, (static_cast<float>(y) + 0.5f) / kFine);
       ++cells[unit.id];
       ASSERT_GE(unit.edge, -1e-5f);
       ASSERT_GE(std::min(unit.x, unit.y), -1e-4f);
@@ -182,8 +175,7 @@ TEST_P(EveryBond, UnitsAreEqualAndTheirEdgesAreJoints) {
   const float texel = GetParam().tile / kFine;
   for (int y = 0; y < kFine; ++y)
     for (int x = 0; x < kFine; ++x) {
-      const Unit &a = units[static_cast<size_t>(y * kFine + x)],
-                 &b = units[static_cast<size_t>(y * kFine + (x + 1) % kFine)];
+      const Unit &a = units[static_cast<size_t>(y * kFine + x)], &b = units[static_cast<size_t>(y * kFine + (x + 1) % kFine)];
       if (a.id != b.id) {
         ASSERT_LT(std::min(a.edge, b.edge), 1.5f * texel);
       }
@@ -198,8 +190,7 @@ TEST_P(EveryPeriod, NoiseStaysWithinItsRangeAndCloses) {
   const int period = GetParam();
   for (uint32_t seed : {1u, 99u}) {
     for (int i = 0; i < 400; ++i) {
-      const float x = 0.173f * static_cast<float>(i), y = 0.719f * static_cast<float>(i % 37),
-                  p = static_cast<float>(period);
+      const float x = 0.173f * static_cast<float>(i), y = 0.719f * static_cast<float>(i % 37), p = static_cast<float>(period);
       const float noise = TilingNoise(seed, x, y, period);
       EXPECT_LE(std::abs(noise), 1);
       EXPECT_NEAR(noise, TilingNoise(seed, x + p, y, period), 1e-3);

@@ -21,8 +21,7 @@ struct BrickStyle {
 
 void PaintBricks(SurfaceMaps& m, const BrickStyle& s) {
   const Field grain = m.Noise(s.seed, 0.012f, 4, 0.7f), chip = m.Noise(s.seed + 1, 0.035f, 4, 0.6f),
-              soft = m.Noise(s.seed + 2, 0.4f, 6, 0.55f),
-              drag = FractalField(m.size, s.seed + 3, m.Cells(0.12f), m.Cells(0.01f), 3, 0.6f);
+              soft = m.Noise(s.seed + 2, 0.4f, 6, 0.55f), drag = FractalField(m.size, s.seed + 3, m.Cells(0.12f), m.Cells(0.01f), 3, 0.6f);
   const Field run = DripField(m.size, m.tile, 5, 0.05f, 1.2f, s.seed + 4);
   m.ForEach([&](size_t i, float u, float v) {
     const Unit brick = Bond(u, v, m.tile, kBrickUnits.columns, kBrickUnits.rows, 0.5f);
@@ -42,8 +41,7 @@ void PaintBricks(SurfaceMaps& m, const BrickStyle& s) {
     }
     shown = shown * (1 - s.soot * (0.10f * Step(0.0f, 1.6f, soft[i]) + 0.14f * Step(0.4f, 3.0f, run[i])));
     m.SetColor(i, shown);
-    m.height[i] =
-        0.0022f * (tone - 0.5f) - 0.0055f * joint - 0.0010f * rim + 0.00030f * grain[i] + 0.00016f * drag[i];
+    m.height[i] = 0.0022f * (tone - 0.5f) - 0.0055f * joint - 0.0010f * rim + 0.00030f * grain[i] + 0.00016f * drag[i];
     m.roughness[i] = rough;
   });
 }
@@ -51,44 +49,22 @@ void PaintBricks(SurfaceMaps& m, const BrickStyle& s) {
 }  // namespace
 
 void BrickRed(SurfaceMaps& m) {
-  PaintBricks(m, {{0.35f, 0.135f, 0.090f},
-                  {0.28f, 0.105f, 0.078f},
-                  {0.105f, 0.072f, 0.066f},
-                  0.10f,
-                  {0.40f, 0.37f, 0.32f},
-                  1.0f,
-                  0.6f,
-                  0,
-                  91});
+  PaintBricks(
+      m, {{0.35f, 0.135f, 0.090f}, {0.28f, 0.105f, 0.078f}, {0.105f, 0.072f, 0.066f}, 0.10f, {0.40f, 0.37f, 0.32f}, 1.0f, 0.6f, 0, 91});
 }
 void BrickStock(SurfaceMaps& m) {
-  PaintBricks(m, {{0.40f, 0.295f, 0.155f},
-                  {0.32f, 0.225f, 0.125f},
-                  {0.165f, 0.125f, 0.095f},
-                  0.16f,
-                  {0.33f, 0.305f, 0.26f},
-                  1.5f,
-                  1.0f,
-                  0,
-                  191});
+  PaintBricks(
+      m, {{0.40f, 0.295f, 0.155f}, {0.32f, 0.225f, 0.125f}, {0.165f, 0.125f, 0.095f}, 0.16f, {0.33f, 0.305f, 0.26f}, 1.5f, 1.0f, 0, 191});
 }
 void BrickPainted(SurfaceMaps& m) {
-  PaintBricks(m, {{0.34f, 0.14f, 0.095f},
-                  {0.27f, 0.105f, 0.078f},
-                  {0.12f, 0.08f, 0.07f},
-                  0.08f,
-                  {0.36f, 0.33f, 0.29f},
-                  1.2f,
-                  0.7f,
-                  0.19f,
-                  291});
+  PaintBricks(
+      m, {{0.34f, 0.14f, 0.095f}, {0.27f, 0.105f, 0.078f}, {0.12f, 0.08f, 0.07f}, 0.08f, {0.36f, 0.33f, 0.29f}, 1.2f, 0.7f, 0.19f, 291});
 }
 
 // Dressed limestone in regular courses: fine tooling, pits, a weathered skin.
 void Ashlar(SurfaceMaps& m) {
   const Field grain = m.Noise(101, 0.012f, 4, 0.7f), soft = m.Noise(102, 0.5f, 6, 0.55f),
-              bed = FractalField(m.size, 103, m.Cells(0.5f), m.Cells(0.03f), 4, 0.6f),
-              edge = m.Noise(104, 0.04f, 4, 0.6f);
+              bed = FractalField(m.size, 103, m.Cells(0.5f), m.Cells(0.03f), 4, 0.6f), edge = m.Noise(104, 0.04f, 4, 0.6f);
   const Field run = DripField(m.size, m.tile, 4, 0.07f, 1.4f, 105);
   m.ForEach([&](size_t i, float u, float v) {
     const Unit stone = Bond(u, v, m.tile, kAshlarUnits.columns, kAshlarUnits.rows, 0.5f);
@@ -98,21 +74,18 @@ void Ashlar(SurfaceMaps& m) {
     float y = 0.5f * (0.93f + 0.14f * tone) * (1 + 0.035f * grain[i] + 0.045f * soft[i] + 0.025f * bed[i]);
     y *= (1 - 0.36f * joint) * (1 - 0.22f * pit) * (1 - 0.10f * Step(0.5f, 3.0f, run[i]));
     m.SetColor(i, Mix(Vec3f{1.03f, 1, 0.94f}, Vec3f{0.98f, 1, 1.02f}, HashUnit(stone.id, 6)) * y);
-    m.height[i] = 0.0026f * (tone - 0.5f) - 0.0062f * joint - 0.0020f * arris - 0.0022f * pit +
-                  0.0004f * grain[i] + 0.0003f * bed[i];
+    m.height[i] = 0.0026f * (tone - 0.5f) - 0.0062f * joint - 0.0020f * arris - 0.0022f * pit + 0.0004f * grain[i] + 0.0003f * bed[i];
     m.roughness[i] = 0.60f + 0.035f * grain[i] + 0.06f * joint;
   });
 }
 
 // Float-finished render: grains of sand, the sweep of the float, runs under nothing in particular.
 void Plaster(SurfaceMaps& m) {
-  const Field grain = m.Noise(111, 0.016f, 3, 0.75f), sweep = m.Noise(112, 0.35f, 4, 0.5f),
-              soft = m.Noise(113, 0.9f, 6, 0.55f);
+  const Field grain = m.Noise(111, 0.016f, 3, 0.75f), sweep = m.Noise(112, 0.35f, 4, 0.5f), soft = m.Noise(113, 0.9f, 6, 0.55f);
   const Field run = DripField(m.size, m.tile, 5, 0.04f, 1.3f, 114);
   m.ForEach([&](size_t i, float, float) {
     const float stain = Step(0.4f, 3.2f, run[i]);
-    const float y =
-        0.5f * (1 + 0.018f * grain[i] + 0.018f * sweep[i] + 0.038f * soft[i]) * (1 - 0.10f * stain);
+    const float y = 0.5f * (1 + 0.018f * grain[i] + 0.018f * sweep[i] + 0.038f * soft[i]) * (1 - 0.10f * stain);
     m.SetColor(i, Mix(Vec3f{1, 1, 1}, Vec3f{1.01f, 0.99f, 0.95f}, Step(0.0f, 2.0f, soft[i])) * y);
     m.height[i] = 0.00055f * grain[i] + 0.0012f * sweep[i];
     m.roughness[i] = 0.56f + 0.035f * grain[i] + 0.03f * soft[i];
@@ -121,22 +94,18 @@ void Plaster(SurfaceMaps& m) {
 
 // Cast against smooth forms: panels of 1.2 m with tie holes, bug holes, dirty runs.
 void Concrete(SurfaceMaps& m) {
-  const Field fine = m.Noise(21, 0.012f, 3, 0.8f), mid = m.Noise(22, 0.16f, 6, 0.65f),
-              soft = m.Noise(23, 1.0f, 7, 0.6f);
+  const Field fine = m.Noise(21, 0.012f, 3, 0.8f), mid = m.Noise(22, 0.16f, 6, 0.65f), soft = m.Noise(23, 1.0f, 7, 0.6f);
   const Field run = DripField(m.size, m.tile, 6, 0.035f, 1.5f, 24);
   m.ForEach([&](size_t i, float, float) {
     const float stain = Step(0.2f, 3.2f, run[i]) * std::clamp(0.7f + 0.3f * mid[i], 0.0f, 1.0f);
     const float tone = 1 + 0.040f * soft[i] + 0.026f * mid[i] + 0.012f * fine[i] - 0.10f * stain;
-    m.SetColor(i, Mix(Vec3f{0.50f, 0.487f, 0.460f}, Vec3f{0.465f, 0.46f, 0.45f},
-                      std::clamp(0.5f + 0.4f * mid[i], 0.0f, 1.0f)) *
-                      tone);
+    m.SetColor(i, Mix(Vec3f{0.50f, 0.487f, 0.460f}, Vec3f{0.465f, 0.46f, 0.45f}, std::clamp(0.5f + 0.4f * mid[i], 0.0f, 1.0f)) * tone);
     m.height[i] = 0.0018f * soft[i] + 0.0006f * mid[i] + 0.00045f * fine[i];
     m.roughness[i] = 0.52f + 0.012f * mid[i] + 0.010f * fine[i] + 0.03f * stain;
   });
   const auto holes = static_cast<uint32_t>(300 * m.tile * m.tile);
   for (uint32_t k = 0; k < holes; ++k) {
-    const float n = static_cast<float>(m.size), h = HashUnit(k, 25),
-                radius = (0.0008f + 0.0042f * h * h * h * h) * m.texels_per_metre();
+    const float n = static_cast<float>(m.size), h = HashUnit(k, 25), radius = (0.0008f + 0.0042f * h * h * h * h) * m.texels_per_metre();
     Stamp(m.red, HashUnit(k, 26) * n, HashUnit(k, 27) * n, std::max(radius, 0.8f), [&](size_t i, float d) {
       m.SetColor(i, m.color(i) * (1 - 0.5f * Step(1.0f, 0.6f, d)));
       m.height[i] -= 0.7f * radius / m.texels_per_metre() * (1 - d * d);
@@ -169,7 +138,7 @@ Texel FarWalls(float u, float v) {
   const float half = HashUnit(column.id, 7) < 0.35f ? 0.17f : 0.24f, x = std::abs(bay.x - 0.5f);
   const bool window = x < half && bay.y > 0.20f && bay.y < 0.74f;
   const bool frame = window && (x > half - 0.035f || bay.y < 0.24f || x < 0.02f || std::abs(bay.y - 0.48f) < 0.02f);
-  const bool sill = bay.y > 0.74f && bay.y < 0.78f && x < half + 0.04f, lintel = bay.y > 0.14f && bay.y < 0.20f && x < half + 0.03f;
+  const bool sill = bay.y > 0.74f && bay.y < 0.78f && x<half + 0.04f, lintel = bay.y> 0.14f && bay.y < 0.20f && x < half + 0.03f;
   // A box of an air conditioner in some.
   const bool cooler = HashUnit(bay.id, 8) < 0.12f && x < 0.11f && bay.y > 0.60f && bay.y < 0.74f;
   if (cooler) return FarStone(0.45f);

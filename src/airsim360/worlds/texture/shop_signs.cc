@@ -17,35 +17,42 @@ constexpr int kTrades = 52, kForms = kSignCount / kTrades;
 static_assert(kTrades * kForms == kSignCount && kSignCount % kSignColumns == 0);
 
 constexpr std::array<const char*, kTrades> kTrade = {
-    "BAKERY",      "FLOWERS",   "OPTICIAN",   "PHARMACY",   "PIZZERIA",   "HARDWARE",  "TEA ROOM",   "BARBER",     "BICYCLES",
-    "GALLERY",     "BOOKS",     "TAILOR",     "DELI",       "LAUNDRY",    "SHOES",     "NAILS & SPA", "PRINT SHOP", "LIQUORS",
-    "DINER",       "JEWELRY",   "STATIONERY", "PET SUPPLY", "NOODLE BAR", "TOYS",      "GREENGROCER", "LOCKSMITH", "FURNITURE",
-    "PHOTO",       "MUSIC",     "ANTIQUES",   "FISH MARKET", "BUTCHER",   "CAFE",      "GRILL",      "ICE CREAM",  "LUGGAGE",
-    "DRY CLEANING", "DENTIST",  "TRAVEL",     "FABRICS",    "LIGHTING",   "PAINTS",    "KITCHENS",   "REPAIRS",    "WINE & CHEESE",
-    "YOGA STUDIO", "TACO SHOP", "RAMEN",      "JUICE",      "MATTRESSES", "SPORTS",    "GIFTS"};
-constexpr std::array<const char*, 26> kFamily = {"MARLOW", "ROSSI", "OKAFOR", "LINDQVIST", "TANAKA", "HALLORAN", "MENDEZ", "KOWALSKI", "BAPTISTE",
-                                                 "SINGH", "WEBER", "ADAMS", "NAKOS", "IVERSEN", "PEREIRA", "FINCH", "DUBOIS", "ZHOU",
-                                                 "HARGROVE", "SALEH", "NOVAK", "BRENNAN", "COSTA", "ALDEN", "PARK", "QUILL"};
-constexpr std::array<const char*, 13> kPlace = {"CORNER", "UPTOWN", "MILL LANE", "UNION", "GRAND", "HARBOR", "NORTH END",
-                                                "OLD TOWN", "SUNRISE", "THIRD AVE", "CITY", "GARDEN", "STATION"};
+    "BAKERY",       "FLOWERS",   "OPTICIAN",   "PHARMACY",    "PIZZERIA",   "HARDWARE", "TEA ROOM",    "BARBER",     "BICYCLES",
+    "GALLERY",      "BOOKS",     "TAILOR",     "DELI",        "LAUNDRY",    "SHOES",    "NAILS & SPA", "PRINT SHOP", "LIQUORS",
+    "DINER",        "JEWELRY",   "STATIONERY", "PET SUPPLY",  "NOODLE BAR", "TOYS",     "GREENGROCER", "LOCKSMITH",  "FURNITURE",
+    "PHOTO",        "MUSIC",     "ANTIQUES",   "FISH MARKET", "BUTCHER",    "CAFE",     "GRILL",       "ICE CREAM",  "LUGGAGE",
+    "DRY CLEANING", "DENTIST",   "TRAVEL",     "FABRICS",     "LIGHTING",   "PAINTS",   "KITCHENS",    "REPAIRS",    "WINE & CHEESE",
+    "YOGA STUDIO",  "TACO SHOP", "RAMEN",      "JUICE",       "MATTRESSES", "SPORTS",   "GIFTS"};
+constexpr std::array<const char*, 26> kFamily = {"MARLOW",   "ROSSI",    "OKAFOR", "LINDQVIST", "TANAKA",   "HALLORAN", "MENDEZ",
+                                                 "KOWALSKI", "BAPTISTE", "SINGH",  "WEBER",     "ADAMS",    "NAKOS",    "IVERSEN",
+                                                 "PEREIRA",  "FINCH",    "DUBOIS", "ZHOU",      "HARGROVE", "SALEH",    "NOVAK",
+                                                 "BRENNAN",  "COSTA",    "ALDEN",  "PARK",      "QUILL"};
+constexpr std::array<const char*, 13> kPlace = {"CORNER",   "UPTOWN",  "MILL LANE", "UNION", "GRAND",  "HARBOR", "NORTH END",
+                                                "OLD TOWN", "SUNRISE", "THIRD AVE", "CITY",  "GARDEN", "STATION"};
 
 // Painted boards, enamel and plastic as they look after some years: grounds mostly dark, white or dull.
 struct Paints {
   Vec3f ground, letters;
 };
 constexpr std::array<Paints, 24> kPaints = {{
-    {{0.035f, 0.050f, 0.043f}, {0.55f, 0.48f, 0.30f}}, {{0.030f, 0.036f, 0.060f}, {0.58f, 0.57f, 0.52f}}, {{0.23f, 0.075f, 0.055f}, {0.60f, 0.56f, 0.46f}},
-    {{0.54f, 0.53f, 0.49f}, {0.085f, 0.13f, 0.085f}},  {{0.028f, 0.028f, 0.029f}, {0.62f, 0.61f, 0.58f}}, {{0.58f, 0.58f, 0.57f}, {0.055f, 0.075f, 0.16f}},
-    {{0.050f, 0.115f, 0.080f}, {0.60f, 0.60f, 0.56f}}, {{0.050f, 0.038f, 0.030f}, {0.46f, 0.37f, 0.22f}}, {{0.27f, 0.065f, 0.050f}, {0.62f, 0.60f, 0.55f}},
-    {{0.070f, 0.060f, 0.085f}, {0.60f, 0.46f, 0.20f}}, {{0.40f, 0.30f, 0.12f}, {0.045f, 0.042f, 0.040f}}, {{0.100f, 0.120f, 0.105f}, {0.52f, 0.54f, 0.47f}},
-    {{0.085f, 0.090f, 0.098f}, {0.60f, 0.59f, 0.56f}}, {{0.52f, 0.50f, 0.47f}, {0.28f, 0.060f, 0.055f}},  {{0.055f, 0.120f, 0.175f}, {0.60f, 0.60f, 0.58f}},
-    {{0.60f, 0.59f, 0.56f}, {0.040f, 0.040f, 0.041f}}, {{0.17f, 0.13f, 0.095f}, {0.58f, 0.54f, 0.43f}},   {{0.60f, 0.60f, 0.59f}, {0.33f, 0.050f, 0.045f}},
-    {{0.16f, 0.17f, 0.175f}, {0.63f, 0.62f, 0.59f}},   {{0.46f, 0.44f, 0.37f}, {0.10f, 0.070f, 0.050f}},  {{0.030f, 0.070f, 0.075f}, {0.56f, 0.55f, 0.48f}},
-    {{0.60f, 0.58f, 0.50f}, {0.060f, 0.115f, 0.10f}},  {{0.12f, 0.035f, 0.045f}, {0.55f, 0.50f, 0.42f}},  {{0.33f, 0.32f, 0.30f}, {0.040f, 0.042f, 0.046f}},
+    {{0.035f, 0.050f, 0.043f}, {0.55f, 0.48f, 0.30f}}, {{0.030f, 0.036f, 0.060f}, {0.58f, 0.57f, 0.52f}},
+    {{0.23f, 0.075f, 0.055f}, {0.60f, 0.56f, 0.46f}},  {{0.54f, 0.53f, 0.49f}, {0.085f, 0.13f, 0.085f}},
+    {{0.028f, 0.028f, 0.029f}, {0.62f, 0.61f, 0.58f}}, {{0.58f, 0.58f, 0.57f}, {0.055f, 0.075f, 0.16f}},
+    {{0.050f, 0.115f, 0.080f}, {0.60f, 0.60f, 0.56f}}, {{0.050f, 0.038f, 0.030f}, {0.46f, 0.37f, 0.22f}},
+    {{0.27f, 0.065f, 0.050f}, {0.62f, 0.60f, 0.55f}},  {{0.070f, 0.060f, 0.085f}, {0.60f, 0.46f, 0.20f}},
+    {{0.40f, 0.30f, 0.12f}, {0.045f, 0.042f, 0.040f}}, {{0.100f, 0.120f, 0.105f}, {0.52f, 0.54f, 0.47f}},
+    {{0.085f, 0.090f, 0.098f}, {0.60f, 0.59f, 0.56f}}, {{0.52f, 0.50f, 0.47f}, {0.28f, 0.060f, 0.055f}},
+    {{0.055f, 0.120f, 0.175f}, {0.60f, 0.60f, 0.58f}}, {{0.60f, 0.59f, 0.56f}, {0.040f, 0.040f, 0.041f}},
+    {{0.17f, 0.13f, 0.095f}, {0.58f, 0.54f, 0.43f}},   {{0.60f, 0.60f, 0.59f}, {0.33f, 0.050f, 0.045f}},
+    {{0.16f, 0.17f, 0.175f}, {0.63f, 0.62f, 0.59f}},   {{0.46f, 0.44f, 0.37f}, {0.10f, 0.070f, 0.050f}},
+    {{0.030f, 0.070f, 0.075f}, {0.56f, 0.55f, 0.48f}}, {{0.60f, 0.58f, 0.50f}, {0.060f, 0.115f, 0.10f}},
+    {{0.12f, 0.035f, 0.045f}, {0.55f, 0.50f, 0.42f}},  {{0.33f, 0.32f, 0.30f}, {0.040f, 0.042f, 0.046f}},
 }};
 
 std::string SmallLine(uint32_t i) {
-  const auto n = [&](uint32_t low, uint32_t span, uint32_t k) { return std::to_string(low + static_cast<uint32_t>(HashUnit(i, k, 71) * static_cast<float>(span))); };
+  const auto n = [&](uint32_t low, uint32_t span, uint32_t k) {
+    return std::to_string(low + static_cast<uint32_t>(HashUnit(i, k, 71) * static_cast<float>(span)));
+  };
   switch (i % 5) {
     case 0:
       return "SINCE " + n(1908, 95, 1);
@@ -73,8 +80,17 @@ struct Board {
 Board MakeBoard(int i) {
   const auto id = static_cast<uint32_t>(i);
   const std::string name = ShopName(i);
-  Board b{kPaints[static_cast<size_t>(HashUnit(id, 11) * 24)], SignLettering(name, 0.11f + 0.09f * HashUnit(id, 12)),
-          SignLettering(SmallLine(id), 0.14f), 0, 0, 0, 0, HashUnit(id, 13) < 0.45f, HashUnit(id, 14) < 0.35f, HashUnit(id, 15) < 0.30f, id};
+  Board b{kPaints[static_cast<size_t>(HashUnit(id, 11) * 24)],
+          SignLettering(name, 0.11f + 0.09f * HashUnit(id, 12)),
+          SignLettering(SmallLine(id), 0.14f),
+          0,
+          0,
+          0,
+          0,
+          HashUnit(id, 13) < 0.45f,
+          HashUnit(id, 14) < 0.35f,
+          HashUnit(id, 15) < 0.30f,
+          id};
   const float spread = 0.85f + 0.45f * HashUnit(id, 16);  // narrow to wide letters
   b.high = b.has_small ? 0.30f : 0.30f + 0.12f * HashUnit(id, 17);
   b.wide = b.name.width() * b.high * spread;

@@ -22,15 +22,15 @@ struct Glyph {
 };
 
 constexpr Stroke kA[] = {{0, 1, .5f, 0}, {.5f, 0, 1, 1}, {.2f, .66f, .8f, .66f}};
-constexpr Stroke kB[] = {{0, 0, 0, 1}, {0, 0, .6f, 0}, {0, .48f, .6f, .48f}, {0, 1, .6f, 1}, {.6f, .24f, .36f, .24f, -90, 90},
-                         {.6f, .74f, .4f, .26f, -90, 90}};
+constexpr Stroke kB[] = {
+    {0, 0, 0, 1}, {0, 0, .6f, 0}, {0, .48f, .6f, .48f}, {0, 1, .6f, 1}, {.6f, .24f, .36f, .24f, -90, 90}, {.6f, .74f, .4f, .26f, -90, 90}};
 constexpr Stroke kC[] = {{.5f, .3f, .5f, .3f, 180, 345}, {0, .3f, 0, .7f}, {.5f, .7f, .5f, .3f, 15, 180}};
-constexpr Stroke kD[] = {{0, 0, 0, 1}, {0, 0, .45f, 0}, {0, 1, .45f, 1}, {.45f, .3f, .55f, .3f, -90, 0}, {1, .3f, 1, .7f},
-                         {.45f, .7f, .55f, .3f, 0, 90}};
+constexpr Stroke kD[] = {
+    {0, 0, 0, 1}, {0, 0, .45f, 0}, {0, 1, .45f, 1}, {.45f, .3f, .55f, .3f, -90, 0}, {1, .3f, 1, .7f}, {.45f, .7f, .55f, .3f, 0, 90}};
 constexpr Stroke kE[] = {{0, 0, 0, 1}, {0, 0, 1, 0}, {0, .49f, .85f, .49f}, {0, 1, 1, 1}};
 constexpr Stroke kF[] = {{0, 0, 0, 1}, {0, 0, 1, 0}, {0, .5f, .85f, .5f}};
-constexpr Stroke kG[] = {{.5f, .3f, .5f, .3f, 180, 345}, {0, .3f, 0, .7f}, {.5f, .7f, .5f, .3f, 0, 180}, {1, .7f, 1, .54f},
-                         {.6f, .54f, 1, .54f}};
+constexpr Stroke kG[] = {
+    {.5f, .3f, .5f, .3f, 180, 345}, {0, .3f, 0, .7f}, {.5f, .7f, .5f, .3f, 0, 180}, {1, .7f, 1, .54f}, {.6f, .54f, 1, .54f}};
 constexpr Stroke kH[] = {{0, 0, 0, 1}, {1, 0, 1, 1}, {0, .5f, 1, .5f}};
 constexpr Stroke kI[] = {{.5f, 0, .5f, 1}};
 constexpr Stroke kJ[] = {{1, 0, 1, .7f}, {.5f, .7f, .5f, .3f, 0, 170}};
@@ -40,8 +40,8 @@ constexpr Stroke kM[] = {{0, 0, 0, 1}, {1, 0, 1, 1}, {0, 0, .5f, .75f}, {.5f, .7
 constexpr Stroke kN[] = {{0, 0, 0, 1}, {1, 0, 1, 1}, {0, 0, 1, 1}};
 constexpr Stroke kO[] = {{.5f, .3f, .5f, .3f, 180, 360}, {0, .3f, 0, .7f}, {1, .3f, 1, .7f}, {.5f, .7f, .5f, .3f, 0, 180}};
 constexpr Stroke kP[] = {{0, 0, 0, 1}, {0, 0, .55f, 0}, {0, .55f, .55f, .55f}, {.55f, .275f, .45f, .275f, -90, 90}};
-constexpr Stroke kQ[] = {{.5f, .3f, .5f, .3f, 180, 360}, {0, .3f, 0, .7f}, {1, .3f, 1, .7f}, {.5f, .7f, .5f, .3f, 0, 180},
-                         {.6f, .68f, 1, 1}};
+constexpr Stroke kQ[] = {
+    {.5f, .3f, .5f, .3f, 180, 360}, {0, .3f, 0, .7f}, {1, .3f, 1, .7f}, {.5f, .7f, .5f, .3f, 0, 180}, {.6f, .68f, 1, 1}};
 constexpr Stroke kR[] = {{0, 0, 0, 1}, {0, 0, .55f, 0}, {0, .52f, .55f, .52f}, {.55f, .26f, .45f, .26f, -90, 90}, {.45f, .52f, 1, 1}};
 constexpr Stroke kS[] = {{.5f, .25f, .5f, .25f, 90, 340}, {.5f, .75f, .5f, .25f, -90, 160}};
 constexpr Stroke kT[] = {{0, 0, 1, 0}, {.5f, 0, .5f, 1}};
@@ -70,14 +70,13 @@ constexpr Stroke kTick[] = {{.5f, 0, .5f, .16f}};
 constexpr Stroke kSlash[] = {{1, 0, 0, 1}};
 constexpr Stroke kPercent[] = {{.18f, .2f, .18f, .2f, 0, 360}, {.82f, .8f, .18f, .2f, 0, 360}, {.85f, 0, .15f, 1}};
 constexpr Glyph kGlyphs[] = {
-    {'A', .56f, kA},    {'B', .46f, kB},     {'C', .48f, kC},    {'D', .48f, kD},    {'E', .40f, kE},      {'F', .38f, kF},
-    {'G', .49f, kG},    {'H', .47f, kH},     {'I', 0, kI},       {'J', .36f, kJ},    {'K', .50f, kK},      {'L', .37f, kL},
-    {'M', .64f, kM},    {'N', .48f, kN},     {'O', .50f, kO},    {'P', .45f, kP},    {'Q', .50f, kQ},      {'R', .48f, kR},
-    {'S', .45f, kS},    {'T', .46f, kT},     {'U', .47f, kU},    {'V', .54f, kV},    {'W', .82f, kW},      {'X', .52f, kX},
-    {'Y', .52f, kY},    {'Z', .44f, kZ},     {'0', .44f, kO},    {'1', .24f, k1},    {'2', .42f, k2},      {'3', .43f, k3},
-    {'4', .46f, k4},    {'5', .43f, k5},     {'6', .44f, k6},    {'7', .42f, k7},    {'8', .45f, k8},      {'9', .44f, k9},
-    {'&', .56f, kAnd},  {'.', 0, kDot},      {',', 0, kComma},   {'-', .26f, kDash}, {'+', .40f, kPlus},   {'!', 0, kBang},
-    {'\'', 0, kTick},   {'/', .34f, kSlash}, {'%', .66f, kPercent}};
+    {'A', .56f, kA},  {'B', .46f, kB},     {'C', .48f, kC},      {'D', .48f, kD},  {'E', .40f, kE},    {'F', .38f, kF},    {'G', .49f, kG},
+    {'H', .47f, kH},  {'I', 0, kI},        {'J', .36f, kJ},      {'K', .50f, kK},  {'L', .37f, kL},    {'M', .64f, kM},    {'N', .48f, kN},
+    {'O', .50f, kO},  {'P', .45f, kP},     {'Q', .50f, kQ},      {'R', .48f, kR},  {'S', .45f, kS},    {'T', .46f, kT},    {'U', .47f, kU},
+    {'V', .54f, kV},  {'W', .82f, kW},     {'X', .52f, kX},      {'Y', .52f, kY},  {'Z', .44f, kZ},    {'0', .44f, kO},    {'1', .24f, k1},
+    {'2', .42f, k2},  {'3', .43f, k3},     {'4', .46f, k4},      {'5', .43f, k5},  {'6', .44f, k6},    {'7', .42f, k7},    {'8', .45f, k8},
+    {'9', .44f, k9},  {'&', .56f, kAnd},   {'.', 0, kDot},       {',', 0, kComma}, {'-', .26f, kDash}, {'+', .40f, kPlus}, {'!', 0, kBang},
+    {'\'', 0, kTick}, {'/', .34f, kSlash}, {'%', .66f, kPercent}};
 
 const Glyph* Find(char letter) {
   const auto it = std::find_if(std::begin(kGlyphs), std::end(kGlyphs), [&](const Glyph& g) { return g.letter == letter; });

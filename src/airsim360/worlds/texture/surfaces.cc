@@ -45,24 +45,8 @@ constexpr Row kRows[] = {
     {S::kSlabs, "slabs", R::kSlabs, {0.78f, 0.77f, 0.74f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
     {S::kSlabsWarm, "slabs warm", R::kSlabs, {0.9f, 0.81f, 0.70f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
     {S::kTactile, "tactile slabs", R::kSlabs, {1.20f, 0.90f, 0.38f}, 0.7f, 0.06f, 0, kSolid, G::kPaving},
-    {S::kPlazaBrick,
-     "plaza brick",
-     R::kPavingBrick,
-     {0.88f, 0.90f, 0.95f},
-     0.7f,
-     0.10f,
-     0,
-     kSolid,
-     G::kPaving},
-    {S::kPlazaBrickDark,
-     "plaza brick dark",
-     R::kPavingBrick,
-     {0.68f, 0.70f, 0.76f},
-     0.7f,
-     0.10f,
-     0,
-     kSolid,
-     G::kPaving},
+    {S::kPlazaBrick, "plaza brick", R::kPavingBrick, {0.88f, 0.90f, 0.95f}, 0.7f, 0.10f, 0, kSolid, G::kPaving},
+    {S::kPlazaBrickDark, "plaza brick dark", R::kPavingBrick, {0.68f, 0.70f, 0.76f}, 0.7f, 0.10f, 0, kSolid, G::kPaving},
     {S::kPlazaStone, "plaza stone", R::kStoneSetts, Gray(1.0f), 0.6f, 0.06f, 0, kSolid, G::kPaving},
     {S::kPath, "park path", R::kGravelPath, Gray(1.0f), 0.85f, 0.10f, 0, kSolid, G::kGravel},
     {S::kLawn, "lawn", R::kGrass, {1.0f, 1.0f, 1.0f}, 0.8f, 0.14f, 0, kSolid, G::kLawn},
@@ -135,15 +119,7 @@ constexpr Row kRows[] = {
     {S::kGlassRedCurtain, "glass with red curtain", R::kNone, {0.42f, 0.012f, 0.015f}, 0.05f, 0, 0, kPane},
     {S::kIronBlack, "iron black", R::kNone, {0.022f, 0.022f, 0.024f}, 0.55f},
     {S::kCarriageway, "carriageway", R::kAsphalt, {0.73f, 0.745f, 0.765f}, 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
-    {S::kCarriagewayOld,
-     "carriageway old",
-     R::kAsphalt,
-     {0.89f, 0.895f, 0.90f},
-     0.8f,
-     0.14f,
-     0,
-     kSolid,
-     G::kCarriageway},
+    {S::kCarriagewayOld, "carriageway old", R::kAsphalt, {0.89f, 0.895f, 0.90f}, 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
     {S::kCarriagewayFresh, "carriageway fresh", R::kAsphaltFresh, Gray(1.45f), 0.8f, 0.10f, 0, kSolid, G::kCarriageway},
     {S::kCarriagewayPale, "carriageway pale", R::kAsphalt, {1.12f, 1.11f, 1.09f}, 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
     {S::kAsphaltPale, "asphalt pale", R::kAsphalt, {1.14f, 1.13f, 1.11f}, 0.8f, 0.10f, 0, kSolid, G::kAsphalt},
@@ -164,16 +140,13 @@ bool IsPicture(Recipe recipe) { return recipe >= R::kShop0 && recipe <= R::kShop
 
 // Textures without a lattice are mixed from patches of themselves; bricks and slabs are tinted one by one.
 bool IsShapeless(Recipe recipe) {
-  return recipe == R::kAsphalt || recipe == R::kAsphaltFresh || recipe == R::kBitumen ||
-         recipe == R::kConcrete || recipe == R::kGravelPath || recipe == R::kGrass || recipe == R::kSoil ||
-         recipe == R::kPlaster || recipe == R::kRoofGravel;
+  return recipe == R::kAsphalt || recipe == R::kAsphaltFresh || recipe == R::kBitumen || recipe == R::kConcrete ||
+         recipe == R::kGravelPath || recipe == R::kGrass || recipe == R::kSoil || recipe == R::kPlaster || recipe == R::kRoofGravel;
 }
 
 Vec2f UnitsOf(Recipe recipe) {
   using internal::Lattice;
-  const auto units = [](Lattice l) {
-    return Vec2f{static_cast<float>(l.columns), static_cast<float>(l.rows)};
-  };
+  const auto units = [](Lattice l) { return Vec2f{static_cast<float>(l.columns), static_cast<float>(l.rows)}; };
   switch (recipe) {
     case R::kSlabs:
       return units(internal::kSlabUnits);
@@ -234,8 +207,8 @@ Surfaces AddSurfaces(SceneBuilder& builder) {
     material.blend_tiles = IsShapeless(row.recipe);
     material.units = UnitsOf(row.recipe);
     // Dark panes show the room behind them; blinds and curtains hide it.
-    material.interior = row.surface == S::kGlassDark || row.surface == S::kGlassBlue ||
-                        row.surface == S::kGlassLit || (row.recipe >= R::kShop0 && row.recipe <= R::kShop2);
+    material.interior = row.surface == S::kGlassDark || row.surface == S::kGlassBlue || row.surface == S::kGlassLit ||
+                        (row.recipe >= R::kShop0 && row.recipe <= R::kShop2);
     if (row.recipe != R::kNone) {
       const TextureIds& ids = textures[static_cast<size_t>(row.recipe)];
       material.base_color_texture = ids.color;

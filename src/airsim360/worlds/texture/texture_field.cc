@@ -14,9 +14,7 @@ constexpr float kPi = 3.14159265f;
 float Quintic(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
 // About normal with mean 0 and standard deviation 1.
-float HashNormal(uint32_t a, uint32_t b) {
-  return 2 * (HashUnit(a, b, 1) + HashUnit(a, b, 2) + HashUnit(a, b, 3) - 1.5f);
-}
+float HashNormal(uint32_t a, uint32_t b) { return 2 * (HashUnit(a, b, 1) + HashUnit(a, b, 2) + HashUnit(a, b, 3) - 1.5f); }
 
 // Adds one octave of gradient noise. Along a row the noise between two lattice columns is a blend of two
 // straight lines, whose coefficients depend on the row alone: few operations a texel.
@@ -34,8 +32,7 @@ void AddOctave(Field& out, uint32_t seed, int cells_x, int cells_y, float amplit
   std::vector<float> gx(columns * (static_cast<size_t>(cells_y) + 1)), gy(gx.size());
   for (int j = 0; j <= cells_y; ++j) {
     for (int i = 0; i <= cells_x; ++i) {
-      const float angle =
-          2 * kPi * HashUnit(seed, static_cast<uint32_t>(i % cells_x), static_cast<uint32_t>(j % cells_y));
+      const float angle = 2 * kPi * HashUnit(seed, static_cast<uint32_t>(i % cells_x), static_cast<uint32_t>(j % cells_y));
       gx[static_cast<size_t>(j) * columns + i] = std::cos(angle);
       gy[static_cast<size_t>(j) * columns + i] = std::sin(angle);
     }
@@ -45,8 +42,7 @@ void AddOctave(Field& out, uint32_t seed, int cells_x, int cells_y, float amplit
     const float v = (static_cast<float>(y) + 0.5f) * static_cast<float>(cells_y) / static_cast<float>(n);
     const int j = std::min(cells_y - 1, static_cast<int>(v));
     const float s = v - static_cast<float>(j), w = Quintic(s);
-    const float *low_x = &gx[static_cast<size_t>(j) * columns],
-                *low_y = &gy[static_cast<size_t>(j) * columns];
+    const float *low_x = &gx[static_cast<size_t>(j) * columns], *low_y = &gy[static_cast<size_t>(j) * columns];
     const float *high_x = low_x + columns, *high_y = low_y + columns;
     for (size_t i = 0; i < columns; ++i) {
       slope[i] = amplitude * Mix(low_x[i], high_x[i], w);
@@ -122,10 +118,8 @@ Stone MakeStone(int size, float scale, const StoneOptions& o, uint32_t seed, uin
 }
 
 void DropStone(StoneField& out, const Stone& s, float scale, const StoneOptions& o) {
-  const int x0 = static_cast<int>(std::floor(s.x - s.radius)),
-            x1 = static_cast<int>(std::ceil(s.x + s.radius));
-  const int y0 = static_cast<int>(std::floor(s.y - s.radius)),
-            y1 = static_cast<int>(std::ceil(s.y + s.radius));
+  const int x0 = static_cast<int>(std::floor(s.x - s.radius)), x1 = static_cast<int>(std::ceil(s.x + s.radius));
+  const int y0 = static_cast<int>(std::floor(s.y - s.radius)), y1 = static_cast<int>(std::ceil(s.y + s.radius));
   const float rise = s.radius / scale * o.relief;
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
@@ -149,10 +143,8 @@ void DropStone(StoneField& out, const Stone& s, float scale, const StoneOptions&
 // Distance to one straight piece, kept where it is less than what is there.
 void AddSegment(Field& distance, float ax, float ay, float bx, float by, float reach) {
   const float ex = bx - ax, ey = by - ay, inverse = 1 / std::max(1e-6f, ex * ex + ey * ey);
-  const int x0 = static_cast<int>(std::floor(std::min(ax, bx) - reach)),
-            x1 = static_cast<int>(std::ceil(std::max(ax, bx) + reach));
-  const int y0 = static_cast<int>(std::floor(std::min(ay, by) - reach)),
-            y1 = static_cast<int>(std::ceil(std::max(ay, by) + reach));
+  const int x0 = static_cast<int>(std::floor(std::min(ax, bx) - reach)), x1 = static_cast<int>(std::ceil(std::max(ax, bx) + reach));
+  const int y0 = static_cast<int>(std::floor(std::min(ay, by) - reach)), y1 = static_cast<int>(std::ceil(std::max(ay, by) + reach));
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       const float dx = static_cast<float>(x) - ax, dy = static_cast<float>(y) - ay;
@@ -202,8 +194,7 @@ Field Blurred(const Field& field, float radius) {
   return a;
 }
 
-CellPattern::CellPattern(int columns, int rows, float jitter, uint32_t seed, float shift)
-    : columns_(columns), rows_(rows), seed_(seed) {
+CellPattern::CellPattern(int columns, int rows, float jitter, uint32_t seed, float shift) : columns_(columns), rows_(rows), seed_(seed) {
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
       const auto k = static_cast<uint32_t>(j * columns + i);
@@ -233,15 +224,13 @@ CellPattern::Cell CellPattern::At(float u, float v) const {
   for (int k = 0; k < 9; ++k) {
     if (k == nearest) continue;
     const float ex = dx[k] - dx[nearest], ey = dy[k] - dy[nearest], length = std::sqrt(ex * ex + ey * ey);
-    edge = std::min(
-        edge, 0.5f * ((dx[k] + dx[nearest]) * ex + (dy[k] + dy[nearest]) * ey) / std::max(length, 1e-6f));
+    edge = std::min(edge, 0.5f * ((dx[k] + dx[nearest]) * ex + (dy[k] + dy[nearest]) * ey) / std::max(length, 1e-6f));
   }
   return {std::sqrt(best), edge, -dx[nearest], -dy[nearest], id[nearest] * 2654435761u + seed_};
 }
 
 StoneField DropStones(int size, float tile, float floor, const StoneOptions& options, uint32_t seed) {
-  StoneField out{Field(size, floor), std::vector<uint32_t>(static_cast<size_t>(size) * size, 0),
-                 Field(size, 1)};
+  StoneField out{Field(size, floor), std::vector<uint32_t>(static_cast<size_t>(size) * size, 0), Field(size, 1)};
   const float scale = static_cast<float>(size) / tile;
   const double wanted = static_cast<double>(options.cover) * tile * tile;
   double area = 0;
@@ -260,8 +249,7 @@ Field DripField(int size, float tile, float per_square_metre, float widest, floa
   const auto count = static_cast<uint32_t>(per_square_metre * tile * tile);
   for (uint32_t k = 0; k < count; ++k) {
     const auto h = [&](uint32_t c) { return HashUnit(seed, k, c); };
-    const float width = Mix(0.15f, 1.0f, h(1) * h(1)) * widest * scale,
-                length = Mix(0.2f, 1.0f, h(2)) * longest * scale;
+    const float width = Mix(0.15f, 1.0f, h(1) * h(1)) * widest * scale, length = Mix(0.2f, 1.0f, h(2)) * longest * scale;
     float x = h(3) * static_cast<float>(size), sway = 0;
     const float y0 = h(4) * static_cast<float>(size), strength = 0.3f + 0.7f * h(5);
     for (int q = 0; q < static_cast<int>(length); ++q) {
@@ -279,11 +267,9 @@ Field DripField(int size, float tile, float per_square_metre, float widest, floa
   return out;
 }
 
-void Stamp(const Field& grid, float x, float y, float radius,
-           const std::function<void(size_t, float)>& paint) {
+void Stamp(const Field& grid, float x, float y, float radius, const std::function<void(size_t, float)>& paint) {
   for (int j = static_cast<int>(std::floor(y - radius)); j <= static_cast<int>(std::ceil(y + radius)); ++j) {
-    for (int i = static_cast<int>(std::floor(x - radius)); i <= static_cast<int>(std::ceil(x + radius));
-         ++i) {
+    for (int i = static_cast<int>(std::floor(x - radius)); i <= static_cast<int>(std::ceil(x + radius)); ++i) {
       const float d = std::hypot(static_cast<float>(i) - x, static_cast<float>(j) - y) / radius;
       if (d < 1) paint(grid.Index(i, j), d);
     }

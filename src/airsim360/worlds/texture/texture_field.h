@@ -16,15 +16,13 @@ struct Field {
   std::vector<float> values;
 
   Field() = default;
-  explicit Field(int n, float value = 0)
-      : size(n), values(static_cast<size_t>(n) * static_cast<size_t>(n), value) {}
+  explicit Field(int n, float value = 0) : size(n), values(static_cast<size_t>(n) * static_cast<size_t>(n), value) {}
   float& operator[](size_t i) { return values[i]; }
   float operator[](size_t i) const { return values[i]; }
   size_t count() const { return values.size(); }
   /// Texel with wrapped coordinates, and its index.
   size_t Index(int x, int y) const {
-    return static_cast<size_t>(y & (size - 1)) * static_cast<size_t>(size) +
-           static_cast<size_t>(x & (size - 1));
+    return static_cast<size_t>(y & (size - 1)) * static_cast<size_t>(size) + static_cast<size_t>(x & (size - 1));
   }
   float At(int x, int y) const { return values[Index(x, y)]; }
 };
@@ -82,8 +80,7 @@ StoneField DropStones(int size, float tile, float floor, const StoneOptions& opt
 Field DripField(int size, float tile, float per_square_metre, float widest, float longest, uint32_t seed);
 
 /// Calls paint(index, distance over `radius`) for the texels of a disc; centre and radius in texels.
-void Stamp(const Field& grid, float x, float y, float radius,
-           const std::function<void(size_t, float)>& paint);
+void Stamp(const Field& grid, float x, float y, float radius, const std::function<void(size_t, float)>& paint);
 
 /// Distance in metres, at most `reach`, to closed wandering lines across the tile: `count` of them.
 Field LineField(int size, float tile, int count, float wander, float reach, uint32_t seed);

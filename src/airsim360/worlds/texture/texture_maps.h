@@ -6,8 +6,7 @@
 namespace airsim360::internal {
 
 struct SurfaceMaps {
-  SurfaceMaps(int n, float tile_metres)
-      : size(n), tile(tile_metres), red(n), green(n), blue(n), height(n), roughness(n, 0.6f) {}
+  SurfaceMaps(int n, float tile_metres) : size(n), tile(tile_metres), red(n), green(n), blue(n), height(n), roughness(n, 0.6f) {}
 
   int size;
   float tile;              ///< metres a side
@@ -31,8 +30,7 @@ struct SurfaceMaps {
     const float scale = 1 / static_cast<float>(size);
     size_t i = 0;
     for (int y = 0; y < size; ++y) {
-      for (int x = 0; x < size; ++x, ++i)
-        paint(i, (static_cast<float>(x) + 0.5f) * scale, (static_cast<float>(y) + 0.5f) * scale);
+      for (int x = 0; x < size; ++x, ++i) paint(i, (static_cast<float>(x) + 0.5f) * scale, (static_cast<float>(y) + 0.5f) * scale);
     }
   }
 };

@@ -30,9 +30,7 @@ uint8_t ToByte(float x) { return static_cast<uint8_t>(std::clamp(x, 0.0f, 1.0f) 
 
 }  // namespace
 
-float HashUnit(uint32_t a, uint32_t b, uint32_t c) {
-  return ToUnit(Hash(a + Hash(b + Hash(c + 0x2545f491u))));
-}
+float HashUnit(uint32_t a, uint32_t b, uint32_t c) { return ToUnit(Hash(a + Hash(b + Hash(c + 0x2545f491u)))); }
 
 float TilingNoise(uint32_t seed, float x, float y, int period) {
   const float fx = std::floor(x), fy = std::floor(y);
@@ -103,8 +101,7 @@ TextureFit FitOf(const TextureRecipe& recipe, const SurfaceMaps& maps) {
   TextureFit fit;
   fit.luminance_gain = static_cast<float>(recipe.luminance / std::max(luminance / n, 1e-9));
   if (recipe.roughness > 0) fit.roughness_shift = static_cast<float>(recipe.roughness - roughness / n);
-  if (recipe.slope > 0)
-    fit.slope_gain = static_cast<float>(recipe.slope / std::max(internal::SlopeOf(maps), 1e-9));
+  if (recipe.slope > 0) fit.slope_gain = static_cast<float>(recipe.slope / std::max(internal::SlopeOf(maps), 1e-9));
   return fit;
 }
 
@@ -154,19 +151,15 @@ TextureSet SynthesizeTextures(const TextureRecipe& recipe, int size, TextureFit*
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       const size_t i = maps.height.Index(x, y);
-      const auto srgb = [&](float c, float least) {
-        return kEncode(std::clamp(c * fit.luminance_gain, least, 0.9f));
-      };
+      const auto srgb = [&](float c, float least) { return kEncode(std::clamp(c * fit.luminance_gain, least, 0.9f)); };
       color(x, y) = {srgb(maps.red[i], 0.02f), srgb(maps.green[i], 0.02f), srgb(maps.blue[i], 0.012f), 255};
       const Vec3f n = Normalized(Vec3f{(maps.height.At(x - 1, y) - maps.height.At(x + 1, y)) / step,
                                        (maps.height.At(x, y + 1) - maps.height.At(x, y - 1)) / step, 1});
       normal(x, y) = {ToByte(n.x / 2 + 0.5f), ToByte(n.y / 2 + 0.5f), ToByte(n.z / 2 + 0.5f), 255};
-      roughness(x, y) = {255, ToByte(std::clamp(maps.roughness[i] + fit.roughness_shift, 0.03f, 1.0f)), 255,
-                         255};
+      roughness(x, y) = {255, ToByte(std::clamp(maps.roughness[i] + fit.roughness_shift, 0.03f, 1.0f)), 255, 255};
     }
   }
-  return {Texture::FromImage(recipe.name, std::move(color), true),
-          Texture::FromImage(recipe.name + " normal", std::move(normal), false),
+  return {Texture::FromImage(recipe.name, std::move(color), true), Texture::FromImage(recipe.name + " normal", std::move(normal), false),
           Texture::FromImage(recipe.name + " roughness", std::move(roughness), false)};
 }
 

@@ -52,11 +52,10 @@ TEST_P(EveryMaterial, ShowsWhatScansOfItShow) {
   const TextureRecipe recipe = internal::MakeRecipe(target.recipe);
   TextureFit fit;
   const Statistics s = Measure(SynthesizeTextures(recipe, internal::SizeOf(target.recipe), &fit));
-  std::printf(
-      "| %s | %.3f / %.3f / %.3f | %.3f / %.3f | %.2f / %.2f / %.2f | %.2f / %.2f | %.2f / %.2f / %.2f |\n",
-      recipe.name.c_str(), target.luminance, target.luminance / fit.luminance_gain, s.luminance,
-      target.deviation, s.deviation, target.roughness, target.roughness - fit.roughness_shift, s.roughness,
-      target.spread, s.spread, target.slope, target.slope / fit.slope_gain, s.slope);
+  std::printf("| %s | %.3f / %.3f / %.3f | %.3f / %.3f | %.2f / %.2f / %.2f | %.2f / %.2f | %.2f / %.2f / %.2f |\n", recipe.name.c_str(),
+              target.luminance, target.luminance / fit.luminance_gain, s.luminance, target.deviation, s.deviation, target.roughness,
+              target.roughness - fit.roughness_shift, s.roughness, target.spread, s.spread, target.slope, target.slope / fit.slope_gain,
+              s.slope);
   EXPECT_NEAR(s.luminance, target.luminance, 0.06 * target.luminance);
   EXPECT_NEAR(s.roughness, target.roughness, 0.03);
   EXPECT_LT(std::fabs(std::log(s.slope / target.slope)), std::log(1.6));
@@ -140,8 +139,7 @@ TEST(TextureField, CellsKnowTheDistanceToTheirBorder) {
 TEST(TextureField, BlurringKeepsTheMean) {
   const internal::Field f = internal::WhiteField(64, 3), soft = internal::Blurred(f, 6);
   double a = 0, b = 0, most = 0;
-  for (size_t i = 0; i < f.count(); ++i)
-    a += f[i], b += soft[i], most = std::max<double>(most, std::fabs(soft[i]));
+  for (size_t i = 0; i < f.count(); ++i) a += f[i], b += soft[i], most = std::max<double>(most, std::fabs(soft[i]));
   EXPECT_NEAR(a, b, 0.05);
   EXPECT_LT(most, 0.5);
 }
@@ -159,11 +157,7 @@ TEST(TextureSynth, FlatHeightGivesTheFlatNormal) {
 }
 
 TEST(TextureSynth, ASlopeRisingToTheRightTiltsTheNormalToTheLeft) {
-  const TextureSet set = SynthesizeTextures({"ramp", 1, 0.5f,
-                                             [](float u, float) {
-                                               return Texel{{0.5f, 0.5f, 0.5f}, u, 0.5f};
-                                             }},
-                                            16);
+  const TextureSet set = SynthesizeTextures({"ramp", 1, 0.5f, [](float u, float) { return Texel{{0.5f, 0.5f, 0.5f}, u, 0.5f}; }}, 16);
   const Rgba8 middle = set.normal.levels[0](8, 8);  // slope 1: normal (-1, 0, 1) / sqrt 2
   EXPECT_NEAR(middle.r, 255 * (0.5 - 0.5 * std::sqrt(0.5)), 1.5);
   EXPECT_EQ(middle.g, 128);

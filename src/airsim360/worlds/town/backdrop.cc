@@ -36,8 +36,7 @@ void BuildFarBlock(District& d, const GroundRect& block, uint64_t id) {
     for (int i = 0; i < columns; ++i) {
       const float w = block.width() / static_cast<float>(columns), h = block.depth() / 2;
       const GroundRect plot{block.x0 + w * static_cast<float>(i), block.y0 + h * static_cast<float>(j),
-                            block.x0 + w * static_cast<float>(i + 1),
-                            block.y0 + h * static_cast<float>(j + 1)};
+                            block.x0 + w * static_cast<float>(i + 1), block.y0 + h * static_cast<float>(j + 1)};
       if (rng.Chance(0.06)) continue;
       const double tall = std::exp(0.45 * rng.Normal());
       const auto storeys = static_cast<float>(std::clamp(std::lround(7 * tall), 3l, 24l));
@@ -51,8 +50,7 @@ void BuildFarCity(District& d, const GroundRect& ring) {
   const int n = static_cast<int>(kCityEdge / kPitch) + 1;
   for (int j = -n; j <= n; ++j) {
     for (int i = -n; i <= n; ++i) {
-      const float cx = ring.center().x + kPitch * static_cast<float>(i),
-                  cy = ring.center().y + kPitch * static_cast<float>(j);
+      const float cx = ring.center().x + kPitch * static_cast<float>(i), cy = ring.center().y + kPitch * static_cast<float>(j);
       const float half = (kPitch - kRoad) / 2;
       const GroundRect block{cx - half, cy - half, cx + half, cy + half};
       const bool clear = block.x1 < ring.x0 || block.x0 > ring.x1 || block.y1 < ring.y0 || block.y0 > ring.y1;
@@ -62,10 +60,7 @@ void BuildFarCity(District& d, const GroundRect& ring) {
   }
   // Streets between them: four sheets around the ring.
   const float e = kCityEdge, z = -0.13f;
-  const GroundRect sheets[] = {{-e, -e, e, ring.y0},
-                               {-e, ring.y1, e, e},
-                               {-e, ring.y0, ring.x0, ring.y1},
-                               {ring.x1, ring.y0, e, ring.y1}};
+  const GroundRect sheets[] = {{-e, -e, e, ring.y0}, {-e, ring.y1, e, e}, {-e, ring.y0, ring.x0, ring.y1}, {ring.x1, ring.y0, e, ring.y1}};
   for (const GroundRect& sheet : sheets) {
     d.ground.Begin("outer streets", "ground/road", Surface::kAsphalt);
     d.ground.Rect(sheet, z);
@@ -92,30 +87,24 @@ void RaiseRidge(District& d, int index, float radius, float from, float to, floa
   const float width = radius * 0.22f;
   const auto seed = static_cast<uint32_t>(MixBits(d.seed + static_cast<uint64_t>(index)));
   const auto at = [&](int i, int j) {
-    const float s = static_cast<float>(i) / static_cast<float>(along),
-                t = 2 * static_cast<float>(j) / kAcross - 1;
+    const float s = static_cast<float>(i) / static_cast<float>(along), t = 2 * static_cast<float>(j) / kAcross - 1;
     const float a = from + (to - from) * s, r = radius + width * t;
     const float x = r * std::cos(a), y = r * std::sin(a);
     // Noise over a tile of 16 km; the crest falls to both ends.
     const float u = x / 16000 + 0.5f, v = y / 16000 + 0.5f;
-    const float crest = 0.55f + 0.75f * TilingFbm(seed, u, v, 12, 4),
-                rough = TilingFbm(seed + 9, u, v, 48, 4);
+    const float crest = 0.55f + 0.75f * TilingFbm(seed, u, v, 12, 4), rough = TilingFbm(seed + 9, u, v, 48, 4);
     const float ends = std::min(1.0f, 4 * std::min(s, 1 - s));
     const float shape = std::pow(std::max(0.0f, 1 - t * t), 1.3f);
-    const float z =
-        kPlainZ - 8 + height * ends * shape * std::max(0.1f, crest + 0.28f * rough) * (1 + 0.15f * rough);
+    const float z = kPlainZ - 8 + height * ends * shape * std::max(0.1f, crest + 0.28f * rough) * (1 + 0.15f * rough);
     return Vec3f{x, y, z};
   };
-  const auto normal = [&](int i, int j) {
-    return Normalized(Cross(at(i, j + 1) - at(i, j - 1), at(i + 1, j) - at(i - 1, j)));
-  };
+  const auto normal = [&](int i, int j) { return Normalized(Cross(at(i, j + 1) - at(i, j - 1), at(i + 1, j) - at(i - 1, j))); };
   const auto uv = [](Vec3f p) { return Vec2f{p.x, -p.y - p.z}; };
   for (int i = 0; i < along; ++i) {
     for (int j = 0; j < kAcross; ++j) {
       const Vec3f p[4] = {at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)};
       const auto up = [](Vec3f n) { return n.z < 0 ? -n : n; };
-      const Vec3f n[4] = {up(normal(i, j)), up(normal(i, j + 1)), up(normal(i + 1, j + 1)),
-                          up(normal(i + 1, j))};
+      const Vec3f n[4] = {up(normal(i, j)), up(normal(i, j + 1)), up(normal(i + 1, j + 1)), up(normal(i + 1, j))};
       d.ground.mesh().SmoothTriangle({p[0], p[1], p[2]}, {n[0], n[1], n[2]}, {uv(p[0]), uv(p[1]), uv(p[2])});
       d.ground.mesh().SmoothTriangle({p[0], p[2], p[3]}, {n[0], n[2], n[3]}, {uv(p[0]), uv(p[2]), uv(p[3])});
     }
@@ -137,8 +126,7 @@ void RaiseMountains(District& d) {
   };
   int index = 0;
   for (const RidgeRow& row : kRidges) {
-    RaiseRidge(d, index++, row.radius, row.from_deg * kTau / 360, row.to_deg * kTau / 360, row.height,
-               row.surface);
+    RaiseRidge(d, index++, row.radius, row.from_deg * kTau / 360, row.to_deg * kTau / 360, row.height, row.surface);
   }
 }
 
@@ -148,10 +136,10 @@ void PlantFarWoods(District& d) {
   for (int grove = 0; grove < 26; ++grove) {
     const double a = rng.Uniform(0, kTau), r = rng.Uniform(760, 1500);
     for (int i = 0; i < 9; ++i) {
-      const Vec3f p{static_cast<float>(r * std::cos(a) + 26 * rng.Normal()),
-                    static_cast<float>(r * std::sin(a) + 26 * rng.Normal()), kPlainZ};
-      d.placer.Put(rng.Chance(0.4) ? "tree_pine" : "tree_generic", p,
-                   static_cast<float>(rng.Uniform(0, kTau)), static_cast<float>(rng.Uniform(0.9, 1.4)));
+      const Vec3f p{static_cast<float>(r * std::cos(a) + 26 * rng.Normal()), static_cast<float>(r * std::sin(a) + 26 * rng.Normal()),
+                    kPlainZ};
+      d.placer.Put(rng.Chance(0.4) ? "tree_pine" : "tree_generic", p, static_cast<float>(rng.Uniform(0, kTau)),
+                   static_cast<float>(rng.Uniform(0.9, 1.4)));
     }
   }
 }

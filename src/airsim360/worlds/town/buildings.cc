@@ -23,26 +23,19 @@ std::vector<FacadeDetail> DetailOf(const StreetPlan& plan, const BuildingPlan& b
 
 void BuildBuildings(District& d, const std::vector<BuildingPlan>& buildings, bool fire_escapes) {
   MeshBuilder mesh;
-  FacadeContext context{d.builder, d.surfaces, mesh, AddBalconyMesh(d.builder, d.surfaces),
-                        AddWindowBoxMesh(d.builder, d.surfaces)};
-  if (fire_escapes)
-    context.fire_escape = {AddFireEscapeMesh(d.builder, d.surfaces, false),
-                           AddFireEscapeMesh(d.builder, d.surfaces, true)};
+  FacadeContext context{d.builder, d.surfaces, mesh, AddBalconyMesh(d.builder, d.surfaces), AddWindowBoxMesh(d.builder, d.surfaces)};
+  if (fire_escapes) context.fire_escape = {AddFireEscapeMesh(d.builder, d.surfaces, false), AddFireEscapeMesh(d.builder, d.surfaces, true)};
   EntityId walls = kNoEntity;
   for (size_t i = 0; i < buildings.size(); ++i) {
     const BuildingPlan& building = buildings[i];
     if (building.base == 0)
-      walls = d.builder.AddEntity(building.name.empty() ? "building" : building.name,
-                                  d.builder.tree().At("construction/building"));
+      walls = d.builder.AddEntity(building.name.empty() ? "building" : building.name, d.builder.tree().At("construction/building"));
     const EntityId roof = d.builder.AddEntity("roof", d.builder.tree().At("construction/building/roof"));
     BuildFacades(context, building, walls, DetailOf(d.plan, building));
     BuildRoof(d.builder, mesh, d.surfaces, &d.placer.shelf(), building, walls, roof);
     const bool last = i + 1 == buildings.size() || buildings[i + 1].block != building.block;
     if (!last) continue;
-    d.builder.AddInstance(
-        {d.builder.AddMesh(mesh.Finish("buildings of block " + std::to_string(building.block))),
-         {},
-         kNoEntity});
+    d.builder.AddInstance({d.builder.AddMesh(mesh.Finish("buildings of block " + std::to_string(building.block))), {}, kNoEntity});
   }
 }
 

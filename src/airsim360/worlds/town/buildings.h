@@ -9,7 +9,6 @@ namespace airsim360::internal {
 
 /// Buildings block by block, one merged mesh each; a plan with a `base` belongs to the entity of the one
 /// before it. Every roof is an entity of its own.
-void BuildBuildings(District& district, const std::vector<BuildingPlan>& buildings,
-                    bool fire_escapes = false);
+void BuildBuildings(District& district, const std::vector<BuildingPlan>& buildings, bool fire_escapes = false);
 
 }  // namespace airsim360::internal

@@ -104,10 +104,7 @@ Fan FanOf(const StreetLine& ns, const StreetLine& ew) {
     const bool along_x = arm % 2 == 0;
     const StreetLine& line = along_x ? ew : ns;
     const float reach = (along_x ? hx : hy) + r, w = line.half_width, next = along_x ? hx : hy;
-    const Vec2f out = arm == 0   ? Vec2f{1, 0}
-                      : arm == 1 ? Vec2f{0, 1}
-                      : arm == 2 ? Vec2f{-1, 0}
-                                 : Vec2f{0, -1};
+    const Vec2f out = arm == 0 ? Vec2f{1, 0} : arm == 1 ? Vec2f{0, 1} : arm == 2 ? Vec2f{-1, 0} : Vec2f{0, -1};
     const Vec2f left{-out.y, out.x};
     const auto add = [&](float o, float l, float z) {
       rim.push_back({ns.center + out.x * o + left.x * l, ew.center + out.y * o + left.y * l, z});
@@ -127,9 +124,7 @@ Fan FanOf(const StreetLine& ns, const StreetLine& ew) {
 
 std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, uint64_t seed) {
   std::vector<StreetStretch> core;
-  const auto is_core = [&](size_t i) {
-    return static_cast<int>(i) >= plan.first_core && static_cast<int>(i) <= plan.last_core;
-  };
+  const auto is_core = [&](size_t i) { return static_cast<int>(i) >= plan.first_core && static_cast<int>(i) <= plan.last_core; };
   RngStream rng(seed, "street wear");
 
   for (bool along_x : {true, false}) {
@@ -137,18 +132,14 @@ std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, ui
     const auto& crossings = along_x ? plan.north_south : plan.east_west;
     for (size_t i = 0; i < lines.size(); ++i) {
       for (size_t k = 0; k + 1 < crossings.size(); ++k) {
-        const StreetStretch street{lines[i], along_x,
-                                   crossings[k].center + crossings[k].half_width + kCornerRadius,
+        const StreetStretch street{lines[i], along_x, crossings[k].center + crossings[k].half_width + kCornerRadius,
                                    crossings[k + 1].center - crossings[k + 1].half_width - kCornerRadius};
-        const std::string name =
-            std::string(along_x ? "EW" : "NS") + std::to_string(i) + "." + std::to_string(k);
+        const std::string name = std::string(along_x ? "EW" : "NS") + std::to_string(i) + "." + std::to_string(k);
         LayStretch(ground, street, name, rng.Chance(0.3) ? Surface::kCarriagewayOld : Surface::kCarriageway, is_core(i), rng);
         if (!is_core(i)) continue;
         internal::LayWear(ground, street, rng);
         LayDrains(ground, street);
-        internal::LayMarkings(
-            ground, street, name,
-            plan.bike_lane_row >= 0 && along_x && static_cast<int>(i) == plan.bike_lane_row);
+        internal::LayMarkings(ground, street, name, plan.bike_lane_row >= 0 && along_x && static_cast<int>(i) == plan.bike_lane_row);
         if (is_core(k)) LayCrosswalk(ground, street, true, name + " start");
         if (is_core(k + 1)) LayCrosswalk(ground, street, false, name + " end");
         core.push_back(street);
@@ -157,14 +148,12 @@ std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, ui
   }
   for (size_t i = 0; i < plan.north_south.size(); ++i) {
     for (size_t k = 0; k < plan.east_west.size(); ++k) {
-      const Fan fan = LayJunction(ground, plan.north_south[i], plan.east_west[k],
-                                  std::to_string(i) + "." + std::to_string(k),
+      const Fan fan = LayJunction(ground, plan.north_south[i], plan.east_west[k], std::to_string(i) + "." + std::to_string(k),
                                   rng.Chance(0.4) ? Surface::kCarriagewayOld : Surface::kCarriageway);
       if (!is_core(i) || !is_core(k)) continue;
       internal::LayJunctionWear(ground, fan, rng);
       if (plan.north_south[i].kind == StreetKind::kBoulevard)
-        internal::LayJunctionGuides(ground, fan, plan.north_south[i], plan.east_west[k],
-                                    std::to_string(i) + "." + std::to_string(k));
+        internal::LayJunctionGuides(ground, fan, plan.north_south[i], plan.east_west[k], std::to_string(i) + "." + std::to_string(k));
       else if (plan.north_south[i].kind == StreetKind::kAvenue && (i + k) % 2 == 1)
         internal::LayJunctionBox(ground, fan, plan.north_south[i], plan.east_west[k], std::to_string(i) + "." + std::to_string(k));
     }

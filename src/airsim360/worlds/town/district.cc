@@ -8,10 +8,8 @@
 
 namespace airsim360::internal {
 
-EntityId PlaceNamed(District& d, std::string name, std::string_view kind, Vec3f p, float yaw,
-                    uint32_t variant, float scale, Vec3f tint) {
-  const EntityId entity =
-      d.builder.AddEntity(std::move(name), d.builder.tree().At(FindPropKind(kind).category));
+EntityId PlaceNamed(District& d, std::string name, std::string_view kind, Vec3f p, float yaw, uint32_t variant, float scale, Vec3f tint) {
+  const EntityId entity = d.builder.AddEntity(std::move(name), d.builder.tree().At(FindPropKind(kind).category));
   d.placer.shelf().PlaceAs(entity, kind, PlaceUpright(p, yaw, scale), variant, tint);
   return entity;
 }
@@ -84,13 +82,15 @@ Vec3f LawnTone(Vec2f p, RngStream& rng) {
 }  // namespace
 
 // Tiles where they fit, patches along the edges.
-void LayMownGrass(PropShelf& shelf, EntityId lawn, const GroundRect& box, float z, RngStream& rng, const std::function<float(Vec2f)>& inset) {
+void LayMownGrass(PropShelf& shelf, EntityId lawn, const GroundRect& box, float z, RngStream& rng,
+                  const std::function<float(Vec2f)>& inset) {
   constexpr float kPitch = kLawnTile / 2;
   for (float y = box.y0; y < box.y1; y += kLawnTile) {
     for (float x = box.x0; x < box.x1; x += kLawnTile) {
       const GroundRect cell{x, y, x + kLawnTile, y + kLawnTile};
       const std::vector<Vec2f> corners = cell.Outline();
-      const bool whole = inset(cell.center()) > kLawnTile / 2 && std::all_of(corners.begin(), corners.end(), [&](Vec2f p) { return inset(p) > 0; });
+      const bool whole =
+          inset(cell.center()) > kLawnTile / 2 && std::all_of(corners.begin(), corners.end(), [&](Vec2f p) { return inset(p) > 0; });
       if (whole) {
         const Vec2f p = cell.center();
         const float quarter = 1.5707963f * static_cast<float>(rng.Index(4));
@@ -110,22 +110,19 @@ void LayMownGrass(PropShelf& shelf, EntityId lawn, const GroundRect& box, float 
 
 void GrowGrass(District& d, EntityId lawn, const std::vector<Vec2f>& outline, float z, float per_m2) {
   GroundRect box{1e9f, 1e9f, -1e9f, -1e9f};
-  for (Vec2f p : outline)
-    box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
+  for (Vec2f p : outline) box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
   RngStream rng(d.seed, "grass", lawn);
   if (per_m2 >= 2)
-    LayMownGrass(d.placer.shelf(), lawn, box, z, rng, [&](Vec2f p) { return (InPolygon(outline, p) ? 1.0f : -1.0f) * EdgeDistance(outline, p); });
+    LayMownGrass(d.placer.shelf(), lawn, box, z, rng,
+                 [&](Vec2f p) { return (InPolygon(outline, p) ? 1.0f : -1.0f) * EdgeDistance(outline, p); });
   const auto tufts = static_cast<int>(box.area() * (per_m2 >= 2 ? 0.7f : per_m2));
   for (int i = 0; i < tufts; ++i) {
-    const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)),
-                  static_cast<float>(rng.Uniform(box.y0, box.y1))};
-    const auto yaw = static_cast<float>(rng.Uniform(0, 6.283)),
-               scale = static_cast<float>(rng.Uniform(0.7, 1.35));
+    const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)), static_cast<float>(rng.Uniform(box.y0, box.y1))};
+    const auto yaw = static_cast<float>(rng.Uniform(0, 6.283)), scale = static_cast<float>(rng.Uniform(0.7, 1.35));
     const auto variant = static_cast<uint32_t>(rng.Index(16));
     const auto tone = static_cast<float>(rng.Uniform(0.8, 1.15));
     if (!InPolygon(outline, p) || EdgeDistance(outline, p) < 0.25f) continue;
-    d.placer.shelf().PlaceAs(lawn, "grass_tuft", PlaceUpright({p.x, p.y, z}, yaw, scale), variant,
-                             {tone, tone, tone * 0.9f});
+    d.placer.shelf().PlaceAs(lawn, "grass_tuft", PlaceUpright({p.x, p.y, z}, yaw, scale), variant, {tone, tone, tone * 0.9f});
   }
 }
 
@@ -134,9 +131,7 @@ void DropLeaves(District& d, EntityId ground, Vec2f at, float radius, int count,
   for (int i = 0; i < count; ++i) {
     const double a = rng.Uniform(0, 6.283), r = radius * std::sqrt(rng.Uniform());
     const Vec2f p{at.x + static_cast<float>(r * std::cos(a)), at.y + static_cast<float>(r * std::sin(a))};
-    d.placer.shelf().PlaceAs(ground, "leaf_litter",
-                             PlaceUpright({p.x, p.y, z}, static_cast<float>(rng.Uniform(0, 6.283))),
-                             rng.Index(16));
+    d.placer.shelf().PlaceAs(ground, "leaf_litter", PlaceUpright({p.x, p.y, z}, static_cast<float>(rng.Uniform(0, 6.283))), rng.Index(16));
   }
 }
 

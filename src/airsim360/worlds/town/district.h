@@ -21,21 +21,21 @@ struct District {
 };
 
 /// A prop as an entity with a name of its own.
-EntityId PlaceNamed(District& district, std::string name, std::string_view kind, Vec3f p, float yaw,
-                    uint32_t variant = 0, float scale = 1, Vec3f tint = {1, 1, 1});
+EntityId PlaceNamed(District& district, std::string name, std::string_view kind, Vec3f p, float yaw, uint32_t variant = 0, float scale = 1,
+                    Vec3f tint = {1, 1, 1});
 /// Yaw that turns a prop's front (-Y) towards a direction.
 float FacingYaw(Vec2f direction);
 /// A run of `kind` panels of 2 m from a to b at height z, stretched to fit, all one entity; with `post` also
 /// posts (an entity each) at the joints. The panels' front looks to the right-hand side of a -> b.
-void PlaceRun(District& district, std::string_view kind, Vec2f a, Vec2f b, float z,
-              std::string_view post = {});
+void PlaceRun(District& district, std::string_view kind, Vec2f a, Vec2f b, float z, std::string_view post = {});
 /// A square tree pit of soil in a stone frame, laid over the paving.
 void LayTreePit(Ground& ground, Vec2f at, float z = 0);
 /// Grass tufts over a lawn at height z as part of its entity, about `per_m2`, from 2 on with mown grass between them; none
 /// within 0.25 m of its edge.
 void GrowGrass(District& district, EntityId lawn, const std::vector<Vec2f>& outline, float z, float per_m2);
 /// Mown grass as part of the lawn's entity at height z where `inset` (metres from the lawn's edge, negative outside) allows it.
-void LayMownGrass(PropShelf& shelf, EntityId lawn, const GroundRect& box, float z, RngStream& rng, const std::function<float(Vec2f)>& inset);
+void LayMownGrass(PropShelf& shelf, EntityId lawn, const GroundRect& box, float z, RngStream& rng,
+                  const std::function<float(Vec2f)>& inset);
 /// Twigs and leaves on the ground around a tree.
 void DropLeaves(District& district, EntityId ground, Vec2f at, float radius, int count, float z);
 bool InPolygon(const std::vector<Vec2f>& outline, Vec2f p);

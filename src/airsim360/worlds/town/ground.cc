@@ -17,9 +17,7 @@ void Ground::Quad(Vec3f a, Vec3f b, Vec3f c, Vec3f d) {
   mesh_.QuadUv(a, b, c, d, uv(a), uv(b), uv(c), uv(d));
 }
 
-void Ground::Rect(const GroundRect& r, float z) {
-  Quad({r.x0, r.y0, z}, {r.x1, r.y0, z}, {r.x1, r.y1, z}, {r.x0, r.y1, z});
-}
+void Ground::Rect(const GroundRect& r, float z) { Quad({r.x0, r.y0, z}, {r.x1, r.y0, z}, {r.x1, r.y1, z}, {r.x0, r.y1, z}); }
 
 void Ground::RingSector(Vec2f center, float r0, float r1, float a0, float a1, float z, int steps) {
   const auto at = [&](float r, int i) {
@@ -42,8 +40,7 @@ void Ground::Wall(std::span<const Vec2f> line, float z0, float z1) {
   for (size_t i = 0; i + 1 < line.size(); ++i) {
     const Vec2f a = line[i], b = line[i + 1];
     const float next = u + std::hypot(b.x - a.x, b.y - a.y);
-    mesh_.QuadUv({a.x, a.y, z0}, {b.x, b.y, z0}, {b.x, b.y, z1}, {a.x, a.y, z1}, {u, -z0}, {next, -z0},
-                 {next, -z1}, {u, -z1});
+    mesh_.QuadUv({a.x, a.y, z0}, {b.x, b.y, z0}, {b.x, b.y, z1}, {a.x, a.y, z1}, {u, -z0}, {next, -z0}, {next, -z1}, {u, -z1});
     u = next;
   }
 }

@@ -56,8 +56,7 @@ TEST(Pavement, CoversTheRingBetweenKerbAndBuildingLineAndDropsAtCrossings) {
   // Rounded rectangle 0.15 m inside the kerb face less the inner rectangle; arcs of ten chords lose a little.
   const GroundRect outer = block.kerb.Inset(0.15f);
   const double r = block.corner_radius - 0.15;
-  const double chords = 20 * std::sin(std::numbers::pi / 20) / 2 * r *
-                        r;  // area of ten triangles under a quarter circle, times 2
+  const double chords = 20 * std::sin(std::numbers::pi / 20) / 2 * r * r;  // area of ten triangles under a quarter circle, times 2
   const double quarter = chords / 2;
   const double expected = outer.area() - 4 * (r * r - quarter) - block.inner().area();
   const Seen fields = SeenFromAbove(*scene, "ground/pavement/modular");
@@ -84,8 +83,7 @@ TEST(Streets, MarkingsLieAFewMillimetresAboveTheAsphalt) {
         // The street under the point is the one whose centre line is nearest.
         float lift = 1e9f;
         for (const StreetStretch& s : streets) {
-          const float along = s.along_x ? p.x : p.y,
-                      across = s.along_x ? p.y - s.line.center : s.line.center - p.x;
+          const float along = s.along_x ? p.x : p.y, across = s.along_x ? p.y - s.line.center : s.line.center - p.x;
           if (along < s.s0 || along > s.s1 || std::abs(across) > s.line.half_width) continue;
           lift = p.z - CarriagewayHeight(s.line, across);
         }
@@ -101,8 +99,7 @@ TEST(Facades, PanesAreSetBackIntoTheWall) {
   SceneBuilder builder("facade");
   const Surfaces surfaces = AddSurfaces(builder);
   MeshBuilder mesh;
-  FacadeContext context{builder, surfaces, mesh, AddBalconyMesh(builder, surfaces),
-                        AddWindowBoxMesh(builder, surfaces)};
+  FacadeContext context{builder, surfaces, mesh, AddBalconyMesh(builder, surfaces), AddWindowBoxMesh(builder, surfaces)};
   BuildingPlan plan;
   plan.outline = {{0, 0}, {18, 0}, {18, 15}, {0, 15}};
   plan.edges.assign(4, EdgeKind::kStreet);

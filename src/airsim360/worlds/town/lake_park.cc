@@ -47,14 +47,11 @@ void LayLake(District& d, Vec2f c) {
   Ring(g, c, kBank, kWalkIn - 0.005f, kLawnZ, kLawnZ);
   RngStream rng(d.seed, "lake bank");
   for (int i = 0; i < 900; ++i) {
-    const float a = static_cast<float>(rng.Uniform(0, kTau)),
-                s = static_cast<float>(rng.Uniform(1.045, kWalkIn - 0.01));
+    const float a = static_cast<float>(rng.Uniform(0, kTau)), s = static_cast<float>(rng.Uniform(1.045, kWalkIn - 0.01));
     const Vec2f p = Shore(c, a, s);
-    const float t = std::min(1.0f, (s - 1.035f) / (kBank - 1.035f)),
-                tone = static_cast<float>(rng.Uniform(0.8, 1.2));
+    const float t = std::min(1.0f, (s - 1.035f) / (kBank - 1.035f)), tone = static_cast<float>(rng.Uniform(0.8, 1.2));
     d.placer.shelf().PlaceAs(bank, "grass_tuft",
-                             PlaceUpright({p.x, p.y, -0.22f + (kLawnZ + 0.22f) * t}, a * 7,
-                                          static_cast<float>(rng.Uniform(0.8, 1.7))),
+                             PlaceUpright({p.x, p.y, -0.22f + (kLawnZ + 0.22f) * t}, a * 7, static_cast<float>(rng.Uniform(0.8, 1.7))),
                              rng.Index(16), {tone, tone, tone});
   }
   for (int i = 0; i < 46; ++i) {
@@ -85,9 +82,8 @@ std::vector<Vec2f> QuadrantOutline(const GroundRect& area, Vec2f c, int quadrant
   }
   const float ex = sx > 0 ? area.x1 : area.x0, ey = sy > 0 ? area.y1 : area.y0;
   const bool starts_on_x = quadrant % 2 == 0;  // the arc starts near the x axis
-  const std::vector<Vec2f> rim =
-      starts_on_x ? std::vector<Vec2f>{{c.x + sx * kHalf, ey}, {ex, ey}, {ex, c.y + sy * kHalf}}
-                  : std::vector<Vec2f>{{ex, c.y + sy * kHalf}, {ex, ey}, {c.x + sx * kHalf, ey}};
+  const std::vector<Vec2f> rim = starts_on_x ? std::vector<Vec2f>{{c.x + sx * kHalf, ey}, {ex, ey}, {ex, c.y + sy * kHalf}}
+                                             : std::vector<Vec2f>{{ex, c.y + sy * kHalf}, {ex, ey}, {c.x + sx * kHalf, ey}};
   line.insert(line.end(), rim.begin(), rim.end());
   float area2 = 0;
   for (size_t i = 0; i < line.size(); ++i) {
@@ -101,29 +97,24 @@ std::vector<Vec2f> QuadrantOutline(const GroundRect& area, Vec2f c, int quadrant
 void PlantQuadrant(District& d, const std::vector<Vec2f>& outline, EntityId lawn, int quadrant) {
   RngStream rng(d.seed, "lake park", static_cast<uint64_t>(quadrant));
   GroundRect box{1e9f, 1e9f, -1e9f, -1e9f};
-  for (Vec2f p : outline)
-    box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
+  for (Vec2f p : outline) box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
   std::vector<Vec2f> trees;
   for (int i = 0; i < 400 && trees.size() < 30; ++i) {
-    const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)),
-                  static_cast<float>(rng.Uniform(box.y0, box.y1))};
-    const bool crowded = std::any_of(trees.begin(), trees.end(),
-                                     [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 7.9f; });
+    const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)), static_cast<float>(rng.Uniform(box.y0, box.y1))};
+    const bool crowded = std::any_of(trees.begin(), trees.end(), [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 7.9f; });
     if (crowded || !InPolygon(outline, p) || EdgeDistance(outline, p) < 1.6f) continue;
     static constexpr const char* kKinds[] = {"tree_generic", "tree_generic", "tree_narrowleaf", "tree_pine"};
-    if (!d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f},
-                      static_cast<float>(rng.Uniform(0, kTau)), static_cast<float>(rng.Uniform(0.75, 1.1))))
+    if (!d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f}, static_cast<float>(rng.Uniform(0, kTau)),
+                      static_cast<float>(rng.Uniform(0.75, 1.1))))
       continue;
     trees.push_back(p);
     DropLeaves(d, lawn, p, 2.8f, 8, kLawnZ);
   }
   for (int i = 0; i < 30; ++i) {
-    const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)),
-                  static_cast<float>(rng.Uniform(box.y0, box.y1))};
+    const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)), static_cast<float>(rng.Uniform(box.y0, box.y1))};
     if (!InPolygon(outline, p) || EdgeDistance(outline, p) < 0.8f) continue;
     static constexpr const char* kKinds[] = {"shrub", "plant", "flower_bed", "rock"};
-    d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f}, static_cast<float>(rng.Uniform(0, kTau)),
-                 0.9f);
+    d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f}, static_cast<float>(rng.Uniform(0, kTau)), 0.9f);
   }
   GrowGrass(d, lawn, outline, kLawnZ, 2);
 }
@@ -150,19 +141,14 @@ void BuildLakePark(District& d, const Block& block) {
   d.ground.Begin("park soil", "ground/dirt", Surface::kSoil);
   for (int i = 0; i < kSteps; ++i) {
     const float a0 = kTau * static_cast<float>(i) / kSteps, a1 = kTau * static_cast<float>(i + 1) / kSteps;
-    const Vec2f p = Shore(c, a0, kBank + 0.01f), q = Walk(c, a0, 3.2f), r = Walk(c, a1, 3.2f),
-                t = Shore(c, a1, kBank + 0.01f);
+    const Vec2f p = Shore(c, a0, kBank + 0.01f), q = Walk(c, a0, 3.2f), r = Walk(c, a1, 3.2f), t = Shore(c, a1, kBank + 0.01f);
     d.ground.Quad({p.x, p.y, 0.0f}, {q.x, q.y, 0.0f}, {r.x, r.y, 0.0f}, {t.x, t.y, 0.0f});
   }
   for (int i = 0; i < 24; ++i) {
     const float a = kTau * (static_cast<float>(i) + 0.5f) / 24;
     const Vec2f p = Walk(c, a, 3.5f);
     const float yaw = FacingYaw(c - p);
-    d.placer.Try(i % 3 == 0   ? "lamp_post"
-                 : i % 3 == 1 ? "bench_wood"
-                 : i % 2      ? "trash_can"
-                              : "bench_wood",
-                 {p.x, p.y, kLawnZ}, yaw);
+    d.placer.Try(i % 3 == 0 ? "lamp_post" : i % 3 == 1 ? "bench_wood" : i % 2 ? "trash_can" : "bench_wood", {p.x, p.y, kLawnZ}, yaw);
   }
   for (int quadrant = 0; quadrant < 4; ++quadrant) {
     const std::vector<Vec2f> outline = QuadrantOutline(area, c, quadrant);

@@ -34,12 +34,10 @@ void RaiseIsland(District& d, std::string_view category, Vec2f c, Vec2f half, fl
   RngStream rng(d.seed, "island");
   const auto top = [&](Vec2f p) { return height(std::hypot((p.x - c.x) / half.x, (p.y - c.y) / half.y)); };
   for (int i = 0; i < 160; ++i) {
-    const float a = static_cast<float>(rng.Uniform(0, kTau)),
-                t = std::sqrt(static_cast<float>(rng.Uniform(0, 0.6)));
+    const float a = static_cast<float>(rng.Uniform(0, kTau)), t = std::sqrt(static_cast<float>(rng.Uniform(0, 0.6)));
     const Vec2f p{c.x + half.x * t * std::cos(a), c.y + half.y * t * std::sin(a)};
     const auto scale = static_cast<float>(rng.Uniform(0.8, 1.5));
-    d.placer.shelf().PlaceAs(island, "grass_tuft", PlaceUpright({p.x, p.y, top(p) - 0.01f}, a * 5, scale),
-                             rng.Index(16));
+    d.placer.shelf().PlaceAs(island, "grass_tuft", PlaceUpright({p.x, p.y, top(p) - 0.01f}, a * 5, scale), rng.Index(16));
   }
   for (Vec2f o : {Vec2f{-0.56f, 0.09f}, Vec2f{0.53f, -0.17f}}) {
     const Vec2f p{c.x + o.x * half.x, c.y + o.y * half.y};
@@ -66,13 +64,11 @@ void BuildRedBridge(District& d, Vec2f c, float half) {
     return 0.05f + rise * (1 - t * t);
   };
   for (int i = 0; i < kParts; ++i) {
-    const float y0 = c.y - half + 2 * half * static_cast<float>(i) / kParts, y1 = y0 + 2 * half / kParts,
-                z0 = z(y0), z1 = z(y1);
+    const float y0 = c.y - half + 2 * half * static_cast<float>(i) / kParts, y1 = y0 + 2 * half / kParts, z0 = z(y0), z1 = z(y1);
     mesh.SetMaterial(d.surfaces[Surface::kDoorWood]);
     mesh.Quad({x - 1.5f, y0, z0}, {x + 1.5f, y0, z0}, {x + 1.5f, y1, z1}, {x - 1.5f, y1, z1});
     mesh.SetMaterial(paint);
-    mesh.Quad({x - 1.5f, y1, z1 - 0.25f}, {x + 1.5f, y1, z1 - 0.25f}, {x + 1.5f, y0, z0 - 0.25f},
-              {x - 1.5f, y0, z0 - 0.25f});
+    mesh.Quad({x - 1.5f, y1, z1 - 0.25f}, {x + 1.5f, y1, z1 - 0.25f}, {x + 1.5f, y0, z0 - 0.25f}, {x - 1.5f, y0, z0 - 0.25f});
     for (float side : {-1.0f, 1.0f}) {
       const float e = x + side * 1.55f;
       mesh.Beam({e, y0, z0 - 0.1f}, {e, y1, z1 - 0.1f}, 0.34f);

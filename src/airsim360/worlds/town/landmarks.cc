@@ -50,8 +50,7 @@ void MakeAlike(std::vector<BuildingPlan>& buildings, size_t first) {
 
 void MarkDowntownLandmarks(const StreetPlan& plan, std::vector<BuildingPlan>& buildings) {
   const GroundRect reach = plan.reach();
-  const auto plaza = std::find_if(plan.blocks.begin(), plan.blocks.end(),
-                                  [](const Block& b) { return b.kind == BlockKind::kPlaza; });
+  const auto plaza = std::find_if(plan.blocks.begin(), plan.blocks.end(), [](const Block& b) { return b.kind == BlockKind::kPlaza; });
   const Vec2f c = plaza->inner().center();
   // The building next to the plaza that meets a condition.
   const auto nearest = [&](const auto& fits) {
@@ -92,12 +91,10 @@ void HangDowntownSigns(District& d, const std::vector<BuildingPlan>& buildings) 
     uint32_t variant;
     float z, scale;
   };
-  static constexpr Sign kSigns[] = {{"billboard BLACK & WHITE", "billboard", 0, 6.2f, 0.85f},
-                                    {"billboard person in a blue suit", "billboard", 1, 6.2f, 0.85f},
-                                    {"billboard red car", "billboard", 2, 6.2f, 0.85f},
-                                    {"billboard black and white portrait", "billboard", 3, 6.2f, 0.85f},
-                                    {"blue billboard", "billboard", 4, 6.2f, 0.85f},
-                                    {"bank with the purple sign", "bank_sign", 0, 4.6f, 1.0f}};
+  static constexpr Sign kSigns[] = {
+      {"billboard BLACK & WHITE", "billboard", 0, 6.2f, 0.85f}, {"billboard person in a blue suit", "billboard", 1, 6.2f, 0.85f},
+      {"billboard red car", "billboard", 2, 6.2f, 0.85f},       {"billboard black and white portrait", "billboard", 3, 6.2f, 0.85f},
+      {"blue billboard", "billboard", 4, 6.2f, 0.85f},          {"bank with the purple sign", "bank_sign", 0, 4.6f, 1.0f}};
   // On long street walls around the plaza, one a building, spread over the blocks.
   const GroundRect reach = d.plan.reach();
   for (const BuildingPlan& plan : buildings) {
@@ -115,8 +112,7 @@ void HangDowntownSigns(District& d, const std::vector<BuildingPlan>& buildings) 
       if (plan.edges[e] != EdgeKind::kStreet || length < 9.6f) continue;
       const Vec2f u = v * (1 / length), out{u.y, -u.x}, p = a + u * (length / 2) + out * 0.38f;
       const Sign& sign = kSigns[next++];
-      PlaceNamed(d, sign.name, sign.kind, {p.x, p.y, sign.z}, FacingYaw(out), sign.variant,
-                 std::min(sign.scale, (length - 0.6f) / 10.3f));
+      PlaceNamed(d, sign.name, sign.kind, {p.x, p.y, sign.z}, FacingYaw(out), sign.variant, std::min(sign.scale, (length - 0.6f) / 10.3f));
       last_block = plan.block;
       break;
     }

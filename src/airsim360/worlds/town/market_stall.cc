@@ -7,9 +7,8 @@ namespace airsim360::internal {
 namespace {
 
 // Linear colours of fruit, vegetables and flowers.
-constexpr Vec3f kGoods[] = {{0.55f, 0.04f, 0.03f}, {0.70f, 0.28f, 0.03f}, {0.72f, 0.55f, 0.06f},
-                            {0.18f, 0.36f, 0.05f}, {0.30f, 0.10f, 0.22f}, {0.62f, 0.18f, 0.14f},
-                            {0.08f, 0.20f, 0.04f}, {0.60f, 0.46f, 0.28f}};
+constexpr Vec3f kGoods[] = {{0.55f, 0.04f, 0.03f}, {0.70f, 0.28f, 0.03f}, {0.72f, 0.55f, 0.06f}, {0.18f, 0.36f, 0.05f},
+                            {0.30f, 0.10f, 0.22f}, {0.62f, 0.18f, 0.14f}, {0.08f, 0.20f, 0.04f}, {0.60f, 0.46f, 0.28f}};
 
 MaterialId AddGoods(SceneBuilder& builder, Vec3f color, size_t index) {
   Material material;
@@ -31,8 +30,7 @@ MeshId AddStallMesh(SceneBuilder& builder, const Surfaces& surfaces, uint32_t va
   mesh.Box({-1.3f, -0.45f, 0.72f}, {1.3f, 0.45f, 0.76f});
   // Crates in two rows, each heaped with goods of one kind.
   for (int i = 0; i < 8; ++i) {
-    const float x = -1.26f + 0.64f * static_cast<float>(i % 4), y = i < 4 ? -0.43f : 0.02f,
-                z = i < 4 ? 0.76f : 0.86f;
+    const float x = -1.26f + 0.64f * static_cast<float>(i % 4), y = i < 4 ? -0.43f : 0.02f, z = i < 4 ? 0.76f : 0.86f;
     mesh.SetMaterial(surfaces[Surface::kFrameWood]);
     mesh.Box({x, y, z}, {x + 0.6f, y + 0.02f, z + 0.14f});
     mesh.Box({x, y + 0.40f, z}, {x + 0.6f, y + 0.42f, z + 0.14f});

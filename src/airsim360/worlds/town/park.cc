@@ -9,8 +9,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
-constexpr float kPond = 17.0f, kCoping = 17.6f, kRingIn = 18.9f, kRingOut = 22.5f, kPathHalf = 1.35f,
-                kLawnZ = 0.06f, kWaterZ = -0.22f;
+constexpr float kPond = 17.0f, kCoping = 17.6f, kRingIn = 18.9f, kRingOut = 22.5f, kPathHalf = 1.35f, kLawnZ = 0.06f, kWaterZ = -0.22f;
 constexpr int kPaths = 8, kSteps = 14;
 
 Vec2f Polar(Vec2f c, float r, float a) { return {c.x + r * std::cos(a), c.y + r * std::sin(a)}; }
@@ -29,8 +28,8 @@ ParkPath TracePath(const GroundRect& area, int index) {
     // Where the straight side line meets the edge of the park.
     const bool across_x = std::abs(dir.x) > std::abs(dir.y);
     const float half = across_x ? area.width() / 2 : area.depth() / 2;
-    const float end = across_x ? (std::copysign(half, dir.x) - normal.x * offset) / dir.x
-                               : (std::copysign(half, dir.y) - normal.y * offset) / dir.y;
+    const float end =
+        across_x ? (std::copysign(half, dir.x) - normal.x * offset) / dir.x : (std::copysign(half, dir.y) - normal.y * offset) / dir.y;
     std::vector<Vec2f> line;
     for (int i = 0; i <= kSteps; ++i) {
       const float t = static_cast<float>(i) / kSteps, r = start + (end - start) * t;
@@ -59,8 +58,7 @@ std::vector<Vec2f> LawnOutline(const GroundRect& area, const ParkPath& path, con
   float a0 = std::atan2(from.y, from.x);
   const float a1 = std::atan2(to.y, to.x);
   if (a0 < a1) a0 += kTau;
-  for (int i = 1; i < 8; ++i)
-    outline.push_back(Polar(c, kRingOut, a0 + (a1 - a0) * static_cast<float>(i) / 8));
+  for (int i = 1; i < 8; ++i) outline.push_back(Polar(c, kRingOut, a0 + (a1 - a0) * static_cast<float>(i) / 8));
   return outline;
 }
 
@@ -100,10 +98,8 @@ void LayLake(District& d, Vec2f c) {
   BuildRedBridge(d, {c.x + (kCoping + 0.4f) * std::cos(landing), c.y}, (kRingIn - 0.1f) * std::sin(landing));
   RngStream& rng = d.placer.rng();
   for (int i = 0; i < 14; ++i) {
-    const Vec2f p =
-        Polar(c, static_cast<float>(rng.Uniform(13.5, 16)), static_cast<float>(rng.Uniform(0, kTau)));
-    d.placer.Try("rock", {p.x, p.y, -0.45f}, static_cast<float>(rng.Uniform(0, kTau)),
-                 static_cast<float>(rng.Uniform(0.6, 1.1)));
+    const Vec2f p = Polar(c, static_cast<float>(rng.Uniform(13.5, 16)), static_cast<float>(rng.Uniform(0, kTau)));
+    d.placer.Try("rock", {p.x, p.y, -0.45f}, static_cast<float>(rng.Uniform(0, kTau)), static_cast<float>(rng.Uniform(0.6, 1.1)));
   }
 }
 
@@ -119,8 +115,7 @@ void LayPath(Ground& ground, const ParkPath& path) {
 // Railing on the street half of the lake, with gaps where the paths arrive.
 void FenceLake(District& d, Vec2f c) {
   for (int k = 0; k < kPaths; ++k) {
-    const float a0 = kTau * (static_cast<float>(k) + 0.66f) / kPaths,
-                a1 = kTau * (static_cast<float>(k) + 1.34f) / kPaths;
+    const float a0 = kTau * (static_cast<float>(k) + 0.66f) / kPaths, a1 = kTau * (static_cast<float>(k) + 1.34f) / kPaths;
     for (int i = 0; i < 4; ++i) {
       const auto at = [&](int n) { return Polar(c, kCoping + 0.7f, a0 + (a1 - a0) * static_cast<float>(n) / 4); };
       PlaceRun(d, "rail", at(i), at(i + 1), 0, "rail_pillar");
@@ -131,11 +126,8 @@ void FenceLake(District& d, Vec2f c) {
 // Fence along the outer edges of a lawn: the edges that lie on the park's boundary.
 void FenceLawn(District& d, const GroundRect& area, const std::vector<Vec2f>& outline) {
   const auto on_boundary = [&](Vec2f a, Vec2f b) {
-    const auto same = [](float u, float v, float edge) {
-      return std::abs(u - edge) < 0.01f && std::abs(v - edge) < 0.01f;
-    };
-    return same(a.x, b.x, area.x0) || same(a.x, b.x, area.x1) || same(a.y, b.y, area.y0) ||
-           same(a.y, b.y, area.y1);
+    const auto same = [](float u, float v, float edge) { return std::abs(u - edge) < 0.01f && std::abs(v - edge) < 0.01f; };
+    return same(a.x, b.x, area.x0) || same(a.x, b.x, area.x1) || same(a.y, b.y, area.y0) || same(a.y, b.y, area.y1);
   };
   for (size_t i = 0; i < outline.size(); ++i) {
     const Vec2f a = outline[i], b = outline[(i + 1) % outline.size()];
@@ -149,28 +141,19 @@ void FenceLawn(District& d, const GroundRect& area, const std::vector<Vec2f>& ou
 void PlantLawn(District& d, const std::vector<Vec2f>& outline, EntityId lawn, int index) {
   RngStream rng(d.seed, "park planting", static_cast<uint64_t>(index));
   GroundRect box{1e9f, 1e9f, -1e9f, -1e9f};
-  for (Vec2f p : outline)
-    box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
-  const auto spot = [&] {
-    return Vec2f{static_cast<float>(rng.Uniform(box.x0, box.x1)),
-                 static_cast<float>(rng.Uniform(box.y0, box.y1))};
-  };
+  for (Vec2f p : outline) box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
+  const auto spot = [&] { return Vec2f{static_cast<float>(rng.Uniform(box.x0, box.x1)), static_cast<float>(rng.Uniform(box.y0, box.y1))}; };
   const auto turn = [&] { return static_cast<float>(rng.Uniform(0, kTau)); };
   // Trees with room between them; each lawn has its leading species.
   std::vector<Vec2f> trees;
   const char* lead = index % 4 == 1 ? "tree_pine" : index % 4 == 3 ? "tree_narrowleaf" : "tree_generic";
   for (int i = 0; i < 160 && trees.size() < 12; ++i) {
     const Vec2f p = spot();
-    const bool crowded = std::any_of(trees.begin(), trees.end(),
-                                     [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 7.9f; });
+    const bool crowded = std::any_of(trees.begin(), trees.end(), [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 7.9f; });
     if (crowded || !InPolygon(outline, p) || EdgeDistance(outline, p) < 2.2f) continue;
     const double pick = rng.Uniform();
-    const char* kind = pick < 0.66  ? lead
-                       : pick < 0.8 ? "tree_generic"
-                       : pick < 0.9 ? "tree_pine"
-                                    : "tree_narrowleaf";
-    if (!d.placer.Try(kind, {p.x, p.y, kLawnZ - 0.02f}, turn(), static_cast<float>(rng.Uniform(0.75, 1.1))))
-      continue;
+    const char* kind = pick < 0.66 ? lead : pick < 0.8 ? "tree_generic" : pick < 0.9 ? "tree_pine" : "tree_narrowleaf";
+    if (!d.placer.Try(kind, {p.x, p.y, kLawnZ - 0.02f}, turn(), static_cast<float>(rng.Uniform(0.75, 1.1)))) continue;
     trees.push_back(p);
     DropLeaves(d, lawn, p, 3.2f, 12, kLawnZ);
   }
@@ -181,16 +164,14 @@ void PlantLawn(District& d, const std::vector<Vec2f>& outline, EntityId lawn, in
     for (int i = 0; i < 6; ++i) {
       const Vec2f p = Polar(middle, static_cast<float>(rng.Uniform(0, 2.2)), turn());
       if (!InPolygon(outline, p) || EdgeDistance(outline, p) < 0.9f) continue;
-      d.placer.Try(i < 3 ? "rock" : "shrub", {p.x, p.y, kLawnZ - 0.03f}, turn(),
-                   static_cast<float>(rng.Uniform(0.6, 1.2)));
+      d.placer.Try(i < 3 ? "rock" : "shrub", {p.x, p.y, kLawnZ - 0.03f}, turn(), static_cast<float>(rng.Uniform(0.6, 1.2)));
     }
   }
   for (int i = 0; i < 60; ++i) {
     const Vec2f p = spot();
     const float edge = EdgeDistance(outline, p);
     if (!InPolygon(outline, p) || edge < 0.7f || edge > 1.6f) continue;
-    d.placer.Try(rng.Chance(0.6) ? "flower_bed" : "shrub", {p.x, p.y, kLawnZ}, turn(),
-                 static_cast<float>(rng.Uniform(0.7, 1.0)));
+    d.placer.Try(rng.Chance(0.6) ? "flower_bed" : "shrub", {p.x, p.y, kLawnZ}, turn(), static_cast<float>(rng.Uniform(0.7, 1.0)));
   }
   GrowGrass(d, lawn, outline, kLawnZ, 2);
 }
@@ -198,8 +179,7 @@ void PlantLawn(District& d, const std::vector<Vec2f>& outline, EntityId lawn, in
 // Lamps and benches along a path, on both of its banks.
 void FurnishPath(District& d, const ParkPath& path, int index) {
   for (size_t i = 2; i + 2 < path.left.size(); i += 3) {
-    const Vec2f l = path.left[i], r = path.right[i],
-                across = (l - r) * (1 / std::hypot(l.x - r.x, l.y - r.y));
+    const Vec2f l = path.left[i], r = path.right[i], across = (l - r) * (1 / std::hypot(l.x - r.x, l.y - r.y));
     const bool left = (i / 3 + static_cast<size_t>(index)) % 2 == 0;
     const Vec2f p = left ? l + across * 0.7f : r - across * 0.7f;
     const float yaw = FacingYaw(left ? across * -1.0f : across);
@@ -244,8 +224,7 @@ void BuildPark(District& d, const Block& block) {
     if (!on_path) d.placer.Try("hedge", {p.x, p.y, kLawnZ - 0.02f}, FacingYaw(p - c));
   }
   for (int i = 0; i < kPaths; ++i) {
-    const std::vector<Vec2f> outline =
-        LawnOutline(area, paths[static_cast<size_t>(i)], paths[static_cast<size_t>((i + 1) % kPaths)]);
+    const std::vector<Vec2f> outline = LawnOutline(area, paths[static_cast<size_t>(i)], paths[static_cast<size_t>((i + 1) % kPaths)]);
     const EntityId lawn = d.ground.Begin("park lawn", "ground/terrain/landscape", Surface::kLawn);
     d.ground.Polygon(outline, kLawnZ);
     d.ground.Use(Surface::kKerb);

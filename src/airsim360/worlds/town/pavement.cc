@@ -21,9 +21,7 @@ class SideProfile {
     const float low = start_ - kFlare, high = start_ + kCrosswalkWidth + kFlare;
     return kRampDrop * std::clamp(std::min(t - low, high - t) / kFlare, 0.0f, 1.0f);
   }
-  float Height(float s, float d) const {
-    return -Drop(s) * std::clamp(1 - (d - kKerbWidth) / kRampDepth, 0.0f, 1.0f);
-  }
+  float Height(float s, float d) const { return -Drop(s) * std::clamp(1 - (d - kKerbWidth) / kRampDepth, 0.0f, 1.0f); }
   // Where the profile bends.
   std::vector<float> Bends() const {
     std::vector<float> bends;
@@ -42,8 +40,7 @@ class SideProfile {
 // Breakpoints along a side: field joints and ramp bends, sorted, without near duplicates.
 std::vector<float> Breakpoints(const SideProfile& profile, float s0, float s1, int fields) {
   std::vector<float> stops = profile.Bends();
-  for (int i = 0; i <= fields; ++i)
-    stops.push_back(s0 + (s1 - s0) * static_cast<float>(i) / static_cast<float>(fields));
+  for (int i = 0; i <= fields; ++i) stops.push_back(s0 + (s1 - s0) * static_cast<float>(i) / static_cast<float>(fields));
   std::sort(stops.begin(), stops.end());
   std::vector<float> kept;
   for (float s : stops) {
@@ -55,8 +52,7 @@ std::vector<float> Breakpoints(const SideProfile& profile, float s0, float s1, i
 
 std::string PlaceName(const Block& block, int side) {
   static constexpr const char* kSides[] = {"south", "east", "north", "west"};
-  return std::string(kSides[side]) + " of block " + std::to_string(block.column) + "." +
-         std::to_string(block.row);
+  return std::string(kSides[side]) + " of block " + std::to_string(block.column) + "." + std::to_string(block.row);
 }
 
 void LayKerb(Ground& ground, const Block& block, int side) {
@@ -67,22 +63,21 @@ void LayKerb(Ground& ground, const Block& block, int side) {
   const auto strip = [&](Vec2f a, Vec2f b, Vec2f a_in, Vec2f b_in, float za, float zb) {
     ground.Quad({a.x, a.y, za}, {b.x, b.y, zb}, {b_in.x, b_in.y, zb}, {a_in.x, a_in.y, za});
     const float length = std::hypot(b.x - a.x, b.y - a.y);
-    ground.mesh().QuadUv({a.x, a.y, -0.17f}, {b.x, b.y, -0.17f}, {b.x, b.y, zb}, {a.x, a.y, za}, {0, 0.17f},
-                         {length, 0.17f}, {length, -zb}, {0, -za});
+    ground.mesh().QuadUv({a.x, a.y, -0.17f}, {b.x, b.y, -0.17f}, {b.x, b.y, zb}, {a.x, a.y, za}, {0, 0.17f}, {length, 0.17f}, {length, -zb},
+                         {0, -za});
   };
   // Straight part, lowered where the profile drops.
   const std::vector<float> stops = Breakpoints(profile, r, line.length - r, 1);
   for (size_t i = 0; i + 1 < stops.size(); ++i) {
-    strip(line.At(stops[i], 0), line.At(stops[i + 1], 0), line.At(stops[i], kKerbWidth),
-          line.At(stops[i + 1], kKerbWidth), -profile.Drop(stops[i]), -profile.Drop(stops[i + 1]));
+    strip(line.At(stops[i], 0), line.At(stops[i + 1], 0), line.At(stops[i], kKerbWidth), line.At(stops[i + 1], kKerbWidth),
+          -profile.Drop(stops[i]), -profile.Drop(stops[i + 1]));
   }
   // The return at the far end of the side.
   const auto arc = [&](float radius, int i) {
     const float a = std::numbers::pi_v<float> / 2 * static_cast<float>(i) / 10;
     return line.At(line.length - r + radius * std::sin(a), r - radius * std::cos(a));
   };
-  for (int i = 0; i < 10; ++i)
-    strip(arc(r, i), arc(r, i + 1), arc(r - kKerbWidth, i), arc(r - kKerbWidth, i + 1), 0, 0);
+  for (int i = 0; i < 10; ++i) strip(arc(r, i), arc(r, i + 1), arc(r - kKerbWidth, i), arc(r - kKerbWidth, i + 1), 0, 0);
 }
 
 void LayFields(Ground& ground, const Block& block, int side, Surface slabs, std::string_view category, bool worn) {
@@ -106,8 +101,7 @@ void LayFields(Ground& ground, const Block& block, int side, Surface slabs, std:
     field = now;
     for (int k = 0; k < 3; ++k) {
       ground.Use(k == 0 && profile.OnRamp(middle) ? Surface::kTactile : slabs);
-      ground.Quad(at(stops[i], depths[k]), at(stops[i + 1], depths[k]), at(stops[i + 1], depths[k + 1]),
-                  at(stops[i], depths[k + 1]));
+      ground.Quad(at(stops[i], depths[k]), at(stops[i + 1], depths[k]), at(stops[i + 1], depths[k + 1]), at(stops[i], depths[k + 1]));
     }
     if (!worn || stops[i + 1] - stops[i] < 1.5f) continue;
     const auto lifted = [&](float s, float d, float lift) { return at(s, d) + Vec3f{0, 0, lift}; };

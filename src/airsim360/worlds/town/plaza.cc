@@ -24,8 +24,8 @@ std::vector<EntityId> LayPaving(Ground& ground, const GroundRect& area) {
       const GroundRect cell{area.x0 + w * static_cast<float>(i), area.y0 + h * static_cast<float>(j),
                             area.x0 + w * static_cast<float>(i + 1), area.y0 + h * static_cast<float>(j + 1)};
       const GroundRect field = cell.Inset(band);
-      fields.push_back(ground.Begin("plaza field", "ground/pavement/modular",
-                                    (i + j) % 2 ? Surface::kPlazaBrickDark : Surface::kPlazaBrick));
+      fields.push_back(
+          ground.Begin("plaza field", "ground/pavement/modular", (i + j) % 2 ? Surface::kPlazaBrickDark : Surface::kPlazaBrick));
       ground.Rect(field, 0);
       ground.Use(Surface::kPlazaStone);
       ground.Rect({cell.x0, cell.y0, cell.x1, field.y0}, 0);
@@ -71,8 +71,7 @@ void LayTerrace(Ground& ground, const GroundRect& terrace, float steps_half) {
   ground.Rect({lip.x1 - 0.4f, lip.y0 + 0.4f, lip.x1, lip.y1 - 0.4f}, kTerraceZ + 0.005f);
   ground.Begin("terrace steps", "construction/stairs", Surface::kTrimStone);
   for (int i = 0; i < 3; ++i) {
-    const float z = 0.15f * static_cast<float>(3 - i),
-                y0 = terrace.y0 - 0.06f - 0.36f * static_cast<float>(i + 1);
+    const float z = 0.15f * static_cast<float>(3 - i), y0 = terrace.y0 - 0.06f - 0.36f * static_cast<float>(i + 1);
     ground.mesh().Box({cx - steps_half, y0, 0}, {cx + steps_half, y0 + 0.36f, z},
                       MeshBuilder::kFront | MeshBuilder::kTop | MeshBuilder::kLeft | MeshBuilder::kRight);
   }
@@ -93,8 +92,7 @@ void PlaceCafeTable(District& d, Vec2f at, float z, bool yellow) {
   for (int i = 0; i < chairs; ++i) {
     const float a = turn + kTau * static_cast<float>(i) / static_cast<float>(chairs);
     const Vec2f p = Polar(at, 0.95f, a);
-    d.placer.Put("dining_chair", {p.x, p.y, z},
-                 FacingYaw(at - p) + static_cast<float>(rng.Uniform(-0.3, 0.3)), 1, {1, 1, 1}, style);
+    d.placer.Put("dining_chair", {p.x, p.y, z}, FacingYaw(at - p) + static_cast<float>(rng.Uniform(-0.3, 0.3)), 1, {1, 1, 1}, style);
   }
 }
 
@@ -110,8 +108,7 @@ void FurnishTerrace(District& d, const GroundRect& t, float steps_half) {
     for (float x = t.x0 + 3.5f; x < t.x1 - 3; x += 4.6f) PlaceCafeTable(d, {x, y}, kTerraceZ, table++ == 3);
   }
   for (float x = t.x0 + 1.2f; x < t.x1 - 1; x += 3.1f) d.placer.Try("pot", {x, t.y1 - 0.9f, kTerraceZ});
-  for (float x : {cx - steps_half - 0.9f, cx + steps_half + 0.9f})
-    d.placer.Try("planter", {x, t.y0 + 1.3f, kTerraceZ});
+  for (float x : {cx - steps_half - 0.9f, cx + steps_half + 0.9f}) d.placer.Try("planter", {x, t.y0 + 1.3f, kTerraceZ});
 }
 
 // Two rows of stalls back to back with the lane between them: tarp on four posts over a counter of goods.
@@ -130,13 +127,11 @@ void BuildMarket(District& d, Vec2f c) {
         const float x = corner & 1 ? 1.5f : -1.5f, y = corner & 2 ? 1.5f : -1.5f;
         d.placer.Put("tarp_post", {at.x + x, at.y + y, 0}, yaw, 1, {1, 1, 1}, static_cast<uint32_t>(row));
       }
-      const EntityId stall =
-          d.builder.AddEntity("market stall", d.builder.tree().At("furniture/vending/food_stall"));
+      const EntityId stall = d.builder.AddEntity("market stall", d.builder.tree().At("furniture/vending/food_stall"));
       const auto kind = static_cast<uint32_t>(i + 6 + 3 * row) % kKinds;
       d.builder.AddInstance({counters[kind], PlaceUpright({at.x, at.y + 0.75f * lane, 0}, yaw), stall});
       if (i % 2 == 0) d.placer.Put("pot", {at.x - 1.0f, at.y - 1.0f * lane, 0});
-      if (i % 3 == 0)
-        d.placer.Put("dining_chair", {at.x + 0.4f, at.y - 0.5f * lane, 0}, FacingYaw({0, lane}));
+      if (i % 3 == 0) d.placer.Put("dining_chair", {at.x + 0.4f, at.y - 0.5f * lane, 0}, FacingYaw({0, lane}));
       if (i % 2 != 0) d.placer.Put("recycle_bin", {at.x + 2.15f, at.y - 0.9f * lane, 0}, yaw);
     }
   }
@@ -151,16 +146,13 @@ void BuildBed(District& d, Vec2f at, float half) {
   std::swap(back[1], back[3]);
   d.ground.mesh().Walls(back, 0.35f, 0.45f);
   d.ground.Use(Surface::kTrimStone);
-  for (const GroundRect& r : {GroundRect{outer.x0, outer.y0, outer.x1, inner.y0},
-                              GroundRect{outer.x0, inner.y1, outer.x1, outer.y1},
-                              GroundRect{outer.x0, inner.y0, inner.x0, inner.y1},
-                              GroundRect{inner.x1, inner.y0, outer.x1, inner.y1}}) {
+  for (const GroundRect& r : {GroundRect{outer.x0, outer.y0, outer.x1, inner.y0}, GroundRect{outer.x0, inner.y1, outer.x1, outer.y1},
+                              GroundRect{outer.x0, inner.y0, inner.x0, inner.y1}, GroundRect{inner.x1, inner.y0, outer.x1, inner.y1}}) {
     d.ground.Rect(r, 0.45f);
   }
   const EntityId soil = d.ground.Begin("bed", "ground/terrain/landscape", Surface::kSoil);
   d.ground.Rect(inner, 0.38f);
-  d.placer.Try("tree_generic", {at.x, at.y, 0.36f}, static_cast<float>(d.placer.rng().Uniform(0, kTau)),
-               0.85f);
+  d.placer.Try("tree_generic", {at.x, at.y, 0.36f}, static_cast<float>(d.placer.rng().Uniform(0, kTau)), 0.85f);
   RngStream& rng = d.placer.rng();
   for (int i = 0; i < 26; ++i) {
     const Vec2f p{static_cast<float>(rng.Uniform(inner.x0 + 0.5, inner.x1 - 0.5)),
@@ -177,18 +169,15 @@ void PlantAllees(District& d, Vec2f c) {
       const Vec2f at{c.x + x, c.y - 37 + 8.2f * static_cast<float>(i)};
       LayTreePit(d.ground, at);
       const bool outer = std::abs(x) > 35;
-      d.placer.Try(outer ? "tree_generic" : "tree_narrowleaf", {at.x, at.y, 0},
-                   static_cast<float>(d.placer.rng().Uniform(0, kTau)), 0.9f);
+      d.placer.Try(outer ? "tree_generic" : "tree_narrowleaf", {at.x, at.y, 0}, static_cast<float>(d.placer.rng().Uniform(0, kTau)), 0.9f);
       if (i == 7) continue;
       // Between the trees: lamps and benches by turns, on the inner side bins too.
       const Vec2f gap{at.x, at.y + 4.1f};
       if (i % 2 == 0) {
         d.placer.Try("lamp_post", {gap.x, gap.y, 0});
       } else {
-        d.placer.Try("bench_wood", {gap.x, gap.y, 0},
-                     FacingYaw({x < 0 ? (outer ? 1.0f : -1.0f) : (outer ? -1.0f : 1.0f), 0}));
-        d.placer.Try(outer ? "recycle_bin" : "trash_can", {gap.x, gap.y + 1.7f, 0},
-                     FacingYaw({x < 0 ? 1.0f : -1.0f, 0}));
+        d.placer.Try("bench_wood", {gap.x, gap.y, 0}, FacingYaw({x < 0 ? (outer ? 1.0f : -1.0f) : (outer ? -1.0f : 1.0f), 0}));
+        d.placer.Try(outer ? "recycle_bin" : "trash_can", {gap.x, gap.y + 1.7f, 0}, FacingYaw({x < 0 ? 1.0f : -1.0f, 0}));
       }
     }
   }
@@ -216,8 +205,7 @@ void FurnishEdges(District& d, const GroundRect& area) {
     d.placer.Try("food_cart", {c.x + s * 23.5f, c.y - 8, 0}, FacingYaw({-s, 0}));
     d.placer.Try("food_cart", {c.x + s * 22.5f, c.y + 8, 0}, FacingYaw({-s, 0.2f}));
     d.placer.Try("food_cart", {c.x + s * 9, c.y - 38.8f, 0}, FacingYaw({0, 1}));
-    for (int i = 0; i < 6; ++i)
-      d.placer.Try("bicycle", {c.x + s * (33 + 0.75f * static_cast<float>(i)), c.y + 28.5f, 0}, 0.12f);
+    for (int i = 0; i < 6; ++i) d.placer.Try("bicycle", {c.x + s * (33 + 0.75f * static_cast<float>(i)), c.y + 28.5f, 0}, 0.12f);
   }
 }
 
@@ -263,9 +251,7 @@ void BuildPlaza(District& d, const Block& block) {
   // An inner grove: trees between the lamps, further out.
   for (int i = 0; i < 12; ++i) {
     const Vec2f p = Polar(c, 20.5f, kTau * (static_cast<float>(i) + 0.5f) / 12);
-    if (std::abs(p.x - c.x) < 6 ||
-        (std::abs(std::abs(p.x - c.x) - 17.5f) < 4 && std::abs(std::abs(p.y - c.y) - 14.7f) < 5))
-      continue;
+    if (std::abs(p.x - c.x) < 6 || (std::abs(std::abs(p.x - c.x) - 17.5f) < 4 && std::abs(std::abs(p.y - c.y) - 14.7f) < 5)) continue;
     LayTreePit(d.ground, p);
     d.placer.Try("tree_generic", {p.x, p.y, 0}, static_cast<float>(d.placer.rng().Uniform(0, kTau)), 0.75f);
   }

@@ -17,8 +17,7 @@ struct Strip : PavementSide {
   std::vector<float> lamps;  // where along it
 };
 
-void PutAt(District& d, const Strip& strip, const char* kind, float s, float depth, Vec2f front,
-           float scale = 1) {
+void PutAt(District& d, const Strip& strip, const char* kind, float s, float depth, Vec2f front, float scale = 1) {
   const Vec2f p = strip.line.At(s, depth);
   d.placer.Try(kind, {p.x, p.y, 0}, FacingYaw(front), scale);
 }
@@ -29,9 +28,8 @@ struct StreetTree {
   uint32_t variant;
   float scale;
 };
-constexpr StreetTree kStreetTrees[] = {{"tree_generic", 5, 1.0f},    {"tree_generic", 2, 0.85f},
-                                       {"tree_generic", 3, 0.76f},   {"tree_narrowleaf", 0, 1.0f},
-                                       {"tree_narrowleaf", 2, 1.0f}, {"tree_narrowleaf", 1, 0.9f}};
+constexpr StreetTree kStreetTrees[] = {{"tree_generic", 5, 1.0f},    {"tree_generic", 2, 0.85f},   {"tree_generic", 3, 0.76f},
+                                       {"tree_narrowleaf", 0, 1.0f}, {"tree_narrowleaf", 2, 1.0f}, {"tree_narrowleaf", 1, 0.9f}};
 
 // A row of trees in pits every 8.4 or 9.6 m, none where a lamp stands in the crown.
 void PlantStreetTrees(District& d, const Strip& strip, bool open, RngStream& rng) {
@@ -56,8 +54,7 @@ void FurnishSide(District& d, const Strip& strip, const Block& block, RngStream&
   for (size_t i = 0; i < strip.lamps.size(); ++i)
     PutAt(d, strip, open && i % 2 ? "lamp_post" : "street_light", strip.lamps[i], 0.65f, street);
   PlantStreetTrees(d, strip, open, rng);
-  for (float s = strip.s0 + 3.1f; s < strip.s1 - 2; s += 12.4f)
-    PutAt(d, strip, "parking_meter", s, 0.5f, strip.line.inward);
+  for (float s = strip.s0 + 3.1f; s < strip.s1 - 2; s += 12.4f) PutAt(d, strip, "parking_meter", s, 0.5f, strip.line.inward);
   struct Rule {
     const char* kind;
     float spacing, depth;
@@ -69,8 +66,7 @@ void FurnishSide(District& d, const Strip& strip, const Block& block, RngStream&
       {"poster_stand", 55, 0.95f, false}, {"bicycle", 26, 1.2f, true},    {"traffic_sign", 40, 0.5f, true},
   };
   for (const Rule& rule : kRules) {
-    for (float s = strip.s0 + static_cast<float>(rng.Uniform(0.05, 0.9)) * rule.spacing; s < strip.s1;
-         s += rule.spacing) {
+    for (float s = strip.s0 + static_cast<float>(rng.Uniform(0.05, 0.9)) * rule.spacing; s < strip.s1; s += rule.spacing) {
       PutAt(d, strip, rule.kind, s, rule.depth, rule.faces_street ? street : strip.line.inward);
       if (rule.kind == std::string_view("bicycle")) {
         PutAt(d, strip, rule.kind, s + 0.8f, rule.depth, street);
@@ -103,15 +99,12 @@ void PlaceCafe(District& d, const Strip& strip, float s) {
 
 void FurnishCorner(District& d, const Block& block, const BlockSide& side, std::string_view bollard) {
   const float r = block.corner_radius;
-  const auto at = [&](float radius, float a) {
-    return side.At(side.length - r + radius * std::sin(a), r - radius * std::cos(a));
-  };
+  const auto at = [&](float radius, float a) { return side.At(side.length - r + radius * std::sin(a), r - radius * std::cos(a)); };
   const float eighth = kTau / 8;
   const Vec2f p = at(r - 0.55f, eighth * 0.35f), q = at(r - 0.55f, eighth * 1.65f);
   // One mast with an arm over the street, green for the east-west streets; one post for those on foot.
   const bool east_west = std::abs(side.along.x) > 0.5f;
-  d.placer.Try("traffic_light", {p.x, p.y, 0}, FacingYaw(side.along * -1.0f), 1, {1, 1, 1},
-               east_west ? 2u : 0u);
+  d.placer.Try("traffic_light", {p.x, p.y, 0}, FacingYaw(side.along * -1.0f), 1, {1, 1, 1}, east_west ? 2u : 0u);
   d.placer.Try("traffic_light", {q.x, q.y, 0}, FacingYaw(side.inward * -1.0f), 1, {1, 1, 1}, 1u);
   for (int i = 0; i < 5; ++i) {
     const Vec2f b = at(r - 0.5f, eighth * (0.7f + 0.15f * static_cast<float>(i)));
@@ -122,11 +115,9 @@ void FurnishCorner(District& d, const Block& block, const BlockSide& side, std::
 void LayCrossingCovers(District& d) {
   for (int i = d.plan.first_core; i <= d.plan.last_core; ++i) {
     for (int k = d.plan.first_core; k <= d.plan.last_core; ++k) {
-      const StreetLine &ns = d.plan.north_south[static_cast<size_t>(i)],
-                       &ew = d.plan.east_west[static_cast<size_t>(k)];
+      const StreetLine &ns = d.plan.north_south[static_cast<size_t>(i)], &ew = d.plan.east_west[static_cast<size_t>(k)];
       const float z = std::max(CarriagewayHeight(ns, 0), CarriagewayHeight(ew, 0));
-      d.placer.shelf().Place("manhole", {ns.center, ew.center, z}, 0.3f * static_cast<float>(i + k),
-                             static_cast<uint32_t>(i + k));
+      d.placer.shelf().Place("manhole", {ns.center, ew.center, z}, 0.3f * static_cast<float>(i + k), static_cast<uint32_t>(i + k));
     }
   }
 }
@@ -134,8 +125,7 @@ void LayCrossingCovers(District& d) {
 void DriveAcross(District& d, std::string_view cab, double traffic) {
   for (int i = d.plan.first_core; i <= d.plan.last_core; ++i) {
     for (int k = d.plan.first_core; k <= d.plan.last_core; ++k) {
-      const StreetLine &ns = d.plan.north_south[static_cast<size_t>(i)],
-                       &ew = d.plan.east_west[static_cast<size_t>(k)];
+      const StreetLine &ns = d.plan.north_south[static_cast<size_t>(i)], &ew = d.plan.east_west[static_cast<size_t>(k)];
       RngStream rng(d.seed, "crossing traffic", static_cast<uint64_t>(i * 64 + k));
       const auto uniform = [&](double a, double b) { return static_cast<float>(rng.Uniform(a, b)); };
       const Fan fan = FanOf(ns, ew);
@@ -161,10 +151,7 @@ void DriveAcross(District& d, std::string_view cab, double traffic) {
 }
 
 bool FacesCoreStreet(const StreetPlan& plan, const Block& block, int side) {
-  const int line = side == 0   ? block.row
-                   : side == 1 ? block.column + 1
-                   : side == 2 ? block.row + 1
-                               : block.column;
+  const int line = side == 0 ? block.row : side == 1 ? block.column + 1 : side == 2 ? block.row + 1 : block.column;
   return line >= plan.first_core && line <= plan.last_core;
 }
 
@@ -222,11 +209,8 @@ void FurnishStreets(District& d, const std::vector<StreetStretch>& streets) {
                      FacingYaw(heading) + static_cast<float>(rng.Uniform(-0.015, 0.015)));
       }
       const float lane = side * (hw - 2.35f) * 0.52f;
-      if (rng.Chance(0.75))
-        d.placer.Drive("car", street.At(static_cast<float>(rng.Uniform(s0, s1)), lane, -0.004f),
-                       FacingYaw(heading));
-      if (i % 5 == 2 && side > 0)
-        d.placer.Drive("bus", street.At((s0 + s1) / 2, lane, -0.004f), FacingYaw(heading));
+      if (rng.Chance(0.75)) d.placer.Drive("car", street.At(static_cast<float>(rng.Uniform(s0, s1)), lane, -0.004f), FacingYaw(heading));
+      if (i % 5 == 2 && side > 0) d.placer.Drive("bus", street.At((s0 + s1) / 2, lane, -0.004f), FacingYaw(heading));
     }
     for (int k = 0; k < 3; ++k) {
       const float d0 = static_cast<float>(rng.Uniform(0.9, hw - 3.2)) * (rng.Chance(0.5) ? 1.0f : -1.0f);

@@ -9,8 +9,8 @@
 namespace airsim360 {
 namespace {
 
-constexpr float kStopLine = 5.8f;      // metres from the end of a stretch: just before the bar (street_markings.cc)
-constexpr float kParking = 2.35f;      // metres of bay at the kerb
+constexpr float kStopLine = 5.8f;                           // metres from the end of a stretch: just before the bar (street_markings.cc)
+constexpr float kParking = 2.35f;                           // metres of bay at the kerb
 constexpr float kStreetSpeed = 8.9f, kAvenueSpeed = 11.2f;  // m/s: 20 and 25 mph
 
 // Lanes of one side as LayMarkings paints them: `d` of StreetStretch, whose sign is the side's.
@@ -66,9 +66,15 @@ RoadNetwork RoadsOf(const StreetPlan& plan) {
     const auto at = [&](float s) { return along_x ? Vec2f{s, line.center} : Vec2f{line.center, s}; };
     const bool wide = line.kind != StreetKind::kTwoWay;
     const int32_t head = along_x ? kEastWestHead : kNorthSouthHead;
-    builder.AddRoad({.from = from, .to = to, .axis = {at(s0), at(s1)}, .forward = LanesOf(line, true, bike_lane),
-                     .backward = LanesOf(line, false, bike_lane), .speed = wide ? kAvenueSpeed : kStreetSpeed,
-                     .priority = static_cast<uint8_t>(wide), .signal_to = head, .signal_from = head});
+    builder.AddRoad({.from = from,
+                     .to = to,
+                     .axis = {at(s0), at(s1)},
+                     .forward = LanesOf(line, true, bike_lane),
+                     .backward = LanesOf(line, false, bike_lane),
+                     .speed = wide ? kAvenueSpeed : kStreetSpeed,
+                     .priority = static_cast<uint8_t>(wide),
+                     .signal_to = head,
+                     .signal_from = head});
   };
   for (size_t i = 0; i < columns; ++i)
     for (size_t k = 0; k + 1 < rows; ++k)

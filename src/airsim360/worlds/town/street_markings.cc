@@ -10,8 +10,7 @@ namespace airsim360::internal {
 namespace {
 
 // Letters on the asphalt, read by who drives towards growing s (`way` +1) or against it.
-void LayWord(Ground& ground, const StreetStretch& street, std::string_view word, float s, float d, float way,
-             float height) {
+void LayWord(Ground& ground, const StreetStretch& street, std::string_view word, float s, float d, float way, float height) {
   constexpr float kMostWidth = 2.7f;  // of a word in a lane
   const float columns = 6 * static_cast<float>(word.size()) - 1, row = height / 7, column = std::min(0.17f, kMostWidth / columns),
               width = column * columns;
@@ -23,8 +22,7 @@ void LayWord(Ground& ground, const StreetStretch& street, std::string_view word,
         const float across = width / 2 - column * (6 * static_cast<float>(i) + static_cast<float>(x)),
                     along = height - row * static_cast<float>(y);
         const float s1 = s + way * along, s0 = s1 - way * row, d1 = d + way * across, d0 = d1 - way * column;
-        StreetRect(ground, street, std::min(s0, s1), std::max(s0, s1), std::min(d0, d1), std::max(d0, d1),
-                   2 * kPaintLift);
+        StreetRect(ground, street, std::min(s0, s1), std::max(s0, s1), std::min(d0, d1), std::max(d0, d1), 2 * kPaintLift);
       }
     }
   }
@@ -32,33 +30,27 @@ void LayWord(Ground& ground, const StreetStretch& street, std::string_view word,
 
 // A straight-on arrow of 3 m.
 void LayArrow(Ground& ground, const StreetStretch& street, float s, float d, float way) {
-  const auto at = [&](float along, float across) {
-    return street.At(s + way * along, d + way * across, kPaintLift);
-  };
+  const auto at = [&](float along, float across) { return street.At(s + way * along, d + way * across, kPaintLift); };
   ground.Quad(at(0, -0.09f), at(1.9f, -0.09f), at(1.9f, 0.09f), at(0, 0.09f));
   const Vec3f a = at(1.8f, -0.45f), b = at(3.0f, 0), c = at(1.8f, 0.45f);
   ground.mesh().Triangle(a, b, c, {a.x, -a.y}, {b.x, -b.y}, {c.x, -c.y});
 }
 
 void LayDashes(Ground& ground, const StreetStretch& street, float s0, float s1, float d) {
-  for (float s = s0 + 1.5f; s + 3 < s1; s += 9)
-    StreetRect(ground, street, s, s + 3, d - 0.06f, d + 0.06f, kPaintLift);
+  for (float s = s0 + 1.5f; s + 3 < s1; s += 9) StreetRect(ground, street, s, s + 3, d - 0.06f, d + 0.06f, kPaintLift);
 }
 
 // Bicycle: two wheels and a frame, for riders towards growing s.
 void LayBicycle(Ground& ground, const StreetStretch& street, float s, float d) {
   const auto stroke = [&](float s0, float d0, float s1, float d1) {
     const float l = std::hypot(s1 - s0, d1 - d0), ns = -(d1 - d0) / l * 0.04f, nd = (s1 - s0) / l * 0.04f;
-    ground.Quad(street.At(s + s0 - ns, d + d0 - nd, 2 * kPaintLift),
-                street.At(s + s1 - ns, d + d1 - nd, 2 * kPaintLift),
-                street.At(s + s1 + ns, d + d1 + nd, 2 * kPaintLift),
-                street.At(s + s0 + ns, d + d0 + nd, 2 * kPaintLift));
+    ground.Quad(street.At(s + s0 - ns, d + d0 - nd, 2 * kPaintLift), street.At(s + s1 - ns, d + d1 - nd, 2 * kPaintLift),
+                street.At(s + s1 + ns, d + d1 + nd, 2 * kPaintLift), street.At(s + s0 + ns, d + d0 + nd, 2 * kPaintLift));
   };
   for (float hub : {-0.45f, 0.45f}) {
     for (int i = 0; i < 12; ++i) {
       const float a0 = 0.5236f * static_cast<float>(i), a1 = a0 + 0.5236f;
-      stroke(0.5f + 0.55f * std::cos(a0), hub + 0.28f * std::sin(a0), 0.5f + 0.55f * std::cos(a1),
-             hub + 0.28f * std::sin(a1));
+      stroke(0.5f + 0.55f * std::cos(a0), hub + 0.28f * std::sin(a0), 0.5f + 0.55f * std::cos(a1), hub + 0.28f * std::sin(a1));
     }
   }
   stroke(0.5f, -0.45f, 1.3f, -0.12f);
@@ -72,12 +64,11 @@ void LayBicycle(Ground& ground, const StreetStretch& street, float s, float d) {
 }
 
 void LayParkingBays(Ground& ground, const StreetStretch& street, float side) {
-  const float hw = street.line.half_width, s0 = street.s0 + 5.6f, s1 = street.s1 - 5.6f,
-              d = side * (hw - 2.35f);
+  const float hw = street.line.half_width, s0 = street.s0 + 5.6f, s1 = street.s1 - 5.6f, d = side * (hw - 2.35f);
   StreetRect(ground, street, s0, s1, d - 0.05f, d + 0.05f, kPaintLift);
   for (float s = s0 + 2; s < s1 - 2; s += 6.2f) {
-    StreetRect(ground, street, s - 0.05f, s + 0.05f, std::min(d, side * (hw - 0.5f)) + 0.05f,
-               std::max(d, side * (hw - 0.5f)) - 0.05f, kPaintLift);
+    StreetRect(ground, street, s - 0.05f, s + 0.05f, std::min(d, side * (hw - 0.5f)) + 0.05f, std::max(d, side * (hw - 0.5f)) - 0.05f,
+               kPaintLift);
   }
 }
 
@@ -114,8 +105,7 @@ void LayAvenueMarkings(Ground& ground, const StreetStretch& street, const std::s
     }
   }
   if (!boulevard) return;
-  for (float d : {-8.65f, -10.55f, 9.4f})
-    StreetRect(ground, street, s0, s1, d - 0.06f, d + 0.06f, 2 * kPaintLift);
+  for (float d : {-8.65f, -10.55f, 9.4f}) StreetRect(ground, street, s0, s1, d - 0.06f, d + 0.06f, 2 * kPaintLift);
   for (float s = s0 + 6; s < s1 - 8; s += 22) {
     LayBicycle(ground, street, s, -9.6f);
     LayWord(ground, street, "BUS", s + 4, 11.1f, -1, 2.6f);
@@ -125,15 +115,13 @@ void LayAvenueMarkings(Ground& ground, const StreetStretch& street, const std::s
 
 }  // namespace
 
-void StreetRect(Ground& ground, const StreetStretch& street, float s0, float s1, float d0, float d1,
-                float lift) {
+void StreetRect(Ground& ground, const StreetStretch& street, float s0, float s1, float d0, float d1, float lift) {
   if (d0 < 0 && d1 > 0) {
     StreetRect(ground, street, s0, s1, d0, 0, lift);
     StreetRect(ground, street, s0, s1, 0, d1, lift);
     return;
   }
-  ground.Quad(street.At(s0, d0, lift), street.At(s1, d0, lift), street.At(s1, d1, lift),
-              street.At(s0, d1, lift));
+  ground.Quad(street.At(s0, d0, lift), street.At(s1, d0, lift), street.At(s1, d1, lift), street.At(s0, d1, lift));
 }
 
 void LayMarkings(Ground& ground, const StreetStretch& street, const std::string& name, bool bike_lane) {
@@ -155,22 +143,18 @@ void LayMarkings(Ground& ground, const StreetStretch& street, const std::string&
     const float d = side * parking;
     StreetRect(ground, street, s0, s1, d - 0.05f, d + 0.05f, kPaintLift);
     for (float s = s0 + 2; s < s1 - 2; s += 6.2f) {
-      StreetRect(ground, street, s - 0.05f, s + 0.05f, std::min(d, side * (hw - 0.5f)) + 0.05f,
-                 std::max(d, side * (hw - 0.5f)) - 0.05f, kPaintLift);
+      StreetRect(ground, street, s - 0.05f, s + 0.05f, std::min(d, side * (hw - 0.5f)) + 0.05f, std::max(d, side * (hw - 0.5f)) - 0.05f,
+                 kPaintLift);
     }
   }
 }
 
-void LayJunctionGuides(Ground& ground, const Fan& fan, const StreetLine& ns, const StreetLine& ew,
-                       const std::string& name) {
+void LayJunctionGuides(Ground& ground, const Fan& fan, const StreetLine& ns, const StreetLine& ew, const std::string& name) {
   const auto on = [&](float x, float y) { return Vec3f{x, y, fan.Height({x, y}) + 0.012f}; };
-  const auto rect = [&](float x0, float x1, float y0, float y1) {
-    ground.Quad(on(x0, y0), on(x1, y0), on(x1, y1), on(x0, y1));
-  };
+  const auto rect = [&](float x0, float x1, float y0, float y1) { ground.Quad(on(x0, y0), on(x1, y0), on(x1, y1), on(x0, y1)); };
   const float reach = ew.half_width + 4.6f;
   ground.Begin("bike lane crossing " + name, "ground/bike_lane", Surface::kBikeLane);
-  for (float y = -reach; y < reach - 0.6f; y += 1.2f)
-    rect(ns.center + 8.8f, ns.center + 10.4f, ew.center + y, ew.center + y + 0.62f);
+  for (float y = -reach; y < reach - 0.6f; y += 1.2f) rect(ns.center + 8.8f, ns.center + 10.4f, ew.center + y, ew.center + y + 0.62f);
   ground.Begin("guide lines " + name, "ground/lane_marking", Surface::kPaintWhite);
   for (float d : {5.5f, -5.9f}) {
     for (float y = -reach; y < reach - 0.6f; y += 1.9f)
@@ -179,19 +163,18 @@ void LayJunctionGuides(Ground& ground, const Fan& fan, const StreetLine& ns, con
   for (float side : {-1.0f, 1.0f}) {
     const Vec2f c{ns.center - side * 11, ew.center - side * reach};
     for (int i = 1; i < 13; i += 2) {
-      const auto at = [&](float r, float a) {
-        return on(c.x + side * r * std::cos(a), c.y + side * r * std::sin(a));
-      };
+      const auto at = [&](float r, float a) { return on(c.x + side * r * std::cos(a), c.y + side * r * std::sin(a)); };
       const float a0 = 0.11f * static_cast<float>(i), a1 = a0 + 0.07f;
-      for (float r : {9.0f, 12.2f})
-        ground.Quad(at(r - 0.06f, a0), at(r + 0.06f, a0), at(r + 0.06f, a1), at(r - 0.06f, a1));
+      for (float r : {9.0f, 12.2f}) ground.Quad(at(r - 0.06f, a0), at(r + 0.06f, a0), at(r + 0.06f, a1), at(r - 0.06f, a1));
     }
   }
 }
 
 void LayJunctionBox(Ground& ground, const Fan& fan, const StreetLine& ns, const StreetLine& ew, const std::string& name) {
   const float hx = ns.half_width - 1, hy = ew.half_width - 0.6f, half = 0.075f;
-  const auto on = [&](float x, float y) { return Vec3f{ns.center + x, ew.center + y, fan.Height({ns.center + x, ew.center + y}) + 0.011f}; };
+  const auto on = [&](float x, float y) {
+    return Vec3f{ns.center + x, ew.center + y, fan.Height({ns.center + x, ew.center + y}) + 0.011f};
+  };
   ground.Begin("box " + name, "ground/lane_marking", Surface::kPaintWhite);
   // A line in pieces short enough to follow the crown; `n` = its unit normal.
   const auto line = [&](Vec2f a, Vec2f b, Vec2f n) {

@@ -29,8 +29,7 @@ struct Fan {
 Fan FanOf(const StreetLine& ns, const StreetLine& ew);
 
 /// A rectangle on a stretch, following the crown.
-void StreetRect(Ground& ground, const StreetStretch& street, float s0, float s1, float d0, float d1,
-                float lift);
+void StreetRect(Ground& ground, const StreetStretch& street, float s0, float s1, float d0, float d1, float lift);
 
 /// The markings of a stretch by the kind of its street; `bike_lane`: green lanes on both sides of a two-way
 /// one.
@@ -38,8 +37,7 @@ void LayMarkings(Ground& ground, const StreetStretch& street, const std::string&
 
 /// A boulevard's lines through a crossing: green bars of the bike lane, dashes between the lanes, arcs for
 /// those who turn left; draped over the fan.
-void LayJunctionGuides(Ground& ground, const Fan& fan, const StreetLine& ns, const StreetLine& ew,
-                       const std::string& name);
+void LayJunctionGuides(Ground& ground, const Fan& fan, const StreetLine& ns, const StreetLine& ew, const std::string& name);
 
 /// The hatched box of a crossing that must not be blocked: white diagonals in a frame, draped over the fan.
 void LayJunctionBox(Ground& ground, const Fan& fan, const StreetLine& ns, const StreetLine& ew, const std::string& name);

@@ -25,9 +25,7 @@ struct Laid {
 
 double Above(const Mesh& mesh) {
   double area = 0;
-  ForTriangles(mesh, [&](const MeshPart&, Vec3f a, Vec3f b, Vec3f c) {
-    area += static_cast<double>(Cross(b - a, c - a).z) / 2;
-  });
+  ForTriangles(mesh, [&](const MeshPart&, Vec3f a, Vec3f b, Vec3f c) { area += static_cast<double>(Cross(b - a, c - a).z) / 2; });
   return area;
 }
 
@@ -41,9 +39,7 @@ void PrintTo(const Street& street, std::ostream* out) { *out << street.name; }
 
 class EveryStreet : public testing::TestWithParam<Street> {
  protected:
-  StreetStretch stretch() const {
-    return {{-7, GetParam().half_width, GetParam().kind}, GetParam().along_x, 20, 140};
-  }
+  StreetStretch stretch() const { return {{-7, GetParam().half_width, GetParam().kind}, GetParam().along_x, 20, 140}; }
   Mesh Markings() const {
     Laid laid;
     LayMarkings(laid.ground, stretch(), "a", GetParam().bike_lane);
@@ -56,17 +52,15 @@ class EveryStreet : public testing::TestWithParam<Street> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Streets, EveryStreet,
-                         testing::Values(Street{"two_way", StreetKind::kTwoWay, 6, false, true},
-                                         Street{"two_way_north", StreetKind::kTwoWay, 6, false, false},
-                                         Street{"narrow", StreetKind::kTwoWay, 5.6f, false, true},
-                                         Street{"with_bike_lanes", StreetKind::kTwoWay, 7, true, true},
-                                         Street{"with_bike_lanes_north", StreetKind::kTwoWay, 7, true, false},
-                                         Street{"avenue", StreetKind::kAvenue, 13, false, false},
-                                         Street{"avenue_east", StreetKind::kAvenue, 13, false, true},
-                                         Street{"boulevard", StreetKind::kBoulevard, 13, false, false},
-                                         Street{"boulevard_east", StreetKind::kBoulevard, 13, false, true}),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Streets, EveryStreet,
+    testing::Values(Street{"two_way", StreetKind::kTwoWay, 6, false, true}, Street{"two_way_north", StreetKind::kTwoWay, 6, false, false},
+                    Street{"narrow", StreetKind::kTwoWay, 5.6f, false, true}, Street{"with_bike_lanes", StreetKind::kTwoWay, 7, true, true},
+                    Street{"with_bike_lanes_north", StreetKind::kTwoWay, 7, true, false},
+                    Street{"avenue", StreetKind::kAvenue, 13, false, false}, Street{"avenue_east", StreetKind::kAvenue, 13, false, true},
+                    Street{"boulevard", StreetKind::kBoulevard, 13, false, false},
+                    Street{"boulevard_east", StreetKind::kBoulevard, 13, false, true}),
+    [](const auto& info) { return info.param.name; });
 
 TEST_P(EveryStreet, PaintLiesOneOrTwoLiftsOverTheCrownWithinTheStreet) {
   const Mesh mesh = Markings();
@@ -82,14 +76,12 @@ TEST_P(EveryStreet, PaintLiesOneOrTwoLiftsOverTheCrownWithinTheStreet) {
   ForTriangles(mesh, [&](const MeshPart&, Vec3f a, Vec3f b, Vec3f c) {
     EXPECT_GT(Cross(b - a, c - a).z, 0);
     EXPECT_GT(InStreet((a + b + c) * (1.0f / 3)).z, 0.004f);
-    for (const auto& [p, q] : {std::pair{a, b}, {b, c}, {c, a}})
-      EXPECT_GT(InStreet((p + q) * 0.5f).z, 0.003f);
+    for (const auto& [p, q] : {std::pair{a, b}, {b, c}, {c, a}}) EXPECT_GT(InStreet((p + q) * 0.5f).z, 0.003f);
   });
 }
 
 // Stops along a line at distance d: where paint of a surface begins and ends.
-std::vector<std::pair<float, float>> Runs(const Mesh& mesh, const StreetStretch& street, float d,
-                                          MaterialId material) {
+std::vector<std::pair<float, float>> Runs(const Mesh& mesh, const StreetStretch& street, float d, MaterialId material) {
   const TestRays rays(mesh, street.along_x ? 0 : 1);
   std::vector<std::pair<float, float>> runs;
   bool on = false;
@@ -107,8 +99,7 @@ TEST_P(EveryStreet, LinesAreDashedSolidAndColouredByTheirKind) {
   const Mesh mesh = Markings();
   const StreetStretch street = stretch();
   const MaterialId white = TestMaterial(Surface::kPaintWhite), yellow = TestMaterial(Surface::kPaintYellow);
-  const bool boulevard = GetParam().kind == StreetKind::kBoulevard,
-             avenue = GetParam().kind == StreetKind::kAvenue;
+  const bool boulevard = GetParam().kind == StreetKind::kBoulevard, avenue = GetParam().kind == StreetKind::kAvenue;
   // The middle: yellow lines from one stop bar to the other.
   for (float d : boulevard ? std::vector<float>{-2.35f, 2.35f} : std::vector<float>{-0.135f, 0.135f}) {
     const auto runs = Runs(mesh, street, d, yellow);
@@ -121,8 +112,7 @@ TEST_P(EveryStreet, LinesAreDashedSolidAndColouredByTheirKind) {
                  : avenue  ? std::vector<float>{-7.2f, -3.7f, 3.7f, 7.2f}
                            : std::vector<float>{}) {
     auto runs = Runs(mesh, street, d, white);
-    std::erase_if(runs,
-                  [&](const auto& run) { return run.first < 25.55f || run.second > 134.45f; });  // stop bars
+    std::erase_if(runs, [&](const auto& run) { return run.first < 25.55f || run.second > 134.45f; });  // stop bars
     ASSERT_GE(runs.size(), 11u) << d;
     for (size_t i = 0; i < runs.size(); ++i) {
       EXPECT_NEAR(runs[i].second - runs[i].first, 3, 0.11f) << d;
@@ -196,8 +186,7 @@ void PrintTo(const Crossing& crossing, std::ostream* out) { *out << crossing.nam
 class EveryCrossing : public testing::TestWithParam<Crossing> {};
 
 INSTANTIATE_TEST_SUITE_P(Streets, EveryCrossing,
-                         testing::Values(Crossing{"equal", {0, 6}, {0, 6}},
-                                         Crossing{"wider", {53, 7}, {-161, 5.6f}},
+                         testing::Values(Crossing{"equal", {0, 6}, {0, 6}}, Crossing{"wider", {53, 7}, {-161, 5.6f}},
                                          Crossing{"avenue", {132, 13, StreetKind::kAvenue}, {84, 6.5f}},
                                          Crossing{"boulevard", {0, 13, StreetKind::kBoulevard}, {-84, 6.5f}}),
                          [](const auto& info) { return info.param.name; });
@@ -272,10 +261,8 @@ class EveryPavement : public testing::TestWithParam<Pavement> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Streets, EveryPavement,
-                         testing::Values(Pavement{"large", 100, 80, 5, 6, false},
-                                         Pavement{"worn", 100, 80, 5, 6, true},
-                                         Pavement{"small", 45, 40, 5, 6, false},
-                                         Pavement{"narrow", 60, 50, 3, 6, false},
+                         testing::Values(Pavement{"large", 100, 80, 5, 6, false}, Pavement{"worn", 100, 80, 5, 6, true},
+                                         Pavement{"small", 45, 40, 5, 6, false}, Pavement{"narrow", 60, 50, 3, 6, false},
                                          Pavement{"long", 106, 71, 4.5f, 6, true}),
                          [](const auto& info) { return info.param.name; });
 
@@ -297,8 +284,7 @@ TEST_P(EveryPavement, HasNoHoleAndDropsAtCrossingsAlone) {
       ASSERT_EQ(hit.has_value(), inside) << x << ", " << y;
       if (!hit) continue;
       const float z = 2 - hit->t, edge = std::min({x - kerb.x0, kerb.x1 - x, y - kerb.y0, kerb.y1 - y});
-      const float s = std::min(std::min(x - kerb.x0, kerb.x1 - x), 1e9f),
-                  t = std::min(y - kerb.y0, kerb.y1 - y);
+      const float s = std::min(std::min(x - kerb.x0, kerb.x1 - x), 1e9f), t = std::min(y - kerb.y0, kerb.y1 - y);
       const float along = std::max(s, t), start = r + kCrosswalkStart;  // from the nearer corner
       if (along > start && along < start + kCrosswalkWidth && edge < 0.15f) {
         EXPECT_NEAR(z, -0.11f, 1e-4) << x << ", " << y;
@@ -339,8 +325,7 @@ TEST(GroundPieces, HaveTheAreaOfTheirClosedForms) {
       Laid laid;
       laid.ground.Begin("ring", "ground/road", Surface::kAsphalt);
       laid.ground.RingSector({4, 5}, r0, 6, 0.3f, 2.3f, 0.1f, steps);
-      const double chord = std::sin(2.0 / steps) * steps / 2,
-                   area = (36 - static_cast<double>(r0 * r0)) * chord;
+      const double chord = std::sin(2.0 / steps) * steps / 2, area = (36 - static_cast<double>(r0 * r0)) * chord;
       EXPECT_NEAR(Above(laid.Finish()), area, 1e-4 * area) << steps;
     }
   }
@@ -410,8 +395,7 @@ TEST_P(EverySeedOfStreets, LieAtTheHeightOfTheirCarriageway) {
         }
       }
       for (const StreetStretch& next : streets) {
-        if (&street == &next || street.along_x != next.along_x || street.line.center != next.line.center)
-          continue;
+        if (&street == &next || street.along_x != next.along_x || street.line.center != next.line.center) continue;
         EXPECT_TRUE(street.s1 < next.s0 || next.s1 < street.s0);
       }
     }

@@ -162,7 +162,8 @@ void LayGutterDirt(Ground& ground, const StreetStretch& street, RngStream& rng) 
       much = std::clamp(much + Uniform(rng, -0.25f, 0.25f), 0.0f, 1.0f);
       if (rng.Chance(0.15 + 0.6 * much)) {
         ground.Use(rng.Chance(0.6) ? Surface::kDirt : Surface::kAsphaltPatch);
-        LaySpot(ground, at, s, hw - Uniform(rng, 0.01f, 0.09f), Uniform(rng, 0.03f, 0.05f + 0.10f * much), Uniform(rng, 2, 7), kStainLift, 9, rng);
+        LaySpot(ground, at, s, hw - Uniform(rng, 0.01f, 0.09f), Uniform(rng, 0.03f, 0.05f + 0.10f * much), Uniform(rng, 2, 7), kStainLift,
+                9, rng);
       }
       const int scraps = static_cast<int>(Uniform(rng, 0, 0.4f + 4.5f * much * much));
       for (int i = 0; i < scraps; ++i)
@@ -217,7 +218,7 @@ void LayJunctionWear(Ground& ground, const Fan& fan, RngStream& rng) {
   for (int i = 0; i < 2; ++i) {
     ground.Use(kLanes[rng.Index(3)]);
     const float x0 = (i == 0 ? -1.0f : 1.0f) * Uniform(rng, 1.2f, 4) - 1.6f, from = Uniform(rng, -reach, -3),
-        lift = 0.0035f + 0.0002f * static_cast<float>(i);
+                lift = 0.0035f + 0.0002f * static_cast<float>(i);
     for (int k = 0; k < 4 * 20; ++k) {
       const float x = x0 + 0.8f * static_cast<float>(k % 4), y = from + 0.8f * static_cast<float>(k / 4);
       if (y > reach || std::hypot(x + 0.4f, y + 0.4f) < 1.3f) continue;
@@ -255,8 +256,9 @@ void LayJunctionWear(Ground& ground, const Fan& fan, RngStream& rng) {
   }
   ground.Use(Surface::kTar);
   for (int i = 0; i < 15; ++i)
-    LayCrack(ground, [&](float x, float y, float) { return on(x, y, 0.009f); }, {Uniform(rng, -reach, reach), Uniform(rng, -reach, reach)},
-             Uniform(rng, 0, 6.283f), 12, reach + 1, rng);
+    LayCrack(
+        ground, [&](float x, float y, float) { return on(x, y, 0.009f); }, {Uniform(rng, -reach, reach), Uniform(rng, -reach, reach)},
+        Uniform(rng, 0, 6.283f), 12, reach + 1, rng);
 }
 
 void LayPavementWear(Ground& ground, const PavementPoint& at, float s0, float s1, float d0, float d1, Surface slabs, RngStream& rng) {
@@ -272,8 +274,8 @@ void LayPavementWear(Ground& ground, const PavementPoint& at, float s0, float s1
   }
   for (int i = 0; i < static_cast<int>(area * 0.015f + Uniform(rng, 0, 1)); ++i) {
     ground.Use(rng.Chance(0.6) ? Surface::kAsphaltOld : Surface::kAsphaltPatch);
-    LaySpot(ground, at, Uniform(rng, s0 + 0.3f, s1 - 0.3f), Uniform(rng, d0 + 0.3f, d1 - 0.3f),
-        Uniform(rng, 0.03f, 0.10f), 1.3f, lift(0.0010f), 13, rng);
+    LaySpot(ground, at, Uniform(rng, s0 + 0.3f, s1 - 0.3f), Uniform(rng, d0 + 0.3f, d1 - 0.3f), Uniform(rng, 0.03f, 0.10f), 1.3f,
+            lift(0.0010f), 13, rng);
   }
   // Litter, more of it at the walls than where people walk. (Gum is the shader's: render/shared/shading_marks.h.)
   for (int i = 0; i < static_cast<int>(area * 0.45f + Uniform(rng, 0, 1)); ++i) {

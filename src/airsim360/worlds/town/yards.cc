@@ -93,8 +93,7 @@ void BuildYard(District& d, const Block& block) {
     }
   }
   for (int i = 0; i < 10; ++i) {
-    const float y = static_cast<float>(rng.Uniform(yard.y0 + 6, yard.y1 - 6)),
-                x = i % 2 ? yard.x0 + 0.8f : yard.x1 - 0.8f;
+    const float y = static_cast<float>(rng.Uniform(yard.y0 + 6, yard.y1 - 6)), x = i % 2 ? yard.x0 + 0.8f : yard.x1 - 0.8f;
     d.placer.Try(i % 3 == 0 ? "trash_can" : "recycle_bin", {x, y, 0}, FacingYaw({i % 2 ? 1.0f : -1.0f, 0}));
   }
 }

@@ -14,8 +14,15 @@ constexpr double kTau = 6.283185307;
 class TerraceBuilder {
  public:
   TerraceBuilder(OsmScene& scene, MeshBuilder& mesh, RngStream& rng, Vec3f middle, Vec2d half)
-      : scene_(scene), mesh_(mesh), rng_(rng), c_(middle), half_(half), hx_(static_cast<float>(half.x)), hy_(static_cast<float>(half.y)),
-        north_(hy_ - 13), board_(-hx_ + 24) {}
+      : scene_(scene),
+        mesh_(mesh),
+        rng_(rng),
+        c_(middle),
+        half_(half),
+        hx_(static_cast<float>(half.x)),
+        hy_(static_cast<float>(half.y)),
+        north_(hy_ - 13),
+        board_(-hx_ + 24) {}
 
   void Build(float height) {
     // Nobody walks about inside the house: a floor at the height of the knee.
@@ -43,7 +50,8 @@ class TerraceBuilder {
   }
 
   void Put(const char* name, const char* kind, double x, double y, double yaw = 0, float scale = 1, double lift = 0) {
-    scene_.Put(name, kind, {c_.x + static_cast<float>(x), c_.y + static_cast<float>(y), c_.z + static_cast<float>(lift)}, yaw, scale, rng_.Index(8));
+    scene_.Put(name, kind, {c_.x + static_cast<float>(x), c_.y + static_cast<float>(y), c_.z + static_cast<float>(lift)}, yaw, scale,
+               rng_.Index(8));
   }
 
   void Field(float x0, float y0, float x1, float y1, float lift) {
@@ -86,8 +94,10 @@ class TerraceBuilder {
         mesh_.Beam({-hx_ + 0.15f, side * (hy_ - 0.15f), h}, {hx_ - 0.15f, side * (hy_ - 0.15f), h}, 0.045f);
         mesh_.Beam({side * (hx_ - 0.15f), -hy_ + 0.15f, h}, {side * (hx_ - 0.15f), hy_ - 0.15f, h}, 0.045f);
       }
-      for (float x = -hx_ + 0.15f; x <= hx_ - 0.1f; x += 1.9f) mesh_.Beam({x, side * (hy_ - 0.15f), kParapetTop}, {x, side * (hy_ - 0.15f), 1.2f}, 0.04f);
-      for (float y = -hy_ + 0.15f; y <= hy_ - 0.1f; y += 1.9f) mesh_.Beam({side * (hx_ - 0.15f), y, kParapetTop}, {side * (hx_ - 0.15f), y, 1.2f}, 0.04f);
+      for (float x = -hx_ + 0.15f; x <= hx_ - 0.1f; x += 1.9f)
+        mesh_.Beam({x, side * (hy_ - 0.15f), kParapetTop}, {x, side * (hy_ - 0.15f), 1.2f}, 0.04f);
+      for (float y = -hy_ + 0.15f; y <= hy_ - 0.1f; y += 1.9f)
+        mesh_.Beam({side * (hx_ - 0.15f), y, kParapetTop}, {side * (hx_ - 0.15f), y, 1.2f}, 0.04f);
     }
   }
 
@@ -166,11 +176,14 @@ class TerraceBuilder {
     for (double x = 2; x < half_.x - 5; x += 4.2)
       for (double y : {-half_.y + 5.0, -half_.y + 9.0}) {
         const uint32_t variant = rng_.Index(8);
-        const auto at = [&](double dx, double dy) { return Vec3f{c_.x + static_cast<float>(x + dx), c_.y + static_cast<float>(y + dy), c_.z}; };
+        const auto at = [&](double dx, double dy) {
+          return Vec3f{c_.x + static_cast<float>(x + dx), c_.y + static_cast<float>(y + dy), c_.z};
+        };
         scene_.Put("terrace table", "dining_table", at(0, 0), 0, 1, variant);
         for (int k = 0; k < 4; ++k) {
           const double a = kTau * k / 4 + 0.3;
-          scene_.Put("terrace chair", "dining_chair", at(0.8 * std::cos(a), 0.8 * std::sin(a)), static_cast<double>(FacingYaw({static_cast<float>(-std::cos(a)), static_cast<float>(-std::sin(a))})), 1, variant);
+          scene_.Put("terrace chair", "dining_chair", at(0.8 * std::cos(a), 0.8 * std::sin(a)),
+                     static_cast<double>(FacingYaw({static_cast<float>(-std::cos(a)), static_cast<float>(-std::sin(a))})), 1, variant);
         }
         scene_.Put("sunshade", "umbrella", at(0.2, 0.2), 0, 1, rng_.Index(6));
       }
@@ -179,10 +192,12 @@ class TerraceBuilder {
   // A small tree in a square box, benches on its four sides.
   void PutGrove(float x, float y) {
     PutBed(x - 1, y - 1, x + 1, y + 1);
-    Put("terrace tree", rng_.Chance(0.5) ? "tree_narrowleaf" : "tree_generic", x, y, rng_.Uniform(0, kTau), static_cast<float>(rng_.Uniform(0.3, 0.42)), 0.5);
+    Put("terrace tree", rng_.Chance(0.5) ? "tree_narrowleaf" : "tree_generic", x, y, rng_.Uniform(0, kTau),
+        static_cast<float>(rng_.Uniform(0.3, 0.42)), 0.5);
     for (int k = 0; k < 4; ++k) {
       const double a = kTau / 4 * k;
-      Put("bench", "bench_wood", x + 1.5 * std::cos(a), y + 1.5 * std::sin(a), static_cast<double>(FacingYaw({static_cast<float>(std::cos(a)), static_cast<float>(std::sin(a))})));
+      Put("bench", "bench_wood", x + 1.5 * std::cos(a), y + 1.5 * std::sin(a),
+          static_cast<double>(FacingYaw({static_cast<float>(std::cos(a)), static_cast<float>(std::sin(a))})));
     }
   }
 

@@ -14,7 +14,8 @@ std::shared_ptr<const Scene> BuildTownScene(const std::string& name, const TownS
   dress.traffic = spec.paving == TownPaving::kDirt ? 0 : spec.traffic;
   dress.yard_trees = spec.trees > 0;
   dress.yard_cars = spec.traffic > 0;
-  const bool old = spec.style == TownStyle::kAzulejo || spec.style == TownStyle::kOchre || spec.style == TownStyle::kStone || spec.style == TownStyle::kWhitewashed;
+  const bool old = spec.style == TownStyle::kAzulejo || spec.style == TownStyle::kOchre || spec.style == TownStyle::kStone ||
+                   spec.style == TownStyle::kWhitewashed;
   if (old) dress.lamp = "lamp_post";
   dress.town_around = spec.country == TownCountry::kCity;
   dress.paint = [&](SceneBuilder& builder, Surfaces& surfaces, MapDress& own) { PaintTown(spec, builder, surfaces, own); };

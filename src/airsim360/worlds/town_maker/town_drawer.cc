@@ -64,7 +64,9 @@ TownMap TownDrawer::Draw() {
   x0_ = -x1_;
   y0_ = -y1_;
   // Somewhere in Europe, so that roads are painted as there; high-rise cities are painted as in America.
-  map_.data.origin = spec_.style == TownStyle::kModern || spec_.style == TownStyle::kBrick || spec_.style == TownStyle::kSuburban ? GeoPoint{40.7, -74, 0} : GeoPoint{41.9, 12.5, 0};
+  map_.data.origin = spec_.style == TownStyle::kModern || spec_.style == TownStyle::kBrick || spec_.style == TownStyle::kSuburban
+                         ? GeoPoint{40.7, -74, 0}
+                         : GeoPoint{41.9, 12.5, 0};
   map_.data.extent = {x0_, y0_, x1_, y1_};
   LayWaters();
   LayStreets();
@@ -122,7 +124,8 @@ void TownDrawer::LayStreets() {
         const std::vector<Vec2d> part(points.begin() + static_cast<std::ptrdiff_t>(i), points.begin() + static_cast<std::ptrdiff_t>(k));
         AddStreet(Thinned(part), edge.rank, {i == 0 ? ends[0] : next_node_++, k == points.size() ? ends[1] : next_node_++}, false);
       } else if (wet[i] && both && i > 0) {
-        const std::vector<Vec2d> part(points.begin() + static_cast<std::ptrdiff_t>(i) - 1, points.begin() + static_cast<std::ptrdiff_t>(std::min(k + 1, points.size())));
+        const std::vector<Vec2d> part(points.begin() + static_cast<std::ptrdiff_t>(i) - 1,
+                                      points.begin() + static_cast<std::ptrdiff_t>(std::min(k + 1, points.size())));
         AddStreet(Thinned(part), edge.rank, {next_node_++, next_node_++}, true);
       }
       i = k;
@@ -270,7 +273,8 @@ void TownDrawer::LaySquare(const Patch& patch, size_t number) {
   }
   for (double y : {-15.0, 15.0})
     for (double x = -18; x <= 18; x += 9)
-      if (const Vec2d p = m + Vec2d{x, y}; Inside(patch, p) && DistanceToRing(patch.outer, p) > 8 && rng_.Chance(0.8 * spec_.trees)) AddTree(p, 6, 8);
+      if (const Vec2d p = m + Vec2d{x, y}; Inside(patch, p) && DistanceToRing(patch.outer, p) > 8 && rng_.Chance(0.8 * spec_.trees))
+        AddTree(p, 6, 8);
   if (spec_.market && number == 0) AddSpot("market", m, {0, 1}, std::min(box.max.x - box.min.x, box.max.y - box.min.y) / 2 - 9);
   if (spec_.cafes) AddSpot("terrace", m, {1, 0}, std::min(box.max.x - box.min.x, box.max.y - box.min.y) / 2 - 6);
 }
@@ -309,7 +313,8 @@ void TownDrawer::LayPark(const Patch& patch, size_t number) {
   const int count = static_cast<int>(Area(patch) / 110 * spec_.trees);
   for (int tries = 0, made = 0; tries < 6 * count && made < count; ++tries) {
     const Vec2d p{rng_.Uniform(box.min.x, box.max.x), rng_.Uniform(box.min.y, box.max.y)};
-    if (!Inside(patch, p) || DistanceToRing(patch.outer, p) < 2.5 || DistanceToLine(across, p) < 3.2 || DistanceToLine(around, p) < 3) continue;
+    if (!Inside(patch, p) || DistanceToRing(patch.outer, p) < 2.5 || DistanceToLine(across, p) < 3.2 || DistanceToLine(around, p) < 3)
+      continue;
     if (spec_.playground && number == 0 && std::abs(p.x - m.x - 0.3 * rx) < 11 && std::abs(p.y - m.y - 0.36 * ry) < 8) continue;
     const double u = (p.x - m.x + 0.3 * rx) / (0.26 * rx), v = (p.y - m.y - 0.38 * ry) / (0.22 * ry);
     if (u * u + v * v < 1) continue;

@@ -76,8 +76,8 @@ class TownDrawer {
   const uint64_t seed_;
   RngStream rng_;
   TownMap map_;
-  std::vector<Patch> blocks_;   // free for houses
-  std::vector<Patch> taken_;    // landmarks, in the order of being built
+  std::vector<Patch> blocks_;                     // free for houses
+  std::vector<Patch> taken_;                      // landmarks, in the order of being built
   std::vector<std::pair<Vec2d, double>> bodies_;  // houses as discs
   std::vector<Vec2d> coast_, river_;
   double x0_ = 0, y0_ = 0, x1_ = 0, y1_ = 0;

@@ -30,10 +30,10 @@ void TownFinisher::Run() {
 void TownFinisher::Place(const TownSpot& spot) {
   using Do = void (TownFinisher::*)(const TownSpot&);
   static const std::map<std::string_view, Do> kKinds = {
-      {"palm", &TownFinisher::Tree},       {"cypress", &TownFinisher::Tree},   {"umbrella_pine", &TownFinisher::Tree},
-      {"terrace", &TownFinisher::Terrace}, {"market", &TownFinisher::Market},  {"undergrowth", &TownFinisher::Undergrowth},
-      {"ruin", &TownFinisher::Ruin},       {"arch", &TownFinisher::Arch},      {"windmill", &TownFinisher::Windmill},
-      {"porch", &TownFinisher::Porch},     {"jetty", &TownFinisher::Jetty},    {"roof_terrace", &TownFinisher::RoofTerrace}};
+      {"palm", &TownFinisher::Tree},       {"cypress", &TownFinisher::Tree},  {"umbrella_pine", &TownFinisher::Tree},
+      {"terrace", &TownFinisher::Terrace}, {"market", &TownFinisher::Market}, {"undergrowth", &TownFinisher::Undergrowth},
+      {"ruin", &TownFinisher::Ruin},       {"arch", &TownFinisher::Arch},     {"windmill", &TownFinisher::Windmill},
+      {"porch", &TownFinisher::Porch},     {"jetty", &TownFinisher::Jetty},   {"roof_terrace", &TownFinisher::RoofTerrace}};
   if (const auto it = kKinds.find(spot.kind); it != kKinds.end()) return (this->*it->second)(spot);
   if (spot.kind == "cafe") return Cafe(spot.p, spot.front, static_cast<int>(spot.size / 2.6));
   if (spot.kind == "rowboat") return Boat(spot, 3.8, 1.4, false, false);
@@ -55,7 +55,8 @@ bool TownFinisher::InHouse(Vec2d p, double margin) const {
 }
 
 bool TownFinisher::OnStreet(Vec2d p) const {
-  return std::any_of(map_.streets.begin(), map_.streets.end(), [&](const TownStreet& street) { return DistanceToLine(street.line, p) < street.half + street.pavement + 0.6; });
+  return std::any_of(map_.streets.begin(), map_.streets.end(),
+                     [&](const TownStreet& street) { return DistanceToLine(street.line, p) < street.half + street.pavement + 0.6; });
 }
 
 void TownFinisher::Tree(const TownSpot& spot) {
@@ -63,11 +64,15 @@ void TownFinisher::Tree(const TownSpot& spot) {
   std::vector<MeshId>& meshes = trees_[spot.kind];
   if (meshes.empty())
     for (uint32_t i = 0; i < 3; ++i) meshes.push_back(scene_.shelf.Add(GrowSouthernTree(spot.kind, i)));
-  const char* category = spot.kind == "palm" ? "vegetation/tree/palm" : spot.kind == "cypress" ? "vegetation/tree/conifer/cypress" : "vegetation/tree/conifer/pine";
-  const EntityId entity = scene_.builder.AddEntity(spot.kind == "umbrella_pine" ? "umbrella pine" : spot.kind, scene_.builder.tree().Add(category));
+  const char* category = spot.kind == "palm"      ? "vegetation/tree/palm"
+                         : spot.kind == "cypress" ? "vegetation/tree/conifer/cypress"
+                                                  : "vegetation/tree/conifer/pine";
+  const EntityId entity =
+      scene_.builder.AddEntity(spot.kind == "umbrella_pine" ? "umbrella pine" : spot.kind, scene_.builder.tree().Add(category));
   const auto scale = static_cast<float>(std::clamp(spot.size / TypicalHeight(spot.kind), 0.45, 1.5));
   const auto tone = static_cast<float>(rng_.Uniform(0.88, 1.1));
-  scene_.builder.AddInstance({meshes[rng_.Index(3)], PlaceUpright(At(spot.p, -0.03), static_cast<float>(rng_.Uniform(0, kTau)), scale), entity, Vec3f{tone, tone, tone}});
+  scene_.builder.AddInstance({meshes[rng_.Index(3)], PlaceUpright(At(spot.p, -0.03), static_cast<float>(rng_.Uniform(0, kTau)), scale),
+                              entity, Vec3f{tone, tone, tone}});
   scene_.occupancy.Add({ToFloat(spot.p), {0.6f, 0.6f}, 0});
 }
 
@@ -83,7 +88,8 @@ void TownFinisher::CafeSet(Vec2d p) {
   for (int i = 0; i < chairs; ++i) {
     const double a = turn + kTau * i / chairs;
     const Vec2d out{std::cos(a), std::sin(a)};
-    scene_.Put("café chair", "dining_chair", At(p + out * 0.78, 0), static_cast<double>(FacingYaw(ToFloat(out * -1.0))) + rng_.Uniform(-0.2, 0.2), 1, variant);
+    scene_.Put("café chair", "dining_chair", At(p + out * 0.78, 0),
+               static_cast<double>(FacingYaw(ToFloat(out * -1.0))) + rng_.Uniform(-0.2, 0.2), 1, variant);
   }
   if (rng_.Chance(0.7)) scene_.Put("sunshade", "umbrella", At(p + Vec2d{0.15, 0.2}, 0), rng_.Uniform(0, kTau), 1, rng_.Index(6));
 }
@@ -91,7 +97,8 @@ void TownFinisher::CafeSet(Vec2d p) {
 void TownFinisher::Cafe(Vec2d p, Vec2d front, int tables) {
   const Vec2d along{-front.y, front.x};
   for (int i = 0; i < tables; ++i) CafeSet(p + along * (2.6 * (i - 0.5 * (tables - 1))));
-  scene_.Put("poster stand", "poster_stand", At(p + along * (1.3 * tables + 0.6), 0), static_cast<double>(FacingYaw(ToFloat(front))), 1, rng_.Index(4));
+  scene_.Put("poster stand", "poster_stand", At(p + along * (1.3 * tables + 0.6), 0), static_cast<double>(FacingYaw(ToFloat(front))), 1,
+             rng_.Index(4));
 }
 
 // Tables along two sides of a square.
@@ -113,7 +120,8 @@ void TownFinisher::Market(const TownSpot& spot) {
       if (rng_.Chance(0.15) || InHouse(p, 2) || !scene_.occupancy.IsFree(place)) continue;
       scene_.occupancy.Add(place);
       const double yaw = y < 0 ? 0 : kTau / 2;
-      const EntityId stall = scene_.builder.AddEntity("market stall " + std::to_string(++number), scene_.builder.tree().At("furniture/vending/food_stall"));
+      const EntityId stall =
+          scene_.builder.AddEntity("market stall " + std::to_string(++number), scene_.builder.tree().At("furniture/vending/food_stall"));
       scene_.builder.AddInstance({goods[rng_.Index(4)], PlaceUpright(At(p, 0), static_cast<float>(yaw)), stall});
       scene_.Put("market roof", "tarp", At(p, 0), yaw, 1, rng_.Index(6));
       for (double dx : {-1.35, 1.35}) scene_.Put("market post", "tarp_post", At(p + Vec2d{dx, y < 0 ? -1.0 : 1.0}, 0), yaw, 1, 0);
@@ -148,7 +156,8 @@ void TownFinisher::Traffic() {
   for (const TownStreet& street : map_.streets) {
     if (street.rank > 1 || street.bridge || street.half < 2.4) continue;
     const double length = LengthOf(street.line);
-    for (double s = 12 + rng_.Uniform(0, 40 / spec_.traffic); s < length - 12; s += rng_.Uniform(22, street.rank == 0 ? 55 : 130) / spec_.traffic) {
+    for (double s = 12 + rng_.Uniform(0, 40 / spec_.traffic); s < length - 12;
+         s += rng_.Uniform(22, street.rank == 0 ? 55 : 130) / spec_.traffic) {
       const LinePoint at = PointAt(street.line, s);
       const bool back = rng_.Chance(0.5);
       const Vec2d along = at.along * (back ? -1.0 : 1.0), right{along.y, -along.x};

@@ -12,7 +12,8 @@ namespace airsim360::internal {
 
 class TownFinisher {
  public:
-  TownFinisher(const TownSpec& spec, const TownMap& map, OsmScene& scene) : spec_(spec), map_(map), scene_(scene), rng_(scene.options.seed, "finish") {}
+  TownFinisher(const TownSpec& spec, const TownMap& map, OsmScene& scene)
+      : spec_(spec), map_(map), scene_(scene), rng_(scene.options.seed, "finish") {}
   void Run();
 
  private:

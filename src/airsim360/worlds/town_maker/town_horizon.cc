@@ -29,7 +29,8 @@ void TownFinisher::FarWoods() {
     if (wet) continue;
     const bool needles = forest ? rng_.Chance(0.86) : rng_.Chance(0.2);
     const auto scale = static_cast<float>(rng_.Uniform(0.75, 1.45));
-    scene_.Put(forest ? "far forest tree" : "far tree", needles ? "tree_pine" : "tree_generic", scene_.On(p, -0.5), turn, scale, rng_.Index(6));
+    scene_.Put(forest ? "far forest tree" : "far tree", needles ? "tree_pine" : "tree_generic", scene_.On(p, -0.5), turn, scale,
+               rng_.Index(6));
   }
 }
 
@@ -40,7 +41,9 @@ void TownFinisher::Ridges() {
     Surface surface;
   };
   const bool forest = spec_.country == TownCountry::kForest;
-  const Row rows[] = {{3100, 700, forest ? 190.0 : 90.0, Surface::kMountain}, {5200, 1000, forest ? 460.0 : 240.0, Surface::kMountainFar}, {8600, 1500, forest ? 900.0 : 480.0, Surface::kMountainFar}};
+  const Row rows[] = {{3100, 700, forest ? 190.0 : 90.0, Surface::kMountain},
+                      {5200, 1000, forest ? 460.0 : 240.0, Surface::kMountainFar},
+                      {8600, 1500, forest ? 900.0 : 480.0, Surface::kMountainFar}};
   constexpr int kAlong = 220, kAcross = 10;
   mesh_.SetTransform({});
   for (const Row& row : rows) {
@@ -61,7 +64,8 @@ void TownFinisher::Ridges() {
     const auto uv = [](Vec3f p) { return Vec2f{p.x, -p.y - p.z}; };
     for (int i = 0; i < kAlong; ++i)
       for (int j = 0; j < kAcross; ++j) {
-        const Vec3f p[4] = {at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)}, n[4] = {normal(i, j), normal(i, j + 1), normal(i + 1, j + 1), normal(i + 1, j)};
+        const Vec3f p[4] = {at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)},
+                    n[4] = {normal(i, j), normal(i, j + 1), normal(i + 1, j + 1), normal(i + 1, j)};
         mesh_.SmoothTriangle({p[0], p[1], p[2]}, {n[0], n[1], n[2]}, {uv(p[0]), uv(p[1]), uv(p[2])});
         mesh_.SmoothTriangle({p[0], p[2], p[3]}, {n[0], n[2], n[3]}, {uv(p[0]), uv(p[2]), uv(p[3])});
       }

@@ -64,7 +64,8 @@ double Narrowest(const Ring& ring) {
 }  // namespace
 
 double TownDrawer::Floors() {
-  if (spec_.towers && rng_.Chance(0.14)) return std::round(rng_.Uniform(std::max(14.0, spec_.most_floors), std::max(26.0, 1.6 * spec_.most_floors)));
+  if (spec_.towers && rng_.Chance(0.14))
+    return std::round(rng_.Uniform(std::max(14.0, spec_.most_floors), std::max(26.0, 1.6 * spec_.most_floors)));
   // Low ones are more frequent.
   const double u = rng_.Uniform();
   return std::round(spec_.least_floors + (spec_.most_floors - spec_.least_floors) * std::pow(u, 1.4));
@@ -141,10 +142,11 @@ void TownDrawer::Detached(const Patch& block, std::vector<Patch>& built) {
     if (length < 12) continue;
     const Vec2d along = v * (1 / length), in{-along.y, along.x}, front{along.y, -along.x};
     const double gap = std::clamp(spec_.setback, 2.5, 9.0);
-    for (double s = gap; s < length - style.least_front; ) {
+    for (double s = gap; s < length - style.least_front;) {
       const double w = rng_.Uniform(style.least_front, style.most_front), d = style.depth * rng_.Uniform(0.85, 1.2);
       const double back = spec_.setback * rng_.Uniform(0.8, 1.3);
-      const Ring house = Box(ring[i] + along * s + in * back, along, in, w, d), around = Box(ring[i] + along * (s - 1.5) + in * (back - 1.5), along, in, w + 3, d + 3);
+      const Ring house = Box(ring[i] + along * s + in * back, along, in, w, d),
+                 around = Box(ring[i] + along * (s - 1.5) + in * (back - 1.5), along, in, w + 3, d + 3);
       s += w + gap * rng_.Uniform(1, 2);
       if (s - gap > length || !rng_.Chance(spec_.built) || Full()) continue;
       const Patches inside = Intersect(Patches{block}, Patches{{house, {}}});
@@ -153,7 +155,8 @@ void TownDrawer::Detached(const Patch& block, std::vector<Patch>& built) {
       AddHouse(house, front);
       // A hedge or a fence before the garden, a tree in it.
       const Vec2d a = ring[i] + along * (s - w - gap), b = a + along * (w * 0.62);
-      if (spec_.setback > 2.5 && rng_.Chance(0.6)) AddLine({a + in * 0.5, b + in * 0.5}, {{"barrier", rng_.Chance(0.5) ? "hedge" : "fence"}, {"fence_type", "wood"}});
+      if (spec_.setback > 2.5 && rng_.Chance(0.6))
+        AddLine({a + in * 0.5, b + in * 0.5}, {{"barrier", rng_.Chance(0.5) ? "hedge" : "fence"}, {"fence_type", "wood"}});
       if (rng_.Chance(0.5 * spec_.trees) && back > 4) AddTree(a + in * (back * 0.45) + along * (w * 0.8), 5, 8);
     }
   }
@@ -172,7 +175,8 @@ void TownDrawer::Scatter() {
     const double length = std::max(Length(v), 1e-6), hand = rng_.Chance(0.5) ? 1 : -1, turn = rng_.Uniform(-0.35, 0.35);
     const Vec2d along = v * (1 / length), out = Vec2d{-along.y, along.x} * hand;
     const Vec2d c = street.line[i] + along * rng_.Uniform(0, length) + out * (street.half + rng_.Uniform(9, 24));
-    const Vec2d u{along.x * std::cos(turn) - along.y * std::sin(turn), along.x * std::sin(turn) + along.y * std::cos(turn)}, n = out.x * -u.y + out.y * u.x > 0 ? Vec2d{-u.y, u.x} : Vec2d{u.y, -u.x};
+    const Vec2d u{along.x * std::cos(turn) - along.y * std::sin(turn), along.x * std::sin(turn) + along.y * std::cos(turn)},
+        n = out.x * -u.y + out.y * u.x > 0 ? Vec2d{-u.y, u.x} : Vec2d{u.y, -u.x};
     const double w = rng_.Uniform(style.least_front, style.most_front), d = style.depth * rng_.Uniform(0.85, 1.15);
     if (!Inside_(c, 0.75 * w) || IsWet(c, 0.75 * w + 5)) continue;
     bool free = true;
@@ -195,13 +199,16 @@ void TownDrawer::Scatter() {
     AddSpot("porch", c - n * (d / 2), n * -1.0, w);
     // A path to the track.
     const Vec2d door = c - n * (d / 2 + 2.2);
-    AddLine({door, c - out * (Length(c - street.line[i]) > 0 ? DistanceToLine(street.line, c) : 0)}, {{"highway", "path"}, {"width", "1.6"}, {"surface", "ground"}});
+    AddLine({door, c - out * (Length(c - street.line[i]) > 0 ? DistanceToLine(street.line, c) : 0)},
+            {{"highway", "path"}, {"width", "1.6"}, {"surface", "ground"}});
   }
 }
 
 void TownDrawer::AddHouse(const Ring& ring, Vec2d front, double most_floors) {
   const HouseStyle& style = StyleOf(spec_.style);
-  const auto pick = [&](std::span<const std::string_view> names) { return std::string(names[rng_.Index(static_cast<uint32_t>(names.size()))]); };
+  const auto pick = [&](std::span<const std::string_view> names) {
+    return std::string(names[rng_.Index(static_cast<uint32_t>(names.size()))]);
+  };
   ++houses_;
   Vec2d middle{};
   for (Vec2d p : ring) middle = middle + p * (1.0 / static_cast<double>(ring.size()));
@@ -214,7 +221,9 @@ void TownDrawer::AddHouse(const Ring& ring, Vec2d front, double most_floors) {
   if (spec_.roofs != TownRoofs::kStyle && !tall) roof = spec_.roofs == TownRoofs::kFlat ? "flat" : rng_.Chance(0.5) ? "hipped" : "gabled";
   // Outlines that are cut have plain roofs.
   if (ring.size() > 6 && roof != "flat") roof = "hipped";
-  const double roof_height = roof == "flat" ? 0 : roof == "dome" ? std::min(2.6, 0.35 * span) : std::min(std::min(span, 16.0) * std::max(style.pitch, 0.22), 6.5);
+  const double roof_height = roof == "flat"   ? 0
+                             : roof == "dome" ? std::min(2.6, 0.35 * span)
+                                              : std::min(std::min(span, 16.0) * std::max(style.pitch, 0.22), 6.5);
   TagList tags{{"building", std::string(tall && style.kind != "office" ? "apartments" : style.kind)}};
   tags.emplace_back("height", Metres(floors * (style.kind == "house" ? 2.85 : 3.3) + (style.kind == "house" ? 0.3 : 1.0) + roof_height));
   if (roof == "dome") {  // a house of cubes with a small dome is rare: its walls end level
@@ -226,7 +235,8 @@ void TownDrawer::AddHouse(const Ring& ring, Vec2d front, double most_floors) {
   if (roof == "gabled" && style.kind == "house" && rng_.Chance(0.35)) tags.emplace_back("roof:orientation", "across");
   static constexpr std::string_view kMaterials[] = {"", "roof_tiles", "slate", ""}, kColours[] = {"", "", "#55585c", ""};
   const auto roofs = static_cast<size_t>(spec_.roofs);
-  const std::string cover(roofs == 0 ? style.roof_material : kMaterials[roofs]), roof_colour = roofs == 0 ? pick(style.roof_colours) : std::string(kColours[roofs]);
+  const std::string cover(roofs == 0 ? style.roof_material : kMaterials[roofs]),
+      roof_colour = roofs == 0 ? pick(style.roof_colours) : std::string(kColours[roofs]);
   if (!cover.empty() && roof != "flat") tags.emplace_back("roof:material", cover);
   if (!roof_colour.empty() && (roof != "flat" || spec_.style == TownStyle::kWhitewashed)) tags.emplace_back("roof:colour", roof_colour);
   if (tall && spec_.style != TownStyle::kModern) material = rng_.Chance(0.5) ? "concrete" : "glass";
@@ -239,13 +249,18 @@ void TownDrawer::AddHouse(const Ring& ring, Vec2d front, double most_floors) {
     // A tower on its podium.
     OsmTags& base = map_.data.ways.back().tags;
     OsmTags low;
-    for (const auto& tag : base.all()) low.Add(tag.first, tag.first == "height" ? Metres(std::round(rng_.Uniform(3, 7)) * 3.6) : tag.second);
+    for (const auto& tag : base.all())
+      low.Add(tag.first, tag.first == "height" ? Metres(std::round(rng_.Uniform(3, 7)) * 3.6) : tag.second);
     Ring upper;
     const double inset = rng_.Uniform(0.12, 0.24);
     for (Vec2d p : ring) upper.push_back(p + (middle - p) * inset);
-    TagList part{{"building:part", "yes"}, {"height", std::string(base.Get("height"))}, {"roof:shape", "flat"}, {"building:material", material}};
+    TagList part{
+        {"building:part", "yes"}, {"height", std::string(base.Get("height"))}, {"roof:shape", "flat"}, {"building:material", material}};
     if (!own) part.emplace_back("building:colour", colour);
-    TagList podium{{"building:part", "yes"}, {"height", std::string(low.Get("height"))}, {"roof:shape", "flat"}, {"building:material", rng_.Chance(0.5) ? "stone" : material}};
+    TagList podium{{"building:part", "yes"},
+                   {"height", std::string(low.Get("height"))},
+                   {"roof:shape", "flat"},
+                   {"building:material", rng_.Chance(0.5) ? "stone" : material}};
     AddArea(ring, podium);
     AddArea(upper, part);
     if (floors > 22 && rng_.Chance(0.5)) {

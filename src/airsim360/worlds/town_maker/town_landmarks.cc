@@ -11,12 +11,14 @@ double Length(Vec2d v) { return std::hypot(v.x, v.y); }
 
 Ring BoxAt(Vec2d c, Vec2d along, double half_length, double half_width) {
   const Vec2d side{-along.y, along.x};
-  return {c - along * half_length - side * half_width, c + along * half_length - side * half_width, c + along * half_length + side * half_width, c - along * half_length + side * half_width};
+  return {c - along * half_length - side * half_width, c + along * half_length - side * half_width,
+          c + along * half_length + side * half_width, c - along * half_length + side * half_width};
 }
 
 Ring Around(Vec2d c, double radius, int corners) {
   Ring ring;
-  for (int i = 0; i < corners; ++i) ring.push_back({c.x + radius * std::cos(6.283185 * i / corners), c.y + radius * std::sin(6.283185 * i / corners)});
+  for (int i = 0; i < corners; ++i)
+    ring.push_back({c.x + radius * std::cos(6.283185 * i / corners), c.y + radius * std::sin(6.283185 * i / corners)});
   return ring;
 }
 
@@ -67,7 +69,8 @@ void TownDrawer::BuildLandmarks() {
   }
   if (spec_.ruins)
     for (int i = 0; i < 2; ++i)
-      if (plot(i == 0 ? Vec2d{0.2 * spec_.width, 0.12 * spec_.depth} : Vec2d{-0.3 * spec_.width, -0.2 * spec_.depth}, i == 0 ? 16 : 13, p)) {
+      if (plot(i == 0 ? Vec2d{0.2 * spec_.width, 0.12 * spec_.depth} : Vec2d{-0.3 * spec_.width, -0.2 * spec_.depth}, i == 0 ? 16 : 13,
+               p)) {
         const double half = i == 0 ? 16 : 13;
         const Ring ring = BoxAt(p, {1, 0}, half, half);
         taken_.push_back({ring, {}});
@@ -83,14 +86,20 @@ void TownDrawer::BuildChurch(Vec2d p, Vec2d front, bool small) {
   if (spec_.style == TownStyle::kWhitewashed) colour = "#f6f4ee", roof = "#3d6f9e", material = "plaster";
   if (spec_.style == TownStyle::kTimber) colour = "#e9e6dc", roof = "#3f4348", material = "timber";
   if (spec_.style == TownStyle::kAzulejo || spec_.style == TownStyle::kOchre) colour = "#eee4cf", roof = "#a9583a", material = "plaster";
-  const Ring nave = BoxAt(p - front * 2.2, front, half, wide), tower = BoxAt(p + front * half, front, 2.2, 2.2), whole = BoxAt(p, front, half + 4, wide + 2);
+  const Ring nave = BoxAt(p - front * 2.2, front, half, wide), tower = BoxAt(p + front * half, front, 2.2, 2.2),
+             whole = BoxAt(p, front, half + 4, wide + 2);
   taken_.push_back({whole, {}});
   // One building of two parts.
   const TagList look{{"building:material", material}, {"building:colour", colour}, {"roof:colour", roof}};
-  TagList tags{{"building", "church"}, {"name", "Church"}, {"height", Metres(wall + 5.5)}, {"roof:shape", "gabled"}, {"roof:height", "5.5"}};
+  TagList tags{
+      {"building", "church"}, {"name", "Church"}, {"height", Metres(wall + 5.5)}, {"roof:shape", "gabled"}, {"roof:height", "5.5"}};
   tags.insert(tags.end(), look.begin(), look.end());
   AddArea(nave, tags);
-  TagList spire{{"building", "church"}, {"name", "Steeple"}, {"height", Metres(wall * 2 + 9.0)}, {"roof:shape", spec_.style == TownStyle::kWhitewashed ? "dome" : "pyramidal"}, {"roof:height", spec_.style == TownStyle::kWhitewashed ? "2.5" : "8"}};
+  TagList spire{{"building", "church"},
+                {"name", "Steeple"},
+                {"height", Metres(wall * 2 + 9.0)},
+                {"roof:shape", spec_.style == TownStyle::kWhitewashed ? "dome" : "pyramidal"},
+                {"roof:height", spec_.style == TownStyle::kWhitewashed ? "2.5" : "8"}};
   spire.insert(spire.end(), look.begin(), look.end());
   AddArea(tower, spire);
   bodies_.emplace_back(p, half + 3);
@@ -112,7 +121,8 @@ void TownDrawer::BuildCastle(Vec2d p) {
   const TagList stone{{"building:material", "stone"}, {"building:colour", "#b5a98f"}};
   taken_.push_back({BoxAt(p, {1, 0}, half + 3.4, half + 3.4), {}});
   const auto add = [&](const Ring& ring, double height, const char* name, const char* roof, double roof_height) {
-    TagList tags{{"building", "castle"}, {"historic", "castle"}, {"name", name}, {"height", Metres(height + roof_height)}, {"roof:shape", roof}, {"roof:material", "slate"}};
+    TagList tags{{"building", "castle"}, {"historic", "castle"},    {"name", name}, {"height", Metres(height + roof_height)},
+                 {"roof:shape", roof},   {"roof:material", "slate"}};
     if (roof_height > 0) tags.emplace_back("roof:height", Metres(roof_height));
     tags.insert(tags.end(), stone.begin(), stone.end());
     AddArea(ring, tags);
@@ -133,9 +143,16 @@ void TownDrawer::BuildTerraceHouse() {
   if (taken_.empty()) return;
   const Bounds2d box = BoundsOf(taken_[0].outer);
   const Vec2d m = (box.min + box.max) * 0.5;
-  const double half_x = std::min(36.0, (box.max.x - box.min.x) / 2 - 1.5), half_y = std::min(30.0, (box.max.y - box.min.y) / 2 - 1.5), height = std::round(spec_.most_floors * 0.6) * 3.6;
+  const double half_x = std::min(36.0, (box.max.x - box.min.x) / 2 - 1.5), half_y = std::min(30.0, (box.max.y - box.min.y) / 2 - 1.5),
+               height = std::round(spec_.most_floors * 0.6) * 3.6;
   const Ring ring = BoxAt(m, {1, 0}, half_x, half_y);
-  AddArea(ring, {{"building", "apartments"}, {"name", "Terrace house"}, {"height", Metres(height)}, {"roof:shape", "hipped"}, {"roof:height", "0.05"}, {"building:material", "brick"}, {"building:colour", "#8c4a36"}});
+  AddArea(ring, {{"building", "apartments"},
+                 {"name", "Terrace house"},
+                 {"height", Metres(height)},
+                 {"roof:shape", "hipped"},
+                 {"roof:height", "0.05"},
+                 {"building:material", "brick"},
+                 {"building:colour", "#8c4a36"}});
   map_.spots.push_back({"roof_terrace", m, {half_x, half_y}, height});
 }
 

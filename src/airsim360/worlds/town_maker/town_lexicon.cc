@@ -338,11 +338,30 @@ constexpr auto kStuffs = std::to_array<TownStuff>({
     {"people", "people", [](D& d, double amount) { d.people_share = amount == 0 ? -1 : amount; }},
     {"pedestrian", "people", [](D& d, double amount) { d.people_share = amount == 0 ? -1 : amount; }},
     {"passer by", "people", [](D& d, double amount) { d.people_share = amount == 0 ? -1 : amount; }},
-    {"water", "water", [](D& d, double amount) { if (amount == 0) d.spec.water = TownWater::kNone; else if (d.spec.water == TownWater::kNone) d.spec.water = TownWater::kLake; }},
-    {"park", "parks", [](D& d, double amount) { d.spec.parks = amount == 0 ? 0 : amount < 1 ? 1 : amount > 1 ? 4 : std::max<uint64_t>(1, d.spec.parks); }},
-    {"plaza", "squares", [](D& d, double amount) { d.spec.squares = amount == 0 ? 0 : amount < 1 ? 1 : amount > 1 ? 4 : std::max<uint64_t>(1, d.spec.squares); }},
-    {"piazza", "squares", [](D& d, double amount) { d.spec.squares = amount == 0 ? 0 : amount < 1 ? 1 : amount > 1 ? 4 : std::max<uint64_t>(1, d.spec.squares); }},
-    {"square", "squares", [](D& d, double amount) { d.spec.squares = amount == 0 ? 0 : amount < 1 ? 1 : amount > 1 ? 4 : std::max<uint64_t>(1, d.spec.squares); }},
+    {"water", "water",
+     [](D& d, double amount) {
+       if (amount == 0)
+         d.spec.water = TownWater::kNone;
+       else if (d.spec.water == TownWater::kNone)
+         d.spec.water = TownWater::kLake;
+     }},
+    {"park", "parks",
+     [](D& d, double amount) { d.spec.parks = amount == 0  ? 0
+                                              : amount < 1 ? 1
+                                              : amount > 1 ? 4
+                                                           : std::max<uint64_t>(1, d.spec.parks); }},
+    {"plaza", "squares",
+     [](D& d, double amount) {
+       d.spec.squares = amount == 0 ? 0 : amount < 1 ? 1 : amount > 1 ? 4 : std::max<uint64_t>(1, d.spec.squares);
+     }},
+    {"piazza", "squares",
+     [](D& d, double amount) {
+       d.spec.squares = amount == 0 ? 0 : amount < 1 ? 1 : amount > 1 ? 4 : std::max<uint64_t>(1, d.spec.squares);
+     }},
+    {"square", "squares",
+     [](D& d, double amount) {
+       d.spec.squares = amount == 0 ? 0 : amount < 1 ? 1 : amount > 1 ? 4 : std::max<uint64_t>(1, d.spec.squares);
+     }},
 });
 
 constexpr auto kThings = std::to_array<TownThing>({

@@ -15,7 +15,7 @@ namespace airsim360::internal {
 /// A street between two junctions or ends.
 struct TownStreet {
   std::vector<Vec2d> line;
-  int rank = 1;         ///< 0 main street, 1 street, 2 lane without cars, 3 promenade
+  int rank = 1;                     ///< 0 main street, 1 street, 2 lane without cars, 3 promenade
   double half = 4, pavement = 1.5;  ///< metres: centre to kerb; of each pavement
   bool bridge = false;
 };

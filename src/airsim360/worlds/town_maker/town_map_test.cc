@@ -27,7 +27,10 @@ std::vector<TownSpec> Variety() {
   std::vector<TownSpec> specs;
   for (int plan = 0; plan < 5; ++plan)
     for (int water = 0; water < 5; ++water) {
-      TownSpec spec{.plan = static_cast<TownPlan>(plan), .style = static_cast<TownStyle>((2 * plan + water) % 10), .relief = static_cast<TownRelief>((plan + water) % 5), .water = static_cast<TownWater>(water)};
+      TownSpec spec{.plan = static_cast<TownPlan>(plan),
+                    .style = static_cast<TownStyle>((2 * plan + water) % 10),
+                    .relief = static_cast<TownRelief>((plan + water) % 5),
+                    .water = static_cast<TownWater>(water)};
       spec.width = 260 + 20 * water;
       spec.depth = 240;
       spec.street = 6.0 + 3 * plan;
@@ -103,7 +106,8 @@ TEST(TownMap, TheGroundIsAsSteepAsAskedAndLevelAtTheWater) {
   const Relief shore(coast.heights, coast.data.origin, spec.width * spec.depth);
   double low = 1e9, high = -1e9;
   for (Vec2d p : coast.wet[0].outer)
-    if (std::abs(p.x) < spec.width / 2 && std::abs(p.y) < spec.depth / 2) low = std::min(low, shore.At(p)), high = std::max(high, shore.At(p));
+    if (std::abs(p.x) < spec.width / 2 && std::abs(p.y) < spec.depth / 2)
+      low = std::min(low, shore.At(p)), high = std::max(high, shore.At(p));
   EXPECT_LT(high - low, 0.3);
   spec.relief = TownRelief::kFlat;
   EXPECT_TRUE(DrawTown(spec, 0).heights.heights.empty());

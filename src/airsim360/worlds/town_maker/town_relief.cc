@@ -86,7 +86,8 @@ HeightGrid ReliefOf(const TownSpec& spec, uint64_t seed, const TownMap& map) {
   const Heights heights(spec, seed, map);
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column)
-      grid.heights.push_back(static_cast<float>(heights.At({x0 + (x1 - x0) * (column + 0.5) / grid.columns, y1 - (y1 - y0) * (row + 0.5) / grid.rows})));
+      grid.heights.push_back(
+          static_cast<float>(heights.At({x0 + (x1 - x0) * (column + 0.5) / grid.columns, y1 - (y1 - y0) * (row + 0.5) / grid.rows})));
   return grid;
 }
 

@@ -70,9 +70,11 @@ void TownFinisher::Ruin(const TownSpot& spot) {
     mesh_.SetMaterial(scene_.surfaces[Surface::kBrickYellow]);
     for (int i = 0; i < 9; ++i) {
       const double s = -half + 1.5 * i, top = std::max(0.5, 3.4 + 1.3 * std::sin(1.3 * i + arm) - 0.28 * i);
-      const Vec2d a = arm == 0 ? spot.p + Vec2d{s, half} : spot.p + Vec2d{-half, half - 1.5 * i - 1.5}, b = arm == 0 ? a + Vec2d{1.5, 0.8} : a + Vec2d{0.8, 1.5};
+      const Vec2d a = arm == 0 ? spot.p + Vec2d{s, half} : spot.p + Vec2d{-half, half - 1.5 * i - 1.5},
+                  b = arm == 0 ? a + Vec2d{1.5, 0.8} : a + Vec2d{0.8, 1.5};
       const float z = At((a + b) * 0.5, -0.4).z;
-      mesh_.Box({static_cast<float>(a.x), static_cast<float>(a.y), z}, {static_cast<float>(b.x), static_cast<float>(b.y), z + 0.4f + static_cast<float>(top)});
+      mesh_.Box({static_cast<float>(a.x), static_cast<float>(a.y), z},
+                {static_cast<float>(b.x), static_cast<float>(b.y), z + 0.4f + static_cast<float>(top)});
     }
   }
 }
@@ -82,7 +84,9 @@ void TownFinisher::Arch(const TownSpot& spot) {
   Start("arch", "construction/building/part", spot.p, spot.front);
   const auto half = static_cast<float>(spot.size / 2 + 0.35), clear = static_cast<float>(std::min(spot.size / 2 - 0.25, 2.6));
   const float spring = 2.9f, depth = 1.1f, top = spring + clear + 1.0f;
-  mesh_.SetMaterial(scene_.surfaces[spec_.style == TownStyle::kOchre ? Surface::kStuccoOchre : spec_.style == TownStyle::kWhitewashed ? Surface::kStuccoWhite : Surface::kLimestone]);
+  mesh_.SetMaterial(scene_.surfaces[spec_.style == TownStyle::kOchre         ? Surface::kStuccoOchre
+                                    : spec_.style == TownStyle::kWhitewashed ? Surface::kStuccoWhite
+                                                                             : Surface::kLimestone]);
   const int n = 14;
   const auto point = [&](int i) {
     const float a = kTau / 2 * static_cast<float>(i) / static_cast<float>(n);
@@ -129,7 +133,9 @@ void TownFinisher::Windmill(const TownSpot& spot) {
     const float a = turn + kTau / 4 * static_cast<float>(i);
     const Vec3f out{std::cos(a), 0, std::sin(a)}, side{-std::sin(a), 0, std::cos(a)};
     mesh_.Beam(hub, hub + out * 8.2f, 0.2f);
-    for (int k = 0; k <= 12; ++k) mesh_.Beam(hub + out * (1.6f + 0.55f * static_cast<float>(k)), hub + out * (1.6f + 0.55f * static_cast<float>(k)) + side * 1.7f, 0.06f);
+    for (int k = 0; k <= 12; ++k)
+      mesh_.Beam(hub + out * (1.6f + 0.55f * static_cast<float>(k)), hub + out * (1.6f + 0.55f * static_cast<float>(k)) + side * 1.7f,
+                 0.06f);
     for (float s : {0.85f, 1.7f}) mesh_.Beam(hub + out * 1.6f + side * s, hub + out * 8.2f + side * s, 0.06f);
   }
 }
@@ -147,12 +153,16 @@ void TownFinisher::Porch(const TownSpot& spot) {
   for (float x : {-half + 0.1f, -half / 3, half / 3, half - 0.1f}) mesh_.Beam({x, -deep + 0.12f, deck}, {x, -deep + 0.12f, 2.35f}, 0.14f);
   for (float x : {-half + 0.1f, half / 3}) mesh_.Beam({x, -deep + 0.12f, 1.15f}, {x + 2 * half / 3 - 0.1f, -deep + 0.12f, 1.15f}, 0.08f);
   mesh_.SetMaterial(scene_.surfaces[Surface::kRoofSlate]);
-  mesh_.Quad({-half - 0.25f, -deep - 0.3f, 2.36f}, {half + 0.25f, -deep - 0.3f, 2.36f}, {half + 0.25f, 0, 2.78f}, {-half - 0.25f, 0, 2.78f});
+  mesh_.Quad({-half - 0.25f, -deep - 0.3f, 2.36f}, {half + 0.25f, -deep - 0.3f, 2.36f}, {half + 0.25f, 0, 2.78f},
+             {-half - 0.25f, 0, 2.78f});
   mesh_.SetMaterial(scene_.surfaces[Surface::kFrameWood]);
-  mesh_.Quad({-half - 0.25f, 0, 2.70f}, {half + 0.25f, 0, 2.70f}, {half + 0.25f, -deep - 0.3f, 2.28f}, {-half - 0.25f, -deep - 0.3f, 2.28f});
-  mesh_.Quad({-half - 0.25f, -deep - 0.3f, 2.28f}, {half + 0.25f, -deep - 0.3f, 2.28f}, {half + 0.25f, -deep - 0.3f, 2.36f}, {-half - 0.25f, -deep - 0.3f, 2.36f});
+  mesh_.Quad({-half - 0.25f, 0, 2.70f}, {half + 0.25f, 0, 2.70f}, {half + 0.25f, -deep - 0.3f, 2.28f},
+             {-half - 0.25f, -deep - 0.3f, 2.28f});
+  mesh_.Quad({-half - 0.25f, -deep - 0.3f, 2.28f}, {half + 0.25f, -deep - 0.3f, 2.28f}, {half + 0.25f, -deep - 0.3f, 2.36f},
+             {-half - 0.25f, -deep - 0.3f, 2.36f});
   const Vec2d side{-spot.front.y, spot.front.x};
-  scene_.Put("bench", "bench_wood", At(spot.p + spot.front * 0.6 + side * (width * 0.28), 0.28), static_cast<double>(FacingYaw(ToFloat(spot.front))), 1, rng_.Index(3));
+  scene_.Put("bench", "bench_wood", At(spot.p + spot.front * 0.6 + side * (width * 0.28), 0.28),
+             static_cast<double>(FacingYaw(ToFloat(spot.front))), 1, rng_.Index(3));
   // Firewood beside the house.
   const Vec2d pile = spot.p + side * (spot.size / 2 + 1.3) - spot.front * 2.0;
   if (InHouse(pile, 0.9)) return;

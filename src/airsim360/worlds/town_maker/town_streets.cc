@@ -41,7 +41,8 @@ class Planner {
   // Rows and columns of nodes over the rectangle and beyond it; `jitter` and `warp` in pitches; a share `lost` of the
   // inner edges is left out.
   void Lattice(double px, double py, double jitter, double warp, double lost) {
-    const int nx = std::max(2, static_cast<int>(std::lround(spec_.width / px))), ny = std::max(2, static_cast<int>(std::lround(spec_.depth / py)));
+    const int nx = std::max(2, static_cast<int>(std::lround(spec_.width / px))),
+              ny = std::max(2, static_cast<int>(std::lround(spec_.depth / py)));
     const double phase[4] = {rng_.Uniform(0, 6.28), rng_.Uniform(0, 6.28), rng_.Uniform(0, 6.28), rng_.Uniform(0, 6.28)};
     const auto columns = static_cast<size_t>(nx) + 2, rows = static_cast<size_t>(ny) + 2;
     std::vector<double> dx(columns), dy(rows);
@@ -50,11 +51,14 @@ class Planner {
     for (double& d : dy) d = rng_.Uniform(-jitter, jitter) * py;
     for (size_t k = 0; k < rows; ++k)
       for (size_t i = 0; i < columns; ++i) {
-        Vec2d p{(static_cast<double>(i) - 0.5 * static_cast<double>(columns - 1)) * px + dx[i], (static_cast<double>(k) - 0.5 * static_cast<double>(rows - 1)) * py + dy[k]};
+        Vec2d p{(static_cast<double>(i) - 0.5 * static_cast<double>(columns - 1)) * px + dx[i],
+                (static_cast<double>(k) - 0.5 * static_cast<double>(rows - 1)) * py + dy[k]};
         if (!straight) {
           const double u = p.x / px, v = p.y / py;
-          p.x += px * (warp * std::sin(1.9 * v + phase[0]) * 0.6 + warp * 0.4 * std::sin(1.1 * u + phase[1]) + rng_.Uniform(-jitter, jitter));
-          p.y += py * (warp * std::sin(1.7 * u + phase[2]) * 0.6 + warp * 0.4 * std::sin(1.3 * v + phase[3]) + rng_.Uniform(-jitter, jitter));
+          p.x +=
+              px * (warp * std::sin(1.9 * v + phase[0]) * 0.6 + warp * 0.4 * std::sin(1.1 * u + phase[1]) + rng_.Uniform(-jitter, jitter));
+          p.y +=
+              py * (warp * std::sin(1.7 * u + phase[2]) * 0.6 + warp * 0.4 * std::sin(1.3 * v + phase[3]) + rng_.Uniform(-jitter, jitter));
         }
         Node(p);
       }

@@ -88,7 +88,8 @@ class Painter {
  public:
   Painter(SceneBuilder& builder, Surfaces& surfaces) : builder_(builder), surfaces_(surfaces) {}
 
-  MaterialId Make(const char* name, float tile, float luminance, const std::function<void(SurfaceMaps&)>& paint, int size, float roughness = 0) {
+  MaterialId Make(const char* name, float tile, float luminance, const std::function<void(SurfaceMaps&)>& paint, int size,
+                  float roughness = 0) {
     TextureSet set = SynthesizeTextures({name, tile, luminance, nullptr, paint, roughness, 0}, size);
     Material material;
     material.name = name;
@@ -131,7 +132,8 @@ void PaintGround(const TownSpec& spec, Painter& painter) {
     painter.Use(S::kPlazaStone, setts);
     painter.Use(S::kAsphalt, setts);  // of junctions
   }
-  if (spec.paving == TownPaving::kCobbles && spec.style != TownStyle::kOchre) painter.Use(S::kAsphalt, painter.Tinted(S::kPlazaStone, "setts", {0.9f, 0.88f, 0.85f}));
+  if (spec.paving == TownPaving::kCobbles && spec.style != TownStyle::kOchre)
+    painter.Use(S::kAsphalt, painter.Tinted(S::kPlazaStone, "setts", {0.9f, 0.88f, 0.85f}));
   if (spec.paving == TownPaving::kCobbles && spec.style == TownStyle::kOchre) {
     const MaterialId stone = paving(painter.Make("sampietrini", 2.4f, 0.13f, Sampietrini, 1024));
     painter.Use(S::kPlazaStone, stone);
@@ -165,7 +167,8 @@ void PaintWalls(const TownSpec& spec, Painter& painter, MapDress& dress) {
                                  {"azulejo_yellow", {0.71f, 0.65f, 0.48f}, {0.50f, 0.28f, 0.035f}},
                                  {"azulejo_white", {0.74f, 0.73f, 0.69f}, {0.30f, 0.36f, 0.48f}}};
     for (const Glaze& glaze : kGlazes) {
-      const MaterialId id = painter.Make(glaze.name, 1.12f, 0.33f, [&](SurfaceMaps& m) { Azulejo(m, glaze.ground, glaze.ink); }, 512);
+      const MaterialId id = painter.Make(
+          glaze.name, 1.12f, 0.33f, [&](SurfaceMaps& m) { Azulejo(m, glaze.ground, glaze.ink); }, 512);
       dress.walls[glaze.name] = {FacadeStyle::kStuccoShutters, id, 0.33f};
     }
   }

@@ -83,12 +83,15 @@ void TownFinisher::Car(Vec2d p, Vec2d along) {
   const float back = At(p - along * 2.2, 0).z, front = At(p + along * 2.2, 0).z, z = At(p, -kRoadDrop).z;
   const auto entity = scene_.builder.AddEntity("tram", scene_.builder.tree().At("vehicle/tram"));
   mesh_.SetEntity(entity);
-  const AffineTransform X = PlaceUpright({static_cast<float>(p.x), static_cast<float>(p.y), std::max(z, (back + front) / 2 - static_cast<float>(kRoadDrop)) + 0.02f}, static_cast<float>(yaw));
+  const AffineTransform X = PlaceUpright(
+      {static_cast<float>(p.x), static_cast<float>(p.y), std::max(z, (back + front) / 2 - static_cast<float>(kRoadDrop)) + 0.02f},
+      static_cast<float>(yaw));
   const float slope = std::atan2(front - back, 4.4f), c = std::cos(slope), s = std::sin(slope);
   // Its front is -y: pitching up turns it about x.
   const AffineTransform pitch{{{{{1, 0, 0}, {0, c, s}, {0, -s, c}}}}, {}};
   mesh_.SetTransform(X * pitch);
-  const MaterialId yellow = scene_.tints.Get(scene_.surfaces[Surface::kPanelWhite], {0.68f, 0.42f, 0.035f}, 0.6f), white = scene_.surfaces[Surface::kPanelWhite];
+  const MaterialId yellow = scene_.tints.Get(scene_.surfaces[Surface::kPanelWhite], {0.68f, 0.42f, 0.035f}, 0.6f),
+                   white = scene_.surfaces[Surface::kPanelWhite];
   mesh_.SetMaterial(scene_.surfaces[Surface::kFrameDark]);
   mesh_.Box({-0.8f, -2.2f, 0.12f}, {0.8f, 2.2f, 0.55f});
   for (float y : {-1.35f, 1.35f})
@@ -100,9 +103,11 @@ void TownFinisher::Car(Vec2d p, Vec2d along) {
   mesh_.SetMaterial(white);
   mesh_.Box({-1.15f, -4.0f, 2.45f}, {1.15f, 4.0f, 2.85f});
   for (float x : {-1.15f, 1.07f})
-    for (int i = 0; i <= 6; ++i) mesh_.Box({x, -4.0f + 1.318f * static_cast<float>(i), 1.55f}, {x + 0.08f, -3.91f + 1.318f * static_cast<float>(i), 2.45f});
+    for (int i = 0; i <= 6; ++i)
+      mesh_.Box({x, -4.0f + 1.318f * static_cast<float>(i), 1.55f}, {x + 0.08f, -3.91f + 1.318f * static_cast<float>(i), 2.45f});
   mesh_.SetMaterial(scene_.surfaces[Surface::kGlassDark]);
-  mesh_.Box({-1.12f, -3.97f, 1.55f}, {1.12f, 3.97f, 2.45f}, MeshBuilder::kLeft | MeshBuilder::kRight | MeshBuilder::kFront | MeshBuilder::kBack);
+  mesh_.Box({-1.12f, -3.97f, 1.55f}, {1.12f, 3.97f, 2.45f},
+            MeshBuilder::kLeft | MeshBuilder::kRight | MeshBuilder::kFront | MeshBuilder::kBack);
   mesh_.SetMaterial(scene_.surfaces[Surface::kFrameDark]);
   mesh_.Box({-1.0f, -3.9f, 2.85f}, {1.0f, 3.9f, 2.98f});
   mesh_.Box({-0.7f, -3.2f, 2.98f}, {0.7f, 3.2f, 3.16f});

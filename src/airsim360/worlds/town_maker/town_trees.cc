@@ -23,12 +23,14 @@ Model Cypress(RngStream& rng) {
   AddBark(layers[0], nodes, 0.02f, 0.3f);
   for (int i = 0; i < 9000; ++i) {
     const float t = U(rng, 0.03, 1), z = 0.5f + (height - 0.5f) * t, a = U(rng, 0, 6.2831853);
-    const float full = radius * std::pow(std::max(0.0f, std::sin(std::min(1.0f, 0.13f + 0.9f * t) * kTau / 2)), 0.72f) * (1 + 0.12f * std::sin(5 * a + 9 * t));
+    const float full = radius * std::pow(std::max(0.0f, std::sin(std::min(1.0f, 0.13f + 0.9f * t) * kTau / 2)), 0.72f) *
+                       (1 + 0.12f * std::sin(5 * a + 9 * t));
     const float share = std::sqrt(U(rng, 0.35, 1)), r = full * share;
     const Vec3f out{std::cos(a), std::sin(a), 0}, base = out * r + Vec3f{0, 0, z};
     const Vec3f up = Normalized(out * 0.28f + Vec3f{0, 0, 1} + RandomDirection(rng) * 0.22f);
     LeafShape shape{U(rng, 0.26, 0.44), U(rng, 0.07, 0.11), 0.1f, 0, LeafForm::kKite};
-    AddLeaf(LeavesAt(layers, 1.4f * share - 0.45f), base, up, Normalized(out + RandomDirection(rng) * 0.4f), shape, static_cast<int>(rng.Index(kLeafCells)), Normalized(out + Vec3f{0, 0, 0.3f}));
+    AddLeaf(LeavesAt(layers, 1.4f * share - 0.45f), base, up, Normalized(out + RandomDirection(rng) * 0.4f), shape,
+            static_cast<int>(rng.Index(kLeafCells)), Normalized(out + Vec3f{0, 0, 0.3f}));
   }
   return JoinLayers("cypress", layers);
 }
@@ -48,14 +50,17 @@ Model UmbrellaPine(RngStream& rng) {
     const float a = kTau * (static_cast<float>(i) + U(rng, -0.2, 0.2)) / limbs, r = radius * U(rng, 0.45, 0.85);
     const Vec3f tip = lean + Vec3f{r * std::cos(a), r * std::sin(a), (height - fork) * U(rng, 0.42, 0.6)};
     const int end = AddStem(nodes, crotch, lean, tip, 0.35f, 0.10f, rng);
-    for (int k = 0; k < 3; ++k) AddStem(nodes, end, tip, tip + Vec3f{U(rng, -1.2, 1.2), U(rng, -1.2, 1.2), U(rng, 0.5, 1.0)}, 0.3f, 0.12f, rng);
+    for (int k = 0; k < 3; ++k)
+      AddStem(nodes, end, tip, tip + Vec3f{U(rng, -1.2, 1.2), U(rng, -1.2, 1.2), U(rng, 0.5, 1.0)}, 0.3f, 0.12f, rng);
   }
   Thicken(nodes, 0.32f, 0.018f);
   AddBark(layers[0], nodes, 0.016f, 0.4f);
   // Foliage: pads on a low dome, flat below.
   for (int i = 0; i < 15000; ++i) {
-    const float a = U(rng, 0, 6.2831853), share = std::sqrt(U(rng, 0, 1)), pad = 0.5f + 0.5f * std::sin(7 * a + 5 * share) * std::cos(11 * share + 2 * a);
-    const float dome = (height - fork) * (0.52f + 0.40f * std::sqrt(std::max(0.0f, 1 - share * share)) + 0.10f * pad), depth = (0.25f + 0.75f * (1 - share * share)) * 1.5f;
+    const float a = U(rng, 0, 6.2831853), share = std::sqrt(U(rng, 0, 1)),
+                pad = 0.5f + 0.5f * std::sin(7 * a + 5 * share) * std::cos(11 * share + 2 * a);
+    const float dome = (height - fork) * (0.52f + 0.40f * std::sqrt(std::max(0.0f, 1 - share * share)) + 0.10f * pad),
+                depth = (0.25f + 0.75f * (1 - share * share)) * 1.5f;
     const float below = U(rng, 0, 1) * U(rng, 0, 1) * depth;
     const Vec3f base = lean + Vec3f{radius * share * std::cos(a), radius * share * std::sin(a), dome - below};
     const Vec3f out = Normalized(Vec3f{share * std::cos(a), share * std::sin(a), 0.9f});
@@ -94,7 +99,8 @@ Model Palm(RngStream& rng) {
         for (float hand : {-1.0f, 1.0f}) {
           const Vec3f direction = Normalized(side * hand + along * 0.65f + Vec3f{0, 0, -0.12f} + RandomDirection(rng) * 0.1f);
           LeafShape shape{size * U(rng, 0.85, 1.1), 0.055f, 0.15f, 0.3f, LeafForm::kKite};
-          AddLeaf(LeavesAt(layers, 0.55f + 0.45f * rise), p - along * (length / steps * static_cast<float>(pair) / 3), direction, Normalized(Cross(direction, side * -hand) + Vec3f{0, 0, 0.8f}), shape, static_cast<int>(rng.Index(kLeafCells)));
+          AddLeaf(LeavesAt(layers, 0.55f + 0.45f * rise), p - along * (length / steps * static_cast<float>(pair) / 3), direction,
+                  Normalized(Cross(direction, side * -hand) + Vec3f{0, 0, 0.8f}), shape, static_cast<int>(rng.Index(kLeafCells)));
         }
     }
   }

@@ -22,7 +22,8 @@ void TownDrawer::LayWaters() {
     case TownWater::kCanal: {
       const bool canal = spec_.water == TownWater::kCanal;
       const double bend = canal ? 0 : 0.06 * spec_.depth, y = canal ? -0.16 * spec_.depth : -0.2 * spec_.depth;
-      for (double x = x0_ - kBeyond; x <= x1_ + kBeyond + 1; x += canal ? 2 * kBeyond : 22) river_.push_back({x, y + bend * std::sin(x / 85 + phase)});
+      for (double x = x0_ - kBeyond; x <= x1_ + kBeyond + 1; x += canal ? 2 * kBeyond : 22)
+        river_.push_back({x, y + bend * std::sin(x / 85 + phase)});
       if (canal) river_ = {{x0_ - kBeyond, y}, {x1_ + kBeyond, y}};
       const double half = canal ? 6.5 : std::clamp(0.04 * spec_.depth, 8.0, 26.0);
       map_.wet = Band(river_, half, half);
@@ -50,7 +51,8 @@ void TownDrawer::LayCoast() {
   const double phase = rng_.Uniform(0, 6.28), y = y0_ + 0.22 * spec_.depth;
   for (double x = x0_ - kBeyond; x <= x1_ + kBeyond + 1; x += 18) {
     const double far = std::max(0.0, std::abs(x) - spec_.width / 2);
-    coast_.push_back({x, y + 0.045 * spec_.depth * std::sin(x / 75 + phase) + 0.05 * spec_.depth * std::exp(-x * x / (0.05 * spec_.width * spec_.width)) - 0.12 * far});
+    coast_.push_back({x, y + 0.045 * spec_.depth * std::sin(x / 75 + phase) +
+                             0.05 * spec_.depth * std::exp(-x * x / (0.05 * spec_.width * spec_.width)) - 0.12 * far});
   }
   // Water is to the right of a coastline.
   AddLine(coast_, {{"natural", "coastline"}});
@@ -114,7 +116,11 @@ void TownDrawer::FurnishWaters() {
     const Vec2d side{-out.y, out.x};
     for (double s = wild ? 7 : 8; s < reach - 1; s += wild ? 8 : 5.2)
       for (int hand : {1, -1})
-        if (rng_.Chance(wild ? 0.45 : 0.8)) AddSpot(wild ? "rowboat" : rng_.Chance(0.5) ? "yacht" : "boat", a + out * s + side * (hand * (wild ? 2.3 : 3.4)), wild ? out : side * static_cast<double>(hand), 0);
+        if (rng_.Chance(wild ? 0.45 : 0.8))
+          AddSpot(wild               ? "rowboat"
+                  : rng_.Chance(0.5) ? "yacht"
+                                     : "boat",
+                  a + out * s + side * (hand * (wild ? 2.3 : 3.4)), wild ? out : side * static_cast<double>(hand), 0);
   }
   if (sea && piers > 0)
     for (int i = 0; i < 5; ++i) {

@@ -17,29 +17,160 @@ namespace {
 
 using namespace internal;
 
-constexpr size_t kLongest = 1000, kMostWords = 4;  // characters; words of a phrase
-constexpr double kPersonEach = 1700;               // m^2 of a town for one who walks outside, usually
+constexpr size_t kLongest = 1000, kMostWords = 4;       // characters; words of a phrase
+constexpr double kPersonEach = 1700;                    // m^2 of a town for one who walks outside, usually
 constexpr double kMostPeople = 400, kPopulation = 200;  // who walk; more than so many people live there rather
 
-constexpr auto kFillers = std::to_array<std::string_view>(
-    {"a", "an", "the", "with", "and", "of", "in", "on", "at", "by", "to", "for", "near", "beside", "around", "along", "through", "between", "over", "above",
-     "under", "below", "behind", "into", "from", "its", "it", "is", "are", "be", "that", "which", "where", "there", "has", "have", "having", "like", "s", "as",
-     "very", "quite", "rather", "also", "all", "any", "some", "one", "other", "each", "every", "house", "home", "building", "block", "apartment", "street", "alley", "lane", "road",
-     "path", "roof", "wall", "pavement", "sidewalk", "district", "quarter", "neighbourhood", "neighborhood", "area", "place", "settlement", "centre", "center", "community", "facade",
-     "front", "plan", "style", "type", "kind", "view", "land", "ground", "side", "surrounded", "lined", "built", "full", "set", "located", "situated", "about", "roughly", "central", "main",
-     "make", "create", "generate", "build", "please", "me", "want", "i", "world", "scene", "storey", "terrain", "architecture"});
-constexpr auto kNumbers = std::to_array<std::pair<std::string_view, double>>(
-    {{"two", 2}, {"three", 3}, {"four", 4}, {"five", 5}, {"six", 6}, {"seven", 7}, {"eight", 8}, {"nine", 9}, {"ten", 10}, {"twelve", 12}, {"fifteen", 15},
-     {"twenty", 20}, {"thirty", 30}, {"forty", 40}, {"fifty", 50}, {"hundred", 100}});
+constexpr auto kFillers = std::to_array<std::string_view>({"a",
+                                                           "an",
+                                                           "the",
+                                                           "with",
+                                                           "and",
+                                                           "of",
+                                                           "in",
+                                                           "on",
+                                                           "at",
+                                                           "by",
+                                                           "to",
+                                                           "for",
+                                                           "near",
+                                                           "beside",
+                                                           "around",
+                                                           "along",
+                                                           "through",
+                                                           "between",
+                                                           "over",
+                                                           "above",
+                                                           "under",
+                                                           "below",
+                                                           "behind",
+                                                           "into",
+                                                           "from",
+                                                           "its",
+                                                           "it",
+                                                           "is",
+                                                           "are",
+                                                           "be",
+                                                           "that",
+                                                           "which",
+                                                           "where",
+                                                           "there",
+                                                           "has",
+                                                           "have",
+                                                           "having",
+                                                           "like",
+                                                           "s",
+                                                           "as",
+                                                           "very",
+                                                           "quite",
+                                                           "rather",
+                                                           "also",
+                                                           "all",
+                                                           "any",
+                                                           "some",
+                                                           "one",
+                                                           "other",
+                                                           "each",
+                                                           "every",
+                                                           "house",
+                                                           "home",
+                                                           "building",
+                                                           "block",
+                                                           "apartment",
+                                                           "street",
+                                                           "alley",
+                                                           "lane",
+                                                           "road",
+                                                           "path",
+                                                           "roof",
+                                                           "wall",
+                                                           "pavement",
+                                                           "sidewalk",
+                                                           "district",
+                                                           "quarter",
+                                                           "neighbourhood",
+                                                           "neighborhood",
+                                                           "area",
+                                                           "place",
+                                                           "settlement",
+                                                           "centre",
+                                                           "center",
+                                                           "community",
+                                                           "facade",
+                                                           "front",
+                                                           "plan",
+                                                           "style",
+                                                           "type",
+                                                           "kind",
+                                                           "view",
+                                                           "land",
+                                                           "ground",
+                                                           "side",
+                                                           "surrounded",
+                                                           "lined",
+                                                           "built",
+                                                           "full",
+                                                           "set",
+                                                           "located",
+                                                           "situated",
+                                                           "about",
+                                                           "roughly",
+                                                           "central",
+                                                           "main",
+                                                           "make",
+                                                           "create",
+                                                           "generate",
+                                                           "build",
+                                                           "please",
+                                                           "me",
+                                                           "want",
+                                                           "i",
+                                                           "world",
+                                                           "scene",
+                                                           "storey",
+                                                           "terrain",
+                                                           "architecture"});
+constexpr auto kNumbers = std::to_array<std::pair<std::string_view, double>>({{"two", 2},
+                                                                              {"three", 3},
+                                                                              {"four", 4},
+                                                                              {"five", 5},
+                                                                              {"six", 6},
+                                                                              {"seven", 7},
+                                                                              {"eight", 8},
+                                                                              {"nine", 9},
+                                                                              {"ten", 10},
+                                                                              {"twelve", 12},
+                                                                              {"fifteen", 15},
+                                                                              {"twenty", 20},
+                                                                              {"thirty", 30},
+                                                                              {"forty", 40},
+                                                                              {"fifty", 50},
+                                                                              {"hundred", 100}});
 constexpr auto kNone = std::to_array<std::string_view>({"no", "without", "free of", "hardly any", "not any", "devoid of"});
 struct Amount {
   std::string_view words;
   double share;
 };
-constexpr auto kAmounts = std::to_array<Amount>({{"few", 0.4}, {"a few", 0.4}, {"very few", 0.25}, {"little", 0.4}, {"light", 0.4}, {"sparse", 0.4}, {"moderate", 1}, {"some", 1},
-                                                 {"many", 1.5}, {"lots of", 1.5}, {"a lot of", 1.5}, {"plenty of", 1.5}, {"heavy", 1.5}, {"dense", 1.5}, {"big", 1.3}, {"large", 1.3}});
+constexpr auto kAmounts = std::to_array<Amount>({{"few", 0.4},
+                                                 {"a few", 0.4},
+                                                 {"very few", 0.25},
+                                                 {"little", 0.4},
+                                                 {"light", 0.4},
+                                                 {"sparse", 0.4},
+                                                 {"moderate", 1},
+                                                 {"some", 1},
+                                                 {"many", 1.5},
+                                                 {"lots of", 1.5},
+                                                 {"a lot of", 1.5},
+                                                 {"plenty of", 1.5},
+                                                 {"heavy", 1.5},
+                                                 {"dense", 1.5},
+                                                 {"big", 1.3},
+                                                 {"large", 1.3}});
 
-bool IsAny(const std::string& word, std::initializer_list<std::string_view> list) { return std::find(list.begin(), list.end(), word) != list.end(); }
+bool IsAny(const std::string& word, std::initializer_list<std::string_view> list) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
 
 std::string Number(double value) {
   char text[32];
@@ -63,17 +194,21 @@ struct Token {
 
 // Lower case letters, digits and points; letters with accents as they are without.
 std::string Plain(std::string_view text) {
-  static constexpr std::pair<std::string_view, char> kAccents[] = {{"é", 'e'}, {"è", 'e'}, {"ç", 'c'}, {"ã", 'a'}, {"á", 'a'}, {"ü", 'u'}, {"ö", 'o'}, {"ä", 'a'}, {"ñ", 'n'}, {"²", '2'}, {"×", 'x'}};
+  static constexpr std::pair<std::string_view, char> kAccents[] = {{"é", 'e'}, {"è", 'e'}, {"ç", 'c'}, {"ã", 'a'}, {"á", 'a'}, {"ü", 'u'},
+                                                                   {"ö", 'o'}, {"ä", 'a'}, {"ñ", 'n'}, {"²", '2'}, {"×", 'x'}};
   std::string plain;
   for (size_t i = 0; i < text.size();) {
-    const auto accent = std::find_if(std::begin(kAccents), std::end(kAccents), [&](const auto& row) { return text.substr(i).starts_with(row.first); });
+    const auto accent =
+        std::find_if(std::begin(kAccents), std::end(kAccents), [&](const auto& row) { return text.substr(i).starts_with(row.first); });
     if (accent != std::end(kAccents)) {
       plain += accent->second;
       i += accent->first.size();
       continue;
     }
     const auto c = static_cast<unsigned char>(text[i++]);
-    plain += c == '%' ? std::string(" percent ") : std::isalnum(c) || c == '.' || c >= 0x80 ? std::string(1, static_cast<char>(std::tolower(c))) : std::string(" ");
+    plain += c == '%'                                   ? std::string(" percent ")
+             : std::isalnum(c) || c == '.' || c >= 0x80 ? std::string(1, static_cast<char>(std::tolower(c)))
+                                                        : std::string(" ");
   }
   return plain;
 }
@@ -139,7 +274,9 @@ class Reader {
     return text;
   }
   // Do the `n` words from i read as `phrase`?
-  bool Reads(size_t i, size_t n, std::string_view phrase) const { return i + n <= tokens_.size() && (Joined(i, n, true) == phrase || Joined(i, n, false) == phrase); }
+  bool Reads(size_t i, size_t n, std::string_view phrase) const {
+    return i + n <= tokens_.size() && (Joined(i, n, true) == phrase || Joined(i, n, false) == phrase);
+  }
 
   void Note(size_t i, size_t n, std::string as) { request_.words.push_back({Joined(i, n, false), std::move(as)}); }
 
@@ -171,7 +308,8 @@ class Reader {
     if (word && words >= things && words >= stuffs) return Word(i, words, *word);
     if (thing && things >= stuffs) return Thing(i, things, *thing, true);
     if (stuff) return Stuff(i, 0, stuffs, *stuff, 1);
-    if (std::find(kFillers.begin(), kFillers.end(), tokens_[i].plain) != kFillers.end() || std::find(kFillers.begin(), kFillers.end(), tokens_[i].text) != kFillers.end()) {
+    if (std::find(kFillers.begin(), kFillers.end(), tokens_[i].plain) != kFillers.end() ||
+        std::find(kFillers.begin(), kFillers.end(), tokens_[i].text) != kFillers.end()) {
       Note(i, 1, "filler");
       return i + 1;
     }
@@ -180,14 +318,17 @@ class Reader {
 
   [[noreturn]] void Unknown(size_t i) const {
     if (tokens_[i].number)
-      throw InputError("'" + Joined(i, std::min<size_t>(3, tokens_.size() - i), false) + "': a number of what? Understood are hectares, metres by metres, storeys, houses, people, squares, parks, and per cent of slope");
+      throw InputError(
+          "'" + Joined(i, std::min<size_t>(3, tokens_.size() - i), false) +
+          "': a number of what? Understood are hectares, metres by metres, storeys, houses, people, squares, parks, and per cent of slope");
     std::vector<std::string> known;
     for (const TownWord& row : TownWords()) known.emplace_back(row.phrase);
     for (const TownThing& row : TownThings()) known.emplace_back(row.noun);
     for (const TownStuff& row : TownStuffs()) known.emplace_back(row.noun);
     for (std::string_view filler : kFillers) known.emplace_back(filler);
     const std::string nearest = NearestChoice(tokens_[i].plain, known);
-    throw InputError("the word '" + tokens_[i].text + "' says nothing about towns" + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") + " (docs/guide/towns.md lists the words)");
+    throw InputError("the word '" + tokens_[i].text + "' says nothing about towns" +
+                     (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") + " (docs/guide/towns.md lists the words)");
   }
 
   size_t Word(size_t i, size_t n, const TownWord& word) {
@@ -213,7 +354,8 @@ class Reader {
     std::string means = std::string(stuff.setting) + " x " + Number(amount);
     Agree(std::string(stuff.setting), means, Joined(i, before + n, false));
     stuffs_.emplace_back(stuff.set, amount);
-    if (before == 0 && plural && IsAny(std::string(stuff.setting), {"parks", "squares"})) (stuff.setting == "parks" ? parks_ : squares_) = 2;
+    if (before == 0 && plural && IsAny(std::string(stuff.setting), {"parks", "squares"}))
+      (stuff.setting == "parks" ? parks_ : squares_) = 2;
     Note(i, before + n, means);
     return i + before + n;
   }
@@ -244,8 +386,7 @@ class Reader {
     };
     Note(i, at - i, "none of what follows");
     size_t read = deny(at);
-    if (read == 0)
-      throw InputError("'" + Joined(i, at - i + 1, false) + "': what can be denied are " + Deniable());
+    if (read == 0) throw InputError("'" + Joined(i, at - i + 1, false) + "': what can be denied are " + Deniable());
     at += read;
     // "no trees and no cars" begins anew; "no trees or cars" goes on.
     while (at + 1 < tokens_.size() && IsAny(tokens_[at].text, {"or", "nor"})) {
@@ -279,7 +420,8 @@ class Reader {
 
   void Bound(size_t i, size_t n, double value, double low, double high, const char* unit) const {
     if (!(value >= low && value <= high))
-      throw InputError("'" + Joined(i, n, false) + "': " + Number(value) + " is not from " + Number(low) + " to " + Number(high) + " " + unit);
+      throw InputError("'" + Joined(i, n, false) + "': " + Number(value) + " is not from " + Number(low) + " to " + Number(high) + " " +
+                       unit);
   }
 
   // Numbers with what they count: words read, 0 = not this.
@@ -289,9 +431,12 @@ class Reader {
     const size_t k = i + 1;
     if (const size_t read = Extent(i, value)) return read;
     // 2 to 5 storeys
-    if (word(k) == "to" && k + 1 < tokens_.size() && tokens_[k + 1].number && IsStorey(word(k + 2))) return Storeys(i, 4, value, *tokens_[k + 1].number);
+    if (word(k) == "to" && k + 1 < tokens_.size() && tokens_[k + 1].number && IsStorey(word(k + 2)))
+      return Storeys(i, 4, value, *tokens_[k + 1].number);
     if (k < tokens_.size() && tokens_[k].number && IsStorey(word(k + 1))) return Storeys(i, 3, value, *tokens_[k].number);
-    if (IsStorey(word(k))) return Storeys(i, IsAny(word(k + 1), {"high", "tall"}) ? 3 : 2, value <= 3 ? value : std::round((value > 12 ? 0.3 : 0.7) * value), value);
+    if (IsStorey(word(k)))
+      return Storeys(i, IsAny(word(k + 1), {"high", "tall"}) ? 3 : 2, value <= 3 ? value : std::round((value > 12 ? 0.3 : 0.7) * value),
+                     value);
     if (const size_t read = Things(i, value)) return read;
     if (IsAny(word(k), {"percent"}) && IsAny(word(k + 1), {"slope", "gradient", "grade"})) {
       Bound(i, 3, value, 0, 26, "per cent");
@@ -322,7 +467,11 @@ class Reader {
       for (double side : {value, other}) Bound(i, n, side, TownSpec::kLeastSide, TownSpec::kMostSide, "m");
       return Size(i, n, value, other);
     }
-    const double square = IsAny(word(k), {"ha", "hectare"}) ? 1e4 : word(k) == "acre" ? 4046.9 : IsAny(word(k), {"km2", "sqkm"}) ? 1e6 : IsAny(word(k), {"m2", "sqm"}) ? 1 : 0;
+    const double square = IsAny(word(k), {"ha", "hectare"}) ? 1e4
+                          : word(k) == "acre"               ? 4046.9
+                          : IsAny(word(k), {"km2", "sqkm"}) ? 1e6
+                          : IsAny(word(k), {"m2", "sqm"})   ? 1
+                                                            : 0;
     const bool two = IsAny(word(k), {"square", "sq"}) && IsAny(word(k + 1), {"kilometre", "kilometer", "km", "metre", "meter", "m"});
     if (square > 0 || two) {
       const double unit = square > 0 ? square : IsAny(word(k + 1), {"kilometre", "kilometer", "km"}) ? 1e6 : 1;
@@ -409,7 +558,8 @@ class Reader {
     if (street_ > 0) spec.street = street_;
     Sides(draft);
     // What needs something else brings it along, unless that was denied.
-    if (spec.most_floors > 8) spec.street = std::max(spec.street, 15.0), spec.block = std::max(spec.block, 76.0), spec.setback = std::min(spec.setback, 6.0);
+    if (spec.most_floors > 8)
+      spec.street = std::max(spec.street, 15.0), spec.block = std::max(spec.block, 76.0), spec.setback = std::min(spec.setback, 6.0);
     if (spec.harbour && spec.water == TownWater::kNone && !claims_.contains("water")) spec.water = TownWater::kSea;
     if ((spec.market || spec.fountain || spec.clock_tower) && spec.squares == 0 && !claims_.contains("squares")) spec.squares = 1;
     if (spec.terrace) spec.most_floors = std::max(spec.most_floors, 10.0);
@@ -421,7 +571,10 @@ class Reader {
     spec.Check("");
     request_.spec = spec;
     request_.weather = draft.weather;
-    request_.people = static_cast<uint64_t>(std::round(people_ > 0 ? people_ : draft.people_share > 0 ? std::clamp(draft.people_share * spec.width * spec.depth / kPersonEach, 4.0, kMostPeople) : 0));
+    request_.people = static_cast<uint64_t>(
+        std::round(people_ > 0              ? people_
+                   : draft.people_share > 0 ? std::clamp(draft.people_share * spec.width * spec.depth / kPersonEach, 4.0, kMostPeople)
+                                            : 0));
     return std::move(request_);
   }
 
@@ -452,13 +605,16 @@ class Reader {
   std::vector<Said> said_;
   std::vector<std::pair<void (*)(TownDraft&, double), double>> stuffs_;
   std::vector<std::pair<bool TownSpec::*, bool>> things_;
-  double width_ = 0, depth_ = 0, least_ = 0, most_ = 0, houses_ = 0, people_ = 0, population_ = 0, parks_ = -1, squares_ = -1, street_ = 0, slope_ = -1;
+  double width_ = 0, depth_ = 0, least_ = 0, most_ = 0, houses_ = 0, people_ = 0, population_ = 0, parks_ = -1, squares_ = -1, street_ = 0,
+         slope_ = -1;
 };
 
 }  // namespace
 
 TownRequest TownFromWords(std::string_view description) {
-  if (description.size() > kLongest) throw InputError("the description has " + std::to_string(description.size()) + " characters; at most " + std::to_string(kLongest) + " are read");
+  if (description.size() > kLongest)
+    throw InputError("the description has " + std::to_string(description.size()) + " characters; at most " + std::to_string(kLongest) +
+                     " are read");
   return Reader(description).Read();
 }
 

@@ -17,8 +17,8 @@ struct UnderstoodWords {
 
 struct TownRequest {
   TownSpec spec;
-  uint64_t people = 0;   ///< who walk outside
-  std::string weather;   ///< a preset of environment:, "" = the world's own
+  uint64_t people = 0;                 ///< who walk outside
+  std::string weather;                 ///< a preset of environment:, "" = the world's own
   std::vector<UnderstoodWords> words;  ///< in order; together all of the description
 };
 

@@ -33,15 +33,18 @@ TEST(TownWords, TheContractsExampleIsUnderstood) {
 }
 
 TEST(TownWords, EveryWordComesBackWithWhatBecameOfIt) {
-  for (const char* words : {"a small coastal town with a church and a marina, 40 ha, narrow streets", "medieval hilltop village without cars or trees, 2 to 3 storeys",
-                            "Large grid city of brick buildings; 120 people, many trees, two parks", "300 m by 200 m of log cabins in a forest by a lake, foggy"}) {
+  for (const char* words : {"a small coastal town with a church and a marina, 40 ha, narrow streets",
+                            "medieval hilltop village without cars or trees, 2 to 3 storeys",
+                            "Large grid city of brick buildings; 120 people, many trees, two parks",
+                            "300 m by 200 m of log cabins in a forest by a lake, foggy"}) {
     std::string back;
     for (const UnderstoodWords& row : TownFromWords(words).words) {
       EXPECT_FALSE(row.as.empty()) << row.words;
       back += row.words + " ";
     }
     std::string plain;
-    for (const char* c = words; *c; ++c) plain += std::isalnum(static_cast<unsigned char>(*c)) ? std::string(1, static_cast<char>(std::tolower(*c))) : "";
+    for (const char* c = words; *c; ++c)
+      plain += std::isalnum(static_cast<unsigned char>(*c)) ? std::string(1, static_cast<char>(std::tolower(*c))) : "";
     std::erase(back, ' ');
     EXPECT_EQ(back, plain);
   }
@@ -55,10 +58,14 @@ TEST(TownWords, AWordThatMeansNothingIsRefusedWithTheNearest) {
 }
 
 TEST(TownWords, WordsThatExcludeEachOtherAreRefusedByBothNames) {
-  for (const auto& [words, one, other] : {std::array<const char*, 3>{"a flat town on a hill", "flat", "hill"}, {"a town with a church and without a church", "church", "without a church"},
-                                          {"a village and a city", "village", "city"}, {"narrow and wide streets", "narrow", "wide"},
-                                          {"low houses of 12 storeys", "low", "12 storeys"}, {"many trees, few trees", "many trees", "few trees"},
-                                          {"wooden stone houses", "wooden", "stone"}, {"20 ha, 300 m by 300 m", "20 ha", "300 m by 300 m"}}) {
+  for (const auto& [words, one, other] : {std::array<const char*, 3>{"a flat town on a hill", "flat", "hill"},
+                                          {"a town with a church and without a church", "church", "without a church"},
+                                          {"a village and a city", "village", "city"},
+                                          {"narrow and wide streets", "narrow", "wide"},
+                                          {"low houses of 12 storeys", "low", "12 storeys"},
+                                          {"many trees, few trees", "many trees", "few trees"},
+                                          {"wooden stone houses", "wooden", "stone"},
+                                          {"20 ha, 300 m by 300 m", "20 ha", "300 m by 300 m"}}) {
     const std::string refusal = Refusal(words);
     EXPECT_NE(refusal.find("exclude each other"), std::string::npos) << words << ": " << refusal;
     EXPECT_NE(refusal.find(one), std::string::npos) << refusal;
@@ -68,8 +75,9 @@ TEST(TownWords, WordsThatExcludeEachOtherAreRefusedByBothNames) {
 }
 
 TEST(TownWords, NumbersAreBounded) {
-  for (const char* words : {"2e18 ha", "a town of 0 houses", "a town of 99999999 houses", "a 61 storey city", "a 0 storey city", "5 to 2 storeys", "a town of 3.5 houses", "119 m by 300 m",
-                            "300 m by 1201 m", "9000 ha", "a town of 12 parks", "80 % slope", "a town with 1e308 people"})
+  for (const char* words : {"2e18 ha", "a town of 0 houses", "a town of 99999999 houses", "a 61 storey city", "a 0 storey city",
+                            "5 to 2 storeys", "a town of 3.5 houses", "119 m by 300 m", "300 m by 1201 m", "9000 ha", "a town of 12 parks",
+                            "80 % slope", "a town with 1e308 people"})
     EXPECT_NE(Refusal(words), "") << words;
   EXPECT_EQ(SpecOf("a town of 5 storeys").most_floors, 5);
   EXPECT_EQ(SpecOf("a two-storey suburb").least_floors, 2);
@@ -104,7 +112,8 @@ TEST(TownWords, TheOrderOfWordsDoesNotMatter) {
 
 TEST(TownWords, AnyTextIsUnderstoodOrRefusedAndNeverBreaksTheBounds) {
   RngStream rng(7, "words");
-  const char* pieces[] = {"no", "town", "9", "ha", "x", "%", "\xc3", "é", "m", "by", "-1", "storeys", "people", "to", ".", "1e400", "nan", "church", "or", "hardly", "any", "park", "steep", "2", "without"};
+  const char* pieces[] = {"no", "town", "9",     "ha",  "x",      "%",  "\xc3",   "é",   "m",    "by",    "-1", "storeys", "people",
+                          "to", ".",    "1e400", "nan", "church", "or", "hardly", "any", "park", "steep", "2",  "without"};
   for (int i = 0; i < 500; ++i) {
     std::string words;
     for (uint32_t k = rng.Index(9); k > 0; --k) words += std::string(pieces[rng.Index(std::size(pieces))]) + (rng.Chance(0.8) ? " " : "");

@@ -13,9 +13,7 @@ namespace {
 class Attractors {
  public:
   explicit Attractors(const std::vector<Vec3f>& points)
-      : points_(points),
-        nearest_(points.size(), -1),
-        distance2_(points.size(), std::numeric_limits<float>::max()) {}
+      : points_(points), nearest_(points.size(), -1), distance2_(points.size(), std::numeric_limits<float>::max()) {}
 
   void Look(const std::vector<BranchNode>& nodes, size_t first_new, float kill) {
     size_t kept = 0;
@@ -54,8 +52,7 @@ class Attractors {
 };
 
 Vec3f DirectionOf(const std::vector<BranchNode>& nodes, size_t i) {
-  return nodes[i].parent < 0 ? Vec3f{0, 0, 1}
-                             : Normalized(nodes[i].p - nodes[static_cast<size_t>(nodes[i].parent)].p);
+  return nodes[i].parent < 0 ? Vec3f{0, 0, 1} : Normalized(nodes[i].p - nodes[static_cast<size_t>(nodes[i].parent)].p);
 }
 
 // Two passes that pull every joint halfway to the middle of its neighbours; ends stay.
@@ -70,9 +67,7 @@ void Smooth(std::vector<BranchNode>& nodes) {
     }
     for (size_t i = 0; i < nodes.size(); ++i) {
       if (nodes[i].parent < 0 || children[i] == 0) continue;
-      nodes[i].p =
-          nodes[i].p * 0.5f +
-          (nodes[static_cast<size_t>(nodes[i].parent)].p + sum[i] / static_cast<float>(children[i])) * 0.25f;
+      nodes[i].p = nodes[i].p * 0.5f + (nodes[static_cast<size_t>(nodes[i].parent)].p + sum[i] / static_cast<float>(children[i])) * 0.25f;
     }
   }
 }
@@ -80,8 +75,7 @@ void Smooth(std::vector<BranchNode>& nodes) {
 }  // namespace
 
 Vec3f RandomDirection(RngStream& random) {
-  const double z = random.Uniform(-1, 1), a = random.Uniform(0, 2 * std::numbers::pi),
-               r = std::sqrt(1 - z * z);
+  const double z = random.Uniform(-1, 1), a = random.Uniform(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
   return {static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a)), static_cast<float>(z)};
 }
 
@@ -93,16 +87,14 @@ float Noise(Vec3f p, uint64_t seed) {
   for (int k = 0; k < 8; ++k) {
     const Vec3f c{static_cast<float>(k & 1), static_cast<float>(k >> 1 & 1), static_cast<float>(k >> 2)};
     const auto key = [](float v) { return static_cast<uint64_t>(static_cast<int64_t>(v) & 0x1fffff); };
-    const uint64_t h =
-        MixBits(seed ^ (key(cell.x + c.x) | key(cell.y + c.y) << 21 | key(cell.z + c.z) << 42));
+    const uint64_t h = MixBits(seed ^ (key(cell.x + c.x) | key(cell.y + c.y) << 21 | key(cell.z + c.z) << 42));
     const auto weight = [&](float t, float corner) { return corner > 0 ? ease(t) : 1 - ease(t); };
     sum += static_cast<float>(h >> 40) * 0x1p-24f * weight(f.x, c.x) * weight(f.y, c.y) * weight(f.z, c.z);
   }
   return sum;
 }
 
-int AddStem(std::vector<BranchNode>& nodes, int parent, Vec3f from, Vec3f to, float step, float wander,
-            RngStream& random) {
+int AddStem(std::vector<BranchNode>& nodes, int parent, Vec3f from, Vec3f to, float step, float wander, RngStream& random) {
   const int count = std::max(1, static_cast<int>(std::lround(Norm(to - from) / step)));
   Vec3f drift{};
   for (int i = parent < 0 ? 0 : 1; i <= count; ++i) {
@@ -115,8 +107,7 @@ int AddStem(std::vector<BranchNode>& nodes, int parent, Vec3f from, Vec3f to, fl
   return parent;
 }
 
-void Colonise(std::vector<BranchNode>& nodes, const std::vector<Vec3f>& attractors,
-              const GrowthOptions& options, RngStream& random) {
+void Colonise(std::vector<BranchNode>& nodes, const std::vector<Vec3f>& attractors, const GrowthOptions& options, RngStream& random) {
   Attractors rest(attractors);
   std::vector<int> grown(nodes.size(), 0);
   std::vector<Vec3f> pull;
@@ -128,8 +119,8 @@ void Colonise(std::vector<BranchNode>& nodes, const std::vector<Vec3f>& attracto
     rest.Pull(nodes, options.influence * (round < 12 ? 1.6f : 1.0f), pull);
     for (size_t j = 0; j < seen; ++j) {
       if (Dot(pull[j], pull[j]) == 0 || grown[j] >= 3) continue;
-      const Vec3f d = Normalized(pull[j]) + DirectionOf(nodes, j) * options.inertia + options.tropism +
-                      RandomDirection(random) * options.wander;
+      const Vec3f d =
+          Normalized(pull[j]) + DirectionOf(nodes, j) * options.inertia + options.tropism + RandomDirection(random) * options.wander;
       nodes.push_back({nodes[j].p + Normalized(d) * options.step, static_cast<int>(j)});
       ++grown[j];
     }
@@ -152,20 +143,16 @@ void Thicken(std::vector<BranchNode>& nodes, float trunk_radius, float tip_radiu
   for (size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].parent < 0) continue;
     BranchNode& parent = nodes[static_cast<size_t>(nodes[i].parent)];
-    if (parent.main < 0 || nodes[static_cast<size_t>(parent.main)].tips < nodes[i].tips)
-      parent.main = static_cast<int>(i);
+    if (parent.main < 0 || nodes[static_cast<size_t>(parent.main)].tips < nodes[i].tips) parent.main = static_cast<int>(i);
   }
-  const float exponent =
-      std::log(trunk_radius / tip_radius) / std::log(std::max(2.0f, static_cast<float>(nodes[0].tips)));
+  const float exponent = std::log(trunk_radius / tip_radius) / std::log(std::max(2.0f, static_cast<float>(nodes[0].tips)));
   for (BranchNode& node : nodes) node.radius = tip_radius * std::pow(static_cast<float>(node.tips), exponent);
 }
 
-std::vector<Vec3f> ScatterInside(Vec3f min, Vec3f max, int count, const std::function<bool(Vec3f)>& inside,
-                                 RngStream& random) {
+std::vector<Vec3f> ScatterInside(Vec3f min, Vec3f max, int count, const std::function<bool(Vec3f)>& inside, RngStream& random) {
   std::vector<Vec3f> points;
   for (int tries = 0; tries < 400 * count && points.size() < static_cast<size_t>(count); ++tries) {
-    const Vec3f p{static_cast<float>(random.Uniform(min.x, max.x)),
-                  static_cast<float>(random.Uniform(min.y, max.y)),
+    const Vec3f p{static_cast<float>(random.Uniform(min.x, max.x)), static_cast<float>(random.Uniform(min.y, max.y)),
                   static_cast<float>(random.Uniform(min.z, max.z))};
     if (inside(p)) points.push_back(p);
   }

@@ -36,19 +36,16 @@ float Noise(Vec3f p, uint64_t seed);
 
 /// A wandering stem from `from` towards `to`, a joint every `step`, appended to `nodes` with `parent` before
 /// it; returns the index of its last joint.
-int AddStem(std::vector<BranchNode>& nodes, int parent, Vec3f from, Vec3f to, float step, float wander,
-            RngStream& random);
+int AddStem(std::vector<BranchNode>& nodes, int parent, Vec3f from, Vec3f to, float step, float wander, RngStream& random);
 
 /// Grows `nodes` towards the attractors until none is left within reach, then smooths the joints.
-void Colonise(std::vector<BranchNode>& nodes, const std::vector<Vec3f>& attractors,
-              const GrowthOptions& options, RngStream& random);
+void Colonise(std::vector<BranchNode>& nodes, const std::vector<Vec3f>& attractors, const GrowthOptions& options, RngStream& random);
 
 /// Fills tips, main and radius: radius = tip_radius * tips^(1/n), n chosen so that the first node has
 /// `trunk_radius`.
 void Thicken(std::vector<BranchNode>& nodes, float trunk_radius, float tip_radius);
 
 /// `count` random points of the box [min, max] for which `inside` holds.
-std::vector<Vec3f> ScatterInside(Vec3f min, Vec3f max, int count, const std::function<bool(Vec3f)>& inside,
-                                 RngStream& random);
+std::vector<Vec3f> ScatterInside(Vec3f min, Vec3f max, int count, const std::function<bool(Vec3f)>& inside, RngStream& random);
 
 }  // namespace airsim360::internal

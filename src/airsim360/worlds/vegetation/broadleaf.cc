@@ -16,9 +16,8 @@ Model MakeGeneric(uint32_t variant, uint64_t seed) {
   struct Build {
     float height, clear, radius, trunk, leader;
   };
-  constexpr Build builds[6] = {{10.5f, 2.7f, 4.0f, 0.19f, 0.55f}, {12.5f, 3.1f, 4.8f, 0.24f, 0.50f},
-                               {8.6f, 2.4f, 3.1f, 0.14f, 0.62f},  {11.4f, 2.9f, 3.7f, 0.20f, 0.66f},
-                               {9.4f, 2.5f, 3.9f, 0.17f, 0.45f},  {7.4f, 2.2f, 2.5f, 0.11f, 0.66f}};
+  constexpr Build builds[6] = {{10.5f, 2.7f, 4.0f, 0.19f, 0.55f}, {12.5f, 3.1f, 4.8f, 0.24f, 0.50f}, {8.6f, 2.4f, 3.1f, 0.14f, 0.62f},
+                               {11.4f, 2.9f, 3.7f, 0.20f, 0.66f}, {9.4f, 2.5f, 3.9f, 0.17f, 0.45f},  {7.4f, 2.2f, 2.5f, 0.11f, 0.66f}};
   const Build& b = builds[variant];
   BroadleafSpecies s{"tree_generic",
                      b.height,
@@ -52,10 +51,8 @@ Model MakeNarrowleaf(uint32_t variant, uint64_t seed) {
   struct Build {
     float height, clear, radius, trunk;
   };
-  constexpr Build builds[4] = {{12.5f, 2.2f, 1.9f, 0.18f},
-                               {14.5f, 2.5f, 2.3f, 0.22f},
-                               {10.0f, 2.0f, 1.6f, 0.13f},
-                               {13.2f, 2.3f, 2.7f, 0.20f}};
+  constexpr Build builds[4] = {
+      {12.5f, 2.2f, 1.9f, 0.18f}, {14.5f, 2.5f, 2.3f, 0.22f}, {10.0f, 2.0f, 1.6f, 0.13f}, {13.2f, 2.3f, 2.7f, 0.20f}};
   const Build& b = builds[variant];
   BroadleafSpecies s{"tree_narrowleaf",
                      b.height,
@@ -89,8 +86,7 @@ Model MakeNarrowleaf(uint32_t variant, uint64_t seed) {
 std::vector<PropKind> BroadleafKinds() {
   return {
       {"tree_generic", "vegetation/tree/broadleaf/generic", 6, MakeGeneric, 1.0f, 6.5f, 14.0f, 130000},
-      {"tree_narrowleaf", "vegetation/tree/broadleaf/narrowleaf", 4, MakeNarrowleaf, 0.8f, 9.0f, 16.0f,
-       130000},
+      {"tree_narrowleaf", "vegetation/tree/broadleaf/narrowleaf", 4, MakeNarrowleaf, 0.8f, 9.0f, 16.0f, 130000},
   };
 }
 

@@ -69,11 +69,9 @@ void AddShoot(const BroadleafSpecies& s, const Crown& crown, Vec3f from, Vec3f a
     Vec3f spokes[2];
     const int count = SpokesOf(s.order, k, turn, side, other, spokes);
     for (int l = 0; l < count; ++l) {
-      const Vec3f direction =
-          Normalized(spokes[l] * 0.9f + shoot.along * 0.6f + Vec3f{0, 0, -0.25f} + RandomDirection(random) * 0.25f);
+      const Vec3f direction = Normalized(spokes[l] * 0.9f + shoot.along * 0.6f + Vec3f{0, 0, -0.25f} + RandomDirection(random) * 0.25f);
       const Vec3f up = Vec3f{0, 0, 1} + out * 0.5f + RandomDirection(random) * 0.4f;
-      const float size = (0.72f + 0.35f * std::sin(2.67f * t)) *
-                         std::clamp(1 + 0.2f * static_cast<float>(random.Normal()), 0.6f, 1.4f);
+      const float size = (0.72f + 0.35f * std::sin(2.67f * t)) * std::clamp(1 + 0.2f * static_cast<float>(random.Normal()), 0.6f, 1.4f);
       LeafShape shape = s.leaf;
       shape.length *= size;
       shape.width *= size;
@@ -100,29 +98,24 @@ void AddDeadTwig(Vec3f from, Vec3f axis, PlantLayer& bark, RngStream& random) {
 }
 
 // Leaves on shoots at the thin ends of branches.
-void AddLeaves(const BroadleafSpecies& s, const Crown& crown, const std::vector<BranchNode>& nodes,
-               std::vector<PlantLayer>& layers, uint64_t seed, RngStream& random) {
+void AddLeaves(const BroadleafSpecies& s, const Crown& crown, const std::vector<BranchNode>& nodes, std::vector<PlantLayer>& layers,
+               uint64_t seed, RngStream& random) {
   constexpr float kDark = 0.22f, kDeadTwigs = 0.3f;
   const std::vector<bool> dead = DeadWood(nodes, s.dead, random);
   std::vector<size_t> sites;
   for (size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i].parent >= 0 && nodes[i].tips <= 4 && nodes[i].radius < 0.03f && !dead[i] &&
-        nodes[i].p.z > s.clear_trunk * 0.6f)
+    if (nodes[i].parent >= 0 && nodes[i].tips <= 4 && nodes[i].radius < 0.03f && !dead[i] && nodes[i].p.z > s.clear_trunk * 0.6f)
       sites.push_back(i);
   }
-  const float per_site =
-      static_cast<float>(s.leaves) / static_cast<float>(std::max<size_t>(1, sites.size())) / LeavesPerShoot(s);
+  const float per_site = static_cast<float>(s.leaves) / static_cast<float>(std::max<size_t>(1, sites.size())) / LeavesPerShoot(s);
   for (size_t site : sites) {
     const BranchNode& node = nodes[site];
-    const Vec3f axis = Normalized(node.p - nodes[static_cast<size_t>(node.parent)].p),
-                out = Normalized(node.p - crown.center());
+    const Vec3f axis = Normalized(node.p - nodes[static_cast<size_t>(node.parent)].p), out = Normalized(node.p - crown.center());
     if (s.min_branch < 0.01f && crown.Openness(node.p) < kDark && random.Chance(kDeadTwigs)) {
       AddDeadTwig(node.p, axis, layers[0], random);
       continue;
     }
-    const float density =
-        1 - s.clumping +
-        s.clumping * 2.2f * std::clamp((Noise(node.p * 1.1f, seed) - 0.25f) / 0.4f, 0.0f, 1.0f);
+    const float density = 1 - s.clumping + s.clumping * 2.2f * std::clamp((Noise(node.p * 1.1f, seed) - 0.25f) / 0.4f, 0.0f, 1.0f);
     const int shoots = static_cast<int>(per_site * density + static_cast<float>(random.Uniform()));
     for (int t = 0; t < shoots; ++t) AddShoot(s, crown, node.p, axis, out, layers, random);
   }
@@ -130,8 +123,7 @@ void AddLeaves(const BroadleafSpecies& s, const Crown& crown, const std::vector<
 
 }  // namespace
 
-Crown::Crown(const BroadleafSpecies& s, RngStream& random)
-    : height_(s.height - s.clear_trunk), radius_(s.crown_radius) {
+Crown::Crown(const BroadleafSpecies& s, RngStream& random) : height_(s.height - s.clear_trunk), radius_(s.crown_radius) {
   const Vec3f center{0, 0, s.clear_trunk + height_ * 0.48f};
   lobes_.push_back({center, 0.55f});
   const auto lean = static_cast<float>(random.Uniform(0, 6.2832));
@@ -139,11 +131,10 @@ Crown::Crown(const BroadleafSpecies& s, RngStream& random)
     // Low-discrepancy directions with jitter, so that no side stays bare.
     const float z = -0.75f + 1.65f * (static_cast<float>(i) + 0.5f) / static_cast<float>(s.lobes);
     const float a = 2.39996f * static_cast<float>(i) + 0.5f * static_cast<float>(random.Normal());
-    const float ring = std::sqrt(std::max(0.05f, 1 - z * z)) * static_cast<float>(random.Uniform(0.55, 0.85)) *
-                       (1 + s.open_side * std::cos(a - lean));
+    const float ring =
+        std::sqrt(std::max(0.05f, 1 - z * z)) * static_cast<float>(random.Uniform(0.55, 0.85)) * (1 + s.open_side * std::cos(a - lean));
     const float r = s.lobe_radius * static_cast<float>(random.Uniform(0.75, 1.25));
-    lobes_.push_back(
-        {center + Vec3f{radius_ * ring * std::cos(a), radius_ * ring * std::sin(a), height_ * 0.40f * z}, r});
+    lobes_.push_back({center + Vec3f{radius_ * ring * std::cos(a), radius_ * ring * std::sin(a), height_ * 0.40f * z}, r});
   }
   for (int i = 0; i < s.holes; ++i) {
     const Vec3f d = RandomDirection(random);
@@ -163,8 +154,7 @@ bool Crown::InOneOf(const std::vector<std::pair<Vec3f, float>>& balls, Vec3f p) 
 bool Crown::Contains(Vec3f p) const { return InOneOf(lobes_, p) && !InOneOf(holes_, p); }
 
 float Crown::Openness(Vec3f p) const {
-  const Vec3f d{(p.x - center().x) / radius_, (p.y - center().y) / radius_,
-                (p.z - center().z) / (0.5f * height_)};
+  const Vec3f d{(p.x - center().x) / radius_, (p.y - center().y) / radius_, (p.z - center().z) / (0.5f * height_)};
   return 0.05f + 0.72f * std::pow(Norm(d), 1.5f) + 0.22f * d.z;
 }
 
@@ -174,13 +164,11 @@ std::vector<BranchNode> GrowTree(const BroadleafSpecies& s, const Crown& crown, 
   const Vec3f c = crown.center();
   const auto wanted = [&](Vec3f p) {
     if (p.z < s.clear_trunk * 0.8f || !crown.Contains(p)) return false;
-    const Vec3f d{(p.x - c.x) / s.crown_radius, (p.y - c.y) / s.crown_radius,
-                  (p.z - c.z) / (crown_height / 2)};
+    const Vec3f d{(p.x - c.x) / s.crown_radius, (p.y - c.y) / s.crown_radius, (p.z - c.z) / (crown_height / 2)};
     return random.Uniform() < 0.25 + 0.75 * std::clamp(Norm(d), 0.0f, 1.0f);
   };
   const float reach = s.crown_radius * 1.3f;
-  const auto attractors = ScatterInside({-reach, -reach, s.clear_trunk * 0.8f}, {reach, reach, s.height},
-                                        s.attractors, wanted, random);
+  const auto attractors = ScatterInside({-reach, -reach, s.clear_trunk * 0.8f}, {reach, reach, s.height}, s.attractors, wanted, random);
 
   // Trunk: slightly bent, leaning a little; it ends inside the crown.
   std::vector<BranchNode> nodes;
@@ -192,8 +180,7 @@ std::vector<BranchNode> GrowTree(const BroadleafSpecies& s, const Crown& crown, 
   const size_t trunk_nodes = nodes.size();
   const int limbs = 5 + static_cast<int>(random.Index(3));
   for (int i = 0; i < limbs; ++i) {
-    const float t =
-        (static_cast<float>(i) + static_cast<float>(random.Uniform(0.1, 0.9))) / static_cast<float>(limbs);
+    const float t = (static_cast<float>(i) + static_cast<float>(random.Uniform(0.1, 0.9))) / static_cast<float>(limbs);
     const float z = s.clear_trunk * 0.92f + t * (top.z - s.clear_trunk) * 0.8f;
     size_t from = 0;
     while (from + 1 < trunk_nodes && nodes[from].p.z < z) ++from;

@@ -30,15 +30,15 @@ struct BroadleafSpecies {
   float clumping;  ///< 0 even … 1 leaves in clumps with gaps between
   Vec3f bark;
   LeafOrder order = LeafOrder::kSpiral;
-  float internode = 0.04f;  ///< metres of shoot between leaves or pairs
-  float shoot = 0.30f;      ///< length of the longest shoots
-  int holes = 11;           ///< balls without branches in the crown, through which the sky is seen
-  float open_side = 0.25f;  ///< how much farther the crown reaches to the side that it leans to, in radii
+  float internode = 0.04f;     ///< metres of shoot between leaves or pairs
+  float shoot = 0.30f;         ///< length of the longest shoots
+  int holes = 11;              ///< balls without branches in the crown, through which the sky is seen
+  float open_side = 0.25f;     ///< how much farther the crown reaches to the side that it leans to, in radii
   float lean = 0.03f;          ///< of the trunk's top, standard deviation in heights
   float dead = 0;              ///< share of the limbs that carry no leaves any more
   float min_branch = 0.0075f;  ///< thinnest branch that is drawn
-  float depth = 1;  ///< how much darker the inside of the crown is: 0 not at all, 1 as in PlantLayers
-  float transmission = 0.8f;  ///< of the leaves
+  float depth = 1;             ///< how much darker the inside of the crown is: 0 not at all, 1 as in PlantLayers
+  float transmission = 0.8f;   ///< of the leaves
 };
 
 /// The crown: ellipsoids scattered round its axis, wider below the middle than above and farther to one side, less holes.

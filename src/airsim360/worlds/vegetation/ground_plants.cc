@@ -14,15 +14,13 @@ constexpr float kTau = 6.2831853f;
 constexpr float kLawnDensity = 10500;  // blades a square metre
 
 const Texture& GrassBlades() {
-  static const Vec3f tones[] = {
-      {0.090f, 0.135f, 0.028f}, {0.110f, 0.150f, 0.036f}, {0.080f, 0.122f, 0.030f}, {0.150f, 0.150f, 0.055f}};
+  static const Vec3f tones[] = {{0.090f, 0.135f, 0.028f}, {0.110f, 0.150f, 0.036f}, {0.080f, 0.122f, 0.030f}, {0.150f, 0.150f, 0.055f}};
   static const Texture atlas = LeafAtlas("grass blades", tones);
   return atlas;
 }
 
 Vec3f OnDisc(float radius, RngStream& random) {
-  const float r = radius * std::sqrt(static_cast<float>(random.Uniform())),
-              a = kTau * static_cast<float>(random.Uniform());
+  const float r = radius * std::sqrt(static_cast<float>(random.Uniform())), a = kTau * static_cast<float>(random.Uniform());
   return {r * std::cos(a), r * std::sin(a), 0};
 }
 
@@ -49,7 +47,10 @@ Model MakeLawnPatch(uint32_t, uint64_t seed) {
   RngStream random(seed, "lawn_patch");
   std::array<PlantLayer, 1> layers = {LeafLayer(GrassBlades(), 0.7f)};
   AddTurf(
-      layers[0], kMownTurf, 3600, [&] { return OnDisc(0.49f, random) - Vec3f{0, 0, 0.008f}; },
+      layers[0], kMownTurf, 3600,
+      [&] {
+        return OnDisc(0.49f, random) - Vec3f{0, 0, 0.008f};
+      },
       [](Vec3f p) { return 1 - 0.5f * std::hypot(p.x, p.y); }, random);
   return JoinLayers("lawn_patch", layers);
 }
@@ -71,24 +72,17 @@ Model MakeLawnTile(uint32_t, uint64_t seed) {
 
 // 45 dry leaves scattered over a disc, curled a little.
 Model MakeLeafLitter(uint32_t, uint64_t seed) {
-  static const Vec3f tones[] = {{0.22f, 0.12f, 0.045f},
-                                {0.28f, 0.17f, 0.05f},
-                                {0.15f, 0.085f, 0.04f},
-                                {0.30f, 0.21f, 0.06f},
-                                {0.12f, 0.11f, 0.035f}};
+  static const Vec3f tones[] = {
+      {0.22f, 0.12f, 0.045f}, {0.28f, 0.17f, 0.05f}, {0.15f, 0.085f, 0.04f}, {0.30f, 0.21f, 0.06f}, {0.12f, 0.11f, 0.035f}};
   static const Texture atlas = LeafAtlas("leaves dry", tones);
   RngStream random(seed, "leaf_litter");
   std::array<PlantLayer, 1> layers = {LeafLayer(atlas, 0.3f)};
   for (int i = 0; i < 45; ++i) {
-    const float a = kTau * static_cast<float>(random.Uniform()),
-                size = static_cast<float>(random.Uniform(0.05, 0.11));
-    const Vec3f direction =
-        Normalized(Vec3f{std::cos(a), std::sin(a), static_cast<float>(random.Uniform(-0.05, 0.15))});
-    const Vec3f up = Normalized(
-        Vec3f{0.25f * static_cast<float>(random.Normal()), 0.25f * static_cast<float>(random.Normal()), 1});
-    AddLeaf(layers[0], OnDisc(0.55f, random) + Vec3f{0, 0, static_cast<float>(random.Uniform(0.006, 0.02))},
-            direction, up, {size, size * 0.7f, 0.12f, static_cast<float>(random.Uniform(-0.15, 0.03))},
-            static_cast<int>(random.Index(kLeafCells)));
+    const float a = kTau * static_cast<float>(random.Uniform()), size = static_cast<float>(random.Uniform(0.05, 0.11));
+    const Vec3f direction = Normalized(Vec3f{std::cos(a), std::sin(a), static_cast<float>(random.Uniform(-0.05, 0.15))});
+    const Vec3f up = Normalized(Vec3f{0.25f * static_cast<float>(random.Normal()), 0.25f * static_cast<float>(random.Normal()), 1});
+    AddLeaf(layers[0], OnDisc(0.55f, random) + Vec3f{0, 0, static_cast<float>(random.Uniform(0.006, 0.02))}, direction, up,
+            {size, size * 0.7f, 0.12f, static_cast<float>(random.Uniform(-0.15, 0.03))}, static_cast<int>(random.Index(kLeafCells)));
   }
   return JoinLayers("leaf_litter", layers);
 }
@@ -97,8 +91,7 @@ Model MakeLeafLitter(uint32_t, uint64_t seed) {
 Model MakeFlowerBed(uint32_t variant, uint64_t seed) {
   static const Vec3f leaf_tones[] = {{0.060f, 0.105f, 0.028f}, {0.080f, 0.120f, 0.034f}};
   static const Texture leaves = LeafAtlas("leaves bedding", leaf_tones);
-  constexpr Vec3f petals[4] = {
-      {0.62f, 0.05f, 0.07f}, {0.70f, 0.48f, 0.03f}, {0.66f, 0.62f, 0.60f}, {0.30f, 0.09f, 0.45f}};
+  constexpr Vec3f petals[4] = {{0.62f, 0.05f, 0.07f}, {0.70f, 0.48f, 0.03f}, {0.66f, 0.62f, 0.60f}, {0.30f, 0.09f, 0.45f}};
   RngStream random(seed, "flower_bed");
   std::array<PlantLayer, 3> layers = {LeafLayer(leaves), PlantLayer{}, PlantLayer{}};
   layers[0].material.base_color = {0.8f, 0.8f, 0.8f};
@@ -110,8 +103,7 @@ Model MakeFlowerBed(uint32_t variant, uint64_t seed) {
     const Vec3f foot = OnDisc(0.48f, random);
     const float height = static_cast<float>(random.Uniform(0.14, 0.26));
     for (int k = 0; k < 9; ++k) {
-      const float a = kTau * static_cast<float>(random.Uniform()),
-                  t = static_cast<float>(random.Uniform(0.05, 0.8));
+      const float a = kTau * static_cast<float>(random.Uniform()), t = static_cast<float>(random.Uniform(0.05, 0.8));
       const Vec3f d = Normalized(Vec3f{std::cos(a), std::sin(a), 0.55f});
       AddLeaf(layers[0], foot + Vec3f{0, 0, height * t}, d, {0, 0, 1}, {0.075f, 0.034f, 0.12f, 0.3f},
               static_cast<int>(random.Index(kLeafCells - 1)), {0, 0, 0.5f});
@@ -119,19 +111,16 @@ Model MakeFlowerBed(uint32_t variant, uint64_t seed) {
     if (random.Chance(0.35)) continue;
     const Vec3f head = foot + Vec3f{0, 0, height};
     AddNeedle(layers[0], foot, head, {1, 0, 0}, 0.006f, {0, -1, 0}, 0);
-    const Vec3f up = Normalized(
-        Vec3f{0.3f * static_cast<float>(random.Normal()), 0.3f * static_cast<float>(random.Normal()), 1});
+    const Vec3f up = Normalized(Vec3f{0.3f * static_cast<float>(random.Normal()), 0.3f * static_cast<float>(random.Normal()), 1});
     const Vec3f side = Normalized(Cross(up, Vec3f{0.1f, 1, 0.2f})), other = Cross(up, side);
     for (int k = 0; k < 6; ++k) {
       const float a = kTau * static_cast<float>(k) / 6;
-      AddLeaf(layers[1], head, Normalized(side * std::cos(a) + other * std::sin(a) + up * 0.35f), up,
-              {0.034f, 0.026f, 0.1f, 0.15f}, 0, up * 0.5f);
+      AddLeaf(layers[1], head, Normalized(side * std::cos(a) + other * std::sin(a) + up * 0.35f), up, {0.034f, 0.026f, 0.1f, 0.15f}, 0,
+              up * 0.5f);
     }
     for (int k = 0; k < 5; ++k) {
       const float a = kTau * static_cast<float>(k) / 5, b = a + kTau / 5;
-      const auto rim = [&](float q) {
-        return head + up * 0.009f + (side * std::cos(q) + other * std::sin(q)) * 0.010f;
-      };
+      const auto rim = [&](float q) { return head + up * 0.009f + (side * std::cos(q) + other * std::sin(q)) * 0.010f; };
       const uint32_t c = layers[2].Add(head + up * 0.014f, up, {});
       layers[2].Add(rim(a), up, {});
       layers[2].Add(rim(b), up, {});

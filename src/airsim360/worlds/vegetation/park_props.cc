@@ -20,16 +20,14 @@ Vec3f Round(float r, float a, float z) { return {r * std::cos(a), r * std::sin(a
 void AddSlide(PropBuilder& b) {
   UseWood(b);
   for (float x : {-0.55f, 0.55f}) {
-    for (float y : {-0.4f, 0.7f})
-      b.BevelBox({x - 0.05f, y - 0.05f, -0.2f}, {x + 0.05f, y + 0.05f, 2.45f}, 0.012f);
+    for (float y : {-0.4f, 0.7f}) b.BevelBox({x - 0.05f, y - 0.05f, -0.2f}, {x + 0.05f, y + 0.05f, 2.45f}, 0.012f);
   }
   b.BevelBox({-0.60f, -0.45f, 1.25f}, {0.60f, 0.75f, 1.31f}, 0.01f);
   for (float x : {-0.55f, 0.53f}) b.BevelBox({x, -0.35f, 1.55f}, {x + 0.02f, 0.65f, 1.95f}, 0.005f);
   b.Use(Paint({0.05f, 0.16f, 0.32f}, 0.5f));
   const auto roof = [](float side) {
     return [side](float u, float v) {
-      return Vec3f{side * (0.75f * (1 - v)), side * (-0.85f + 1.9f * u) + (side > 0 ? 0.0f : 0.2f),
-                   2.35f + 0.55f * v};
+      return Vec3f{side * (0.75f * (1 - v)), side * (-0.85f + 1.9f * u) + (side > 0 ? 0.0f : 0.2f), 2.35f + 0.55f * v};
     };
   };
   for (float side : {1.0f, -1.0f}) b.Sheet(1, 1, roof(side), {1.9f, 0.9f});
@@ -124,14 +122,12 @@ Model MakePicnicTable(uint32_t variant, uint64_t) {
     const float y = -0.38f + 0.155f * static_cast<float>(i);
     b.BevelBox({-0.9f, y, 0.71f}, {0.9f, y + 0.14f, 0.75f}, 0.006f);
   }
-  for (float y : {-0.80f, -0.655f, 0.515f, 0.66f})
-    b.BevelBox({-0.9f, y, 0.42f}, {0.9f, y + 0.135f, 0.46f}, 0.006f);
+  for (float y : {-0.80f, -0.655f, 0.515f, 0.66f}) b.BevelBox({-0.9f, y, 0.42f}, {0.9f, y + 0.135f, 0.46f}, 0.006f);
   UseWood(b, tone);
   for (float x : {-0.65f, 0.60f}) {
     b.BevelBox({x, -0.75f, 0.36f}, {x + 0.05f, 0.75f, 0.42f}, 0.006f);
     b.BevelBox({x, -0.36f, 0.64f}, {x + 0.05f, 0.36f, 0.71f}, 0.006f);
-    for (float hand : {-1.0f, 1.0f})
-      b.mesh().Beam({x + 0.07f, 0.62f * hand, -0.02f}, {x + 0.07f, 0.24f * hand, 0.70f}, 0.06f);
+    for (float hand : {-1.0f, 1.0f}) b.mesh().Beam({x + 0.07f, 0.62f * hand, -0.02f}, {x + 0.07f, 0.24f * hand, 0.70f}, 0.06f);
   }
   return b.Finish();
 }
@@ -143,8 +139,7 @@ Model MakeCircleFence(uint32_t variant, uint64_t) {
   const int hoops = variant == 0 ? 14 : 10;
   const float radius = variant == 0 ? 0.85f : 0.70f, height = 0.55f;
   for (int i = 0; i < hoops; ++i) {
-    const float a0 = kTau * static_cast<float>(i) / static_cast<float>(hoops),
-                a1 = a0 + kTau / static_cast<float>(hoops) * 1.35f;
+    const float a0 = kTau * static_cast<float>(i) / static_cast<float>(hoops), a1 = a0 + kTau / static_cast<float>(hoops) * 1.35f;
     std::vector<Vec3f> hoop;
     for (int k = 0; k <= 10; ++k) {
       const float t = static_cast<float>(k) / 10, up = std::min(1.0f, std::sin(t * kTau / 2) * 1.6f);
@@ -178,8 +173,7 @@ Model MakeTrafficBarrel(uint32_t variant, uint64_t) {
   const Material orange = Plastic({0.70f, 0.17f, 0.02f}, 0.5f), white = Plastic({0.68f, 0.67f, 0.64f}, 0.4f);
   for (int i = 0; i < 5; ++i) {
     b.Use(i % 2 == (variant == 0 ? 0 : 1) ? orange : white);
-    const float z0 = 0.08f + 0.18f * static_cast<float>(i), z1 = z0 + 0.18f,
-                r0 = 0.285f - 0.012f * static_cast<float>(i);
+    const float z0 = 0.08f + 0.18f * static_cast<float>(i), z1 = z0 + 0.18f, r0 = 0.285f - 0.012f * static_cast<float>(i);
     const Vec2f band[] = {{r0, z0}, {r0 - 0.010f, z1 - 0.02f}, {r0 - 0.022f, z1}, {0, z1}};
     b.Lathe(band, 22);
   }
@@ -197,8 +191,7 @@ Model MakeIvy(uint32_t variant, uint64_t seed) {
   const float width = 1.3f + 0.3f * static_cast<float>(variant);
   for (int i = 0; i < 9; ++i) {
     const float x = width * (static_cast<float>(i) / 8 - 0.5f);
-    AddNeedle(layers[0], {0.3f * x, -0.02f, 0},
-              {1.6f * x, -0.03f, 2.0f + 0.4f * static_cast<float>(random.Uniform())}, {1, 0, 0}, 0.025f,
+    AddNeedle(layers[0], {0.3f * x, -0.02f, 0}, {1.6f * x, -0.03f, 2.0f + 0.4f * static_cast<float>(random.Uniform())}, {1, 0, 0}, 0.025f,
               {0, -1, 0}, 0);
   }
   for (int i = 0; i < 2600; ++i) {
@@ -208,8 +201,7 @@ Model MakeIvy(uint32_t variant, uint64_t seed) {
     const Vec3f p{width * x, -0.03f - 0.06f * static_cast<float>(random.Uniform()), 2.55f * z};
     const float size = static_cast<float>(random.Uniform(0.05, 0.10));
     AddLeaf(layers[1], p, Normalized(Vec3f{0.5f * static_cast<float>(random.Normal()), -0.35f, -0.8f}),
-            Vec3f{0.3f * static_cast<float>(random.Normal()), -1, 0.5f},
-            {size, size * 0.9f, 0.1f, 0.15f, LeafForm::kLobed},
+            Vec3f{0.3f * static_cast<float>(random.Normal()), -1, 0.5f}, {size, size * 0.9f, 0.1f, 0.15f, LeafForm::kLobed},
             static_cast<int>(random.Index(kLeafCells - 1)), {0, -0.4f, 0});
   }
   return JoinLayers("ivy", layers);

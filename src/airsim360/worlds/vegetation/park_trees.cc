@@ -149,10 +149,9 @@ const Texture& LeavesOf(ParkTree species) {
   static const Vec3f elm[] = {{0.064f, 0.101f, 0.024f}, {0.075f, 0.111f, 0.029f}, {0.055f, 0.090f, 0.024f}};
   static const Vec3f maple[] = {{0.080f, 0.121f, 0.029f}, {0.092f, 0.129f, 0.033f}, {0.068f, 0.107f, 0.029f}};
   static const Vec3f cork[] = {{0.088f, 0.125f, 0.034f}, {0.101f, 0.135f, 0.039f}, {0.076f, 0.113f, 0.033f}};
-  static const Vec3f poplar[] = {
-      {0.090f, 0.137f, 0.049f}, {0.107f, 0.149f, 0.056f}, {0.076f, 0.120f, 0.041f}};
-  static const Texture atlases[4] = {LeafAtlas("leaves elm", elm), LeafAtlas("leaves maple", maple),
-                                     LeafAtlas("leaves cork", cork), LeafAtlas("leaves poplar", poplar)};
+  static const Vec3f poplar[] = {{0.090f, 0.137f, 0.049f}, {0.107f, 0.149f, 0.056f}, {0.076f, 0.120f, 0.041f}};
+  static const Texture atlases[4] = {LeafAtlas("leaves elm", elm), LeafAtlas("leaves maple", maple), LeafAtlas("leaves cork", cork),
+                                     LeafAtlas("leaves poplar", poplar)};
   switch (species) {
     case ParkTree::kElm:
       return atlases[0];
@@ -176,11 +175,7 @@ const ParkTreeInfo& InfoOf(ParkTree species) { return kInfos[static_cast<size_t>
 Model MakeParkTree(ParkTree species, TreeDetail detail, int individual, uint64_t seed) {
   const uint64_t key = MixBits(seed ^ HashName(InfoOf(species).name)) + static_cast<uint64_t>(individual);
   if (species == ParkTree::kPine)
-    return GrowPine(individual,
-                    detail == TreeDetail::kFull     ? 1
-                    : detail == TreeDetail::kMiddle ? 0.12f
-                                                    : 0.03f,
-                    key);
+    return GrowPine(individual, detail == TreeDetail::kFull ? 1 : detail == TreeDetail::kMiddle ? 0.12f : 0.03f, key);
   if (species == ParkTree::kWillow) {
     constexpr float sizes[3][2] = {{11.0f, 5.0f}, {9.5f, 4.5f}, {12.0f, 5.6f}};
     return GrowWillow(sizes[individual % 3][0], sizes[individual % 3][1],

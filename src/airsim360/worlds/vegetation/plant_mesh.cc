@@ -14,9 +14,7 @@ namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
-Vec3f Across(Vec3f axis) {
-  return Normalized(Cross(axis, std::abs(axis.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0}));
-}
+Vec3f Across(Vec3f axis) { return Normalized(Cross(axis, std::abs(axis.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0})); }
 
 // Left and right border of a picture of the atlas, with a margin.
 std::pair<float, float> CellRange(int cell) {
@@ -118,9 +116,7 @@ std::vector<PlantLayer> PlantLayers(Vec3f bark, const Texture& atlas, float tran
   return layers;
 }
 
-PlantLayer& LeavesAt(std::vector<PlantLayer>& layers, float openness) {
-  return layers[openness < 0.36f ? 1 : openness < 0.68f ? 2 : 3];
-}
+PlantLayer& LeavesAt(std::vector<PlantLayer>& layers, float openness) { return layers[openness < 0.36f ? 1 : openness < 0.68f ? 2 : 3]; }
 
 Texture LeafAtlas(std::string name, std::span<const Vec3f> tones) {
   Image<Rgba8> image = Shade(kLeafCells * 32, 64, [&](float u, float v) {
@@ -142,8 +138,7 @@ Texture LeafAtlas(std::string name, std::span<const Vec3f> tones) {
   return texture;
 }
 
-void AddLeaf(PlantLayer& layer, Vec3f base, Vec3f direction, Vec3f up, const LeafShape& shape, int cell,
-             Vec3f soften) {
+void AddLeaf(PlantLayer& layer, Vec3f base, Vec3f direction, Vec3f up, const LeafShape& shape, int cell, Vec3f soften) {
   const Vec3f side = Normalized(Cross(direction, up)), n = Cross(side, direction);
   const Vec3f lift = n * (shape.fold * shape.width), shading = Normalized(n + soften);
   const Vec3f middle = base + direction * (0.42f * shape.length) + lift, across = side * (shape.width / 2);
@@ -163,16 +158,14 @@ void AddLeaf(PlantLayer& layer, Vec3f base, Vec3f direction, Vec3f up, const Lea
   constexpr float kLow = 0.52f, kHigh = 0.56f, kWide = 0.5f, kNarrow = 0.20f;
   const Vec3f slack = n * (-0.35f * shape.droop * shape.length);
   const auto rim = [&](float along, float out) {
-    return base + direction * (along * shape.length) + side * (out * shape.width) + lift +
-           slack * (along * along);
+    return base + direction * (along * shape.length) + side * (out * shape.width) + lift + slack * (along * along);
   };
   layer.Add(rim(kLow, kWide), shading, {u1, 1 - kLow});
   layer.Add(rim(kHigh, kNarrow), shading, {0.3f * u0 + 0.7f * u1, 1 - kHigh});
   layer.Add(tip, shading, {u, 0});
   layer.Add(rim(kHigh, -kNarrow), shading, {0.7f * u0 + 0.3f * u1, 1 - kHigh});
   layer.Add(rim(kLow, -kWide), shading, {u0, 1 - kLow});
-  layer.triangles.insert(layer.triangles.end(),
-                         {{a, a + 1, a + 2}, {a, a + 2, a + 4}, {a + 2, a + 3, a + 4}, {a, a + 4, a + 5}});
+  layer.triangles.insert(layer.triangles.end(), {{a, a + 1, a + 2}, {a, a + 2, a + 4}, {a + 2, a + 3, a + 4}, {a, a + 4, a + 5}});
 }
 
 void AddBlade(PlantLayer& layer, Vec3f base, float height, float width, Vec3f lean, float turn, int cell) {
@@ -219,8 +212,7 @@ void AddBark(PlantLayer& layer, const std::vector<BranchNode>& nodes, float min_
     if (continues || nodes[i].radius < min_radius) continue;
     std::vector<int> chain;
     if (parent >= 0) chain.push_back(parent);
-    for (int k = static_cast<int>(i); k >= 0 && nodes[static_cast<size_t>(k)].radius >= min_radius;
-         k = nodes[static_cast<size_t>(k)].main)
+    for (int k = static_cast<int>(i); k >= 0 && nodes[static_cast<size_t>(k)].radius >= min_radius; k = nodes[static_cast<size_t>(k)].main)
       chain.push_back(k);
     if (chain.size() < 2) continue;
 
@@ -239,10 +231,8 @@ void AddBark(PlantLayer& layer, const std::vector<BranchNode>& nodes, float min_
       v += Norm(node.p - last);
       last = node.p;
       // A side branch leaves its parent at its own width, not at the parent's.
-      const float radius =
-          k == 0 && parent >= 0 ? std::min(node.radius * 0.8f, nodes[i].radius * 1.3f) : node.radius;
-      rings.push_back({node.p, axis, Normalized(s - axis * Dot(s, axis)),
-                       k + 1 == chain.size() ? radius * 0.6f : radius, v});
+      const float radius = k == 0 && parent >= 0 ? std::min(node.radius * 0.8f, nodes[i].radius * 1.3f) : node.radius;
+      rings.push_back({node.p, axis, Normalized(s - axis * Dot(s, axis)), k + 1 == chain.size() ? radius * 0.6f : radius, v});
     }
     // The pipe model drops at every fork; wood closes such steps.
     for (int pass = 0; pass < 6; ++pass) {
@@ -273,8 +263,7 @@ Model JoinLayers(std::string name, std::span<const PlantLayer> layers) {
     material.base_color_texture = add(layer.texture);
     material.normal_texture = add(layer.normals);
     const auto first = static_cast<uint32_t>(mesh.positions.size());
-    mesh.parts.push_back({static_cast<uint32_t>(mesh.triangles.size()),
-                          static_cast<uint32_t>(layer.triangles.size()),
+    mesh.parts.push_back({static_cast<uint32_t>(mesh.triangles.size()), static_cast<uint32_t>(layer.triangles.size()),
                           static_cast<MaterialId>(model.materials.size()), kNoEntity});
     mesh.positions.insert(mesh.positions.end(), layer.positions.begin(), layer.positions.end());
     mesh.normals.insert(mesh.normals.end(), layer.shading_normals.begin(), layer.shading_normals.end());

@@ -30,8 +30,7 @@ PlantLayer LeafLayer(const Texture& atlas, float transmission = 0.8f);
 /// Layer 0 is bark, layers 1 to 3 are leaves that see little, half and all of the sky: what the plant itself
 /// takes away of the sky's light is in their colour, so that crowns have depth without ambient occlusion.
 /// `depth` scales that: 0 leaves all leaves as bright as the outer ones.
-std::vector<PlantLayer> PlantLayers(Vec3f bark, const Texture& atlas, float transmission = 0.8f,
-                                    float depth = 1);
+std::vector<PlantLayer> PlantLayers(Vec3f bark, const Texture& atlas, float transmission = 0.8f, float depth = 1);
 /// The leaves of PlantLayers for a place that sees a share `openness` (0 … 1) of the sky.
 PlantLayer& LeavesAt(std::vector<PlantLayer>& layers, float openness);
 
@@ -54,8 +53,7 @@ struct LeafShape {
 };
 /// Leaf: from `base` along `direction`, its upper face to `up`.
 /// `soften` is mixed into the shading normal (the direction out of the crown). `cell` in 0 … kLeafCells - 1.
-void AddLeaf(PlantLayer& layer, Vec3f base, Vec3f direction, Vec3f up, const LeafShape& shape, int cell,
-             Vec3f soften = {});
+void AddLeaf(PlantLayer& layer, Vec3f base, Vec3f direction, Vec3f up, const LeafShape& shape, int cell, Vec3f soften = {});
 /// Blade of grass of three triangles, bending over to `lean` (horizontal, 0..1).
 void AddBlade(PlantLayer& layer, Vec3f base, float height, float width, Vec3f lean, float turn, int cell);
 /// Blade that a mower has cut at height `cut`: two triangles that end flat.

@@ -20,8 +20,7 @@ const Texture& PotLeaves() {
 
 // Adds the parts of `plant` to `model`.
 void Merge(Model& model, Model plant) {
-  const auto vertices = static_cast<uint32_t>(model.mesh.positions.size()),
-             triangles = static_cast<uint32_t>(model.mesh.triangles.size());
+  const auto vertices = static_cast<uint32_t>(model.mesh.positions.size()), triangles = static_cast<uint32_t>(model.mesh.triangles.size());
   const auto materials = static_cast<MaterialId>(model.materials.size());
   const auto textures = static_cast<TextureId>(model.textures.size());
   const auto append = [](auto& to, auto& from) { to.insert(to.end(), from.begin(), from.end()); };
@@ -29,11 +28,9 @@ void Merge(Model& model, Model plant) {
   append(model.mesh.normals, plant.mesh.normals);
   append(model.mesh.uvs, plant.mesh.uvs);
   append(model.textures, plant.textures);
-  for (Vec3u t : plant.mesh.triangles)
-    model.mesh.triangles.push_back({t.x + vertices, t.y + vertices, t.z + vertices});
+  for (Vec3u t : plant.mesh.triangles) model.mesh.triangles.push_back({t.x + vertices, t.y + vertices, t.z + vertices});
   for (MeshPart part : plant.mesh.parts)
-    model.mesh.parts.push_back(
-        {part.first_triangle + triangles, part.triangle_count, part.material + materials, kNoEntity});
+    model.mesh.parts.push_back({part.first_triangle + triangles, part.triangle_count, part.material + materials, kNoEntity});
   for (Material& m : plant.materials) {
     for (TextureId* id : {&m.base_color_texture, &m.normal_texture}) {
       if (*id != kNoTexture) *id += textures;
@@ -50,17 +47,14 @@ Model Foliage(bool straps, Vec3f c, float r, int leaves, RngStream& random) {
     if (straps) {
       const Vec3f lean = Normalized(Vec3f{d.x, d.y, 0.001f}) * static_cast<float>(random.Uniform(0.2, 1.0));
       const Vec3f foot = c + Vec3f{d.x, d.y, 0} * (0.25f * r);
-      AddBlade(layers[random.Chance(0.4) ? 2 : 3], foot, r * static_cast<float>(random.Uniform(1.4, 2.4)),
-               0.035f, lean, std::atan2(lean.y, lean.x) + kTau / 4,
-               static_cast<int>(random.Index(kLeafCells - 1)));
+      AddBlade(layers[random.Chance(0.4) ? 2 : 3], foot, r * static_cast<float>(random.Uniform(1.4, 2.4)), 0.035f, lean,
+               std::atan2(lean.y, lean.x) + kTau / 4, static_cast<int>(random.Index(kLeafCells - 1)));
       continue;
     }
-    const float shell = std::cbrt(static_cast<float>(random.Uniform(0.04, 1.0))) *
-                        (0.85f + 0.3f * Noise(d * 2.0f + c * 3.0f, 5));
+    const float shell = std::cbrt(static_cast<float>(random.Uniform(0.04, 1.0))) * (0.85f + 0.3f * Noise(d * 2.0f + c * 3.0f, 5));
     const Vec3f p = c + Vec3f{d.x, d.y, d.z * 0.9f} * (r * shell);
     const float size = 0.068f * static_cast<float>(random.Uniform(0.7, 1.25));
-    AddLeaf(LeavesAt(layers, 1.7f * shell - 0.75f + 0.3f * d.z), p,
-            Normalized(d + RandomDirection(random) * 0.8f),
+    AddLeaf(LeavesAt(layers, 1.7f * shell - 0.75f + 0.3f * d.z), p, Normalized(d + RandomDirection(random) * 0.8f),
             d * 0.8f + Vec3f{0, 0, 0.7f} + RandomDirection(random) * 0.5f, {size, size * 0.58f, 0.14f, 0.2f},
             static_cast<int>(random.Index(kLeafCells - 1)), d * 0.4f);
   }
@@ -69,21 +63,35 @@ Model Foliage(bool straps, Vec3f c, float r, int leaves, RngStream& random) {
 
 // Outlines from the axis outwards and back over the rim, (radius, height) in metres.
 const std::vector<Vec2f> kPotProfiles[4] = {
-    {{0, 0}, {0.19f, 0}, {0.20f, 0.01f}, {0.275f, 0.40f}, {0.30f, 0.41f}, {0.305f, 0.48f}, {0.295f, 0.49f},
-     {0.265f, 0.49f}, {0.255f, 0.42f}, {0, 0.42f}},
-    {{0, 0}, {0.15f, 0}, {0.24f, 0.12f}, {0.29f, 0.28f}, {0.27f, 0.44f}, {0.22f, 0.52f}, {0.24f, 0.56f},
-     {0.23f, 0.57f}, {0.20f, 0.53f}, {0.20f, 0.49f}, {0, 0.49f}},
-    {{0, 0}, {0.22f, 0}, {0.22f, 0.05f}, {0.40f, 0.22f}, {0.46f, 0.36f}, {0.46f, 0.40f}, {0.42f, 0.41f},
-     {0.40f, 0.35f}, {0, 0.35f}},
-    {{0, 0}, {0.15f, 0}, {0.155f, 0.01f}, {0.24f, 0.72f}, {0.245f, 0.75f}, {0.22f, 0.755f}, {0.21f, 0.69f},
-     {0, 0.69f}}};
+    {{0, 0},
+     {0.19f, 0},
+     {0.20f, 0.01f},
+     {0.275f, 0.40f},
+     {0.30f, 0.41f},
+     {0.305f, 0.48f},
+     {0.295f, 0.49f},
+     {0.265f, 0.49f},
+     {0.255f, 0.42f},
+     {0, 0.42f}},
+    {{0, 0},
+     {0.15f, 0},
+     {0.24f, 0.12f},
+     {0.29f, 0.28f},
+     {0.27f, 0.44f},
+     {0.22f, 0.52f},
+     {0.24f, 0.56f},
+     {0.23f, 0.57f},
+     {0.20f, 0.53f},
+     {0.20f, 0.49f},
+     {0, 0.49f}},
+    {{0, 0}, {0.22f, 0}, {0.22f, 0.05f}, {0.40f, 0.22f}, {0.46f, 0.36f}, {0.46f, 0.40f}, {0.42f, 0.41f}, {0.40f, 0.35f}, {0, 0.35f}},
+    {{0, 0}, {0.15f, 0}, {0.155f, 0.01f}, {0.24f, 0.72f}, {0.245f, 0.75f}, {0.22f, 0.755f}, {0.21f, 0.69f}, {0, 0.69f}}};
 
 // Turned pots: terracotta, glazed, concrete bowl, tall tapered.
 Model MakePot(uint32_t variant, uint64_t seed) {
   RngStream random(seed, "pot");
   PropBuilder b("pot");
-  const Vec3f tones[4] = {
-      {0.38f, 0.15f, 0.075f}, {0.03f, 0.08f, 0.13f}, {0.40f, 0.385f, 0.36f}, {0.055f, 0.056f, 0.06f}};
+  const Vec3f tones[4] = {{0.38f, 0.15f, 0.075f}, {0.03f, 0.08f, 0.13f}, {0.40f, 0.385f, 0.36f}, {0.055f, 0.056f, 0.06f}};
   const bool glazed = variant == 1;
   b.Use(Stone(tones[variant], glazed ? 0.15f : 0.8f), ConcreteTexture());
   const std::vector<Vec2f>& profile = kPotProfiles[variant];
@@ -96,11 +104,7 @@ Model MakePot(uint32_t variant, uint64_t seed) {
   Model model = b.Finish();
   const bool straps = variant == 3;
   const float ball = variant == 2 ? 0.40f : 0.30f;
-  Merge(model, Foliage(straps, {0, 0, straps ? soil : soil + ball * 0.8f}, ball,
-                       straps         ? 70
-                       : variant == 2 ? 2600
-                                      : 1500,
-                       random));
+  Merge(model, Foliage(straps, {0, 0, straps ? soil : soil + ball * 0.8f}, ball, straps ? 70 : variant == 2 ? 2600 : 1500, random));
   return model;
 }
 
@@ -113,16 +117,13 @@ Model MakePlanter(uint32_t variant, uint64_t seed) {
     UseWood(b, {0.85f, 0.80f, 0.75f}, Grain::kAlongX);
     for (int i = 0; i < 4; ++i) {
       const float z = 0.04f + 0.135f * static_cast<float>(i);
-      for (float y : {-1.0f, 1.0f})
-        b.BevelBox({-w, y > 0 ? d - 0.03f : -d, z}, {w, y > 0 ? d : -d + 0.03f, z + 0.128f}, 0.005f);
+      for (float y : {-1.0f, 1.0f}) b.BevelBox({-w, y > 0 ? d - 0.03f : -d, z}, {w, y > 0 ? d : -d + 0.03f, z + 0.128f}, 0.005f);
       for (float x : {-1.0f, 1.0f})
-        b.BevelBox({x > 0 ? w - 0.03f : -w, -d + 0.03f, z}, {x > 0 ? w : -w + 0.03f, d - 0.03f, z + 0.128f},
-                   0.005f);
+        b.BevelBox({x > 0 ? w - 0.03f : -w, -d + 0.03f, z}, {x > 0 ? w : -w + 0.03f, d - 0.03f, z + 0.128f}, 0.005f);
     }
     b.Use(CastIron());
     for (float x : {-w + 0.06f, w - 0.06f}) {
-      for (float y : {-d + 0.06f, d - 0.06f})
-        b.BevelBox({x - 0.03f, y - 0.03f, 0}, {x + 0.03f, y + 0.03f, h - 0.04f}, 0.004f);
+      for (float y : {-d + 0.06f, d - 0.06f}) b.BevelBox({x - 0.03f, y - 0.03f, 0}, {x + 0.03f, y + 0.03f, h - 0.04f}, 0.004f);
     }
   } else {
     b.Use(variant == 1 ? Stone({0.42f, 0.40f, 0.37f}) : Metal({0.16f, 0.085f, 0.05f}, 0.75f),
@@ -138,12 +139,10 @@ Model MakePlanter(uint32_t variant, uint64_t seed) {
   b.mesh().Box({-w + 0.02f, -d + 0.02f, 0.3f}, {w - 0.02f, d - 0.02f, h - 0.06f}, MeshBuilder::kTop);
   Model model = b.Finish();
   for (int i = 0; i < 4; ++i) {
-    const Vec3f c{-0.57f + 0.38f * static_cast<float>(i), 0.04f * static_cast<float>(random.Normal()),
-                  h + 0.08f};
+    const Vec3f c{-0.57f + 0.38f * static_cast<float>(i), 0.04f * static_cast<float>(random.Normal()), h + 0.08f};
     const bool straps = (static_cast<uint32_t>(i) + variant) % 3 == 2;
-    Merge(model, Foliage(straps, straps ? c - Vec3f{0, 0, 0.12f} : c,
-                         straps ? 0.26f : static_cast<float>(random.Uniform(0.22, 0.30)), straps ? 60 : 1250,
-                         random));
+    Merge(model, Foliage(straps, straps ? c - Vec3f{0, 0, 0.12f} : c, straps ? 0.26f : static_cast<float>(random.Uniform(0.22, 0.30)),
+                         straps ? 60 : 1250, random));
   }
   return model;
 }
@@ -154,16 +153,14 @@ Model MakeGreenPot(uint32_t variant, uint64_t seed) {
   PropBuilder b("green_pot");
   const float r = variant == 0 ? 0.42f : 0.36f, h = variant == 0 ? 0.62f : 0.78f;
   b.Use(Paint({0.02f, 0.10f, 0.05f}, 0.5f), ScratchedTexture());
-  const Vec2f tub[] = {
-      {0, 0},         {r * 0.78f, 0}, {r * 0.8f, 0.02f},     {r * 0.97f, h - 0.09f}, {r * 1.04f, h - 0.08f},
-      {r * 1.04f, h}, {r * 0.93f, h}, {r * 0.9f, h - 0.09f}, {0, h - 0.09f}};
+  const Vec2f tub[] = {{0, 0},         {r * 0.78f, 0}, {r * 0.8f, 0.02f},     {r * 0.97f, h - 0.09f}, {r * 1.04f, h - 0.08f},
+                       {r * 1.04f, h}, {r * 0.93f, h}, {r * 0.9f, h - 0.09f}, {0, h - 0.09f}};
   b.Lathe(tub, 28);
   b.Use(Stone({0.045f, 0.032f, 0.022f}, 0.95f));
   b.mesh().Tube({0, 0, h - 0.085f}, {0, 0, h - 0.06f}, r * 0.88f, r * 0.86f, 20, false);
   Model model = b.Finish();
   const bool straps = variant == 2;
-  Merge(model,
-        Foliage(straps, {0, 0, straps ? h - 0.1f : h + r * 0.6f}, r * 1.05f, straps ? 80 : 2100, random));
+  Merge(model, Foliage(straps, {0, 0, straps ? h - 0.1f : h + r * 0.6f}, r * 1.05f, straps ? 80 : 2100, random));
   return model;
 }
 

@@ -9,8 +9,7 @@ namespace airsim360::internal {
 namespace {
 
 const Texture& ShrubLeaves() {
-  static const Vec3f tones[] = {
-      {0.062f, 0.098f, 0.024f}, {0.076f, 0.112f, 0.030f}, {0.050f, 0.082f, 0.024f}, {0.088f, 0.118f, 0.034f}};
+  static const Vec3f tones[] = {{0.062f, 0.098f, 0.024f}, {0.076f, 0.112f, 0.030f}, {0.050f, 0.082f, 0.024f}, {0.088f, 0.118f, 0.034f}};
   static const Texture atlas = LeafAtlas("leaves shrub", tones);
   return atlas;
 }
@@ -28,7 +27,8 @@ struct ShrubBuild {
   float height, radius, leaf;  // metres
   int leaves;
 };
-constexpr ShrubBuild kShrubs[4] = {{1.3f, 0.80f, 0.062f, 9000}, {1.0f, 0.85f, 0.055f, 9000}, {1.9f, 0.95f, 0.075f, 10000}, {0.8f, 0.6f, 0.050f, 6500}};
+constexpr ShrubBuild kShrubs[4] = {
+    {1.3f, 0.80f, 0.062f, 9000}, {1.0f, 0.85f, 0.055f, 9000}, {1.9f, 0.95f, 0.075f, 10000}, {0.8f, 0.6f, 0.050f, 6500}};
 
 using Lobes = std::vector<std::pair<Vec3f, float>>;  // centre, radius
 
@@ -52,14 +52,15 @@ std::vector<BranchNode> GrowShrub(const ShrubBuild& b, const Lobes& lobes, RngSt
     }
     return false;
   };
-  const auto attractors = ScatterInside({-b.radius * 1.3f, -b.radius * 1.3f, 0.08f}, {b.radius * 1.3f, b.radius * 1.3f, b.height * 1.1f}, 2200,
-                                        inside, random);
+  const auto attractors =
+      ScatterInside({-b.radius * 1.3f, -b.radius * 1.3f, 0.08f}, {b.radius * 1.3f, b.radius * 1.3f, b.height * 1.1f}, 2200, inside, random);
   std::vector<BranchNode> nodes;
   AddStem(nodes, -1, {0, 0, -0.12f}, {0, 0, 0}, 0.06f, 0, random);
   const int root = static_cast<int>(nodes.size()) - 1;
   for (int i = 0; i < 6; ++i) {
     const float a = 1.0472f * static_cast<float>(i) + static_cast<float>(random.Uniform(-0.3, 0.3));
-    AddStem(nodes, root, {0, 0, 0}, Vec3f{0.40f * b.radius * std::cos(a), 0.40f * b.radius * std::sin(a), b.height * 0.4f}, 0.07f, 0.4f, random);
+    AddStem(nodes, root, {0, 0, 0}, Vec3f{0.40f * b.radius * std::cos(a), 0.40f * b.radius * std::sin(a), b.height * 0.4f}, 0.07f, 0.4f,
+            random);
   }
   Colonise(nodes, attractors, {.step = 0.07f, .influence = 0.55f, .kill = 0.13f, .tropism = {0, 0, 0.2f}, .max_nodes = 4000}, random);
   Thicken(nodes, 0.045f, 0.003f);
@@ -81,8 +82,8 @@ void ClotheShrub(std::vector<PlantLayer>& layers, const ShrubBuild& b, const std
     const Vec3f p = AnyOf(sites, random), d = p - middle;
     const float depth = Norm(Vec3f{d.x / b.radius, d.y / b.radius, d.z / (0.65f * b.height)});
     const float openness = 0.05f + 0.65f * depth + 0.35f * d.z / b.height + 0.12f * static_cast<float>(random.Normal());
-    AddShrubLeaf(LeavesAt(layers, openness), p + RandomDirection(random) * (0.07f * static_cast<float>(random.Uniform())), Normalized(p - middle),
-                 b.leaf, random);
+    AddShrubLeaf(LeavesAt(layers, openness), p + RandomDirection(random) * (0.07f * static_cast<float>(random.Uniform())),
+                 Normalized(p - middle), b.leaf, random);
   }
 }
 
@@ -93,8 +94,7 @@ void AddShoots(std::vector<PlantLayer>& layers, const ShrubBuild& b, const std::
     const Vec3f d = Normalized(out + Vec3f{0, 0, 1.1f} + RandomDirection(random) * 0.3f);
     const float length = 0.22f * static_cast<float>(random.Uniform(0.6, 1.3));
     AddNeedle(layers[0], p, p + d * length, Normalized(Cross(d, Vec3f{0.3f, 0.5f, 0.1f})), 0.006f, out, 0);
-    for (int k = 0; k < 14; ++k)
-      AddShrubLeaf(layers[3], p + d * (length * static_cast<float>(k + 1) / 14), d, b.leaf * 0.8f, random);
+    for (int k = 0; k < 14; ++k) AddShrubLeaf(layers[3], p + d * (length * static_cast<float>(k + 1) / 14), d, b.leaf * 0.8f, random);
   }
 }
 
@@ -124,8 +124,7 @@ Model MakeHedge(uint32_t variant, uint64_t seed) {
   for (int i = 0; i < 5; ++i) {
     std::vector<BranchNode> stem;
     const float x = -0.4f + 0.2f * static_cast<float>(i) + 0.05f * static_cast<float>(random.Normal());
-    AddStem(stem, -1, {x, 0.05f * static_cast<float>(random.Normal()), -0.1f}, {x, 0, 0.6f}, 0.12f, 0.4f,
-            random);
+    AddStem(stem, -1, {x, 0.05f * static_cast<float>(random.Normal()), -0.1f}, {x, 0, 0.6f}, 0.12f, 0.4f, random);
     Thicken(stem, 0.022f, 0.015f);
     AddBark(layers[0], stem, 0.001f, 0);
   }
@@ -146,8 +145,7 @@ Model MakeHedge(uint32_t variant, uint64_t seed) {
   core({-0.48f, y, z0}, {-0.48f, -y, z0}, {-0.48f, -y, z1}, {-0.48f, y, z1});
   // Leaves near the surface, uneven by a few centimetres; sparser low down.
   for (int k = 0; k < 9000; ++k) {
-    const float x = static_cast<float>(random.Uniform(-0.5, 0.5)),
-                s = static_cast<float>(random.Uniform(0, 2 * top + 2 * half_depth));
+    const float x = static_cast<float>(random.Uniform(-0.5, 0.5)), s = static_cast<float>(random.Uniform(0, 2 * top + 2 * half_depth));
     Vec3f p, out;
     if (s < 2 * top) {
       const float hand = s < top ? -1.0f : 1.0f, z = s < top ? s : s - top;
@@ -161,16 +159,14 @@ Model MakeHedge(uint32_t variant, uint64_t seed) {
     const float sunk = static_cast<float>(random.Uniform() * random.Uniform());
     const float swell = 0.10f * (Noise(p * 4.0f, seed) - 0.6f) - 0.07f * sunk;
     const float openness = (1 - 0.8f * sunk) * std::min(1.0f, 0.35f + p.z) + (s < 2 * top ? -0.1f : 0.1f);
-    AddShrubLeaf(LeavesAt(layers, openness), p + out * swell,
-                 Normalized(out + RandomDirection(random) * 0.3f), variant == 1 ? 0.045f : 0.055f, random);
+    AddShrubLeaf(LeavesAt(layers, openness), p + out * swell, Normalized(out + RandomDirection(random) * 0.3f),
+                 variant == 1 ? 0.045f : 0.055f, random);
   }
   // A thinner cover for the ends, which are seen only where a run of hedge stops.
   for (int k = 0; k < 1300; ++k) {
     const float hand = k % 2 ? 1.0f : -1.0f;
-    const Vec3f p{0.47f * hand, static_cast<float>(random.Uniform(-0.27, 0.27)),
-                  static_cast<float>(random.Uniform(0.12, top))};
-    AddShrubLeaf(layers[2], p, Normalized(Vec3f{hand, 0, 0} + RandomDirection(random) * 0.3f), 0.055f,
-                 random);
+    const Vec3f p{0.47f * hand, static_cast<float>(random.Uniform(-0.27, 0.27)), static_cast<float>(random.Uniform(0.12, top))};
+    AddShrubLeaf(layers[2], p, Normalized(Vec3f{hand, 0, 0} + RandomDirection(random) * 0.3f), 0.055f, random);
   }
   return JoinLayers("hedge", layers);
 }

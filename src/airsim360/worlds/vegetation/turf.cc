@@ -12,7 +12,8 @@ constexpr float kTau = 6.2831853f;
 void AddTuftBlade(PlantLayer& layer, const Turf& turf, Vec3f middle, float radius, float comb, float shorter, RngStream& random) {
   const float r = std::sqrt(static_cast<float>(random.Uniform())), a = kTau * static_cast<float>(random.Uniform());
   const Vec3f out{std::cos(a), std::sin(a), 0}, p = middle + out * (radius * r);
-  const Vec3f lean = (out * (0.15f + 0.6f * r) + Vec3f{std::cos(comb), std::sin(comb), 0} * 0.2f) * static_cast<float>(random.Uniform(0.5, 1.3));
+  const Vec3f lean =
+      (out * (0.15f + 0.6f * r) + Vec3f{std::cos(comb), std::sin(comb), 0} * 0.2f) * static_cast<float>(random.Uniform(0.5, 1.3));
   const float height = static_cast<float>(random.Uniform(turf.low, turf.high)) * shorter,
               width = turf.width * static_cast<float>(random.Uniform(0.6, 1.5)),
               turn = a + 1.57f + 0.6f * static_cast<float>(random.Normal());

@@ -9,10 +9,10 @@ namespace airsim360::internal {
 
 /// Lengths in metres.
 struct Turf {
-  float low, high;         ///< heights that blades grow to
-  float mown = 0;          ///< the mower's height; 0 = never mown
-  float width = 0.0034f;   ///< of a blade at its foot, on average
-  float straw = 0.06f;     ///< share of dry blades
+  float low, high;        ///< heights that blades grow to
+  float mown = 0;         ///< the mower's height; 0 = never mown
+  float width = 0.0034f;  ///< of a blade at its foot, on average
+  float straw = 0.06f;    ///< share of dry blades
 };
 
 /// `count` blades in tufts whose middles `place` draws; a blade is `shorter(p)` times its height. Places are in the layer's

@@ -122,8 +122,7 @@ TEST(AddLeaf, LiesAlongItsDirectionWithItsFaceUp) {
   for (Vec3f n : layer.shading_normals) EXPECT_NEAR(n.z, 1, 1e-6);
   double area = 0;
   for (Vec3u t : layer.triangles) {
-    const Vec3f n =
-        Cross(layer.positions[t.y] - layer.positions[t.x], layer.positions[t.z] - layer.positions[t.x]);
+    const Vec3f n = Cross(layer.positions[t.y] - layer.positions[t.x], layer.positions[t.z] - layer.positions[t.x]);
     EXPECT_GT(n.z, 0);
     area += Norm(n) / 2;
   }
@@ -156,8 +155,7 @@ void PrintTo(const Proportions& proportions, std::ostream* out) { *out << propor
 class Trees : public testing::TestWithParam<Proportions> {};
 
 INSTANTIATE_TEST_SUITE_P(Species, Trees,
-                         testing::Values(Proportions{"tree_generic", 0.9, 1.8, 20000},
-                                         Proportions{"tree_narrowleaf", 1.8, 3.6, 40000},
+                         testing::Values(Proportions{"tree_generic", 0.9, 1.8, 20000}, Proportions{"tree_narrowleaf", 1.8, 3.6, 40000},
                                          Proportions{"tree_pine", 1.6, 3.6, 60000}),
                          [](const auto& info) { return std::string(info.param.kind); });
 

@@ -17,10 +17,9 @@ const Texture& WillowLeaves() {
 }
 
 // One shoot: leaves in pairs along a ribbon that bends down within a metre and then hangs.
-void HangShoot(Vec3f p, Vec3f direction, float length, float leaf, int per_segment, bool ribbon,
-               float openness, std::vector<PlantLayer>& layers, RngStream& random) {
-  const Vec3f sway{0.03f * static_cast<float>(random.Normal()), 0.03f * static_cast<float>(random.Normal()),
-                   0};
+void HangShoot(Vec3f p, Vec3f direction, float length, float leaf, int per_segment, bool ribbon, float openness,
+               std::vector<PlantLayer>& layers, RngStream& random) {
+  const Vec3f sway{0.03f * static_cast<float>(random.Normal()), 0.03f * static_cast<float>(random.Normal()), 0};
   const int segments = 1 + static_cast<int>(length / kSegment);
   Vec3f from = p;
   for (int k = 0; k < segments; ++k) {
@@ -40,8 +39,7 @@ void HangShoot(Vec3f p, Vec3f direction, float length, float leaf, int per_segme
       const Vec3f at = p + (q - p) * ((static_cast<float>(l) + 0.5f) / static_cast<float>(per_segment));
       const int cell = random.Chance(0.03) ? kLeafCells - 1 : static_cast<int>(random.Index(kLeafCells - 1));
       AddLeaf(LeavesAt(layers, openness + 0.10f * static_cast<float>(random.Normal())), at, along,
-              Vec3f{std::cos(a + 0.8f), std::sin(a + 0.8f), 0.7f}, {size, size * 0.17f, 0.1f, 0.1f}, cell,
-              round * 0.3f);
+              Vec3f{std::cos(a + 0.8f), std::sin(a + 0.8f), 0.7f}, {size, size * 0.17f, 0.1f, 0.1f}, cell, round * 0.3f);
     }
     p = q;
   }
@@ -86,13 +84,11 @@ Model GrowWillow(float height, float radius, float detail, uint64_t seed) {
     const float curtain = Noise(Vec3f{p.x, p.y, p.z * 0.4f} * 1.1f, seed);
     if (random.Uniform() > 0.15 + 1.0 * std::clamp((curtain - 0.36f) / 0.24f, 0.0f, 1.0f)) continue;
     const double drop = random.Uniform();
-    const float end =
-        0.5f + 2.2f * static_cast<float>(drop * drop) + 0.6f * static_cast<float>(random.Uniform());
+    const float end = 0.5f + 2.2f * static_cast<float>(drop * drop) + 0.6f * static_cast<float>(random.Uniform());
     const float length = std::min(p.z - end, static_cast<float>(random.Uniform(1.2, 7.0)));
     if (length < 0.6f) continue;
     const Vec3f axis = Normalized(p - nodes[static_cast<size_t>(node.parent)].p);
-    const Vec3f out =
-        Normalized(Vec3f{p.x, p.y, 0} * (0.5f / radius) + axis * 0.5f + RandomDirection(random) * 0.4f);
+    const Vec3f out = Normalized(Vec3f{p.x, p.y, 0} * (0.5f / radius) + axis * 0.5f + RandomDirection(random) * 0.4f);
     const float openness = 0.25f + 0.65f * std::hypot(p.x, p.y) / radius;
     HangShoot(p, out, length, leaf, per_segment, detail >= 1, openness, layers, random);
   }
