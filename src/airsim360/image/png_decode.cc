@@ -172,7 +172,7 @@ PalettePicture DecodePalettePng(std::span<const std::byte> bytes, std::string_vi
   Reader reader(bytes, name);
   const Info info = reader.ReadHeader();
   if (info.color_type != PNG_COLOR_TYPE_PALETTE) internal::ThrowDamaged(name, "a PNG with a palette is expected");
-  PalettePicture picture{.palette = reader.Palette()};
+  PalettePicture picture{.indices = {}, .palette = reader.Palette()};
   picture.indices = ReadInto<uint8_t>(reader, info, Form::kGray);
   const auto beyond = [&](uint8_t index) { return index >= picture.palette.size(); };
   if (std::any_of(picture.indices.pixels().begin(), picture.indices.pixels().end(), beyond))
