@@ -14,7 +14,7 @@ RoadNetwork Loop() {
   RoadNetwork roads;
   roads.lanes = {{.points = {{0, 0, 0}, {9, 0, 0}}, .next = {1}},
                  {.points = {{9, 0, 0}, {9, 9, 0}, {0, 0, 0}}, .next = {0}, .junction = 0, .signal = 0}};
-  roads.junctions = {{.phases = {{1}}}};
+  roads.junctions = {{.center = {}, .phases = {{1}}}};
   return roads;
 }
 
