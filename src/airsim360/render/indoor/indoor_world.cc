@@ -8,6 +8,7 @@
 #include "airsim360/render/indoor/plain_lamps.h"
 #include "airsim360/render/lights/clear_panes.h"
 #include "airsim360/render/shared/shading_scalar.h"
+#include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
 namespace {
@@ -49,8 +50,12 @@ class ShadowQueue {
       for (int i = 0; i < count_; ++i) panes.valid[i] = occluded[i] ? 0 : -1;
       DimByPanes(world_.tracer, world_.tables, panes.valid, panes.rays, tint);
     }
-    for (int i = 0; i < count_; ++i)
-      if (!occluded[i]) sum_.*to_[i] += light_[i] * tint[static_cast<size_t>(i)];
+    for (int i = 0; i < count_; ++i) {
+      if (occluded[i]) continue;
+      const Vec3f light = light_[i] * tint[static_cast<size_t>(i)];
+      sum_.*to_[i] += light;
+      if (to_[i] == &DirectLight::held) sum_.held_squares += Luminance(light) * Luminance(light);
+    }
     packet_.Clear();
     count_ = 0;
   }
@@ -101,10 +106,9 @@ void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, 
     const Vec3f d = to / std::max(distance, 1e-6f);
     const float here = Dot(n, d), there = -Dot(sample.normal, d);
     if (!(here > 0 && there > 0)) continue;
-    const uint32_t lamp = world.lights->tree().Choose(p, n, w).lamp;
-    const bool held = world.lamps != nullptr && world.lamps->Holds(lamp);
+    const bool held = world.lamps != nullptr && world.lamps->Holds(sample.lamp);
     const float shape = here * there / (distance * distance);
-    const bool shared = mix.plain != nullptr && mix.plain->Holds(lamp);
+    const bool shared = mix.plain != nullptr && mix.plain->Holds(sample.lamp);
     const float weight = shape / (sample.pdf * static_cast<float>(rays)) * (shared ? mix.OfLampRays(sample.pdf, shape / kPi) : 1);
     queue.Add(p + n * kLift, d, distance * 0.999f - 2 * kLift, sample.radiance * weight, held ? &DirectLight::held : &DirectLight::others);
   }

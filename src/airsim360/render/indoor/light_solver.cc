@@ -77,6 +77,12 @@ void AddGlow(std::span<const Landing> landings, int even, Vec3f& held, Vec3f& ot
     (landing.glow.held ? held : others) += landing.glow.radiance * (kPi / static_cast<float>(even));
 }
 
+// Of the luminance of held lamps, by what each ray to them brought.
+float VarianceOf(const DirectLight& direct, int rays) {
+  const float all = Luminance(direct.held);
+  return std::max(0.0f, direct.held_squares - all * all / static_cast<float>(std::max(1, rays))) * kStratified;
+}
+
 float CellOf(std::span<const SurfacePiece> pieces, float wanted) {
   if (wanted > 0) return wanted;
   return std::max(kHomeCell, static_cast<float>(std::sqrt(AreaOf(pieces) / kMostCoarse)));
@@ -139,6 +145,7 @@ void LightSolver::TraceEven() {
   const size_t count = coarse_.surfels().size();
   others_.assign(count, {});
   coarse_light_.lamps.assign(count, {});
+  coarse_light_.lamp_variance.assign(count, 0);
   links_.assign(count * 2 * rays, {LightLink::kNothing, 0, 0, 0});
   radiance_.assign(count, {});
   std::vector<std::vector<std::pair<size_t, OutsidePlace>>> outside(count / kChunk + 1);
@@ -197,6 +204,7 @@ void LightSolver::FindDirect() {
                                          {&plain_, options_.lamp_rays, options_.rays}, static_cast<uint32_t>(i), kSunRays);
     others_[i] += d.others;
     coarse_light_.lamps[i] += d.held;
+    coarse_light_.lamp_variance[i] = VarianceOf(d, options_.lamp_rays);
     direct_[i] = d.sun + coarse_light_.lamps[i] + others_[i];
     radiance_[i] = s.albedo * direct_[i] * (1 / kPi);
   });
@@ -368,6 +376,7 @@ void LightSolver::MakeFine(std::span<const SurfacePiece> pieces) {
   const auto& surfels = fine_->surfels();
   Resize(surfels.size(), fine_light_);
   fine_light_.lamps.assign(surfels.size(), {});
+  fine_light_.lamp_variance.assign(surfels.size(), 0);
   ForChunks(surfels.size(), [&](size_t first, size_t end, size_t) {
     std::unordered_map<uint32_t, LightGuide> kept;
     for (size_t i = first; i < end; ++i) LightFine(i, kept);
@@ -387,6 +396,7 @@ void LightSolver::LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& 
   SampleEvenly(options_.fine_rays, ShiftOf(i + 0x200000000ull), points);
   guide.Sample(options_.fine_rays, ShiftOf(i + 0x300000000ull), points);
   SendRays(world_, reflectance_, coarse_, s, points, lamps, landings);
+  fine_light_.lamp_variance[i] = VarianceOf(direct, options_.lamp_rays);
   AddGlow(landings, options_.fine_rays, direct.held, direct.others);
   fine_light_.lamps[i] = direct.held;
   Sum sum;
@@ -405,26 +415,43 @@ void LightSolver::LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& 
   sum.Put(i, direct.others, fine_light_);
 }
 
-// Means of neighbours in one plane that see each other and differ by no more than their noise.
+namespace {
+
+// Calls each(j, weight) for the neighbours of a surfel in one plane that see it and differ from it by no more than their noise.
+template <class Each>
+void ForAlike(const SurfelSet& set, size_t i, int pass, const std::vector<Vec3f>& light, const std::vector<float>& variance,
+              const Each& each) {
+  const Surfel& s = set.surfels()[i];
+  const float own = Luminance(light[i]);
+  ForNeighbours(set, s, pass >= 2 ? 2 : 1, [&](uint32_t j, const Surfel& other) {
+    if (j == i || Dot(other.n, s.n) < 0.9f || std::fabs(Dot(other.p - s.p, s.n)) > kOnePlane * set.cell()) return;
+    if (set.Weight(s, other.p, other.n) <= 1e-5f || set.Weight(other, s.p, s.n) <= 1e-5f) return;
+    const float d = Luminance(light[j]) - own;
+    each(j, std::exp(-d * d / (4 * (variance[i] + variance[j]) + 4e-4f * own * own + 1e-20f)));
+  });
+}
+
+}  // namespace
+
+// Means of neighbours, of the light of surfels and of that of lamps each by its own noise.
 void LightSolver::Smooth(const SurfelSet& set, int passes, LevelLight& light) const {
-  const auto& surfels = set.surfels();
   for (int pass = 0; pass < passes; ++pass) {
     LevelLight next = light;
-    ForSurfels(surfels.size(), [&](size_t i, size_t) {
-      const Surfel& s = surfels[i];
-      const float own = Luminance(light.light[i]);
+    ForSurfels(set.surfels().size(), [&](size_t i, size_t) {
       Vec3f sum = light.light[i], bend = light.bend[i];
       float mean = light.mean[i], weight = 1, variance = light.variance[i];
-      ForNeighbours(set, s, pass >= 2 ? 2 : 1, [&](uint32_t j, const Surfel& other) {
-        if (j == i || Dot(other.n, s.n) < 0.9f || std::fabs(Dot(other.p - s.p, s.n)) > kOnePlane * set.cell()) return;
-        if (set.Weight(s, other.p, other.n) <= 1e-5f || set.Weight(other, s.p, s.n) <= 1e-5f) return;
-        const float d = Luminance(light.light[j]) - own;
-        const float w = std::exp(-d * d / (4 * (light.variance[i] + light.variance[j]) + 4e-4f * own * own + 1e-20f));
+      ForAlike(set, i, pass, light.light, light.variance, [&](uint32_t j, float w) {
         sum += light.light[j] * w, bend += light.bend[j] * w, mean += light.mean[j] * w;
         weight += w, variance += w * w * light.variance[j];
       });
       next.light[i] = sum / weight, next.bend[i] = bend / weight, next.mean[i] = mean / weight;
       next.variance[i] = variance / (weight * weight);
+      sum = light.lamps[i], weight = 1, variance = light.lamp_variance[i];
+      if (variance > 0) {
+        ForAlike(set, i, pass, light.lamps, light.lamp_variance,
+                 [&](uint32_t j, float w) { sum += light.lamps[j] * w, weight += w, variance += w * w * light.lamp_variance[j]; });
+      }
+      next.lamps[i] = sum / weight, next.lamp_variance[i] = variance / (weight * weight);
     });
     light = std::move(next);
   }

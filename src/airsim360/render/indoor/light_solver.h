@@ -19,12 +19,12 @@ struct IndoorOptions {
 
 /// Light of a level's surfels, by surfel.
 struct LevelLight {
-  std::vector<Vec3f> light;     ///< irradiance but for sun and lamps of the grid
-  std::vector<Vec3f> lamps;     ///< of the lamps of the grid
-  std::vector<float> variance;  ///< of the luminance of `light`
-  std::vector<float> mean;      ///< integral of luminance over the hemisphere …
-  std::vector<Vec3f> bend;      ///< … and of luminance times direction
-  std::vector<float> open;      ///< share of the cosine from where the sky is seen
+  std::vector<Vec3f> light;                    ///< irradiance but for sun and lamps of the grid
+  std::vector<Vec3f> lamps;                    ///< of the lamps of the grid
+  std::vector<float> variance, lamp_variance;  ///< of the luminances of `light` and `lamps`
+  std::vector<float> mean;                     ///< integral of luminance over the hemisphere …
+  std::vector<Vec3f> bend;                     ///< … and of luminance times direction
+  std::vector<float> open;                     ///< share of the cosine from where the sky is seen
 };
 
 /// Immutable once made. The same with any number of threads.

@@ -126,6 +126,7 @@ LightSample LightTable::Sample(Vec3f p, Vec3f normal, Vec3f u) const {
   sample.p = placed.corner[0] * (1 - root) + placed.corner[1] * b1 + placed.corner[2] * b2;
   sample.normal = placed.normal;
   sample.pdf = choice.probability / lamp.area;
+  sample.lamp = choice.lamp;
 
   // Radiance, as the shader sees it there.
   const TriangleRecord& record = impl_->tables.triangles[impl_->tables.instances[lamp.instance].first_triangle + triangle];

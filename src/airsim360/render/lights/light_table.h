@@ -35,6 +35,7 @@ struct LightSample {
   Vec3f normal;    ///< unit, of the lamp there: it shines to this side only
   Vec3f radiance;  ///< towards the shaded point; visibility is the caller's to test
   float pdf;       ///< per area of the lamp, all choices included; 0 = no lamp matters here
+  uint32_t lamp;   ///< its number in tree()
 };
 
 /// Immutable. Which emissive materials shine is fixed by the environment (Material::lamp). A lamp is chosen
