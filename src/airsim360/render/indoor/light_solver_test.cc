@@ -10,6 +10,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/render/indoor/indoor_kernels.h"
 #include "airsim360/render/indoor/test_rooms.h"
+#include "airsim360/render/lights/lamp_grid.h"
 #include "airsim360/scene/luminance.h"
 
 namespace airsim360 {
@@ -135,6 +136,45 @@ std::shared_ptr<const RayTracer> BrightBesideDark() {
   const MaterialId lamp = rooms.Paint({0, 0, 0}, {10, 10, 10});
   rooms.Quad({1, 1, 2.49f}, {1, 2, 2.49f}, {2, 2, 2.49f}, {2, 1, 2.49f}, lamp);
   return rooms.Build();
+}
+
+// A hall with a hundred small lamps: few rays look for them, and floors are even all the same; the table's shade stays.
+TEST(LightSolver, ManySmallLampsLeaveNoPatchesAndKeepTheirShadows) {
+  RoomScene hall("hall");
+  const MaterialId white = hall.Paint({0.7f, 0.7f, 0.7f}), glow = hall.Paint({0, 0, 0}, {900, 900, 900});
+  hall.Box({0, 0, 0}, {10, 10, 3}, white);
+  hall.Box({4, 4, 0.5f}, {6, 6, 0.55f}, white, false);
+  for (int k = 0; k < 100; ++k) {
+    const float x = 0.5f + static_cast<float>(k % 10), y = 0.5f + static_cast<float>(k / 10), r = 0.05f, z = 2.95f;
+    hall.Quad({x - r, y - r, z}, {x - r, y + r, z}, {x + r, y + r, z}, {x + r, y - r, z}, glow);
+  }
+  const auto tracer = hall.Build();
+  const internal::SurfaceTables tables(tracer->scene(), true);
+  const internal::LightTable lights(tracer->scene(), tables, tracer->scene().environment);
+  const internal::LampGrid grid(*tracer, lights, 0);
+  ASSERT_GT(grid.lamps(), 0u);
+  const internal::Enclosure enclosure(*tracer);
+  const internal::IndoorWorld world{*tracer, tables, nullptr, &lights, &grid, nullptr};
+  const LightSolver few(world, enclosure, {.cell = 0.25f, .rays = 16, .lamp_rays = 24, .fine = false});
+  const LightSolver many(world, enclosure, {.cell = 0.25f, .rays = 16, .lamp_rays = 400, .fine = false});
+  const auto& surfels = few.coarse().surfels();
+  double squares = 0, sum = 0, expected = 0, shade = 0;
+  int open = 0, shaded = 0;
+  for (size_t i = 0; i < surfels.size(); ++i) {
+    const Surfel& s = surfels[i];
+    if (s.n.z < 0.9f || s.p.z > 0.1f) continue;
+    const double own = Luminance(few.coarse_light().lamps[i]), right = Luminance(many.coarse_light().lamps[i]);
+    const auto within = [&](float from, float to) { return s.p.x > from && s.p.x < to && s.p.y > from && s.p.y < to; };
+    if (within(4.6f, 5.4f)) shade += own, ++shaded;
+    if (within(3, 7) || !within(1, 9)) continue;
+    squares += std::pow(own / right - 1, 2), sum += own, expected += right, ++open;
+  }
+  ASSERT_GT(open, 300);
+  ASSERT_GT(shaded, 4);
+  RecordProperty("rms", std::to_string(std::sqrt(squares / open)));
+  EXPECT_NEAR(sum / expected, 1, 0.01);
+  EXPECT_LT(std::sqrt(squares / open), 0.015);
+  EXPECT_LT(shade / shaded, 0.35 * sum / open);
 }
 
 TEST(LightSolver, NoLightGetsThroughAWallOfThreeCentimetres) {
