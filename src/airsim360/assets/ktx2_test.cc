@@ -77,7 +77,8 @@ struct Picture {
 };
 
 Picture MakePicture(int width, int height, std::mt19937& random) {
-  Picture p{.width = width, .height = height};
+  Picture p;
+  p.width = width, p.height = height;
   const auto below = [&](uint32_t n) { return static_cast<uint32_t>(random() % n); };
   for (int i = 0; i < 20; ++i) p.endpoints.push_back({{below(32), below(32), below(32)}, below(8)});
   for (int i = 0; i < 24; ++i) {
