@@ -28,7 +28,9 @@ std::string KeyOf(const std::string& meta, const PlanFramesOptions& options, boo
 
 // InputError for options that make no sense.
 const PlanFramesOptions& Checked(const PlanFramesOptions& options) {
-  CheckStageOptions({.environment = options.environment, .device = options.device});
+  StageOptions stage;
+  stage.environment = options.environment, stage.device = options.device;
+  CheckStageOptions(stage);
   return options;
 }
 

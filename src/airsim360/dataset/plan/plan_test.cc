@@ -17,7 +17,8 @@ namespace {
 
 // The paper's recipe with worlds as if they were there; sf_city is not.
 DatasetPlan ScenePlan(uint64_t seed = 3) {
-  DatasetPlan plan{.recipe = FindRecipe("omni360-scene"), .seed = seed};
+  DatasetPlan plan;
+  plan.recipe = FindRecipe("omni360-scene"), plan.seed = seed;
   for (const RecipeRow& row : plan.recipe.rows) {
     WorldFacts& world = plan.worlds[WorldKey(row)];
     if (row.world == "sf_city") continue;
@@ -118,7 +119,8 @@ TEST(Plan, BlocksDivideEveryRowAndFramesOfABlockShareItsSky) {
 
 TEST(Plan, SkiesAreDrawnByTheirWeightsAndWithinTheirRanges) {
   DatasetPlan plan = ScenePlan();
-  plan.recipe.skies = {{"varied", 1, {{.weight = 3, .weather = "clear", .settings = {{"turbidity", 2, 6}}}, {.weather = "overcast"}}}};
+  plan.recipe.skies = {
+      {"varied", 1, {{.weight = 3, .weather = "clear", .settings = {{"turbidity", 2, 6}}}, {.weather = "overcast", .settings = {}}}}};
   int overcast = 0;
   double turbidity = 0;
   constexpr int kFrames = 4000;
@@ -192,6 +194,7 @@ TEST(ClusterScript, QuotesWhatAShellWouldTakeApart) {
                        .out = "/out $HOME",
                        .flags = {},
                        .shards = 12,
+                       .remote = {},
                        .image = "a\"b",
                        .claim = "c",
                        .secret = {},

@@ -22,6 +22,9 @@ void* Count(size_t size, size_t alignment) {
 
 }  // namespace
 
+// All forms of new take their memory from malloc's family, which the compiler does not see through.
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+
 void* operator new(size_t size) { return Count(size == 0 ? 1 : size, 0); }
 void* operator new[](size_t size) { return Count(size == 0 ? 1 : size, 0); }
 void* operator new(size_t size, std::align_val_t a) { return Count(size, static_cast<size_t>(a)); }

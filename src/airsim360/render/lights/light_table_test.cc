@@ -207,7 +207,8 @@ TEST(LightTable, TheEstimateEqualsTheSumOverAllLamps) {
       constexpr int kGrid = 4;
       for (int k = 0; k < kGrid * kGrid; ++k) {
         const float s = (static_cast<float>(k % kGrid) + 0.5f) / kGrid, t = (static_cast<float>(k / kGrid) + 0.5f) / kGrid;
-        const LightSample at{a + e * s + f * t, normal, world.scene->materials[i].emission, kGrid * kGrid / world.lights->lamps()[i].area};
+        const LightSample at{a + e * s + f * t, normal, world.scene->materials[i].emission, kGrid * kGrid / world.lights->lamps()[i].area,
+                             0};
         sum += Contribution(at, p, n);
       }
     }

@@ -191,7 +191,9 @@ TEST(Interior, LitRoomsInTheEveningSpreadOverADecadeOfLightAndFromWarmToBluish) 
     // Homes by far the most where panes are small, offices where they are large.
     EXPECT_NEAR(at(kelvin, 0.4), area < 2 ? 2850 : 4100, 450) << area;
     EXPECT_GT(at(kelvin, 0.97), 6500);
-    if (area < 2) EXPECT_NEAR(windows, 1, 0.3) << area;
+    if (area < 2) {
+      EXPECT_NEAR(windows, 1, 0.3) << area;
+    }
   }
 }
 
