@@ -139,8 +139,9 @@ class Grounds {
   }
   Image<Rgb8> FromAbove(size_t i) {
     const double focal = 60 / kMetresPerPixel;
-    RenderRequest request{.camera = Pinhole{kPixels, kPixels, focal, focal, kPixels / 2.0, kPixels / 2.0},
-                          .X_WC = BodyPose({90.0 * static_cast<double>(i) + 45, 45, 60}, 0, -std::numbers::pi / 2, 0) * CameraInBody()};
+    RenderRequest request;
+    request.camera = Pinhole{kPixels, kPixels, focal, focal, kPixels / 2.0, kPixels / 2.0};
+    request.X_WC = BodyPose({90.0 * static_cast<double>(i) + 45, 45, 60}, 0, -std::numbers::pi / 2, 0) * CameraInBody();
     request.products = {.rgb = true, .range = false, .semantic = false, .entity = false};
     Frame frame;
     renderer_->Render(request, frame);
