@@ -97,7 +97,7 @@ double Reader::PacksInParallel(const Quantity& q) const {
   bool kept = false;  // "450 mAh x 4 (four packs included)"
   for (size_t n = after; n < tokens_.size() && n < after + 7; ++n) kept |= StartsAny(tokens_[n].text, {"includ", "pack", "spare"});
   if (!kept && Is(after, WordKind::kTimes) && after + 1 < tokens_.size() && tokens_[after + 1].Counts(kMostPacks) &&
-      (after + 2 >= tokens_.size() || !Is(after + 2, WordKind::kLengthUnit) || parallel))
+      (after + 2 >= tokens_.size() || !Is(after + 2, WordKind::kLengthUnit)))
     return tokens_[after + 1].value;
   if (times) --k;
   if (k == 0) return 1;

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "airsim360/flight/prompt/lexicon.h"
+
 namespace airsim360::internal {
 namespace {
 
@@ -124,26 +126,17 @@ const std::vector<Rule>& Phrases() {
   return kRules;
 }
 
-/// Kilograms or metres of a unit; the sign tells one from the other.
-double InSi(const std::string& unit) {
-  if (unit.starts_with("in") || unit == "\"") return -0.0254;
-  if (unit == "ft") return -0.3048;
-  if (unit == "mm" || unit == "cm" || unit == "m") return unit == "m" ? -1 : unit == "cm" ? -0.01 : -0.001;
-  if (unit.starts_with("lb") || unit.starts_with("pound")) return 0.45359237;
-  if (unit.starts_with("oz") || unit.starts_with("ounce")) return 0.45359237 / 16;
-  return unit == "kg" ? 1 : 0.001;
-}
-
 /// "2 inch props (51 mm)", "20 lbs (9.1 kg)": the same again in another unit says nothing new.
 std::string WithoutConversions(const std::string& text) {
-  static const std::regex kTwice(
-      R"((\d{1,7}(?:\.\d{1,6})?) ?(inch(?:es)?|in|"|lbs?|oz|ft|pounds?|ounces?|mm|cm|m|g|kg)(?: [a-z]+)? ?\((?:=|~|or|about)? ?(\d{1,7}(?:\.\d{1,6})?) ?(inch(?:es)?|in|"|lbs?|oz|ft|pounds?|ounces?|mm|cm|m|g|kg)\))");
+  static const std::string kFigure = R"((\d{1,7}(?:\.\d{1,6})?) ?(inch(?:es)?|in|"|lbs?|oz|ft|pounds?|ounces?|mm|cm|m|g|kg))";
+  static const std::regex kTwice(kFigure + R"((?: [a-z]+)? ?\((?:=|~|or|about)? ?)" + kFigure + R"(\))");
   constexpr double kRounding = 0.04;
   std::string out;
   size_t at = 0;
   for (std::sregex_iterator twice(text.begin(), text.end(), kTwice), end; twice != end; ++twice) {
-    const double one = std::stod(twice->str(1)) * InSi(twice->str(2)), other = std::stod(twice->str(3)) * InSi(twice->str(4));
-    if (twice->str(2) == twice->str(4) || std::abs(one - other) > kRounding * std::abs(one)) continue;
+    const Word *unit = FindWord(twice->str(2), false), *again = FindWord(twice->str(4), false);
+    const double one = std::stod(twice->str(1)) * unit->value, other = std::stod(twice->str(3)) * again->value;
+    if (twice->str(2) == twice->str(4) || unit->kind != again->kind || std::abs(one - other) > kRounding * one) continue;
     const size_t open = text.find('(', static_cast<size_t>(twice->position(2)));
     out.append(text, at, open - at);
     at = static_cast<size_t>(twice->position() + twice->length());

@@ -21,40 +21,13 @@ using internal::TestCrowd;
 using internal::TestGround;
 using internal::WriteTestFile;
 
-// A seat to the south (-y) with its back to the north.
-void AddSeat(TestGround& ground, float x, float y, float width, const char* category) {
-  Mesh seat;
-  const auto box = [&](Vec3f low, Vec3f high) {
-    const auto first = static_cast<uint32_t>(seat.positions.size());
-    for (int i = 0; i < 8; ++i) seat.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
-    for (const Vec3u t : {Vec3u{0, 2, 1},
-                          {1, 2, 3},
-                          {4, 5, 6},
-                          {5, 7, 6},
-                          {0, 1, 4},
-                          {1, 5, 4},
-                          {2, 6, 3},
-                          {3, 6, 7},
-                          {0, 4, 2},
-                          {2, 4, 6},
-                          {1, 3, 5},
-                          {3, 7, 5}})
-      seat.triangles.push_back({t.x + first, t.y + first, t.z + first});
-  };
-  box({x, y, 0}, {x + width, y + 0.45f, 0.45f});
-  box({x, y + 0.4f, 0.45f}, {x + width, y + 0.5f, 0.9f});
-  const EntityId entity = ground.builder().AddEntity("seat", ground.builder().tree().At(category));
-  const MeshId mesh = ground.builder().AddMesh(std::move(seat));
-  ground.builder().AddInstance({.mesh = mesh, .X_WM = {}, .entity = entity});
-}
-
 /// A square with a few boxes, a lawn and two benches with back rests.
 std::shared_ptr<const Scene> Park() {
   TestGround ground;
   ground.Floor("ground/sidewalk", 0, 0, 40, 30);
   ground.Floor("ground/grass", 40, 0, 50, 30);
   for (const float x : {8.0f, 20.0f, 30.0f}) ground.Box("furniture/planter/pot", {x, 14, 0}, {x + 2, 15, 0.8f});
-  for (const float x : {10.0f, 25.0f}) AddSeat(ground, x, 25, 1.8f, "furniture/seating/bench/wood");
+  for (const float x : {10.0f, 25.0f}) ground.Seat("furniture/seating/bench/wood", x, 25, 1.8f);
   return ground.Build();
 }
 
@@ -267,7 +240,7 @@ TEST_F(CrowdFiles, ChairsAtTablesAreSatOnInBuildingsAndNotInTheOpen) {
     TestGround ground;
     ground.Floor("ground/floor", 0, 0, 12, 10);
     ground.Box("furniture/table/dining_table", {4, 3.2f, 0.0f}, {7, 4, 0.75f});
-    AddSeat(ground, 5, 4.1f, 0.5f, "furniture/seating/office_chair");
+    ground.Seat("furniture/seating/office_chair", 5, 4.1f, 0.5f);
     if (building) ground.Box("construction/ceiling", {0, 0, 2.7f}, {12, 10, 2.8f});
     TestCrowd crowd(ground.Build(), File("trees: [trees.xml]\nseed: 4\npeople:\n  - {at: [6, 8], behaviour: rest, age: 40}\n", tree));
     crowd.Run(15);

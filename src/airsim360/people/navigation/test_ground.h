@@ -28,9 +28,14 @@ class TestGround {
   }
   EntityId Box(const char* category, Vec3f low, Vec3f high) {
     Mesh mesh;
-    for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
-    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    AddBox(mesh, low, high);
+    return Add(category, std::move(mesh));
+  }
+  /// Of 0.5 m to the south (-y), with a back rest to the north; (x, y): its south-western corner.
+  EntityId Seat(const char* category, float x, float y, float width) {
+    Mesh mesh;
+    AddBox(mesh, {x, y, 0}, {x + width, y + 0.45f, 0.45f});
+    AddBox(mesh, {x, y + 0.4f, 0.45f}, {x + width, y + 0.5f, 0.9f});
     return Add(category, std::move(mesh));
   }
   /// A wall 3 m high and 0.2 m thick around the segment.
@@ -41,6 +46,13 @@ class TestGround {
   std::shared_ptr<const Scene> Build() { return builder_.Build(); }
 
  private:
+  static void AddBox(Mesh& mesh, Vec3f low, Vec3f high) {
+    constexpr Vec3u kFaces[] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+    for (const Vec3u t : kFaces) mesh.triangles.push_back({t.x + first, t.y + first, t.z + first});
+  }
   EntityId Add(const char* category, Mesh mesh) {
     const EntityId entity = builder_.AddEntity(category, builder_.tree().At(category));
     const MeshId id = builder_.AddMesh(std::move(mesh));

@@ -5,6 +5,7 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/render/frame/tile_kernel.h"
+#include "airsim360/render/high/fit_image.h"
 
 namespace airsim360::internal {
 namespace {
@@ -83,11 +84,6 @@ class Pass {
   bool panorama_, first_;
   const GlossPlanes& gloss_;
 };
-
-template <class Pixel>
-void Fit(Image<Pixel>& image, int width, int height) {
-  if (image.width() != width || image.height() != height) image = Image<Pixel>(width, height);
-}
 
 template <class Body>
 void ForTile(const TileLayout& layout, int column, int row, const Image<float>& blur, const Body& body) {

@@ -145,10 +145,7 @@ class AmbientTile {
     for (int i = 0; i < 16; ++i) {
       if (way.hits.instance[i] == kMiss || shader_.moving[way.hits.instance[i]]) continue;
       const InstanceRecord& instance = shader_.view.instances[way.hits.instance[i]];
-      const Vec3f n = UnpackDirection(shader_.view.triangles[instance.first_triangle + way.hits.triangle[i]].geometric_normal);
-      const float* m = instance.normal_matrix;
-      Vec3f normal = Normalized(
-          Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z, m[6] * n.x + m[7] * n.y + m[8] * n.z});
+      Vec3f normal = GeometricNormal(instance, shader_.view.triangles[instance.first_triangle + way.hits.triangle[i]]);
       const Vec3f d{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]};
       if (Dot(normal, d) > 0) normal = -normal;
       const Vec3f p = Vec3f{packet.origin_x[i], packet.origin_y[i], packet.origin_z[i]} + d * packet.t_far[i];

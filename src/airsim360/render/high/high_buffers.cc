@@ -1,15 +1,8 @@
 #include "airsim360/render/high/high_buffers.h"
 
+#include "airsim360/render/high/fit_image.h"
+
 namespace airsim360::internal {
-namespace {
-
-template <class Pixel>
-void Fit(Image<Pixel>& image, int width, int height) {
-  if (image.width() != width || image.height() != height) image = Image<Pixel>(width, height);
-}
-
-}  // namespace
-
 void HighBuffers::Resize(int width, int height) {
   Fit(range, width, height);
   Fit(entity, width, height);

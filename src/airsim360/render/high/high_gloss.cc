@@ -121,10 +121,7 @@ class GlossTile {
     const bool held = Held(ref);
     if (!held && shader_.lights.LampOf(ref.instance, ref.triangle) != LightTable::kNoLamp) return std::nullopt;
     const InstanceRecord& instance = shader_.view.instances[ref.instance];
-    const Vec3f n = UnpackDirection(shader_.view.triangles[instance.first_triangle + ref.triangle].geometric_normal);
-    const float* m = instance.normal_matrix;
-    const Vec3f normal =
-        Normalized(Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z, m[6] * n.x + m[7] * n.y + m[8] * n.z});
+    const Vec3f normal = GeometricNormal(instance, shader_.view.triangles[instance.first_triangle + ref.triangle]);
     const auto light = shader_.indoor->RadianceAt(p, Dot(normal, d) > 0 ? -normal : normal);
     return light || !held ? light : Vec3f{};
   }

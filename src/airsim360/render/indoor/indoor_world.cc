@@ -169,10 +169,8 @@ MetSurface SurfaceUnder(const IndoorWorld& world, const RayPacket& packet, int l
   const TriangleRecord& triangle = tables.triangles[instance.first_triangle + ref.triangle];
   MetSurface met;
   met.material = triangle.material & ~kMirroredUv;
-  const float* m = instance.normal_matrix;
-  const Vec3f n = UnpackDirection(triangle.geometric_normal), d = packet.Direction(lane);
-  met.normal =
-      Normalized(Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z, m[6] * n.x + m[7] * n.y + m[8] * n.z});
+  const Vec3f d = packet.Direction(lane);
+  met.normal = GeometricNormal(instance, triangle);
   met.behind = Dot(met.normal, d) > 0;
   if (met.behind) met.normal = -met.normal;
   met.point = packet.Origin(lane) + d * rays.t_far[lane];

@@ -33,11 +33,9 @@ void DimByPanes(const RayTracer& tracer, const SurfaceTables& tables, const int*
       const MaterialRecord& material = tables.materials[triangle.material & ~kMirroredUv];
 
       // Two faces; light that bounces between them goes on.
-      const float* m = instance.normal_matrix;
-      const Vec3f n = UnpackDirection(triangle.geometric_normal);
-      const Vec3f world{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z, m[6] * n.x + m[7] * n.y + m[8] * n.z};
+      const Vec3f normal = GeometricNormal(instance, triangle);
       const Vec3f d{rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]};
-      const float cosine = std::min(1.0f, std::fabs(Dot(Normalized(world), d)) / std::max(Norm(d), 1e-20f));
+      const float cosine = std::min(1.0f, std::fabs(Dot(normal, d)) / std::max(Norm(d), 1e-20f));
       const float one = scalar::fresnel_dielectric(kGlassIndex, cosine);
       const float kept = material.transmission * (1 - one) / (1 + one);
       for (int c = 0; c < 3; ++c) tint[i][c] *= material.base[c] * instance.tint[c] * kept;

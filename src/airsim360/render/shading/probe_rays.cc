@@ -48,10 +48,7 @@ Met ResolveMet(const ProbeLight& world, const SurfaceRef& ref, Vec3f point, Vec3
   const InstanceRecord& instance = tables.instances[ref.instance];
   const TriangleRecord& triangle = tables.triangles[instance.first_triangle + ref.triangle];
   const uint32_t material = triangle.material & ~kMirroredUv;
-  const Vec3f n = UnpackDirection(triangle.geometric_normal);
-  const float* m = instance.normal_matrix;
-  Vec3f normal =
-      Normalized(Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z, m[6] * n.x + m[7] * n.y + m[8] * n.z});
+  Vec3f normal = GeometricNormal(instance, triangle);
   const bool back = Dot(normal, direction) > 0;
   if (back) normal = -normal;
   const auto kind = static_cast<SurfaceKind>(static_cast<int>(tables.materials[material].kind));

@@ -21,7 +21,15 @@ constexpr float kDetailRange = 40e3f;                // metres up to which the f
 
 // The march from a point of a cloud towards the sun: steps that grow. Further on the field shades it on the mean.
 constexpr int kSunSteps = 7;
-constexpr float kFirstStep = 26, kStepGrowth = 1.75f, kSunReach = 1708;  // the sum of all steps
+constexpr float kFirstStep = 26, kStepGrowth = 1.75f, kSunReach = 1708;
+
+// The sum of all steps.
+constexpr float WayToSun() {
+  float way = 0, step = kFirstStep;
+  for (int k = 0; k < kSunSteps; ++k) way += step, step *= kStepGrowth;
+  return way;
+}
+static_assert(WayToSun() > kSunReach - 1 && WayToSun() < kSunReach + 1);
 
 // Multiple scattering as octaves of single scattering, each with half the extinction and 0.55 of the asymmetry of the one before
 // (Wrenninge, Kulla & Lundqvist, "Oz: the great and volumetric", 2013); weights so that a thick sunlit side has 0.7 of a white wall.

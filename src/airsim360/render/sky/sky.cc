@@ -133,7 +133,7 @@ void Sky::BakeSky(const Environment& environment) {
   const Vec3f level = LevelIrradiance(clear), open = level + sun_irradiance_ * std::max(0.0f, to_sun_.z);
   constexpr float kGroundAlbedo = 0.16f;
   // Clouds over a town are lit from below, some ten times brighter than its clear sky (Kyba et al. 2011).
-  const Vec3f town = environment.lamps_on() ? Vec3f{1.30f, 0.98f, 0.72f} * (0.04f / kLuxPerUnit) : Vec3f{};
+  const Vec3f town = environment.lamps_on() ? kTownLight * (0.04f / kLuxPerUnit) : Vec3f{};
   const Clouds clouds(environment, {to_sun_, light_at, level * (1 / kPi), open * (kGroundAlbedo / kPi) + town,
                                     ClearAir(environment.turbidity), OvercastIlluminance(sun.z, Luminance(open))});
   table_ = MakeTable(2048, 512, false);

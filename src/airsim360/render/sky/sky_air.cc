@@ -5,6 +5,7 @@
 #include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/render/sky/atmosphere.h"
 #include "airsim360/render/sky/sky.h"
+#include "airsim360/render/sky/sky_layers.h"
 
 namespace airsim360::internal {
 namespace {
@@ -18,7 +19,7 @@ constexpr float kFogHeight = 160,
 // Upward radiance of a deep fog over pi times the level illuminance above it; the rest goes back to space.
 constexpr float kFogShare = 0.6f;
 // What lamps give the air of a town: streets, a quarter of its ground, are lit by 5 to 10 lx (EN 13201, classes P3 and M4).
-constexpr Vec3f kStreetLight = Vec3f{1.30f, 0.98f, 0.72f} * (2.0f / kLuxPerUnit);
+constexpr Vec3f kStreetLight = kTownLight * (2.0f / kLuxPerUnit);
 
 void Put(float (&to)[3], Vec3f from) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];

@@ -45,7 +45,7 @@ Vec3f NightGlow(Vec3f direction, bool lamps) {
   Vec3f light = Vec3f{0.9f, 1.03f, 1.0f} * (1.7e-4f * (0.6f + 0.4f * slant) / kLuxPerUnit);
   if (lamps) {
     const float low = 1 - std::clamp(direction.z, 0.0f, 1.0f);
-    light += Vec3f{1.30f, 0.98f, 0.72f} * (6.8e-3f * (1 + 5 * low * low * low * low) / kLuxPerUnit);
+    light += kTownLight * (6.8e-3f * (1 + 5 * low * low * low * low) / kLuxPerUnit);
   }
   return light;
 }

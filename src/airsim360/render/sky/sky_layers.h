@@ -15,6 +15,9 @@ float MoonShare(double phase);
 /// (18 mag/arcsec^2, 6.8e-3 cd/m^2, at the zenith as over the middle of large cities; six times that at the horizon).
 Vec3f NightGlow(Vec3f direction, bool lamps);
 
+/// Colour of the light of a town's lamps, of about the luminance one.
+inline constexpr Vec3f kTownLight{1.30f, 0.98f, 0.72f};
+
 /// Adds the stars of the upper hemisphere down to magnitude 6.5: about 4,500 at invented places, their number
 /// growing as 10^(0.5 m), each with the illuminance of its magnitude (2.54e-6 lx for 0).
 void AddStars(SkyTable& table);

@@ -233,6 +233,13 @@ Vec3f UnpackDirection(uint32_t packed) {
   return scalar::octahedral_decode(static_cast<float>(packed & 0xffff) * scale - 1, static_cast<float>(packed >> 16) * scale - 1);
 }
 
+Vec3f GeometricNormal(const InstanceRecord& instance, const TriangleRecord& triangle) {
+  const Vec3f n = UnpackDirection(triangle.geometric_normal);
+  const float* m = instance.normal_matrix;
+  return Normalized(
+      Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z, m[6] * n.x + m[7] * n.y + m[8] * n.z});
+}
+
 SurfaceTables::SurfaceTables(const Scene& scene, bool lamps_on) {
   // Our own textures, then the scene's.
   own_texels_.assign(1 + static_cast<size_t>(kNoiseSize) * kNoiseSize, 0xffffffffu);

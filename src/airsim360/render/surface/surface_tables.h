@@ -15,6 +15,8 @@ namespace airsim360::internal {
 /// Octahedral packing of a unit vector, two times 16 bits (x low); the inverse is octahedral_decode.
 uint32_t PackDirection(Vec3f d);
 Vec3f UnpackDirection(uint32_t packed);
+/// Unit geometric normal of a triangle's front in W.
+Vec3f GeometricNormal(const InstanceRecord& instance, const TriangleRecord& triangle);
 
 /// Refers to the texels of the scene, which must outlive it.
 struct SurfaceTables {
