@@ -19,7 +19,7 @@ struct Pair {
   Pair(std::shared_ptr<const Scene> scene, const Environment& environment, Tier tier)
       : tracer(std::make_shared<const RayTracer>(std::move(scene), RayTracerOptions{.isa = "avx2"})),
         cpu(MakeCpuRendererWithoutRooms(tracer, {.tier = tier, .environment = environment})),
-        gpu(MakeVulkanRenderer(tracer, {.tier = tier, .environment = environment}, {.validate = true})) {}
+        gpu(MakeVulkanRenderer(tracer, {.tier = tier, .environment = environment}, {.validate = test::ValidationInstalled()})) {}
 };
 
 struct ColorDifference {

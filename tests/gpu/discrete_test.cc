@@ -16,7 +16,7 @@ struct Two {
   std::shared_ptr<const RayTracer> tracer = std::make_shared<const RayTracer>(scene);
   RendererOptions options{.tier = Tier::kFast, .environment = ClearSky(40)};
   std::unique_ptr<GpuRenderer> shared = MakeVulkanRenderer(tracer, options);
-  std::unique_ptr<GpuRenderer> discrete = MakeVulkanRenderer(tracer, options, {.validate = true, .discrete = true});
+  std::unique_ptr<GpuRenderer> discrete = MakeVulkanRenderer(tracer, options, {.validate = test::ValidationInstalled(), .discrete = true});
 
   ~Two() {
     for (const std::string& message : discrete->messages()) ADD_FAILURE() << message;

@@ -21,7 +21,7 @@ struct Pair {
   std::shared_ptr<const Scene> scene = test::MakeOpenSquare();
   std::shared_ptr<const RayTracer> tracer = std::make_shared<const RayTracer>(scene, RayTracerOptions{.isa = "avx2"});
   std::unique_ptr<Renderer> cpu = MakeCpuRenderer(tracer);
-  std::unique_ptr<GpuRenderer> gpu = MakeVulkanRenderer(tracer, {}, {.validate = true});
+  std::unique_ptr<GpuRenderer> gpu = MakeVulkanRenderer(tracer, {}, {.validate = test::ValidationInstalled()});
 };
 
 // Cubes fly about, one hides; the cubes' mesh breathes.

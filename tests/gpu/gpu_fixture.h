@@ -2,8 +2,10 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <vulkan/vulkan.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <iterator>
 #include <memory>
@@ -25,6 +27,22 @@ namespace airsim360::test {
     for (const GpuInfo& gpu : ListGpus(&why)) any |= gpu.missing.empty();                                                  \
     if (!any) GTEST_SKIP() << why << " (apt-get install -t bookworm-backports mesa-vulkan-drivers brings a software one)"; \
   } while (false)
+
+/// Whether the validation layers are installed (Debian: vulkan-validationlayers): tests run under them then, and else say so.
+inline bool ValidationInstalled() {
+  static const bool installed = [] {
+    uint32_t count = 0;
+    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    std::vector<VkLayerProperties> layers(count);
+    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    for (const VkLayerProperties& layer : layers) {
+      if (std::string(layer.layerName) == "VK_LAYER_KHRONOS_validation") return true;
+    }
+    std::printf("without the validation layers, which are not installed (vulkan-validationlayers)\n");
+    return false;
+  }();
+  return installed;
+}
 
 /// Worlds that take longer to build than the other tests together: AIRSIM360_GPU_WORLDS="city_park downtown_west".
 inline std::vector<std::string> WorldsAskedFor() {

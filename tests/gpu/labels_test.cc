@@ -31,7 +31,7 @@ struct Pair {
   explicit Pair(std::shared_ptr<const Scene> scene)
       : tracer(std::make_shared<const RayTracer>(std::move(scene), RayTracerOptions{.isa = "avx2"})),
         cpu(MakeCpuRenderer(tracer)),
-        gpu(MakeVulkanRenderer(tracer, {}, {.validate = true})) {}
+        gpu(MakeVulkanRenderer(tracer, {}, {.validate = test::ValidationInstalled()})) {}
 };
 
 // 0.02 per cent of the pixels, each within a pixel of an edge; range to 1e-5.
