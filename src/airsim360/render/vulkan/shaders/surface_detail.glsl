@@ -23,7 +23,8 @@ TileCorners ChooseCorners(GpuMaterial m, float u, float v, float footprint) {
   float sum = 0.0, squares = 0.0;
   for (int k = 0; k < 3; ++k) {
     const float s = w[k] / best, s2 = s * s, s4 = s2 * s2;
-    w[k] = coarse && s < 1.0 ? 0.0 : (s4 < 0.02 ? 0.0 : s4);
+    // Of the weights, not of `s`: hardware need not make 1 of a number over itself.
+    w[k] = coarse && w[k] < best ? 0.0 : (s4 < 0.02 ? 0.0 : s4);
     sum += w[k];
   }
   for (int k = 0; k < 3; ++k) {
