@@ -94,7 +94,7 @@ InstructionTemplate OneThenTheOther(const Noun& first, const Noun& second, const
           .then = {{.query = {second, {Bearing(sector), Nearest()}}}}};
 }
 
-// Closed rooms are small.
+// Rooms are small.
 void FitRoom(InstructionTemplate& made) {
   made.nearest = 2;
   made.farthest = 15;
@@ -106,7 +106,7 @@ void FitRoom(InstructionTemplate& made) {
 
 }  // namespace
 
-std::vector<InstructionTemplate> AnyWorldTemplates(const Scene& scene) {
+std::vector<InstructionTemplate> AnyWorldTemplates(const Scene& scene, bool rooms) {
   std::map<std::string, std::set<std::string>> by_word;  // categories
   std::map<std::string, int> count;
   for (const Entity& entity : scene.entities) {
@@ -133,7 +133,7 @@ std::vector<InstructionTemplate> AnyWorldTemplates(const Scene& scene) {
   for (size_t i = 0; i < nouns.size(); ++i)
     for (size_t k = 1; k <= std::min<size_t>(3, nouns.size() - 1); ++k)
       templates.push_back(OneThenTheOther(nouns[i], nouns[(i + k) % nouns.size()], kSectors[(i + 2 * k) % 4].name));
-  if (scene.sky_entity == kNoEntity) std::ranges::for_each(templates, FitRoom);
+  if (rooms) std::ranges::for_each(templates, FitRoom);
   return templates;
 }
 

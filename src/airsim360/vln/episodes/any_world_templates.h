@@ -5,7 +5,7 @@
 
 namespace airsim360 {
 
-/// A pure function of the scene. InputError if it names nothing of everyday size.
-std::vector<InstructionTemplate> AnyWorldTemplates(const Scene& scene);
+/// A pure function of its arguments; `rooms`: for flights within rooms. InputError if the scene names nothing of everyday size.
+std::vector<InstructionTemplate> AnyWorldTemplates(const Scene& scene, bool rooms);
 
 }  // namespace airsim360

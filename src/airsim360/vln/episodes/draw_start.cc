@@ -23,14 +23,14 @@ LongSide LongSideOf(const Box3d& box) {
           0.5 * (x ? size.y : size.x)};
 }
 
-// At `at` seen from above, at a drawn height over open ground.
+// At `at` seen from above, at a drawn height over open ground; in rooms over the floor below `at`.
 std::optional<Vec3d> Lift(const VlnGround& ground, Vec3d at, const InstructionTemplate& wanted, RngStream& random) {
   const double height = random.Uniform(wanted.lowest, wanted.highest);
-  const auto hit = ground.At(at.x, at.y);
+  const auto hit = ground.rooms() ? ground.Below(at) : ground.At(at.x, at.y);
   const bool open = hit && (ground.Is(hit->entity, "ground") || ground.Is(hit->entity, "water") || ground.Is(hit->entity, "nature"));
   if (!open) return std::nullopt;
   const Vec3d p{at.x, at.y, hit->z + height};
-  return ground.IsFree(p, kStartRoom) ? std::optional(p) : std::nullopt;
+  return ground.IsFree(p, StartRoom(ground)) ? std::optional(p) : std::nullopt;
 }
 
 double HeadingOf(Vec3d d) { return std::atan2(d.y, d.x); }

@@ -10,6 +10,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kEyeHeight = 1.6;  // metres above the ground: the lowest place beside a thing
 constexpr int kRing = 32;           // places tried around a thing
+constexpr double kBesideIt = 8;     // metres from a thing: farther is not beside it
 constexpr double kReach = 150;      // metres that are looked at beyond a thing
 
 struct Finder {
@@ -20,13 +21,13 @@ struct Finder {
 
   Vec3d Ahead() const { return {std::cos(start.yaw), std::sin(start.yaw), 0}; }
   bool Belongs(EntityId entity) const { return std::ranges::binary_search(thing.entities, entity); }
-  std::optional<Vec3d> Checked(Vec3d p) const { return ground.IsFree(p, kGoalRoom) ? std::optional(p) : std::nullopt; }
+  std::optional<Vec3d> Checked(Vec3d p) const { return ground.IsFree(p, GoalRoom(ground)) ? std::optional(p) : std::nullopt; }
 
-  // The nearest to the start of those that are free.
-  std::optional<Vec3d> Nearest(std::vector<Vec3d> places) const {
+  // The nearest to the start of those that are free, and see the thing if they have to.
+  std::optional<Vec3d> Nearest(std::vector<Vec3d> places, bool in_sight = false) const {
     std::ranges::stable_sort(places, {}, [&](Vec3d p) { return Norm(p - start.p_W); });
     for (const Vec3d& p : places)
-      if (ground.IsFree(p, kGoalRoom)) return p;
+      if (ground.IsFree(p, GoalRoom(ground)) && (!in_sight || Sees(p))) return p;
     return std::nullopt;
   }
 
@@ -58,10 +59,13 @@ struct Finder {
     return false;
   }
 
+  // As far from it as is wanted; where nothing is free there, for it stands in a corner or among others, a little farther.
   std::optional<Vec3d> Near(bool on_ground) const {
-    std::vector<Vec3d> places = Ring(wanted.distance, on_ground);
-    std::erase_if(places, [&](Vec3d p) { return !Sees(p); });
-    return Nearest(std::move(places));
+    for (const double share : {1.0, 1.5, 2.0, 3.0}) {
+      const double distance = std::max(wanted.distance, std::min(share * wanted.distance, kBesideIt));
+      if (const auto place = Nearest(Ring(distance, on_ground), true)) return place;
+    }
+    return std::nullopt;
   }
 
   // Above its surface; `highest`: only where that is near its top.

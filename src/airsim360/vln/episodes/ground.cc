@@ -1,7 +1,11 @@
 #include "airsim360/vln/episodes/ground.h"
 
+#include <algorithm>
+
 namespace airsim360::internal {
 namespace {
+
+constexpr float kRoomHeight = 5;  // metres below the lowest ceiling that rooms reach down
 
 EntityId EntityAt(const Scene& scene, const SurfaceRef& surface) {
   const Instance& instance = scene.instances[surface.instance];
@@ -10,12 +14,31 @@ EntityId EntityAt(const Scene& scene, const SurfaceRef& surface) {
   return instance.entity;
 }
 
+// Without a sky, or with a ceiling over its first viewpoint.
+bool BeginsInARoom(const Scene& scene) {
+  if (scene.sky_entity == kNoEntity) return true;
+  return scene.spawn && std::ranges::any_of(scene.entities, [&, p = *scene.spawn](const Entity& entity) {
+           const Box3f& box = entity.bounds;
+           return scene.tree[entity.category].path.starts_with("construction/ceiling") && box.min.x <= p.x && p.x <= box.max.x &&
+                  box.min.y <= p.y && p.y <= box.max.y && box.max.z > p.z;
+         });
+}
+
 }  // namespace
 
 VlnGround::VlnGround(std::shared_ptr<const RayTracer> tracer)
     : tracer_(std::move(tracer)),
       box_(FlightBox(*tracer_)),
-      top_(scene().sky_entity == kNoEntity ? box_.max.z - 0.01 : scene().bounds.max.z + 10.0) {}
+      top_(scene().sky_entity == kNoEntity ? box_.max.z - 0.01 : scene().bounds.max.z + 10.0),
+      rooms_(BeginsInARoom(scene())) {
+  inhabited_ = box_;
+  if (!rooms_ || scene().sky_entity == kNoEntity) return;
+  Box3f rooms;
+  for (const Entity& entity : scene().entities)
+    if (Is(entity.id, "construction/ceiling")) rooms.Add(entity.bounds);
+  rooms.min.z -= kRoomHeight;
+  inhabited_ = {Max(box_.min, VecCast<double>(rooms.min)), Min(box_.max, VecCast<double>(rooms.max))};
+}
 
 std::optional<GroundHit> VlnGround::Below(Vec3d p) const {
   const auto hit = tracer_->Intersect(VecCast<float>(p), {0, 0, -1});
@@ -28,7 +51,8 @@ bool VlnGround::Is(EntityId entity, const char* category) const {
 }
 
 bool VlnGround::IsFree(Vec3d p, double radius) const {
-  return box_.Contains(p) && tracer_->Clearance(VecCast<float>(p), static_cast<float>(radius)) >= static_cast<float>(radius);
+  const bool free = box_.Contains(p) && tracer_->Clearance(VecCast<float>(p), static_cast<float>(radius)) >= static_cast<float>(radius);
+  return free && (!rooms_ || IsCovered(p));
 }
 
 EntityId VlnGround::Meets(Vec3d from, Vec3d to) const {

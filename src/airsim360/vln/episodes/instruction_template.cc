@@ -97,9 +97,9 @@ const std::vector<InstructionTemplate>& PaperTemplates() {
   return templates;
 }
 
-std::vector<InstructionTemplate> FindTemplates(const std::string& name, const Scene& scene) {
+std::vector<InstructionTemplate> FindTemplates(const std::string& name, const Scene& scene, bool rooms) {
   if (name == "paper37") return PaperTemplates();
-  if (name == "any") return AnyWorldTemplates(scene);
+  if (name == "any") return AnyWorldTemplates(scene, rooms);
   if (!std::filesystem::exists(name))
     throw InputError("--templates: " + UnknownChoiceMessage("templates", name, std::vector<std::string>{"paper37", "any"}) +
                      ", and there is no such file");

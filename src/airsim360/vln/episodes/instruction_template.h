@@ -63,8 +63,8 @@ inline constexpr size_t kMostParts = 8;
 const std::vector<InstructionTemplate>& PaperTemplates();
 /// JSON as in docs/guide/vln.md: a list of templates. InputError naming `name` and the field.
 std::vector<InstructionTemplate> ParseTemplates(const std::string& text, const std::string& name);
-/// "paper37", "any", or a file. InputError naming --templates.
-std::vector<InstructionTemplate> FindTemplates(const std::string& name, const Scene& scene);
+/// "paper37", "any", or a file. `rooms`: distances of "any" fit rooms. InputError naming --templates.
+std::vector<InstructionTemplate> FindTemplates(const std::string& name, const Scene& scene, bool rooms);
 
 /// The same as JSON.
 std::string_view PaperTemplatesText();

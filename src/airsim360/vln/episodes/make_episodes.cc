@@ -8,7 +8,6 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/planning/search.h"
-#include "airsim360/tasks/shortest_way.h"
 #include "airsim360/vln/episodes/places.h"
 #include "airsim360/vln/predicates/query_json.h"
 
@@ -17,9 +16,8 @@ namespace {
 
 using internal::VlnGround;
 
-constexpr int kDraws = 3000, kWays = 12, kLooks = 60;  // starts drawn for an episode; ways and things in sight looked for
+constexpr int kDraws = 6000, kWays = 12, kLooks = 60;  // starts drawn for an episode; ways and things in sight looked for
 constexpr double kSpacing = 2.5;                       // metres between points of the reference path, at most
-constexpr double kWayRadius = 0.6;                     // metres free around the reference path
 constexpr double kOpenRadius = 20, kRoomRadius = 1;    // metres around the goal that count as there
 constexpr double kLeastWay = 1.25;                     // radii between start and goal
 constexpr double kEasy = 50, kHard = 100;              // metres: shorter, longer ways
@@ -87,7 +85,7 @@ class Maker {
         graph_(stage_->shared_scene()),
         ground_(stage_->solid()),
         things_(ThingsOf(stage_->scene())),
-        templates_(FindTemplates(options.templates, stage_->scene())) {}
+        templates_(FindTemplates(options.templates, stage_->scene(), ground_.rooms())) {}
 
   int64_t count() const {
     const auto all = static_cast<int64_t>(templates_.size()) * options_.starts;
@@ -128,7 +126,7 @@ class Maker {
     std::map<std::string, int> whys;
     std::vector<Hidden> hidden;
     for (int draw = 0; draw < kDraws && ways < kWays && looks < kLooks; ++draw) {
-      const bool anywhere = draw > kDraws / 2 || looks > kLooks / 2;
+      const bool anywhere = draw > kDraws / 4 || looks > kLooks / 2;
       auto stands =
           DrawStart(ground_, graph_, wanted, anywhere ? wanted.nearest : least, anywhere ? wanted.farthest : least * ratio, random);
       if (!stands) continue;
@@ -175,8 +173,8 @@ class Maker {
     return std::nullopt;
   }
 
-  // Closed rooms are small.
-  double radius() const { return stage_->scene().sky_entity == kNoEntity ? kRoomRadius : kOpenRadius; }
+  // Rooms are small.
+  double radius() const { return ground_.rooms() ? kRoomRadius : kOpenRadius; }
 
   // What is behind an episode so far: where it has come to and how.
   struct Progress {
@@ -211,7 +209,7 @@ class Maker {
     if (!goal) return "no free place to stop at '" + at.thing.name + "'";
     const double leg = Norm(*goal - at.goal);
     if (leg < kLeastWay * radius() || leg > wanted.farthest) return "'" + at.thing.name + "' is too near or too far to go on to";
-    const ShortestWay way = FindShortestWay(ground_.tracer(), at.goal, Milli(*goal), kWayRadius);
+    const ShortestWay way = internal::FindWay(ground_, at.goal, Milli(*goal));
     if (!way.found) return "no way was found to '" + at.thing.name + "'";
     at.goal = Milli(*goal);
     at.way.insert(at.way.end(), way.points.begin() + 1, way.points.end());
@@ -232,7 +230,7 @@ class Maker {
 
   std::optional<LanguageEpisode> Finish(const InstructionTemplate& wanted, int k, const Standpoint& stands, const Verdict& verdict,
                                         Vec3d goal, std::string& why) {
-    const ShortestWay way = FindShortestWay(ground_.tracer(), stands.start.p_W, goal, kWayRadius);
+    const ShortestWay way = internal::FindWay(ground_, stands.start.p_W, goal);
     if (!way.found) {
       why = "no way was found to '" + verdict.answers[0].name + "'";
       return std::nullopt;

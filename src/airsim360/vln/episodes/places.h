@@ -4,12 +4,15 @@
 #include <optional>
 
 #include "airsim360/base/random.h"
+#include "airsim360/tasks/shortest_way.h"
 #include "airsim360/vln/episodes/ground.h"
 #include "airsim360/vln/episodes/instruction_template.h"
 
 namespace airsim360::internal {
 
-inline constexpr double kStartRoom = 1.0, kGoalRoom = 0.7;  // metres free around them
+/// Metres free around a start and a goal; rooms are narrow.
+inline double StartRoom(const VlnGround& ground) { return ground.rooms() ? 0.7 : 1.0; }
+inline double GoalRoom(const VlnGround& ground) { return ground.rooms() ? 0.55 : 0.7; }
 
 /// One draw of a start, between two distances from one of the things; nullopt: the draw was none (blocked, on a roof, no
 /// road). Whether the instruction makes sense there is for Decide to say.
@@ -18,5 +21,9 @@ std::optional<Standpoint> DrawStart(const VlnGround& ground, SceneGraph& graph, 
 
 /// The place to stop at for a thing that was meant; nullopt: there is no free one.
 std::optional<Vec3d> FindGoal(const VlnGround& ground, const InstructionTemplate& wanted, const Thing& thing, const Viewpoint& start);
+
+/// The way from a start to a goal with room for a drone around it: in the open as FindShortestWay, in rooms through what is around
+/// both, so that a shut door costs little.
+ShortestWay FindWay(const VlnGround& ground, Vec3d start, Vec3d goal);
 
 }  // namespace airsim360::internal

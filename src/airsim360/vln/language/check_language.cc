@@ -22,6 +22,8 @@ using internal::VlnJson;
 
 constexpr double kPi = std::numbers::pi;
 constexpr int64_t kThere = 25;     // rays that show a thing
+constexpr int64_t kPlain = 85;     // rays of a thing that an item may speak of, at least
+constexpr double kOpen = 0.35;     // share of such a thing that has to be seen, at least
 constexpr double kLargest = 30.5;  // metres: larger ones are several things
 constexpr double kSame = 1.02;     // ranges nearer to each other than that are equal
 
@@ -99,11 +101,23 @@ class Auditor {
     std::vector<EntityId> alike;
     auto found = InSight(word, picture, &alike);
     if (!alike.empty()) throw Wrong{"not unique: " + NameOf(alike[0]) + " looks like a " + word + " too"};
+    for (const EntityId entity : found) MustBePlain(entity, picture);
     return found;
   }
 
   std::string NameOf(EntityId entity) const {
     return Quoted(look_.scene().entity(entity).name) + " (entity " + std::to_string(entity) + ")";
+  }
+
+  // Whoever looks at the picture has to recognise what an item speaks of. "" where that is so.
+  std::string Unclear(EntityId entity, size_t picture) {
+    const Glimpse& g = Picture(picture).at(entity);
+    if (g.rays < kPlain) return "unclear: " + NameOf(entity) + " has " + std::to_string(g.rays) + " rays, too few to recognise it";
+    const double shown = look_.Shown(item_->pictures[picture], entity);
+    return shown < kOpen ? "unclear: only " + std::to_string(std::lround(100 * shown)) + " % of " + NameOf(entity) + " is seen" : "";
+  }
+  void MustBePlain(EntityId entity, size_t picture) {
+    if (std::string what = Unclear(entity, picture); !what.empty()) throw Wrong{std::move(what)};
   }
 
   // Degrees clockwise from the heading, and above the horizon.
@@ -137,6 +151,7 @@ class Auditor {
       throw Wrong{"not unique: " + NameOf(found[0]) + " and " + NameOf(found[1]) + " compete for the " + word + " (" + where + ")"};
     if (std::ranges::find(item_->entities, found[0]) == item_->entities.end())
       throw Wrong{"the " + word + " is " + NameOf(found[0]) + ", of which it does not speak"};
+    MustBePlain(found[0], picture);
     return found[0];
   }
 
@@ -173,7 +188,10 @@ class Auditor {
     const auto is = q.at("is").get<std::string>();
     if (is == "exists") {
       const auto word = q.at("word").get<std::string>();
-      if (!InSight(word, 0).empty()) return {"yes"};
+      if (const auto found = InSight(word, 0); !found.empty()) {
+        if (std::ranges::none_of(found, [&](EntityId e) { return Unclear(e, 0).empty(); })) MustBePlain(found[0], 0);
+        return {"yes"};
+      }
       SurelyInSight(word, 0);
       return {"no"};
     }
@@ -317,6 +335,7 @@ class Auditor {
     if (found.empty() || named == 0) return "absent: no " + word + " is in sight";
     if (found.size() > 1) return "not unique: " + NameOf(found[0]) + " and " + NameOf(found[1]) + " compete for " + Quoted(item_->text);
     if (item_->entities.empty() || found[0] != item_->entities[0]) return "it means " + NameOf(found[0]) + ", not what it says";
+    MustBePlain(found[0], 0);
     return CheckBox(Picture(0).at(found[0]));
   }
 

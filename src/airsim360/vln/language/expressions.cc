@@ -45,7 +45,7 @@ class Pointer {
     d.answers = {Box(target)};
     for (const Seen* other : others) {
       if (d.answers.size() == kMostChoices) break;
-      if (other->cut || std::ranges::find(used, other->entity) != used.end()) continue;
+      if (other->round || std::ranges::find(used, other->entity) != used.end()) continue;
       used.push_back(other->entity);
       d.answers.push_back(Box(*other));
     }
@@ -66,7 +66,7 @@ class Pointer {
 
   void Add(const char* type, size_t picture, std::string text, const Seen& target, uint16_t word, VlnJson query, VlnJson proof,
            const Name* anchor = nullptr) {
-    if (target.cut && picture == 0) return;  // a box does not go round
+    if (target.round) return;
     Draft& d = drafts_.emplace_back();
     d.type = type;
     d.key = text;

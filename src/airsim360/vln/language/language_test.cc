@@ -15,6 +15,8 @@
 #include "airsim360/vln/language/layouts.h"
 #include "airsim360/vln/language/make_language.h"
 #include "airsim360/vln/language/pickle.h"
+#include "airsim360/vln/language/second_look.h"
+#include "airsim360/vln/language/sight.h"
 #include "airsim360/vln/predicates/test_town.h"
 
 namespace airsim360 {
@@ -44,7 +46,9 @@ std::shared_ptr<const Scene> Town() {
         // On the cross of streets or around the houses.
         const float along = static_cast<float>(random.Uniform(-62, 62)), off = static_cast<float>(random.Uniform(-14, 14));
         const bool east = random.Chance(0.5);
-        town.Box(kind.name, kind.category, east ? Vec3f{along, off, 0} : Vec3f{off, along, 0}, kind.size);
+        // Of different sizes: where two overlap, no faces coincide.
+        town.Box(kind.name, kind.category, east ? Vec3f{along, off, 0} : Vec3f{off, along, 0},
+                 kind.size * (1 + 0.01f * static_cast<float>(i)));
       }
     }
     return town.Build();
@@ -114,11 +118,69 @@ TEST(Sight, PixelsBecomeAnglesAlsoAcrossTheSeam) {
   EXPECT_EQ(seen[1].pixels, 400);
   EXPECT_NEAR(std::abs(seen[1].azimuth_deg), 180, 1e-6);
   EXPECT_NEAR(seen[1].right_deg - seen[1].left_deg, 19, 1e-9);
-  EXPECT_TRUE(seen[1].cut);
+  EXPECT_TRUE(seen[1].round);
+  EXPECT_TRUE(seen[1].clear()) << "a panorama goes on behind its seam";
   EXPECT_NEAR(seen[2].azimuth_deg, 90, 1e-9);
   EXPECT_NEAR(seen[2].elevation_deg, 0, 1e-9);
   EXPECT_FLOAT_EQ(static_cast<float>(seen[2].nearest), 265);
-  EXPECT_FALSE(seen[2].cut);
+  EXPECT_FALSE(seen[2].round);
+}
+
+TEST(SurfacePoints, LieOnTheThingEvenly) {
+  TestTown town;
+  const EntityId slab = town.Box("slab", "furniture/box", {4, 5, 0}, {6, 2, 1});
+  const internal::SurfacePoints surfaces(town.Build());
+  const auto points = surfaces.Of(slab);
+  ASSERT_NEAR(static_cast<double>(points.size()), internal::SurfacePoints::kMost, 2);
+  Vec3d sum;
+  for (const Vec3d& p : points) {
+    const Vec3d off{std::abs(p.x - 4) - 3, std::abs(p.y - 5) - 1, std::abs(p.z - 0.5) - 0.5};
+    EXPECT_NEAR(std::max({off.x, off.y, off.z}), 0, 1e-5) << "on its surface";
+    sum += p;
+  }
+  // The mean of a surface that is its own mirror image is its middle.
+  EXPECT_LT(Norm(sum / static_cast<double>(points.size()) - Vec3d{4, 5, 0.5}), 0.25);
+}
+
+// A thing of many pixels may be a strip of something at the edge of a camera's picture, or the top of something behind a wall.
+TEST(Sight, WhatIsSmallHiddenOrCutIsNotClear) {
+  TestTown town;
+  const EntityId whole = town.Box("whole", "furniture/box", {10, 5, 0}, {1, 1, 2}),
+                 far = town.Box("far", "furniture/box", {60, -8, 0}, {1, 1, 2}),
+                 hidden = town.Box("hidden", "furniture/box", {20, -2, 0}, {2, 2, 4}),
+                 cut = town.Box("cut", "furniture/box", {10, -11, 0}, {4, 4, 2});
+  town.Box("wall", "construction/wall", {15, -1.5f, 0}, {0.2f, 4, 3});
+  const auto scene = town.Build();
+  Stage stage(scene, StageOptions{.world = {.world = "t", .seed = 1}});
+  const internal::Picture picture{false, 0, {{0, 0, 1.8}, 0}, 512, 512};
+  Frame frame;
+  stage.renderer(Tier::kLabels)
+      .Render(
+          MakeRequest(picture.camera(), picture.X_WC(), Tier::kLabels, {.rgb = false, .range = true, .semantic = false, .entity = true}),
+          frame);
+  const internal::SurfacePoints surfaces(scene);
+  internal::SecondLook second(stage.tracer());
+  LanguagePicture same;
+  same.panorama = false;
+  same.position = {0, 0, 1.8};
+  same.width = same.height = 512;
+  for (const internal::Seen& seen : internal::Look(picture, frame, &surfaces)) {
+    if (seen.entity == whole) {
+      EXPECT_TRUE(seen.clear());
+      EXPECT_GT(seen.shown, 0.95);
+    }
+    if (seen.entity == far) {
+      EXPECT_FALSE(seen.clear()) << seen.pixels;
+    }
+    if (seen.entity == hidden || seen.entity == cut) {
+      EXPECT_GT(seen.pixels, 200);
+      EXPECT_FALSE(seen.clear()) << seen.shown;
+    }
+    // By rays of the second method.
+    if (seen.entity == whole || seen.entity == hidden) {
+      EXPECT_NEAR(second.Shown(same, seen.entity), seen.shown, 0.25);
+    }
+  }
 }
 
 TEST(Language, EveryQuestionIsAskedWithEachOfItsAnswersEquallyOften) {
@@ -131,11 +193,13 @@ TEST(Language, EveryQuestionIsAskedWithEachOfItsAnswersEquallyOften) {
     EXPECT_EQ(item["choices"][item["answer_index"].get<size_t>()], item["answer"]);
     for (const VlnJson& choice : item["choices"]) choices[key].insert(choice.dump());
   }
-  // All groups are whole: 240 is a sum of twos and fours.
+  // All groups are whole, but for one at most that makes up the number.
+  int broken = 0;
   for (const auto& [key, counts] : answers) {
-    EXPECT_EQ(counts.size(), choices[key].size()) << key;
-    for (const auto& [answer, count] : counts) EXPECT_EQ(count, counts.begin()->second) << key;
+    const bool whole = counts.size() == choices[key].size();
+    broken += !whole || std::ranges::any_of(counts, [&](const auto& entry) { return entry.second != counts.begin()->second; });
   }
+  EXPECT_LE(broken, 1);
 }
 
 TEST(Language, TheWordsAloneTellNoMoreThanChance) {

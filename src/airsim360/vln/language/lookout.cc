@@ -12,7 +12,7 @@ namespace {
 constexpr int kDraws = 400, kOpenDraws = 300;         // places tried; of these only such below the open sky
 constexpr double kRoom = 0.6;                         // metres free around a place
 constexpr double kFlightShort = 6, kFlightLong = 24;  // metres ahead
-constexpr size_t kLeastWords = 3;                     // words with something clearly in sight
+constexpr size_t kLeastWords = 2;                     // words with something clearly in sight
 constexpr double kRight = std::numbers::pi / 180;
 
 double Milli(double value) { return std::round(value * 1000) / 1000; }
@@ -24,8 +24,8 @@ double HeightOf(bool indoors, RngStream& random) {
 }
 
 std::optional<Viewpoint> DrawPlace(const VlnGround& ground, RngStream& random, bool open) {
-  const Box3d& box = ground.flight_box();
-  const bool indoors = ground.scene().sky_entity == kNoEntity;
+  const Box3d& box = ground.inhabited();
+  const bool indoors = ground.rooms();
   const double x = random.Uniform(box.min.x, box.max.x), y = random.Uniform(box.min.y, box.max.y), height = HeightOf(indoors, random);
   const double yaw = Milli(random.Uniform(-180, 180)) * kRight;
   std::optional<GroundHit> floor = ground.At(x, y);
@@ -33,7 +33,7 @@ std::optional<Viewpoint> DrawPlace(const VlnGround& ground, RngStream& random, b
   if (open && !indoors) {
     const bool surface = ground.Is(floor->entity, "ground") || ground.Is(floor->entity, "nature") || ground.Is(floor->entity, "object");
     if (!surface) return std::nullopt;
-  } else if (!indoors || floor->z > box.max.z - 1) {
+  } else if (!indoors || ground.scene().sky_entity != kNoEntity || floor->z > box.max.z - 1) {
     floor = ground.Below({x, y, random.Uniform(box.min.z, box.max.z)});
     if (!floor) return std::nullopt;
   }
@@ -49,7 +49,7 @@ Vec3d Ahead(const Viewpoint& from, double metres) {
 
 // As far ahead as is free, if that is far enough to pass things.
 std::optional<Viewpoint> FlyAhead(const VlnGround& ground, const Viewpoint& from, RngStream& random) {
-  const bool indoors = ground.scene().sky_entity == kNoEntity;
+  const bool indoors = ground.rooms();
   const double shortest = indoors ? 2 : kFlightShort, length = indoors ? random.Uniform(2, 5) : random.Uniform(kFlightShort, kFlightLong);
   double free = 0;
   for (double d = 0; d <= length; d += kRoom)
@@ -61,11 +61,11 @@ std::optional<Viewpoint> FlyAhead(const VlnGround& ground, const Viewpoint& from
   return Viewpoint{Ahead(from, free), from.yaw};
 }
 
-Glance Shoot(const Picture& picture, Renderer& renderer, Frame& frame, bool keep_pixels) {
+Glance Shoot(const Picture& picture, Renderer& renderer, Frame& frame, const SurfacePoints& surfaces, bool keep_pixels) {
   renderer.Render(
       MakeRequest(picture.camera(), picture.X_WC(), Tier::kLabels, {.rgb = false, .range = true, .semantic = false, .entity = true}),
       frame);
-  Glance glance{picture, Look(picture, frame)};
+  Glance glance{picture, Look(picture, frame, &surfaces)};
   if (keep_pixels) glance.pixels = frame.entity;
   return glance;
 }
@@ -78,8 +78,8 @@ bool ShowsEnough(const Lexicon& lexicon, const std::vector<Seen>& seen) {
 
 }  // namespace
 
-std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexicon, Renderer& renderer, uint64_t number,
-                                   const LookoutOptions& options) {
+std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexicon, const SurfacePoints& surfaces, Renderer& renderer,
+                                   uint64_t number, const LookoutOptions& options) {
   RngStream random(options.seed, "language lookout", number);
   Frame frame;
   int looks = 0;
@@ -88,7 +88,7 @@ std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexic
     if (!place) continue;
     ++looks;
     const Picture panorama{true, 0, *place, options.width, options.width / 2};
-    Glance around = Shoot(panorama, renderer, frame, options.masks);
+    Glance around = Shoot(panorama, renderer, frame, surfaces, options.masks);
     if (!ShowsEnough(lexicon, around.seen)) continue;
     // Each camera looks at something that is clearly seen.
     std::vector<double> clear;
@@ -98,10 +98,10 @@ std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexic
     for (int i = 0; i < options.cameras; ++i) {
       const double towards = clear[random.Index(static_cast<uint32_t>(clear.size()))] + random.Uniform(-25, 25);
       lookout.glances.push_back(Shoot({false, Milli(std::remainder(towards, 360)), *place, options.width / 2, options.width / 2}, renderer,
-                                      frame, options.masks));
+                                      frame, surfaces, options.masks));
     }
     const auto then = options.later ? FlyAhead(ground, *place, random) : std::nullopt;
-    if (then) lookout.later = Shoot({true, 0, *then, options.width, options.width / 2}, renderer, frame, false);
+    if (then) lookout.later = Shoot({true, 0, *then, options.width, options.width / 2}, renderer, frame, surfaces, false);
     return lookout;
   }
   return std::nullopt;

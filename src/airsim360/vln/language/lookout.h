@@ -34,7 +34,7 @@ struct LookoutOptions {
 
 /// A free place of that number with things of the lexicon in sight; nullopt: its draws found none. A pure function of the world,
 /// the options and the number. `renderer`: of labels.
-std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexicon, Renderer& renderer, uint64_t number,
-                                   const LookoutOptions& options);
+std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexicon, const SurfacePoints& surfaces, Renderer& renderer,
+                                   uint64_t number, const LookoutOptions& options);
 
 }  // namespace airsim360::internal

@@ -44,6 +44,7 @@ class Maker {
       : stage_(stage),
         options_(options),
         lexicon_(stage.scene()),
+        surfaces_(stage.shared_scene()),
         ground_(stage.solid()),
         balance_(options.kind == "vqa", options.count, stage.seed()) {
     if (lexicon_.in_use() == 0)
@@ -90,7 +91,7 @@ class Maker {
 
   std::vector<Placed> At(uint64_t number, Renderer& renderer) const {
     const bool vqa = options_.kind == "vqa";
-    const auto lookout = internal::DrawLookout(ground_, lexicon_, renderer, number,
+    const auto lookout = internal::DrawLookout(ground_, lexicon_, surfaces_, renderer, number,
                                                {.seed = stage_.seed(),
                                                 .width = options_.width,
                                                 .cameras = kCameras,
@@ -206,6 +207,7 @@ class Maker {
   Stage& stage_;
   const LanguageOptions& options_;
   Lexicon lexicon_;
+  internal::SurfacePoints surfaces_;
   VlnGround ground_;
   Balance balance_;
   std::vector<std::unique_ptr<Renderer>> renderers_;

@@ -49,6 +49,21 @@ double ToTriangle(Vec3d p, const std::array<Vec3d, 3>& t) {
   return sum == 0 ? Norm(ap) : Norm(ap - ab * (vb / sum) - ac * (vc / sum));
 }
 
+EntityId EntityAt(const Scene& scene, const SurfaceRef& surface) {
+  const Instance& instance = scene.instances[surface.instance];
+  for (const MeshPart& part : scene.meshes[instance.mesh].parts)
+    if (part.entity != kNoEntity && surface.triangle >= part.first_triangle && surface.triangle < part.first_triangle + part.triangle_count)
+      return part.entity;
+  return instance.entity;
+}
+
+// Whether a camera of 90 degrees holds a direction.
+bool InFrame(const LanguagePicture& picture, Vec3d to) {
+  const double ahead = (picture.yaw_deg - picture.azimuth_deg) * kPi / 180;
+  const double depth = std::cos(ahead) * to.x + std::sin(ahead) * to.y, left = std::cos(ahead) * to.y - std::sin(ahead) * to.x;
+  return depth > 0 && std::max(std::abs(left), std::abs(to.z)) < depth;
+}
+
 // Entities of one row.
 void CastRow(const RayTracer& tracer, const LanguagePicture& picture, int row, std::vector<EntityId>& entities) {
   const FlushDenormals guard;
@@ -72,27 +87,14 @@ void CastRow(const RayTracer& tracer, const LanguagePicture& picture, int row, s
     tracer.Intersect16(valid, rays, true);
     for (int i = 0; i < 16 && x + i < picture.width; ++i) {
       if (rays.geometry[i] == kMiss) continue;
-      const SurfaceRef surface = tracer.Resolve(rays.geometry[i], rays.instance[i], rays.primitive[i]);
-      const Instance& instance = scene.instances[surface.instance];
-      EntityId entity = instance.entity;
-      for (const MeshPart& part : scene.meshes[instance.mesh].parts)
-        if (part.entity != kNoEntity && surface.triangle >= part.first_triangle &&
-            surface.triangle < part.first_triangle + part.triangle_count)
-          entity = part.entity;
-      entities[x + i] = entity;
+      entities[x + i] = EntityAt(scene, tracer.Resolve(rays.geometry[i], rays.instance[i], rays.primitive[i]));
     }
   }
 }
 
 }  // namespace
 
-SecondLook::SecondLook(std::shared_ptr<const RayTracer> tracer) : tracer_(std::move(tracer)), parts_(scene().entities.size() + 1) {
-  for (uint32_t i = 0; i < scene().instances.size(); ++i) {
-    const auto& parts = scene().meshes[scene().instances[i].mesh].parts;
-    for (uint32_t k = 0; k < parts.size(); ++k)
-      parts_[parts[k].entity != kNoEntity ? parts[k].entity : scene().instances[i].entity].emplace_back(i, k);
-  }
-}
+SecondLook::SecondLook(std::shared_ptr<const RayTracer> tracer) : tracer_(std::move(tracer)), parts_(PartsByEntity(scene())) {}
 
 const Glimpses& SecondLook::LookAt(const LanguagePicture& picture) {
   if (const auto found = seen_.find(picture.file); found != seen_.end()) return found->second;
@@ -154,6 +156,25 @@ double SecondLook::Extent(EntityId entity) {
     high = Max(high, p);
   }
   return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
+double SecondLook::Shown(const LanguagePicture& picture, EntityId entity) {
+  const auto& triangles = Triangles(entity);
+  const size_t step = std::max<size_t>(1, triangles.size() / kMostPoints);
+  double shown = 0, all = 0;
+  for (size_t i = 0; i < triangles.size(); i += step) {
+    const auto& [a, b, c] = triangles[i];
+    const double area = Norm(Cross(b - a, c - a));
+    const Vec3d middle = (a + b + c) / 3;
+    for (const Vec3d& p : {middle, (middle + a) / 2, (middle + b) / 2, (middle + c) / 2}) {
+      all += area;
+      const Vec3d to = p - picture.position;
+      if (!picture.panorama && !InFrame(picture, to)) continue;
+      const auto hit = tracer_->Intersect(VecCast<float>(picture.position), VecCast<float>(to), 0.999F);
+      if (!hit || EntityAt(scene(), hit->surface) == entity) shown += area;
+    }
+  }
+  return all > 0 ? shown / all : 0;
 }
 
 double SecondLook::Distance(Vec3d from, EntityId to) {

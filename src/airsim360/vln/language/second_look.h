@@ -10,6 +10,7 @@
 
 #include "airsim360/trace/ray_tracer.h"
 #include "airsim360/vln/language/language_item.h"
+#include "airsim360/vln/predicates/entity_parts.h"
 
 namespace airsim360::internal {
 
@@ -31,6 +32,8 @@ class SecondLook {
 
   /// One ray for each pixel of a picture, off its centre. The last pictures' are kept; what Points gave before is gone.
   const Glimpses& LookAt(const LanguagePicture& picture);
+  /// Share of a thing's surface, front and back, that nothing else hides and that lies within the picture.
+  double Shown(const LanguagePicture& picture, EntityId entity);
   /// Metres from a place to the nearest triangle of a thing, and between two things.
   double Distance(Vec3d from, EntityId to);
   double Apart(EntityId a, EntityId b);
@@ -41,7 +44,7 @@ class SecondLook {
  private:
   const std::vector<std::array<Vec3d, 3>>& Triangles(EntityId entity);
   std::shared_ptr<const RayTracer> tracer_;
-  std::vector<std::vector<std::pair<uint32_t, uint32_t>>> parts_;  // by entity: instance, part
+  std::vector<std::vector<EntityPart>> parts_;  // by entity
   std::map<EntityId, std::vector<std::array<Vec3d, 3>>> triangles_;
   std::map<EntityId, std::vector<Vec3d>> points_;
   std::map<std::string, Glimpses> seen_;

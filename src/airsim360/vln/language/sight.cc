@@ -89,8 +89,27 @@ Seen Finish(const Tally& tally, const Picture& picture) {
   seen.right_deg = seen.azimuth_deg + tally.right - middle;
   seen.x = tally.columns / static_cast<double>(seen.pixels);
   const bool both_ends = seen.x0 == 0 && seen.x1 == picture.width - 1;
-  seen.cut = picture.panorama ? both_ends : seen.x0 == 0 || seen.y0 == 0 || seen.x1 == picture.width - 1 || seen.y1 == picture.height - 1;
+  seen.round = picture.panorama && both_ends;
   return seen;
+}
+
+// Points whose pixel shows the thing, or something farther away where the thing is finer than a pixel.
+double ShareShown(const Picture& picture, const Frame& frame, EntityId entity, const std::vector<Vec3d>& points) {
+  constexpr double kSlack = 0.02;  // of the range, for what one pixel spans
+  if (points.empty()) return 1;
+  const Camera camera = picture.camera();
+  const RigidTransform X_CW = picture.X_WC().inverse();
+  int shown = 0;
+  for (const Vec3d& p : points) {
+    const Vec3d p_C = X_CW * p;
+    const auto pixel = RayToPixel(camera, p_C);
+    if (!pixel) continue;
+    const int x = static_cast<int>(std::floor(pixel->x)), y = static_cast<int>(std::floor(pixel->y));
+    if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) continue;
+    const float range = frame.range(x, y);
+    shown += frame.entity(x, y) == entity || !(range > 0) || range > (1 - kSlack) * Norm(p_C);
+  }
+  return static_cast<double>(shown) / static_cast<double>(points.size());
 }
 
 }  // namespace
@@ -102,7 +121,7 @@ Camera Picture::camera() const {
 
 RigidTransform Picture::X_WC() const { return BodyPose(from.p_W, from.yaw - azimuth_deg * kDegree, 0, 0) * CameraInBody(); }
 
-std::vector<Seen> Look(const Picture& picture, const Frame& frame) {
+std::vector<Seen> Look(const Picture& picture, const Frame& frame, const SurfacePoints* surfaces) {
   std::unordered_map<EntityId, Tally> tallies;
   const Columns columns = ColumnsOf(picture);
   for (int y = 0; y < picture.height; ++y) {
@@ -116,7 +135,8 @@ std::vector<Seen> Look(const Picture& picture, const Frame& frame) {
   std::vector<Seen> all;
   for (auto& [entity, tally] : tallies) {
     tally.seen.entity = entity;
-    all.push_back(Finish(tally, picture));
+    Seen& seen = all.emplace_back(Finish(tally, picture));
+    if (surfaces != nullptr) seen.shown = seen.pixels >= kClear ? ShareShown(picture, frame, entity, surfaces->Of(entity)) : 0;
   }
   std::ranges::sort(all, {}, &Seen::entity);
   return all;
@@ -127,7 +147,7 @@ std::vector<Sighted> Group(const Lexicon& lexicon, const std::vector<Seen>& seen
   for (const Seen& thing : seen) {
     if (thing.pixels <= kUnseen) continue;
     for (const uint16_t word : lexicon.NamedBy(thing.entity))
-      (thing.pixels >= kClear ? groups[word].clear : groups[word].doubtful).push_back(&thing);
+      (thing.clear() ? groups[word].clear : groups[word].doubtful).push_back(&thing);
     for (const uint16_t word : lexicon.MistakenFor(thing.entity)) groups[word].doubtful.push_back(&thing);
   }
   return groups;

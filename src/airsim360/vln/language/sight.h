@@ -7,12 +7,15 @@
 #include "airsim360/image/image.h"
 #include "airsim360/render/renderer.h"
 #include "airsim360/vln/language/lexicon.h"
+#include "airsim360/vln/language/surface_points.h"
 #include "airsim360/vln/predicates/query.h"
 
 namespace airsim360::internal {
 
-/// Pixels from which a person recognises a thing, and up to which nobody notices it; what lies between is doubtful.
-inline constexpr int64_t kClear = 48, kUnseen = 4;
+/// Pixels from which a person recognises a thing, and up to which nobody notices it; what lies between is doubtful, and so is what
+/// others or the edge of the picture hide more than half of (docs/internals/benchmarks/vln.md).
+inline constexpr int64_t kClear = 100, kUnseen = 4;
+inline constexpr double kShown = 0.5;
 
 /// Which picture: a level panorama, or a level camera of 90 degrees that looks `azimuth_deg` from the heading, positive to the
 /// right.
@@ -34,11 +37,14 @@ struct Seen {
   double nearest = 0;                         ///< least range, metres
   int x0 = 0, y0 = 0, x1 = -1, y1 = -1;       ///< box, inclusive; of a panorama that it crosses the seam of: all columns
   double x = 0;                               ///< mean column, pixels; not across the seam
-  bool cut = false;                           ///< crosses the seam, or touches the edge of a camera's picture
+  bool round = false;                         ///< crosses the seam of a panorama: no box holds it
+  double shown = 1;                           ///< share of its surface that nothing else and no edge hides; of what has few pixels 0
+
+  bool clear() const { return pixels >= kClear && shown >= kShown; }
 };
 
-/// All that is seen. `frame` holds entity and range of the picture. Ascending by entity.
-std::vector<Seen> Look(const Picture& picture, const Frame& frame);
+/// All that is seen. `frame` holds entity and range of the picture. Ascending by entity. Without `surfaces` all counts as shown.
+std::vector<Seen> Look(const Picture& picture, const Frame& frame, const SurfacePoints* surfaces = nullptr);
 
 /// Of a word, who is clearly seen, and who might be counted as one.
 struct Sighted {

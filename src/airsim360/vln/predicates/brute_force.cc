@@ -12,7 +12,8 @@ namespace {
 
 using Plan = std::complex<double>;  // seen from above
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTie = 1e-6;  // metres
+constexpr double kTie = 1e-6;   // metres
+constexpr double kFuzz = 2e-3;  // metres: vertices are floats, places rounded to millimetres
 
 Plan OnPlan(Vec3d p) { return {p.x, p.y}; }
 double Cross2(Plan a, Plan b) { return (std::conj(a) * b).imag(); }
@@ -199,13 +200,7 @@ struct BruteForce::Shape {
   }
 };
 
-BruteForce::BruteForce(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)), parts_(scene_->entities.size() + 1) {
-  for (uint32_t i = 0; i < scene_->instances.size(); ++i) {
-    const Instance& instance = scene_->instances[i];
-    const auto& parts = scene_->meshes[instance.mesh].parts;
-    for (uint32_t k = 0; k < parts.size(); ++k) parts_[parts[k].entity != kNoEntity ? parts[k].entity : instance.entity].emplace_back(i, k);
-  }
-}
+BruteForce::BruteForce(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)), parts_(internal::PartsByEntity(*scene_)) {}
 
 BruteForce::~BruteForce() = default;
 
@@ -366,7 +361,7 @@ std::vector<std::vector<EntityId>> BruteForce::Answers(const Query& query, const
     // What is surely farther than the nearest so far is not measured to the millimetre.
     const auto measure = [&](const Shape* shape) {
       if (predicate.kind == PredicateKind::kOrdinal) return ((OnPlan(shape->middle) - eye) / std::polar(1.0, view.yaw)).real();
-      if (const double least = shape->Least(eye); least > nearest + 1) return least;
+      if (const double least = shape->Least(eye); least > nearest + NearestMargin(nearest) + 1) return least;
       const double distance = shape->Distance(eye);
       nearest = std::min(nearest, distance);
       return distance;
@@ -380,7 +375,9 @@ std::vector<std::vector<EntityId>> BruteForce::Answers(const Query& query, const
     std::ranges::sort(values);
     const size_t place = predicate.kind == PredicateKind::kNearest ? 0 : static_cast<size_t>(predicate.k - 1);
     if (place >= values.size()) return {};
-    std::erase_if(left, [&, value = values[place]](const Shape* shape) { return std::abs(measure(shape) - value) > kTie; });
+    // What is hardly farther than the nearest competes with it; on the way only what is level does.
+    const double value = values[place], blur = predicate.kind == PredicateKind::kNearest ? NearestMargin(value) - kFuzz : kTie;
+    std::erase_if(left, [&](const Shape* shape) { return std::abs(measure(shape) - value) > blur; });
   }
   std::vector<std::vector<EntityId>> answers;
   for (const Shape* shape : left) answers.push_back(shape->entities);

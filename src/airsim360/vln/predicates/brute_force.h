@@ -1,11 +1,13 @@
-// The second method: the same questions answered from the triangles themselves, without boxes, margins or shortcuts. It
-// shares no geometry with decide.cc, so that an error of one shows.
+// The second method: the same questions answered from the triangles themselves, without boxes or shortcuts, and with one
+// margin only: what is hardly farther than the nearest competes (NearestMargin). It shares no geometry with decide.cc, so that an
+// error of one shows.
 #pragma once
 
 #include <map>
 #include <memory>
 #include <vector>
 
+#include "airsim360/vln/predicates/entity_parts.h"
 #include "airsim360/vln/predicates/query.h"
 
 namespace airsim360 {
@@ -38,7 +40,7 @@ class BruteForce {
   bool IsSurrounded(const Shape& shape, const Predicate& predicate);
 
   std::shared_ptr<const Scene> scene_;
-  std::vector<std::vector<std::pair<uint32_t, uint32_t>>> parts_;  ///< by entity: instance, part
+  std::vector<std::vector<internal::EntityPart>> parts_;  ///< by entity
   std::map<std::vector<EntityId>, std::unique_ptr<Shape>> shapes_;
   std::map<std::string, bool> surrounded_;
 };

@@ -13,8 +13,7 @@ namespace {
 using internal::Candidate;
 
 constexpr size_t kMostCompetitors = 4;
-constexpr double kNearer = 0.5;  // metres by which the nearest must be nearer
-constexpr double kApart = 1.5;   // metres between one and the next on the way
+constexpr double kApart = 1.5;  // metres between one and the next on the way
 constexpr size_t kMostNamed = 3;
 
 std::string Text(double value) {
@@ -64,14 +63,15 @@ ProofStep Filter(std::vector<Candidate>& candidates, const Predicate& predicate,
   return step;
 }
 
-// Leaves the nearest: its surfaces are surely nearer than those of any other.
+// Leaves the nearest: its surfaces are surely nearer than those of any other, by what people can tell.
 ProofStep KeepNearest(std::vector<Candidate>& candidates, const Viewpoint& view, std::string& why) {
-  ProofStep step{"nearest", "m", static_cast<int>(candidates.size()), 1, 0, 0, kNearer};
+  ProofStep step{"nearest", "m", static_cast<int>(candidates.size()), 1, 0, 0, 0};
   const auto bounds = [&](const Candidate& c) { return PlanDistance(view.p_W, c.thing->box); };
   size_t best = 0;
   for (size_t i = 1; i < candidates.size(); ++i)
     if (bounds(candidates[i]).most < bounds(candidates[best]).most) best = i;
   step.value = bounds(candidates[best]).most;
+  step.needed = NearestMargin(step.value);
   std::vector<Competitor> calls;
   double next = 1e9;
   for (size_t i = 0; i < candidates.size(); ++i) {
@@ -82,7 +82,7 @@ ProofStep KeepNearest(std::vector<Candidate>& candidates, const Viewpoint& view,
   }
   step.margin = next - step.value;
   Keep(step, std::move(calls));
-  if (step.margin < kNearer)
+  if (step.margin < step.needed)
     why = "'" + candidates[best].thing->name + "' (entity " + std::to_string(candidates[best].thing->entities.front()) + ", at most " +
           Text(step.value) + " m) and " + NamesOf(step.competitors, "m at least") + " compete for nearest";
   candidates = {candidates[best]};

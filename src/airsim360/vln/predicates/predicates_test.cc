@@ -74,6 +74,30 @@ TEST(Decide, TwoThatAreEquallyNearCompeteAndAreNamed) {
   EXPECT_NE(verdict.why.find("'box 2'"), std::string::npos) << verdict.why;
 }
 
+// 30 and 32 metres: more than half a metre apart, but nobody tells them in a picture.
+TEST(Decide, TheNearestIsNearerByATenthForBothMethods) {
+  const auto town = [](float second) {
+    TestTown boxes;
+    boxes.Box("box", kBox, {30, 0, 0}, {1, 1, 1});
+    boxes.Box("box", kBox, {-second, 0, 0}, {1, 1, 1});
+    return boxes.Build();
+  };
+  const Query query{Named("box"), {Is(PredicateKind::kNearest)}};
+  const Standpoint at{{{0, 0, 2}, 0}};
+  SceneGraph close(town(32));
+  const Verdict verdict = Decide(close, query, at);
+  EXPECT_FALSE(verdict.decided);
+  EXPECT_NEAR(verdict.steps[0].needed, 2.95, 0.01);  // a tenth of the 29.5 m to its face, and a little for its corners
+  EXPECT_EQ(BruteForce(town(32)).Answers(query, at).size(), 2u);
+  EXPECT_NE(Meant(town(33), query, at), kNoEntity);
+  // At 3 metres half a metre is needed, not 0.3.
+  const Standpoint near{{{26.5, 0, 2}, 0}};
+  TestTown pair;
+  pair.Box("box", kBox, {30, 0, 0}, {1, 1, 1});
+  pair.Box("box", kBox, {22.6f, 0, 0}, {1, 1, 1});
+  EXPECT_EQ(BruteForce(pair.Build()).Answers(query, near).size(), 2u);
+}
+
 TEST(Decide, WhatIsAbsentIsSaidToBeAbsent) {
   TestTown town;
   town.Box("box", kBox, {10, 0, 0}, {1, 1, 1});
@@ -239,7 +263,7 @@ TEST(BruteForce, TheNearestIsFoundAmongThingsOfAllSizes) {
   // The long one's middle is farther away than that of the others.
   const EntityId wall = town.Box("box 1", "furniture/box", {30, 20, 0}, {70, 1, 2});
   town.Box("box 2", "furniture/box", {-25, 0, 0}, {1, 1, 1});
-  town.Box("box 3", "furniture/box", {0, -22, 0}, {2, 2, 2});
+  town.Box("box 3", "furniture/box", {0, -24, 0}, {2, 2, 2});
   BruteForce brute(town.Build());
   const Query query{{.word = "box", .categories = {"furniture/box"}}, {{.kind = PredicateKind::kNearest}}};
   EXPECT_EQ(brute.Answers(query, {{{0, 0, 2}, 0}, {}}), (std::vector<std::vector<EntityId>>{{wall}}));

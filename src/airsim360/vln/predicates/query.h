@@ -47,6 +47,10 @@ struct Predicate {
   Noun of = {};               ///< on_top_of, storey, surrounded_by
 };
 
+/// Metres by which the second must be farther than the nearest, which is `distance` metres away: less than half a metre or a tenth
+/// people do not tell (docs/internals/benchmarks/vln.md). Of both methods.
+constexpr double NearestMargin(double distance) { return distance > 5 ? 0.1 * distance : 0.5; }
+
 struct Query {
   Noun noun;
   std::vector<Predicate> predicates = {};  ///< nearest and ordinal last
