@@ -2,11 +2,13 @@
 from __future__ import annotations
 
 import atexit
+import json
 import os
 import re
 import shutil
 import subprocess
 import tempfile
+import urllib.request
 from pathlib import Path
 from types import TracebackType
 from typing import Optional, Union
@@ -35,7 +37,7 @@ class Viewer:
         self._process = subprocess.Popen([_program(), "view", "--port", "0", *arguments], stdout=subprocess.PIPE, stderr=log, text=True)
         assert self._process.stdout is not None
         found = re.fullmatch(r"listening on (http://127\.0\.0\.1:\d+)\n", self._process.stdout.readline())
-        if not found:
+        if not found or not self._opened(found[1]):
             status = self._process.wait()
             self._process.stdout.close()
             log.seek(0)
@@ -45,6 +47,18 @@ class Viewer:
         self._fragment = ""
         self.address = found[1]
         atexit.register(self.close)
+
+    def _opened(self, address: str) -> bool:
+        """Waits until its world is open; False where it could not be opened, of which the program has ended."""
+        while self._process.poll() is None:
+            try:
+                with urllib.request.urlopen(address + "/session.json", timeout=60) as answer:
+                    live = json.load(answer)["live"] or {}
+            except OSError:
+                continue
+            if "coming" not in live:
+                return "error" not in live
+        return False
 
     @property
     def url(self) -> str:

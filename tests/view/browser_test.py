@@ -610,6 +610,26 @@ class MissionTest(EditorTest):
         self.assertEqual(json.loads(run("worlds", "--count", ROOM / "world.yaml", "--json").stdout)["entities_by_category"]["furniture/lighting/lamp"], 1)
         self.assertEqual(self.page.problems(), [])
 
+    def test_the_mission_that_one_begins_with_is_flown_by_the_command_too(self):
+        self.edit()
+        self.page.wait("airsim360.live.trees.xml?.includes('Takeoff')")
+        (ROOM / "first.xml").write_text(self.page.run("airsim360.live.trees.xml"))
+        done = run("fly", "--world", "box_room", "--mission", ROOM / "first.xml", "--out", ROOM / "first")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_the_map_shows_more_by_buttons_and_wheel_and_never_less_than_the_flight(self):
+        self.open()
+        self.page.wait("airsim360.live.picture?.number > 3")
+        least = self.page.run("airsim360.map.scale()")
+        self.page.run("document.getElementById('map-out').click()")
+        self.assertAlmostEqual(self.page.run("airsim360.map.scale()"), least / 2, delta=0.01 * least)
+        box = self.page.run("(b => ({x: b.x + b.width / 2, y: b.y + b.height / 2}))((document.getElementById('map').scrollIntoView(), document.getElementById('map').getBoundingClientRect()))")
+        self.page.call("Input.dispatchMouseEvent", type="mouseWheel", **box, deltaX=0, deltaY=500)
+        self.page.wait(f"airsim360.map.scale() < {0.4 * least}")
+        for _ in range(6):
+            self.page.run("document.getElementById('map-in').click()")
+        self.assertAlmostEqual(self.page.run("airsim360.map.scale()"), least, delta=0.01 * least)
+
     def test_a_mission_is_flown_from_the_page(self):
         self.edit()
         self.page.wait("document.getElementById('tree-apply').textContent === 'Fly' && document.getElementById('tree-name').value === 'mission'")
@@ -622,6 +642,25 @@ class MissionTest(EditorTest):
             self.assertAlmostEqual(got, wanted, delta=0.3)
         self.page.run("document.getElementById('tree-stop').click()")
         self.page.wait("document.getElementById('tree-state').textContent.startsWith('none')")
+
+
+class WorldFileTest(EditorTest):
+    @classmethod
+    def setUpClass(cls):
+        (ROOM / "lit.yaml").write_text("# ours\nworld: box_room\nseed: 3\nlamps:\n  - {x: 1, y: 1, z: 2, lumens: 700}\n")
+        cls.arguments = ("--world", ROOM / "lit.yaml")
+        super().setUpClass()
+
+    def test_a_lamp_drawn_in_a_world_file_is_added_to_what_it_has(self):
+        self.open()
+        self.page.wait("airsim360.live.picture?.number > 3")
+        self.draw("lamp")
+        self.page.run("document.getElementById('draw-here').click()")
+        self.said("Valid: 2 lamps.")
+        (ROOM / "more.yaml").write_text(self.drawn())
+        self.assertEqual(json.loads(run("worlds", "--count", ROOM / "more.yaml", "--json").stdout)["entities_by_category"]["furniture/lighting/lamp"], 2)
+        self.assertIn("seed: 3", self.drawn())
+        self.assertEqual(self.page.problems(), [])
 
 
 class PlanTest(PageTest):

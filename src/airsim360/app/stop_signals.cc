@@ -34,6 +34,8 @@ StopSignals::StopSignals() {
 
 StopSignals::~StopSignals() { HandleWith(SIG_DFL); }
 
+void StopSignals::Stop() const { sem_post(&came); }
+
 void StopSignals::Wait() const {
   while (sem_wait(&came) != 0 && errno == EINTR) {
   }

@@ -13,8 +13,10 @@ class StopSignals {
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  /// Returns when one of them has come.
+  /// Returns when one of them has come, or Stop() was called.
   void Wait() const;
+  /// From any thread.
+  void Stop() const;
 };
 
 /// From now on the process has that long to end by itself; then it ends with status 0, whatever still runs. For what

@@ -1,10 +1,14 @@
 // airsim360 view: datasets and worlds in the browser, until SIGINT or SIGTERM; or as files.
 #include <malloc.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <thread>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
@@ -19,7 +23,11 @@
 #include "airsim360/app/viewed_run.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
+#include "airsim360/opening/world_exists.h"
+#include "airsim360/opening/world_loader.h"
+#include "airsim360/view/coming_world.h"
 #include "airsim360/view/live_world.h"
 #include "airsim360/view/view_site.h"
 #include "airsim360/view/viewed_plan.h"
@@ -74,12 +82,14 @@ std::string Save(Stage& stage, const ViewArguments& arguments, const GlobalOptio
 }
 
 std::shared_ptr<LiveWorld> OpenLive(const std::shared_ptr<const ViewArguments>& arguments, const GlobalOptions& globals) {
-  CheckRenderSettings(arguments->picture, "--");
   StageOptions wanted = StageOptionsOf(arguments->world, globals, arguments->environment, arguments->people.Request(globals.seed),
                                        arguments->traffic.Request(globals.seed));
   wanted.wind = ReadWindFile(arguments->wind);
   const auto stage = std::make_shared<Stage>(wanted);
   LiveOptions options{.picture = arguments->picture, .drone = arguments->drone, .clock = SteadySeconds};
+  const fs::path file = arguments->world;
+  options.source = fs::exists(file) ? fs::absolute(file).string() : arguments->world;
+  if (file.extension() == ".yaml" || file.extension() == ".yml") options.source_text = ReadTextFile(file);
   if (!arguments->record.empty()) {
     options.save = [stage, arguments, &globals](const Flight& kept, const Environment& environment) {
       return Save(*stage, *arguments, globals, kept, environment);
@@ -163,30 +173,59 @@ ViewSite SiteOf(const std::shared_ptr<ViewArguments>& arguments, const GlobalOpt
     };
     return ViewSite(std::make_shared<ViewedRun>(arguments->what, std::move(options)));
   }
-  if (!arguments->world.empty()) return ViewSite({}, OpenLive(arguments, globals), NewToken());
   std::vector<std::shared_ptr<ViewedDataset>> datasets{std::make_shared<ViewedDataset>(arguments->what)};
   if (!arguments->compare.empty()) datasets.push_back(std::make_shared<ViewedDataset>(arguments->compare));
   return ViewSite(std::move(datasets));
 }
 
-void Serve(const ViewSite& site, const ViewArguments& arguments, bool json) {
-  HttpHandlers handlers{.request = [&site](const HttpRequest& request) { return site.Answer(request); }};
-  HttpServerOptions options = ViewServerOptions(arguments.port);
-  if (arguments.world.empty() && arguments.follow.address.empty())
-    options.socket_target.clear();
-  else
-    handlers.message = [&site](const std::string& message) { return site.AnswerMessage(message); };
-  // Not before the world is there: until then Ctrl-C ends the program at once.
-  const StopSignals stop;
-  const HttpServer server(std::move(handlers), options);
+void SayListening(int port, bool json) {
   if (json) {
-    PrintJson({{"address", "127.0.0.1"}, {"port", server.port()}});
+    PrintJson({{"address", "127.0.0.1"}, {"port", port}});
   } else {
-    std::printf("listening on http://127.0.0.1:%d\n", server.port());
+    std::printf("listening on http://127.0.0.1:%d\n", port);
   }
   std::fflush(stdout);
-  stop.Wait();
-  EndWithin(kLastJob);
+}
+
+// Serves until a signal comes; `open` runs meanwhile, and what it throws ends the server.
+void Serve(const ViewSite& site, const HttpServerOptions& options, bool json, const std::function<void()>& open = {}) {
+  HttpHandlers handlers{.request = [&site](const HttpRequest& request) { return site.Answer(request); }};
+  if (!options.socket_target.empty()) handlers.message = [&site](const std::string& message) { return site.AnswerMessage(message); };
+  const StopSignals stop;
+  std::exception_ptr error;
+  std::atomic<bool> failed = false;
+  {
+    const HttpServer server(std::move(handlers), options);
+    SayListening(server.port(), json);
+    std::jthread opening([&] {
+      try {
+        if (open) open();
+      } catch (...) {
+        error = std::current_exception();
+        failed = true;
+        stop.Stop();
+      }
+    });
+    stop.Wait();
+    if (!failed) EndWithin(kLastJob);
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+// The page is served while its world is opened, which takes seconds for a town, and a minute the first time.
+void ServeWorld(const std::shared_ptr<ViewArguments>& arguments, const GlobalOptions& globals) {
+  CheckRenderSettings(arguments->picture, "--");
+  if (!WorldExists(arguments->world)) LoadWorld(RequestOf(arguments->world, globals));  // says what there is
+  const auto coming = std::make_shared<ComingWorld>(arguments->world);
+  const ViewSite site({}, coming, NewToken());
+  Serve(site, ViewServerOptions(arguments->port), globals.json, [&] {
+    try {
+      coming->Come(OpenLive(arguments, globals));
+    } catch (...) {
+      coming->Fail();
+      throw;
+    }
+  });
 }
 
 void RunView(const std::shared_ptr<ViewArguments>& arguments, const GlobalOptions& globals) {
@@ -194,8 +233,11 @@ void RunView(const std::shared_ptr<ViewArguments>& arguments, const GlobalOption
   // raises this limit with the first large ones, and what is left between later ones is never given back.
   ::mallopt(M_MMAP_THRESHOLD, 256 << 10);
   Understand(*arguments);
+  if (!arguments->world.empty()) return ServeWorld(arguments, globals);
   const ViewSite site = SiteOf(arguments, globals);
-  if (arguments->out.empty()) return Serve(site, *arguments, globals.json);
+  HttpServerOptions options = ViewServerOptions(arguments->port);
+  if (arguments->follow.address.empty()) options.socket_target.clear();
+  if (arguments->out.empty()) return Serve(site, options, globals.json);
   site.Write(arguments->out);
   if (globals.json)
     PrintJson({{"out", arguments->out}});

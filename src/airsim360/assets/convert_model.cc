@@ -80,9 +80,9 @@ ConvertedModel ConvertModel(const fs::path& file, const ForeignFormat& format) {
     }
     const CacheKey key = KeyOf(file, tool, *program);
     const DiskCache cache = DiskCache::OfUser();
-    if (auto bytes = cache.Load(key)) {
+    if (const auto kept = cache.Load(key)) {
       LogInfo(file.string() + ": as " + tool + " converted it before");
-      out.glb = std::move(*bytes);
+      out.glb.assign(kept->bytes().begin(), kept->bytes().end());
       return out;
     }
     const ScratchFolder scratch("model");

@@ -60,7 +60,7 @@ class ArchiveWriter {
 };
 
 /// Reads what an ArchiveWriter wrote; InputError where the bytes end too early. Memory is taken only for what
-/// is there.
+/// is there. A copy goes on reading where this one is.
 class ArchiveReader {
  public:
   explicit ArchiveReader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -82,6 +82,11 @@ class ArchiveReader {
   /// InputError unless `count` elements of `size` bytes can still come.
   void Expect(uint64_t count, size_t size) const {
     if (count > rest_.size() / size) throw InputError("archive is cut off");
+  }
+  /// Passes over a string or a vector of T.
+  template <PlainValue T>
+  void SkipList() {
+    Take(Count(sizeof(T)) * sizeof(T));
   }
   bool done() const { return rest_.empty(); }
 

@@ -1,16 +1,22 @@
 #include "airsim360/base/disk_cache.h"
 
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <cstdlib>
 #include <system_error>
 
+#include "airsim360/base/checksum.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
 #include "airsim360/base/log.h"
+#include "airsim360/base/parallel.h"
 
 namespace airsim360 {
 
@@ -18,11 +24,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// First line of every entry; then the SHA-256 of the content in hex, a line feed, the content.
-constexpr std::string_view kMagic = "airsim360 cache 1\n";
+// First line of every entry; then a hash of the content in hex, a line feed, the content.
+constexpr std::string_view kMagic = "airsim360 cache 2\n";
 constexpr size_t kHashDigits = 64;
 constexpr size_t kHeader = kMagic.size() + kHashDigits + 1;
 constexpr const char* kExtension = ".cache";
+constexpr size_t kBlock = size_t{1} << 20;  // bytes that one task reads and hashes
 
 std::string Variable(const char* name) {
   const char* value = std::getenv(name);
@@ -32,6 +39,57 @@ std::string Variable(const char* name) {
 void WarnOnce(const std::string& message) {
   static std::atomic_flag told;
   if (!told.test_and_set()) LogWarning("cache: " + message);
+}
+
+// SHA-256 of the checksums of all blocks in order, which are made side by side; empty where `ready`, which is asked of each block
+// before it is read, says that one is not there.
+template <class Ready>
+std::string HashOfBlocks(std::span<const std::byte> content, const Ready& ready) {
+  std::vector<uint64_t> checksums((content.size() + kBlock - 1) / kBlock);
+  std::atomic<bool> whole = true;
+  ParallelFor(static_cast<int64_t>(checksums.size()), [&](int64_t i) {
+    const size_t begin = static_cast<size_t>(i) * kBlock;
+    const auto block = content.subspan(begin, std::min(kBlock, content.size() - begin));
+    if (ready(block))
+      checksums[static_cast<size_t>(i)] = Checksum(block);
+    else
+      whole = false;
+  });
+  return whole ? Sha256Hex(std::as_bytes(std::span(checksums))) : std::string();
+}
+
+std::string HashOfBlocks(std::span<const std::byte> content) {
+  return HashOfBlocks(content, [](std::span<const std::byte>) { return true; });
+}
+
+// Maps the pages of a part of a file; false where the disk does not give them, which would end the program if they were touched.
+bool Populate(std::span<const std::byte> part) {
+  const auto page = static_cast<uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const auto first = reinterpret_cast<uintptr_t>(part.data()) / page * page;
+  const auto last = reinterpret_cast<uintptr_t>(part.data()) + part.size();
+  // EINVAL: a system before Linux 5.14.
+  return ::madvise(reinterpret_cast<void*>(first), last - first, MADV_POPULATE_READ) == 0 || errno == EINVAL;
+}
+
+// A file in memory, without a copy: large entries take longer to copy than to read.
+std::optional<CacheContent> MapFile(const fs::path& path, size_t skipped) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return std::nullopt;
+  struct stat status {};
+  void* mapping = MAP_FAILED;
+  const bool fits = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && static_cast<size_t>(status.st_size) >= skipped;
+  if (fits) mapping = ::mmap(nullptr, static_cast<size_t>(status.st_size), PROT_READ, MAP_PRIVATE, file, 0);
+  ::close(file);
+  if (mapping == MAP_FAILED) return std::nullopt;
+  return CacheContent(static_cast<const std::byte*>(mapping), static_cast<size_t>(status.st_size), skipped);
+}
+
+bool IsWhole(const CacheContent& content) {
+  const std::span<const std::byte> bytes = content.bytes();
+  const std::span<const std::byte> head(bytes.data() - kHeader, kHeader);
+  if (!Populate(head)) return false;
+  const std::string_view header = AsText(head);
+  return header.starts_with(kMagic) && header.back() == '\n' && header.substr(kMagic.size(), kHashDigits) == HashOfBlocks(bytes, Populate);
 }
 
 }  // namespace
@@ -72,28 +130,22 @@ DiskCache DiskCache::OfUser() {
   return DiskCache(home.empty() ? fs::path() : fs::path(home) / ".cache" / "airsim360");
 }
 
-std::optional<Bytes> DiskCache::Load(const CacheKey& key) const {
+void CacheContent::Unmap::operator()(const std::byte* mapping) const { ::munmap(const_cast<std::byte*>(mapping), size); }
+
+std::optional<CacheContent> DiskCache::Load(const CacheKey& key) const {
   if (folder_.empty()) return std::nullopt;
   const fs::path path = folder_ / (key.Name() + kExtension);
-  Bytes bytes;
-  try {
-    bytes = ReadFile(path);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-  const std::string_view text = AsText(bytes);
-  const bool whole = text.size() >= kHeader && text.starts_with(kMagic) && text[kHeader - 1] == '\n' &&
-                     text.substr(kMagic.size(), kHashDigits) == Sha256Hex(std::span<const std::byte>(bytes).subspan(kHeader));
   std::error_code ignored;
-  if (!whole) {
+  if (!fs::exists(path, ignored)) return std::nullopt;
+  std::optional<CacheContent> content = MapFile(path, kHeader);
+  if (!content || !IsWhole(*content)) {
     WarnOnce(path.string() + " is damaged; its content is computed again");
     fs::remove(path, ignored);
     return std::nullopt;
   }
   // Its age counts from its last use.
   fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
-  bytes.erase(bytes.begin(), bytes.begin() + kHeader);
-  return bytes;
+  return content;
 }
 
 void DiskCache::Store(const CacheKey& key, std::span<const std::byte> content) const {
@@ -102,7 +154,7 @@ void DiskCache::Store(const CacheKey& key, std::span<const std::byte> content) c
   bytes.reserve(kHeader + content.size());
   const auto append = [&](std::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); };
   append(AsBytes(kMagic));
-  append(AsBytes(Sha256Hex(content) + "\n"));
+  append(AsBytes(HashOfBlocks(content) + "\n"));
   append(content);
   // A name of its own while it is written: another program may store the same entry at the same time.
   const fs::path path = folder_ / (key.Name() + kExtension);

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "airsim360/base/file.h"
@@ -37,6 +39,23 @@ class CacheKey {
   std::string text_;  // hash of every part, in order: boundaries count
 };
 
+/// What an entry holds.
+class CacheContent {
+ public:
+  /// Of a mapping of `size` bytes without the first `skipped`; unmaps it at its end.
+  CacheContent(const std::byte* mapping, size_t size, size_t skipped)
+      : mapping_(mapping, {size}), bytes_(mapping + skipped, size - skipped) {}
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  struct Unmap {
+    size_t size;
+    void operator()(const std::byte* mapping) const;
+  };
+  std::unique_ptr<const std::byte, Unmap> mapping_;
+  std::span<const std::byte> bytes_;
+};
+
 /// A folder of entries, safe to delete at any time, also while programs use it. Several programs may share
 /// it: entries appear whole or not at all, and one that is damaged, cut off or of another format counts as
 /// missing. Nothing that goes wrong on the disk is an error: the result is computed again, after one warning
@@ -54,7 +73,8 @@ class DiskCache {
   /// no home or AIRSIM360_CACHE is empty.
   static DiskCache OfUser();
 
-  std::optional<Bytes> Load(const CacheKey& key) const;
+  /// Reads and checks on all threads.
+  std::optional<CacheContent> Load(const CacheKey& key) const;
   void Store(const CacheKey& key, std::span<const std::byte> content) const;
   const std::filesystem::path& folder() const { return folder_; }
 

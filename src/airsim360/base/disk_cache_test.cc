@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 
@@ -17,7 +18,7 @@ class DiskCacheTest : public ::testing::Test {
   ~DiskCacheTest() override { fs::remove_all(folder_); }
 
   fs::path OnlyFile() const { return fs::directory_iterator(folder_)->path(); }
-  static std::string Text(const std::optional<Bytes>& bytes) { return bytes ? std::string(AsText(*bytes)) : "missing"; }
+  static std::string Text(const std::optional<CacheContent>& found) { return found ? std::string(AsText(found->bytes())) : "missing"; }
 
   fs::path folder_;
 };
@@ -52,6 +53,28 @@ TEST_F(DiskCacheTest, DamagedAndCutOffEntriesCountAsMissing) {
     WriteFileAtomically(folder_ / (key.Name() + ".cache"), bad);
     EXPECT_EQ(Text(cache.Load(key)), "missing") << i;
   }
+}
+
+TEST_F(DiskCacheTest, AChangedByteAnywhereInALargeEntryIsFoundAndAWholeOneComesBackByteForByte) {
+  std::string content(5'000'001, 0);
+  for (size_t i = 0; i < content.size(); ++i) content[i] = static_cast<char>(i * 2654435761u >> 13);
+  const DiskCache cache(folder_);
+  const CacheKey key("scene", 1);
+  cache.Store(key, AsBytes(content));
+  EXPECT_TRUE(Text(cache.Load(key)) == content);
+  const Bytes good = ReadFile(OnlyFile());
+  for (size_t at : {good.size() - 1, good.size() / 2, good.size() - content.size(), size_t{1} << 20}) {
+    Bytes bad = good;
+    bad[at] ^= std::byte{4};
+    WriteFileAtomically(folder_ / (key.Name() + ".cache"), bad);
+    EXPECT_TRUE(Text(cache.Load(key)) == "missing") << at;
+  }
+  // Two blocks that have changed places.
+  Bytes bad = good;
+  const auto first = bad.end() - static_cast<std::ptrdiff_t>(content.size());
+  std::swap_ranges(first, first + (1 << 20), first + (1 << 20));
+  WriteFileAtomically(folder_ / (key.Name() + ".cache"), bad);
+  EXPECT_TRUE(Text(cache.Load(key)) == "missing");
 }
 
 TEST_F(DiskCacheTest, OverItsLimitTheLongestUnusedEntriesGo) {

@@ -140,8 +140,8 @@ std::shared_ptr<const Scene> BuildAnew(const WorldRequest& request, OsmReport* r
 std::shared_ptr<const Scene> LoadBuilt(const WorldRequest& request) {
   const CacheKey key = KeyOf(request);
   const DiskCache cache = DiskCache::OfUser();
-  if (const std::optional<Bytes> bytes = cache.Load(key)) {
-    if (std::optional<Scene> scene = SceneFromArchive(*bytes)) {
+  if (const std::optional<CacheContent> kept = cache.Load(key)) {
+    if (std::optional<Scene> scene = SceneFromArchive(kept->bytes())) {
       scene->cache_key = key.Name();
       return std::make_shared<Scene>(std::move(*scene));
     }

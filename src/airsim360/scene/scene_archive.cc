@@ -7,6 +7,7 @@
 
 #include "airsim360/base/archive.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/parallel.h"
 #include "airsim360/scene/road_network.h"
 
 namespace airsim360 {
@@ -52,6 +53,30 @@ void VisitMaterial(Archive& archive, T& m) {
 template <class Archive, class T>
 void VisitMesh(Archive& archive, T& m) {
   archive(m.name, m.positions, m.normals, m.uvs, m.triangles, m.parts, m.colors);
+}
+
+void SkipMesh(ArchiveReader& archive) {
+  archive.SkipList<char>();
+  const auto skip = [&]<class T>(std::vector<T> Mesh::*) { archive.SkipList<T>(); };
+  skip(&Mesh::positions), skip(&Mesh::normals), skip(&Mesh::uvs), skip(&Mesh::triangles), skip(&Mesh::parts), skip(&Mesh::colors);
+}
+
+void VisitMeshes(ArchiveWriter& archive, const std::vector<Mesh>& meshes) {
+  archive.Each(meshes, [&](const Mesh& mesh) { VisitMesh(archive, mesh); });
+}
+
+// Most of a town: where each begins is found first, then they are read side by side.
+void VisitMeshes(ArchiveReader& archive, std::vector<Mesh>& meshes) {
+  size_t count = 0;
+  archive(count);
+  archive.Expect(count, 1);
+  std::vector<ArchiveReader> begins;
+  for (size_t i = 0; i < count; ++i) {
+    begins.push_back(archive);
+    SkipMesh(archive);
+  }
+  meshes.resize(count);
+  ParallelFor(static_cast<int64_t>(count), [&](int64_t i) { VisitMesh(begins[static_cast<size_t>(i)], meshes[static_cast<size_t>(i)]); });
 }
 
 template <class Archive, class T>
@@ -146,7 +171,7 @@ void VisitScene(Archive& archive, T& scene) {
   VisitTree(archive, scene.tree);
   archive.Each(scene.textures, [&](auto& texture) { VisitTexture(archive, texture); });
   archive.Each(scene.materials, [&](auto& material) { VisitMaterial(archive, material); });
-  archive.Each(scene.meshes, [&](auto& mesh) { VisitMesh(archive, mesh); });
+  VisitMeshes(archive, scene.meshes);
   archive(scene.instances);
   archive.Each(scene.entities, [&](auto& entity) { VisitEntity(archive, entity); });
   archive(scene.sky_entity);

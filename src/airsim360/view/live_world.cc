@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "airsim360/base/error.h"
@@ -90,6 +91,14 @@ std::shared_ptr<const SimModel> ModelOf(Stage& stage, const std::string& drone) 
   return std::make_shared<const SimModel>(std::move(model));
 }
 
+// From StartState without the distance to the nearest surface, whose search tree takes a while to build in a large world: the first
+// picture does without it, and the first step measures it.
+SimLoop LoopOf(const std::shared_ptr<const SimModel>& model) {
+  SimModel without_clearance = *model;
+  without_clearance.contact_range = 0;
+  return SimLoop(model, StartState(without_clearance));
+}
+
 // A picture that may still be asked about.
 struct Seen {
   int64_t number = 0;
@@ -113,8 +122,10 @@ struct TakenPicture {
 
 struct LiveWorld::Impl {
   Impl(std::shared_ptr<Stage> given, LiveOptions wanted)
-      : stage(std::move(given)), options(std::move(wanted)), loop(ModelOf(*stage, options.drone)), environment(stage->environment()) {
-    told_at = options.clock();
+      : stage(std::move(given)),
+        options(std::move(wanted)),
+        loop(LoopOf(ModelOf(*stage, options.drone))),
+        environment(stage->environment()) {
     renderer = &stage->renderer(options.picture.tier);
   }
 
@@ -149,7 +160,7 @@ struct LiveWorld::Impl {
   FramePool frames;
   std::mutex mutex;  // of the loop and what follows; never held while a picture is rendered
   Environment environment;
-  double told_at = 0;
+  std::optional<double> told_at;  // when time last passed; it begins with the first picture
   Flight kept;
   int64_t steered = 0;    // number of the hands that steer
   std::mutex seeing;      // of what follows; who asks about a picture does not wait for the next one
@@ -166,7 +177,7 @@ void LiveWorld::Impl::Fly(const Json& input) {
 }
 
 void LiveWorld::Impl::PassTime() {
-  const double now = options.clock(), passed = std::clamp(now - told_at, 0.0, kMostPassed);
+  const double now = options.clock(), passed = told_at ? std::clamp(now - *told_at, 0.0, kMostPassed) : 0;
   told_at = now;
   loop.Advance(std::llround(passed * 1e9 / static_cast<double>(loop.model().dt_ns)));
   // What a mission captures is kept like what hands keep.
@@ -380,6 +391,8 @@ std::string LiveWorld::DescriptionJson() const {
   const Scene& scene = impl_->stage->scene();
   const Json about{{"world", impl_->stage->name()},
                    {"seed", impl_->stage->seed()},
+                   {"source", impl_->options.source},
+                   {"source_text", impl_->options.source_text},
                    {"products", kShown},
                    {"scale", {kNear, kFar}},
                    {"weathers", EnvironmentPresetNames()},

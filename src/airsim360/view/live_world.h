@@ -19,6 +19,8 @@ namespace airsim360 {
 struct LiveOptions {
   RenderSettings picture = {};
   std::string drone = "hummingbird";  ///< of DroneCatalog
+  std::string source = {};            ///< what opens the world again: its name, or its file
+  std::string source_text = {};       ///< of a world file: what it says
   /// Renders what was kept into a dataset, under an environment, and says where; none: nothing is kept.
   std::function<std::string(const Flight& kept, const Environment& environment)> save = {};
   /// Seconds since any instant; the clock that the drone flies by.

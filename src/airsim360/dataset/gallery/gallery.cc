@@ -158,6 +158,7 @@ std::string Scenes(const internal::DatasetStatistics& statistics) {
 }
 
 constexpr char kHead[] = R"(<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<link rel="icon" href="data:,">
 <style>body{font:15px sans-serif;margin:1em;background:#fafafa;color:#222}#pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(420px,1fr));gap:12px}
 figure{margin:0}.scene{max-width:1024px;margin:0 0 1em}figcaption{font-weight:600;padding:2px 0}img{width:100%;display:block;background:#ddd}input[type=range]{width:60%;vertical-align:middle}
 #legend span{display:inline-block;margin-right:1em}#legend i{display:inline-block;width:1em;height:1em;margin-right:.3em;vertical-align:-2px;border:1px solid #888}

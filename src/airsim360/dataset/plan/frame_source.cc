@@ -56,7 +56,7 @@ std::string HashOfScene(const Scene& scene) {
   key.Add(scene.cache_key);
   const DiskCache cache = DiskCache::OfUser();
   if (!scene.cache_key.empty()) {
-    if (const auto bytes = cache.Load(key); bytes && bytes->size() == 64) return std::string(AsText(*bytes));
+    if (const auto kept = cache.Load(key); kept && kept->bytes().size() == 64) return std::string(AsText(kept->bytes()));
   }
   const std::string hash = Sha256Hex(ArchivePictured(scene));
   if (!scene.cache_key.empty() && !cache.folder().empty()) cache.Store(key, AsBytes(hash));

@@ -158,9 +158,9 @@ std::string PlanFrames::Describe(int64_t frame) {
 
 PlanFrame PlanFrames::Take(int64_t frame) {
   const CacheKey key = CacheKey("panorama", kCacheVersion).Add(key_).Add(frame);
-  if (const auto bytes = cache_.Load(key)) {
+  if (const auto found = cache_.Load(key)) {
     PlanFrame kept;
-    if (UnpackPictures(*bytes, kept.about, kept.pictures)) return kept;
+    if (UnpackPictures(found->bytes(), kept.about, kept.pictures)) return kept;
   }
   PlanFrame drawn = Draw(frame);
   if (!cache_.folder().empty()) cache_.Store(key, PackPictures(drawn.about, drawn.pictures));

@@ -95,7 +95,7 @@ std::shared_ptr<const NavMesh> NavMesh::Build(const Scene& scene, const NavMeshO
   const CacheKey key = KeyOf(scene, options);
   std::unique_ptr<Impl> impl;
   if (keeps)
-    if (const std::optional<Bytes> bytes = cache.Load(key)) impl = FromArchive(scene, grid, options, *bytes);
+    if (const auto kept = cache.Load(key)) impl = FromArchive(scene, grid, options, kept->bytes());
   if (!impl) {
     Bytes archive;
     impl = BuildAnew(scene, grid, options, keeps ? &archive : nullptr);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,8 +34,8 @@ class LightCache {
     if (!enabled_) return make();
     CacheKey key(kind, 1);
     key.Add(lit_scene_);
-    if (const std::optional<Bytes> bytes = disk_.Load(key)) {
-      if (std::optional<T> kept = Read<T>(*bytes)) return std::move(*kept);
+    if (const std::optional<CacheContent> found = disk_.Load(key)) {
+      if (std::optional<T> kept = Read<T>(found->bytes())) return std::move(*kept);
     }
     T made = make();
     ArchiveWriter archive;
@@ -45,7 +46,7 @@ class LightCache {
 
  private:
   template <class T>
-  static std::optional<T> Read(const Bytes& bytes) {
+  static std::optional<T> Read(std::span<const std::byte> bytes) {
     try {
       ArchiveReader archive(bytes);
       T kept;

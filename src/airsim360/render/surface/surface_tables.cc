@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numeric>
 #include <tuple>
+#include <type_traits>
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/color.h"
@@ -22,8 +23,15 @@ static_assert(static_cast<int>(GroundWear::kAsphalt) == 1 && static_cast<int>(Gr
 constexpr int kNoiseSize = 256;
 constexpr int kOwnTextures = 2;
 
+// std::lround where it is a call for each of millions of triangles: the sum is exact, for a double has room for it.
+int Rounded(float x) {
+  constexpr double kFits = 2e9;
+  const double y = x;
+  return std::fabs(y) < kFits ? static_cast<int>(y + std::copysign(0.5, y)) : static_cast<int>(std::lround(x));
+}
+
 uint32_t Pack16(float x, float y) {
-  const auto quantize = [](float v) { return static_cast<uint32_t>(std::lround((std::clamp(v, -1.0f, 1.0f) * 0.5f + 0.5f) * 65534.0f)); };
+  const auto quantize = [](float v) { return static_cast<uint32_t>(Rounded((std::clamp(v, -1.0f, 1.0f) * 0.5f + 0.5f) * 65534.0f)); };
   return quantize(x) | quantize(y) << 16;
 }
 
@@ -31,8 +39,7 @@ uint32_t Pack16(float x, float y) {
 uint32_t PaneHash(Vec3f a, Vec3f b, Vec3f c) {
   const float ab = Norm(b - a), bc = Norm(c - b), ca = Norm(a - c);
   const Vec3f middle = (ab >= bc && ab >= ca ? a + b : bc >= ca ? b + c : c + a) * 25.0f;
-  return HashLattice(static_cast<int>(std::lround(middle.x)), static_cast<int>(std::lround(middle.y)),
-                     static_cast<int>(std::lround(middle.z)));
+  return HashLattice(Rounded(middle.x), Rounded(middle.y), Rounded(middle.z));
 }
 
 // Imported coordinates may be anything; look-ups need numbers with a fraction.
@@ -92,10 +99,13 @@ TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material,
 
   // Vertex normals and texture coordinates.
   Vec2f uv[3];
+  Vec3f packed = normal;  // what was packed last: most triangles of a town are flat
+  uint32_t packed_bits = record.geometric_normal;
   for (int k = 0; k < 3; ++k) {
     Vec3f n = mesh.normals.empty() ? normal : Normalized(mesh.normals[corners[k]]);
     if (!(Dot(n, n) > 0.5f)) n = normal;
-    record.normals[k] = PackDirection(n);
+    if (!(n == packed)) packed = n, packed_bits = PackDirection(n);
+    record.normals[k] = packed_bits;
     if (!mesh.uvs.empty()) uv[k] = Sane(transform * mesh.uvs[corners[k]]);
     record.uv[2 * k] = uv[k].x;
     record.uv[2 * k + 1] = uv[k].y;
@@ -192,6 +202,21 @@ TextureRecord MakeTexture(const Texture& texture) {
   return record;
 }
 
+// resize() of an empty table, whose memory the system clears page by page at its first touch: on all threads, not on one.
+template <class T>
+void ResizeLarge(TableVector<T>& table, size_t count) {
+  constexpr size_t kPiece = size_t{4} << 20;
+  static_assert(std::is_trivially_copyable_v<T>);
+  table.reserve(count);
+  const size_t bytes = count * sizeof(T);
+  auto* memory = reinterpret_cast<std::byte*>(table.data());
+  ParallelFor(static_cast<int64_t>((bytes + kPiece - 1) / kPiece), [&](int64_t i) {
+    const size_t begin = static_cast<size_t>(i) * kPiece;
+    std::memset(memory + begin, 0, std::min(kPiece, bytes - begin));
+  });
+  table.resize(count);
+}
+
 // Three independent tiling noises of mean 1/2 in r, g, b.
 uint32_t NoiseTexel(int x, int y) {
   uint32_t texel = 0xff000000u;
@@ -268,7 +293,7 @@ SurfaceTables::SurfaceTables(const Scene& scene, bool lamps_on) {
     first_.push_back(static_cast<uint32_t>(count));
     count += mesh.triangles.size();
   }
-  triangles.resize(count);
+  ResizeLarge(triangles, count);
   ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
     for (const MeshPart& part : scene.meshes[m].parts) {
       for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {

@@ -20,15 +20,27 @@ class App {
   }
 
   async open() {
-    const session = await (await fetch("session.json")).json();
-    document.body.className = session.live ? "live" : "recorded";
+    const asked = this.session();
     this.map = new Minimap($("map"), i => this.showFrame(this.flights ? this.flights.current.first + i : this.visited ? this.visited[i].frame : i));
     this.addPane($("pane-a"));
+    const session = await asked;
     this.listen();
     this.readAddress();
     if (session.live) await this.openLive(session.live);
     else await this.openRecorded(session.datasets);
     addEventListener("hashchange", () => { this.readAddress(); this.refresh(); });
+  }
+  /// What there is to see. The server answers at once, also while it still opens a world.
+  async session() {
+    for (;;) {
+      const session = await (await fetch("session.json")).json(), coming = session.live?.coming;
+      if (session.live?.error) throw new Error(session.live.error);
+      document.body.className = session.live ? "live" : "recorded";
+      $("opening").hidden = !coming;
+      if (!coming) return session;
+      document.title = `${coming} – AirSim360 live`;
+      $("opening").textContent = `Opening ${coming} …  The first time a world is built, which may take a minute.`;
+    }
   }
   addPane(box) {
     const pane = {box, look: new Look()};
@@ -125,6 +137,7 @@ class App {
       this.refresh();
     });
     $("time").addEventListener("input", () => this.showFrame(Number($("time").value)));
+    for (const [id, factor] of [["map-out", 2], ["map-in", 0.5]]) $(id).addEventListener("click", () => this.map.zoom(factor));
     $("back").addEventListener("click", () => this.step(-1));
     $("on").addEventListener("click", () => this.step(1));
     $("play").addEventListener("click", () => this.play());

@@ -8,7 +8,7 @@ const DEGREES = 180 / Math.PI;
 // Kind -> the file that it goes to, the flag that reads it, and what the drawing needs.
 const FILES = {area: "people", person: "people", route: "route", camera: "cameras", label: "labels", lamp: "world"};
 const NAMES = {people: "people.yaml", route: "route.yaml", cameras: "rig.yaml", labels: "labels.yaml", world: "world.yaml"};
-const FLAGS = {people: "--people people.yaml", route: "--route route.yaml", cameras: "--cameras rig.yaml", labels: "--labels labels.yaml", world: "--world world.yaml"};
+const FLAGS = {people: "--people people.yaml", route: "collect --route route.yaml", cameras: "--cameras rig.yaml", labels: "--labels labels.yaml", world: "--world world.yaml"};
 const HINTS = {area: "Click on the map, or add where the drone is.", person: "Click on the map, or add where the drone is.", route: "Click on the map, or add where the drone is.",
                camera: "Look where the camera shall look, zoom to its field of view, and add it: it hangs on the drone.",
                label: "Click a thing in the picture, say what it is, and add it. * in the name stands for anything.",
@@ -111,8 +111,12 @@ export class Drawing {
   }
   worldText() {
     if (!this.lamps.length) return "";
+    const {source, source_text: own} = this.live;
     const lamp = ({p: [x, y, z], lumens, kelvin, always}) => `  - {x: ${x}, y: ${y}, z: ${z}, lumens: ${lumens}, kelvin: ${kelvin}${always ? ", always: true" : ""}}\n`;
-    return `world: ${this.live.world}\nseed: ${this.live.seed}\nlamps:\n${this.lamps.map(lamp).join("")}`;
+    const lamps = `lamps:\n${this.lamps.map(lamp).join("")}`;
+    // Of a world file: what it says already, and the lamps with those that it has.
+    if (own) return /^lamps:\s*$/m.test(own) ? own.replace(/^lamps:\s*\n/m, lamps) : `${own.replace(/\n*$/, "\n")}${lamps}`;
+    return `world: ${/^\w+$/.test(source) ? source : quoted(source)}\nseed: ${this.live.seed}\n${lamps}`;
   }
   async write() {
     const text = $("draw-text").value = this.text(), state = $("draw-state"), {file} = this;

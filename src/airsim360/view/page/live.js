@@ -62,8 +62,8 @@ class Line {
 
 export class Live {
   /// `flies`: the hands may steer; `follows`: the world is in another server, which passes its time and has its own light.
-  constructor({token, world, seed, categories, weathers, keeps, flies, follows, resets}, box, app) {
-    Object.assign(this, {token, world, seed, app, flies, follows, resets, held: new Set(), path: [], width: 1024, speed: 0.3, frames: []});
+  constructor({token, world, seed, source, source_text, categories, weathers, keeps, flies, follows, resets}, box, app) {
+    Object.assign(this, {token, world, seed, source, source_text, app, flies, follows, resets, held: new Set(), path: [], width: 1024, speed: 0.3, frames: []});
     this.categories = new Map(categories.map(c => [c.id, c]));
     this.controls(box, weathers, keeps);
     for (const id of ["trees", "drawing", "finding"]) document.getElementById(id).hidden = follows;
@@ -256,7 +256,7 @@ export class Live {
                this.choice("Size", ["512", "1024", "2048", "4096"], value => { this.width = Number(value); }, "1024"));
     if (resets) box.append(this.button("To the start", () => this.ask({do: "reset"})));
     if (keeps) {
-      this.save = this.button("Save 0 frames", async () => { const said = await this.ask({do: "save"}); this.app.say(`Saved ${said.frames} frames in ${said.folder}`); this.note.textContent = `saved: airsim360 view ${said.folder} shows them`; });
+      this.save = this.button("Save 0 frames", async () => { this.note.textContent = "rendering them …"; const said = await this.ask({do: "save"}); this.app.say(`Saved ${said.frames} frames in ${said.folder}`); this.note.textContent = `saved: airsim360 view ${said.folder} shows them`; });
       this.countKept(0);
       this.note = document.createElement("span");
       box.append(this.button("Keep this frame", () => this.ask({do: "keep"})), this.save, this.note);

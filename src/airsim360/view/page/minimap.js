@@ -1,25 +1,35 @@
 // The flight from above: north up, with where one is and looks, people, and the chosen thing.
 import {turn} from "./sphere.js";
 
-const MARGIN = 14, MOST_POINTS = 4000;
+const MARGIN = 14, MOST_POINTS = 4000, MOST_OUT = 256;
 
 export class Minimap {
   constructor(canvas, onChoose) {
-    Object.assign(this, {canvas, onChoose, points: [], people: [], box: null, here: null});
+    Object.assign(this, {canvas, onChoose, points: [], whole: [], out: 1, people: [], box: null, here: null});
+    canvas.addEventListener("wheel", e => { e.preventDefault(); this.zoom(Math.exp(0.002 * e.deltaY)); }, {passive: false});
     canvas.addEventListener("click", e => this.click(e));
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
   /// Places of the frames, in W.
   setFlight(points, count = points.length) {
-    this.points = points;
-    this.fit();
+    this.whole = points;
     this.points = points.slice(0, count);  // those behind only have to be on the map
+    this.fit();
+  }
+  /// Shows so many times more than before, never less than the flight.
+  zoom(factor) {
+    this.out = Math.max(1, Math.min(MOST_OUT, this.out * factor));
+    this.fit();
   }
   fit() {
     let low = [Infinity, Infinity], high = [-Infinity, -Infinity];
-    for (const p of this.points) for (const a of [0, 1]) { low[a] = Math.min(low[a], p[a]); high[a] = Math.max(high[a], p[a]); }
+    for (const p of this.whole) for (const a of [0, 1]) { low[a] = Math.min(low[a], p[a]); high[a] = Math.max(high[a], p[a]); }
     const least = 10;  // metres, of a flight that stands still
-    for (const a of [0, 1]) if (high[a] - low[a] < least) { const m = (high[a] + low[a]) / 2; low[a] = m - least / 2; high[a] = m + least / 2; }
+    for (const a of [0, 1]) {
+      const middle = (high[a] + low[a]) / 2, half = Math.max(least, high[a] - low[a]) / 2 * this.out;
+      low[a] = middle - half;
+      high[a] = middle + half;
+    }
     Object.assign(this, {low, high});
     this.draw();
   }

@@ -2,7 +2,7 @@
 // edited here and by hand has the same bytes.
 const $ = id => document.getElementById(id);
 const LOOK_MS = 400, MOST_UNDONE = 200, MOST_LETTERS = 12;
-const NEW_MISSION = '<root BTCPP_format="4"><BehaviorTree ID="mission"><Sequence><Wait seconds="1"/></Sequence></BehaviorTree></root>';
+const NEW_MISSION = '<root BTCPP_format="4"><BehaviorTree ID="mission"><Sequence><Takeoff/><Wait seconds="1"/></Sequence></BehaviorTree></root>';
 
 const elementsOf = doc => [...doc.querySelectorAll("*")];
 const parse = xml => new DOMParser().parseFromString(xml, "application/xml");

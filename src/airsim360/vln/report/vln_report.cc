@@ -241,7 +241,7 @@ std::string Pages(const std::vector<VlnRun>& runs, bool html, const FailurePictu
 std::string ReportMarkdown(const std::vector<VlnRun>& runs) { return "# Vision-and-language navigation\n\n" + Pages(runs, false); }
 
 std::string ReportHtml(const std::vector<VlnRun>& runs, const FailurePictures& pictures) {
-  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Vision-and-language navigation</title>\n"
+  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><link rel=\"icon\" href=\"data:,\"><title>Vision-and-language navigation</title>\n"
          "<style>body{font:15px/1.5 sans-serif;max-width:1200px;margin:2em auto;padding:0 1em}table{border-collapse:collapse;display:block;overflow-x:auto}"
          "td,th{border:1px solid #ccc;padding:.25em .6em;text-align:left;vertical-align:top}th{background:#f2f2f2}</style></head><body>\n"
          "<h1>Vision-and-language navigation</h1>\n" +
