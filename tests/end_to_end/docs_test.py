@@ -46,8 +46,14 @@ def script_of(page):
         text = re.sub(r"^(airsim360 (?:serve|agent)\b[^\n]*?) *&$",
                       r"\1 > server.log 2>&1 &\nfor i in $(seq 300); do grep -q listening server.log && break; sleep 0.2; done",
                       text, flags=re.M)
-        parts.append(f"echo '{name_of(page)}:{line}' >&2\n{text}")
-    return "\n".join(parts)
+        parts.append(f"echo \"[$SECONDS s] {name_of(page)}:{line}\" >&2\n{text}")
+    return "\n".join([*parts, 'echo "[$SECONDS s] end" >&2'])
+
+
+def slow_blocks(said):
+    """(seconds, page:line) of the blocks that took ten seconds or more, by what the script of a page said."""
+    begun = [(int(at), where) for at, where in re.findall(r"^\[(\d+) s\] (.*)$", said, re.M)]
+    return [(end - start, where) for (start, where), (end, _) in zip(begun, begun[1:]) if end - start >= 10]
 
 
 class Docs(unittest.TestCase):
@@ -80,6 +86,8 @@ def run_page(page):
                            "AIRSIM360_CACHE": CACHE}
             done = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, capture_output=True, text=True, timeout=1500)
             self.assertEqual(done.returncode, 0, f"{name_of(page)}\n{done.stdout[-2000:]}\n{done.stderr[-3000:]}")
+            for seconds, where in slow_blocks(done.stderr):
+                print(f"{seconds} s: {where}", flush=True)
     return test
 
 
