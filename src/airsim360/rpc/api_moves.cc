@@ -16,7 +16,7 @@ using airsim::YawMode;
 using Text = const std::string&;
 
 // AirSim's: how high a take-off goes and how fast, what counts as standing.
-constexpr double kTakeoffHeight = 2, kTakeoffSpeed = 0.5, kHomeSpeed = 0.5, kHoverSpeed = 0.5, kStillSpeed = 0.05;
+constexpr double kTakeoffHeight = 2, kTakeoffSpeed = 0.5, kHomeSpeed = 0.5, kHoverSpeed = 0.5;
 constexpr double kForever = 3e38;
 
 PathOptions Options(const Session& s, double velocity, DrivetrainType drivetrain, const YawMode& yaw, double lookahead,

@@ -10,7 +10,9 @@
 
 namespace airsim360 {
 
-inline constexpr double kTaskPeriod = 0.02;  ///< seconds between commands
+inline constexpr double kTaskPeriod = 0.02;       ///< seconds between commands
+inline constexpr double kDistanceAccuracy = 0.5;  ///< metres: AirSim's, how near to a place a drone can be steered
+inline constexpr double kStillSpeed = 0.05;       ///< m/s: AirSim's, what counts as standing still
 
 /// What a move sees of its drone: N relative to the drone's own origin.
 struct FlightView {
@@ -50,7 +52,7 @@ using TaskPointer = std::unique_ptr<FlightTask>;
 /// The same command over and over for `duration` seconds.
 TaskPointer MakeTimedTask(Command command, double duration);
 /// Chases a point that runs along the polyline from where the drone is. std::invalid_argument with AirSim's
-/// texts for a lookahead that makes no sense.
+/// texts for a lookahead that makes no sense (follow_path.cc).
 TaskPointer MakePathTask(const FlightView& start, const std::vector<Vec3d>& path_N, double timeout, const PathOptions& options);
 /// Sinks at 0.2 m/s until something below has stopped it. (AirSim's also ends where a faster descent is caught so hard that
 /// the drone rises for a moment: scripts that then disarm drop it.)

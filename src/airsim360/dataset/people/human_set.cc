@@ -12,6 +12,7 @@
 #include "airsim360/base/config.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
+#include "airsim360/dataset/people/human_splits.h"
 #include "airsim360/sim/people_survey.h"
 
 namespace airsim360 {
@@ -94,7 +95,7 @@ std::vector<HumanSubset> SubsetsOf(const HumanRecipe& recipe) {
       subset.people =
           static_cast<uint64_t>(std::llround(between(static_cast<double>(scene.least_people), static_cast<double>(scene.most_people))));
       subset.pitch_deg = PitchOf(recipe.pitches_deg[k % recipe.pitches_deg.size()], "recipe");
-      subset.split = k % 5 == 4 ? "test" : k % 10 == 2 ? "val" : "train";
+      subset.split = SplitOf(k);
       // Frames that do not divide evenly go to the first subsets.
       subset.frames = static_cast<int64_t>(scene.frames / scene.subsets + (k < scene.frames % scene.subsets ? 1 : 0));
       subsets.push_back(subset);

@@ -94,6 +94,8 @@ int64_t CountShared(const Holders& holders, const char* kind, std::string& examp
 
 }  // namespace
 
+std::string SplitOf(uint64_t k) { return k % 5 == 4 ? "test" : k % 10 == 2 ? "val" : "train"; }
+
 std::vector<PlacedSubset> PlaceSubsets(const Scene& scene, const NavMesh& mesh, std::span<const HumanSubset> subsets, uint64_t seed) {
   std::vector<PlacedSubset> placed(subsets.size());
   std::vector<size_t> order(subsets.size());

@@ -11,6 +11,9 @@
 
 namespace airsim360 {
 
+/// The split of subset `k` of a scene: every fifth is of test, one in ten of val, the others of train.
+std::string SplitOf(uint64_t k);
+
 /// A subset with its area. `split` is the subset's, or "none" where the world has no place for it apart from other splits: then
 /// it is as lively as it gets, and in no split.
 struct PlacedSubset {

@@ -4,7 +4,7 @@
 
 #include "airsim360/dataset/people/person_record.h"
 #include "airsim360/image/draw.h"
-#include "airsim360/people/annotation/keypoint_orders.h"
+#include "airsim360/people/keypoints/keypoint_orders.h"
 
 namespace airsim360 {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "airsim360/dataset/people/json_lines.h"
-#include "airsim360/people/annotation/keypoint_orders.h"
+#include "airsim360/people/keypoints/keypoint_orders.h"
 
 namespace airsim360 {
 namespace {

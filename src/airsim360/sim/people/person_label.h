@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "airsim360/math/transform.h"
-#include "airsim360/people/annotation/sphere_box.h"
+#include "airsim360/people/keypoints/sphere_box.h"
 #include "airsim360/people/person_state.h"
 #include "airsim360/people/skeleton.h"
 #include "airsim360/scene/mesh.h"

@@ -7,7 +7,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
-#include "airsim360/people/annotation/keypoint_orders.h"
+#include "airsim360/people/keypoints/keypoint_orders.h"
 
 namespace airsim360 {
 namespace {

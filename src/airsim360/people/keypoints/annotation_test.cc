@@ -6,8 +6,8 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
-#include "airsim360/people/annotation/keypoint_orders.h"
-#include "airsim360/people/annotation/sphere_box.h"
+#include "airsim360/people/keypoints/keypoint_orders.h"
+#include "airsim360/people/keypoints/sphere_box.h"
 
 namespace airsim360 {
 namespace {

@@ -4,7 +4,7 @@
 #include "airsim360/base/config.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
-#include "airsim360/people/annotation/keypoint_orders.h"
+#include "airsim360/people/keypoints/keypoint_orders.h"
 
 namespace airsim360 {
 namespace {

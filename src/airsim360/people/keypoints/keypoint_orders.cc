@@ -1,4 +1,4 @@
-#include "airsim360/people/annotation/keypoint_orders.h"
+#include "airsim360/people/keypoints/keypoint_orders.h"
 
 #include <array>
 

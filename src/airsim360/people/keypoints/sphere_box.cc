@@ -1,4 +1,4 @@
-#include "airsim360/people/annotation/sphere_box.h"
+#include "airsim360/people/keypoints/sphere_box.h"
 
 #include <algorithm>
 #include <cmath>

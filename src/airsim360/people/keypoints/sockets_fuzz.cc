@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "airsim360/base/error.h"
-#include "airsim360/people/annotation/keypoint_orders.h"
+#include "airsim360/people/keypoints/keypoint_orders.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace airsim360;
