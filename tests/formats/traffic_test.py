@@ -54,6 +54,46 @@ class Traffic(unittest.TestCase):
                 self.assertGreater(inside[:, 2].min(), -0.05)
         self.assertGreater(seen, 8)
 
+    def test_kitti_labels_are_the_boxes_of_pixels_and_vehicles(self):
+        out = self.folder / "kitti"
+        done = run("dataset", "export", self.data, "--format", "kitti_object", "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        checked = 0
+        for frame, line in zip(self.frames, self.lines):
+            entity = read_ids(self.data / "entity" / f"{frame['stem']}.png")
+            R_CW, p_WC = rotation(frame["X_WC"]["q_wxyz"]).T, np.array(frame["X_WC"]["p"])
+            expected = {}
+            for vehicle in line["vehicles"]:
+                rows, columns = np.nonzero(entity == vehicle["entity"])
+                if len(rows) and np.ptp(columns) < 256:  # those at the seam have a box around it
+                    expected[(columns.min(), rows.min(), columns.max(), rows.max())] = vehicle
+            labels = [text.split() for text in (out / "label_2" / f"{frame['stem']}.txt").read_text().splitlines()]
+            self.assertEqual(len(labels), sum((entity == vehicle["entity"]).any() for vehicle in line["vehicles"]))
+            for label in labels:
+                vehicle = expected.get(tuple(int(float(x)) for x in label[4:8]))
+                if vehicle is None:
+                    continue
+                checked += 1
+                height, width, length, x, y, z, rotation_y = map(float, label[8:])
+                np.testing.assert_allclose([length, width, height], vehicle["size"], atol=1e-3)
+                np.testing.assert_allclose([x, y, z], R_CW @ (np.array(vehicle["X_WB"]["p"]) - p_WC), atol=1e-3)
+                # KITTI turns a car that looks along x of the camera by rotation_y about its y axis, which points down.
+                ahead = R_CW @ rotation(vehicle["X_WB"]["q_wxyz"])[:, 0]
+                np.testing.assert_allclose([np.cos(rotation_y), -np.sin(rotation_y)], ahead[[0, 2]] / np.hypot(ahead[0], ahead[2]), atol=1e-3)
+                turned = rotation_y - float(label[3]) - np.arctan2(x, z)
+                self.assertAlmostEqual(np.cos(turned), 1, places=5)
+                self.assertEqual(label[0], {"vehicle/car": "Car", "vehicle/van": "Van", "vehicle/truck": "Truck"}.get(vehicle["category"], label[0]))
+        self.assertGreater(checked, 8)
+
+    def test_kitti_labels_need_traffic(self):
+        still = self.folder / "still"
+        done = run("collect", "--world", "box_room", "--frames", 1, "--size", "64x32", "--tier", "labels", "--out", still)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = run("dataset", "export", still, "--format", "kitti_object", "--out", self.folder / "none")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--traffic", done.stderr)
+        self.assertFalse((self.folder / "none").exists())
+
     def test_velocities_are_differences_of_places(self):
         moving = 0
         for before, after in zip(self.lines, self.lines[1:]):

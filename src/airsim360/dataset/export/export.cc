@@ -29,6 +29,7 @@ constexpr Format kFormats[] = {
     {{"tum", "TUM RGB-D poses and picture list"}, internal::ExportTum},
     {{"euroc", "EuRoC/ASL: pictures, ground truth, IMU where one was flown"}, internal::ExportEuroc},
     {{"kitti_odometry", "KITTI odometry poses and pictures"}, internal::ExportKittiOdometry},
+    {{"kitti_object", "KITTI object labels of the vehicles of traffic: boxes in the picture and in space"}, internal::ExportKittiObject},
     {{"cityscapes", "Cityscapes labelIds, trainIds and instanceIds"}, internal::ExportCityscapes},
     {{"ade20k", "ADE20K scene parsing, 150 classes"}, internal::ExportAde20k},
     {{"wildpass", "WildPASS, 8 classes"}, internal::ExportWildPass},

@@ -81,6 +81,7 @@ void ExportNerfstudio(ExportJob& job);
 void ExportTum(ExportJob& job);
 void ExportEuroc(ExportJob& job);
 void ExportKittiOdometry(ExportJob& job);
+void ExportKittiObject(ExportJob& job);
 void ExportCityscapes(ExportJob& job);
 void ExportAde20k(ExportJob& job);
 void ExportWildPass(ExportJob& job);
