@@ -57,10 +57,10 @@ double DistanceToTown(Vec3d p) {
   return distance;
 }
 
-WaypointSetOptions Options(const fs::path& out) {
+WaypointSetOptions Options(const fs::path& out, int64_t routes) {
   WaypointSetOptions options;
   options.out = out;
-  options.most_routes = 4;
+  options.most_routes = routes;
   options.worlds = {"city_park", "downtown_west", "sf_city"};
   options.exists = [](const std::string& name) { return name != "sf_city"; };
   options.open = [](const std::string&) { return std::make_shared<Stage>(Town()); };
@@ -87,16 +87,16 @@ class WaypointSet : public testing::Test {
 };
 
 TEST_F(WaypointSet, IsTheSameBytesForAnyThreadsShardsAndInterruptions) {
-  const WaypointSetResult whole = WriteWaypointSet(Options(folder_ / "whole"));
+  const WaypointSetResult whole = WriteWaypointSet(Options(folder_ / "whole", 2));
   EXPECT_TRUE(whole.complete);
-  EXPECT_EQ(whole.written, 16);
+  EXPECT_EQ(whole.written, 8);
   EXPECT_EQ(whole.skipped, std::vector<std::string>{"sf_city"});
   const auto expected = Files(folder_ / "whole");
   EXPECT_TRUE(expected.contains("statistics.json") && expected.contains("index.csv") && expected.contains("city_park/routes.svg"));
   {
     const ThreadLimit limit(1);
     for (int64_t shard = 0; shard < 2; ++shard) {
-      WaypointSetOptions options = Options(folder_ / "shards");
+      WaypointSetOptions options = Options(folder_ / "shards", 2);
       options.shard = shard;
       options.shards = 2;
       EXPECT_EQ(WriteWaypointSet(options).complete, shard == 1);
@@ -106,13 +106,13 @@ TEST_F(WaypointSet, IsTheSameBytesForAnyThreadsShardsAndInterruptions) {
   // What is lost is made again, the rest is left alone.
   fs::remove(folder_ / "whole/city_park/a3_v16_t0.5/part-0000.npz");
   fs::remove(folder_ / "whole/index.csv");
-  EXPECT_EQ(WriteWaypointSet(Options(folder_ / "whole")).written, 8);
+  EXPECT_EQ(WriteWaypointSet(Options(folder_ / "whole", 2)).written, 4);
   EXPECT_EQ(Files(folder_ / "whole"), expected);
-  EXPECT_EQ(WriteWaypointSet(Options(folder_ / "whole")).written, 0);
+  EXPECT_EQ(WriteWaypointSet(Options(folder_ / "whole", 2)).written, 0);
 }
 
 TEST_F(WaypointSet, EveryFlightKeepsItsLimitsItsLengthAndItsDistance) {
-  WriteWaypointSet(Options(folder_));
+  WriteWaypointSet(Options(folder_, 4));
   int flights = 0;
   for (const WaypointWorld& world : WaypointWorlds()) {
     if (world.name != "city_park" && world.name != "downtown_west") continue;
@@ -158,11 +158,11 @@ TEST_F(WaypointSet, EveryFlightKeepsItsLimitsItsLengthAndItsDistance) {
 }
 
 TEST_F(WaypointSet, RefusesAFolderOfAnotherSetAndUnknownWorlds) {
-  WriteWaypointSet(Options(folder_));
-  WaypointSetOptions other = Options(folder_);
+  WriteWaypointSet(Options(folder_, 1));
+  WaypointSetOptions other = Options(folder_, 1);
   other.seed = 1;
   EXPECT_THROW(WriteWaypointSet(other), InputError);
-  WaypointSetOptions unknown = Options(folder_);
+  WaypointSetOptions unknown = Options(folder_, 1);
   unknown.worlds = {"atlantis"};
   EXPECT_THROW(WriteWaypointSet(unknown), InputError);
 }
