@@ -17,6 +17,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 // Hover disc loadings of drones that exist, N/m^2: from indoor fliers to heavy-lift racers.
 constexpr double kLeastLoading = 8, kMostLoading = 600;
+constexpr double kLeastGap = 1;  // of neighbouring hubs over the diameter: the discs touch
 
 }  // namespace
 
@@ -192,7 +193,7 @@ void Designer::ChooseArms() {
   const int arms = ArmsOf(n_, layout_);
   // Where the longer sides of an H or a wide X leave the propellers no room, its motors stand in a square.
   const bool oblong = layout_ == RotorLayout::kH || layout_ == RotorLayout::kWideX;
-  if (oblong && said_.arm && *said_.arm * 1.2 < 1.02 * D_ && *said_.arm * 2 * std::sin(kPi / 4) >= 1.02 * D_) {
+  if (oblong && said_.arm && *said_.arm * 1.2 < kLeastGap * D_ && *said_.arm * 2 * std::sin(kPi / 4) >= kLeastGap * D_) {
     layout_ = RotorLayout::kX;
     Decide("the motors of the frame stand in a square, for the propellers to have room");
   }
@@ -200,7 +201,13 @@ void Designer::ChooseArms() {
   const double gap = layout_ == RotorLayout::kH || layout_ == RotorLayout::kWideX ? 1.2 : 2 * std::sin(kPi / arms);
   L_ = said_.arm.value_or(D_ * kind_.spacing / gap);
   Law("arm", said_.arm ? Said("arm") : Text("neighbouring hubs %.2f diameters apart (%s)", kind_.spacing, out_.drone_class.c_str()));
-  if (L_ * gap < 1.02 * D_) {
+  const bool told = stagger_;
+  stagger_ = n_ % 2 == 0 && layout_ != RotorLayout::kCoaxial && L_ * gap < kLeastGap * D_ && L_ * gap >= kLeastStaggered * D_;
+  if (stagger_ && !told) {
+    Decide(
+        Text("neighbouring propellers overlap by %.0f %% of their diameter: they stand at two heights, and no loss of thrust is reckoned",
+             100 * (1 - L_ * gap / D_)));
+  } else if (!stagger_ && L_ * gap < kLeastGap * D_) {
     Refuse(Text("propellers of %.0f mm overlap on arms of %.0f mm", D_ * 1000, L_ * 1000) +
            (said_.propeller && said_.arm ? ": '" + Words("propeller") + "' contradicts '" + Words("arm") + "'" : ""));
   }

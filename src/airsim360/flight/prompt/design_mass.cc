@@ -14,6 +14,9 @@ DroneModel Designer::Aerodynamics() const {
   DroneModel model;
   model.mass = m_;
   model.rotors = PlaceRotors(n_, layout_, L_, 0.08 * L_);
+  if (stagger_) {  // neighbours turn against each other
+    for (RotorModel& rotor : model.rotors) rotor.p_B.z += (rotor.direction > 0 ? 0.5 : -0.5) * kStagger * D_;
+  }
   const double rho = kSeaLevelAirDensity, D3 = D_ * D_ * D_;
   for (RotorModel& rotor : model.rotors) {
     rotor.diameter = D_;
@@ -94,7 +97,7 @@ void Designer::Finish() {
     reach_x = std::max(reach_x, std::abs(rotor.p_B.x));
     reach_y = std::max(reach_y, std::abs(rotor.p_B.y));
   }
-  model.half_size_B = {reach_x + D_ / 2, reach_y + D_ / 2, std::max(Box().z / 2, 0.08 * L_ + 0.1 * D_)};
+  model.half_size_B = {reach_x + D_ / 2, reach_y + D_ / 2, std::max(Box().z / 2, 0.08 * L_ + (stagger_ ? 0.15 : 0.1) * D_)};
   out_.wheelbase = 2 * L_;
   out_.level_speed = speed_held_ ? *said_.speed : LevelSpeed();
   CheckJourney();

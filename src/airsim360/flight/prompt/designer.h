@@ -101,6 +101,7 @@ class Designer {
   RotorLayout layout_ = RotorLayout::kX;
   int n_ = 4, mass_steps_ = 0;
   bool guarded_ = false, speed_held_ = false;
+  bool stagger_ = false;  ///< neighbouring propellers at two heights
   double m_ = 0, D_ = 0, L_ = 0, k_f_ = 0, ratio_km_ = 0, merit_least_ = 1, ratio_ = 0, most_ratio_ = 14, thrust_ = 0, speed_ = 0,
          drag_ = 1;
   std::string law_of_thrust_;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "airsim360/flight/control/mixer.h"
+#include "airsim360/flight/prompt/laws.h"
 
 namespace airsim360 {
 namespace {
@@ -71,7 +72,10 @@ DroneFigures FiguresOf(const DroneModel& model) {
     for (size_t k = 0; k < i; ++k) {
       const RotorModel& b = model.rotors[k];
       const double apart = std::hypot(a.p_B.x - b.p_B.x, a.p_B.y - b.p_B.y);
-      if (apart > 1e-6) figures.spacing = std::min(figures.spacing, apart / ((a.diameter + b.diameter) / 2));
+      const double diameter = (a.diameter + b.diameter) / 2, spacing = apart / diameter;
+      // At two heights they may overlap in part.
+      const bool staggered = std::abs(a.p_B.z - b.p_B.z) >= 0.99 * internal::kStagger * diameter && spacing >= internal::kLeastStaggered;
+      if (apart > 1e-6 && !staggered) figures.spacing = std::min(figures.spacing, spacing);
     }
   }
   return figures;
@@ -87,7 +91,7 @@ std::vector<std::string> GateProblems(const DroneModel& model) {
   gate.Range("figure of merit", figures.figure_of_merit, small ? 0.25 : 0.4, 0.8);
   gate.Range("tip Mach", figures.tip_mach, 0, 0.7);
   gate.Range("thrust to weight", figures.thrust_to_weight, 1.3, 15);
-  gate.Range("rotor spacing / diameter", figures.spacing, 1.02, 20);
+  gate.Range("rotor spacing / diameter", figures.spacing, 1 - 1e-6, 20);
   for (const RotorModel& rotor : model.rotors) {
     gate.Range("rotor lag", rotor.tau_up, 0.005, 0.15);
     gate.Range("rotor lag", rotor.tau_down, 0.005, 0.15);

@@ -81,14 +81,15 @@ void ApplyModel(const KnownModel& m, DroneRequest& r) {
   const double ratio = r.mass ? *r.mass / m.mass : 1;
   const double scale = ratio > 1.35 || ratio < 0.75 ? std::sqrt(ratio) : 1;
   fact("rotors", r.rotors, static_cast<double>(m.rotors), !r.layout);
-  if (*r.rotors == m.rotors) fact("layout", r.layout, m.layout, true);
+  const double rotors = r.rotors.value_or(m.rotors);  // of a said layout the number may be open
+  if (rotors == m.rotors) fact("layout", r.layout, m.layout, true);
   fact("propeller", r.propeller, scale * m.propeller * 0.0254, m.propeller > 0 && !r.arm);
   const bool said_propeller = r.propeller && !r.facts.count("propeller");
   fact("pitch", r.pitch, scale * m.pitch * 0.0254, m.pitch > 0 && !said_propeller);
   // Larger propellers than the frame has room for stand on longer arms.
-  const double arms = r.layout == RotorLayout::kCoaxial ? *r.rotors / 2 : *r.rotors;
+  const double arms = r.layout == RotorLayout::kCoaxial ? rotors / 2 : rotors;
   const double room = scale * m.diagonal / 1000 * std::sin(std::numbers::pi / arms);
-  fact("arm", r.arm, scale * m.diagonal / 2000, m.diagonal > 0 && *r.rotors == m.rotors && !(said_propeller && *r.propeller * 1.02 > room));
+  fact("arm", r.arm, scale * m.diagonal / 2000, m.diagonal > 0 && rotors == m.rotors && !(said_propeller && *r.propeller * 1.02 > room));
   if (same_battery && scale == 1) fact("cells", r.cells, static_cast<double>(m.cells), m.cells > 0);
   if (same_battery && same_time && scale == 1) {
     fact("capacity_ah", r.capacity_ah, m.capacity, m.capacity > 0);

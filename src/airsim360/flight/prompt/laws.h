@@ -32,6 +32,9 @@ inline constexpr double kFlightPower = 0.87;
 /// Hubs for a layout with arms of length `arm`, `above` metres above the centre of mass; directions and order
 /// of quads as AirSim's: front right, rear left, front left, rear right.
 std::vector<RotorModel> PlaceRotors(int count, RotorLayout layout, double arm, double above);
+/// Neighbouring propellers at two heights may overlap: the least distance of their hubs over the diameter, and the
+/// difference of their heights over it.
+inline constexpr double kLeastStaggered = 0.8, kStagger = 0.1;
 /// Number of arms.
 int ArmsOf(int count, RotorLayout layout);
 

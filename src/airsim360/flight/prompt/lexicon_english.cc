@@ -7,7 +7,7 @@ using enum WordKind;
 
 constexpr Word kWords[] = {
     {kFiller, 0, "",
-     "a|an|the|of|that|is|its|it|about|around|roughly|approximately|approx|ca|circa|some|has|have|which|can|"
+     "a|an|the|of|that|is|its|it|about|around|roughly|approximately|approx|abt|appx|ca|circa|some|has|have|which|can|"
      "i|we|me|"
      "this|these|will|would|should|be|my|our|your|to be|say|total of|as|in total|one that|nominal|rated|up "
      "to|"

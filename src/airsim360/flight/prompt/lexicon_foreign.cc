@@ -99,7 +99,7 @@ constexpr Word kWords[] = {
      "abfluggewicht|insgesamt|alles zusammen|startgewicht|startmasse|abflugmasse|gewicht|gesamtgewicht|masse|wiegt|wiegen|schwer|"
      "masse totale|"
      "masse au decollage|poids au decollage|poids|pese|pesant|peso maximo al despegue|peso al despegue|"
-     "peso de despegue|peso|pesa|masa|al despegue|au decollage|despegue|decollage|pesa en total|peso total|"
+     "peso de despegue|peso|pesa|masa|al despegue|au decollage|despega con|despega|decolle avec|decolle a|decolle|decolla con|decolla a|startet mit|hebt ab mit|despegue|decollage|pesa en total|peso total|"
      "peso al decollo|peso massimo al "
      "decollo|起飞重量|最大起飞重量|起飞质量|总重|总重量|重量|重|自重|全重|重さ|重量は|整机重量|整机|含电池|"
      "带电池|"

@@ -55,9 +55,10 @@ constexpr Word kWords[] = {
      "quad|quadcopter|quadrotor|quads|quadrocopter|quadricopter|quadracopter|quadcopters|quadrotors|four "
      "rotor|"
      "quadrupel|quadri copter|quadropter"},
-    {kRotors, 6, "", "hexa|hex|tarot x6|hexacopter|hexarotor|hexrotor|hexcopter|hexicopter|hexacopters|six rotor|hexakopter"},
+    {kRotors, 6, "",
+     "hexa|hex|hexas|hexrotors|hexarotors|tarot x6|hexacopter|hexarotor|hexrotor|hexcopter|hexicopter|hexacopters|six rotor|hexakopter"},
     {kRotors, 8, "",
-     "octo|octocopter|octorotor|octa|octacopter|octarotor|octacopters|octocopters|oktocopter|"
+     "octo|octos|octorotors|octocopter|octorotor|octa|octacopter|octarotor|octacopters|octocopters|oktocopter|"
      "eight rotor|oktokopter"},
     {kRotors, 3, "", "tricopter|trirotor|tri copter|tri rotor|tricopters|tri|three rotor"},
     {kRotors, 2, "", "bicopter|bi copter|dualcopter|twin rotor"},
@@ -106,7 +107,8 @@ constexpr Word kWords[] = {
      "to corner|"
      "motor shaft to motor shaft|motor centre to motor centre|motor center to motor center|motors "
      "apart|m2m|m to m|"
-     "motor to motor diagonal|diag|between opposite motors|across motors|motors diagonal|across the motors|between the motors|between motors"},
+     "motor to motor diagonal|diag|between opposite motors|across motors|motors diagonal|across the motors|between the motors|between motors|motor motor|opposite motors|opposite rotors|"
+     "motor to opposite motor|distance of opposite motors|distance between opposite motors|distance between opposite rotors"},
     {kAcross, 0, "",
      "across|diameter|in diameter|diam|dia|wide|tip to tip|span|from tip to tip|durchmesser|de diametre|"
      "de diametro|diametre|diametro|直径|von durchmesser|im durchmesser"},
@@ -122,12 +124,12 @@ constexpr Word kWords[] = {
      "in|"
      "weight with battery|at takeoff|at take off|overall weight|in weight|in mass|tips the scales at|loaded|"
      "fully loaded|including battery|with battery|wet weight|weight including battery|launch weight|heavy|"
-     "all up at|auw of"},
+     "all up at|auw of|takes off with|lifts off at|lifts off with|leaves the ground at|leaves the ground with"},
     {kEmpty, 0, "",
      "on its own|by itself|before payload|before the payload|before load|empty with battery|"
      "empty weight with battery|empty incl battery|empty including battery|empty|empty weight|without payload|without load|unladen|operating empty weight|bare weight|w o payload|"
      "w o load|without the payload|without any payload|without cargo|no payload|unloaded|"
-     "empty mass|oew|own weight|self weight|own mass|drone itself|quad itself|copter itself|aircraft itself|drone alone|drone only|without it|without them|empty weight incl battery|empty weight including battery|empty weight w battery|weight without payload|with empty tank|empty tank|tank empty|with an empty tank|net weight|net mass|no load"},
+     "empty mass|oew|oem|operating empty mass|operating empty weight|own weight|self weight|own mass|drone itself|quad itself|copter itself|aircraft itself|drone alone|drone only|without it|without them|empty weight incl battery|empty weight including battery|empty weight w battery|weight without payload|lands at|land at|landing weight|landing mass|landing at|with empty tank|empty tank|tank empty|with an empty tank|net weight|net mass|no load"},
     {kBare, 0, "",
      "without battery|without the battery|without batteries|without a battery|without batt|without "
      "lipo|without lipos|"
@@ -188,7 +190,7 @@ constexpr Word kWords[] = {
      "of|distance|radius|"
      "height|tall|resolution|charge|charging|recharge|charges|setup|set "
      "up|assembly|assemble|warmup|limit|limits|"
-     "climb|climbs|climb rate|descent|descends|descent rate|ascent|ascends|ascent rate|vertical speed|"
+     "climb|climbs|climbing|ascends|ascend|ascending|descend|descending|sinks|sinking|climb rate|descent|descends|descent rate|ascent|ascends|ascent rate|vertical speed|"
      "part|level|ip|version|mark|gen|generation|field of view|fov|latency|zoom|deep|thick|cable|tether|per "
      "motor|"
      "each motor|landing gear|legs|antenna|goggles|goggle|price|cost|budget|row|swath|temperature|wing "

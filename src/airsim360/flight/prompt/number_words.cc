@@ -278,6 +278,7 @@ size_t BoxLength(std::string_view text) {
   size_t at = 0;
   int parts = 0;
   std::string_view unit;
+  bool each = false;  // has a unit of its own
   const auto skip = [&] {
     while (at < text.size() && text[at] == ' ') ++at;
   };
@@ -294,6 +295,7 @@ size_t BoxLength(std::string_view text) {
       if (unit.empty() && ends && text.substr(at).starts_with(known)) unit = known;
     }
     at = unit.empty() ? end : at + unit.size();
+    each |= parts == 0 && !unit.empty();
     const size_t by = at;
     skip();
     if (at + 1 < text.size() && (text[at] == 'x' || text[at] == '*')) {
@@ -306,7 +308,7 @@ size_t BoxLength(std::string_view text) {
     }
   }
   // "4x 330 mm" counts; "9x4.5" has no unit.
-  const bool counts = parts == 2 && sides[0] <= 12 && sides[0] != sides[1];
+  const bool counts = parts == 2 && sides[0] <= 12 && sides[0] != sides[1] && !each;
   return parts < 2 || unit.empty() || counts ? 0 : at;
 }
 

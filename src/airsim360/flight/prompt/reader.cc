@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "airsim360/base/error.h"
 #include "airsim360/flight/prompt/plain_text.h"
@@ -218,7 +219,16 @@ void Reader::FinishMasses() {
   FinishOnTop();
   FinishBareMass();
   if (!request_.empty_mass) return;
-  const std::string& words = request_.words["empty_mass"];
+  const std::string words = request_.words["empty_mass"];
+  constexpr double kMostLoad = 0.6;  // of the whole
+  if (request_.mass && *request_.mass - *request_.empty_mass > kMostLoad * *request_.mass) {
+    // What is between is not all load: the empty drone was weighed without its battery.
+    Decide("'" + words + "' is read as the mass without battery, for '" + request_.words["mass"] + "' is so much more");
+    request_.bare_mass = std::exchange(request_.empty_mass, std::nullopt);
+    request_.words["bare_mass"] = request_.words["empty_mass"];
+    request_.words.erase("empty_mass");
+    return;
+  }
   if (request_.mass && !request_.payload && *request_.mass > *request_.empty_mass) {
     Set(payload, request_.payload, *request_.mass - *request_.empty_mass, request_.words["mass"] + " less " + words);
     return;
@@ -236,6 +246,10 @@ void Reader::PlaceLoose(const Loose& loose) {
   spanning_ = &tokens_[q.first];
   const bool bound = q.unit && IsAtMost(q);
   const double value = bound ? 0.996 * q.value : q.value;
+  if (q.value < mass.low) {  // of a part, or a tolerance
+    ++unexplained_;
+    return Decide("'" + q.words + "' is too little for a drone and left out");
+  }
   if (bound && request_.mass && *request_.mass <= q.value * 1.005) {
     unexplained_ += *request_.mass < 0.6 * q.value;
     return;

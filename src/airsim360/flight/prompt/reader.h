@@ -115,6 +115,8 @@ class Reader {
 
   // reader_fields.cc
   void Set(const FieldRange& range, Field& field, double value, const std::string& words);
+  /// Of two figures for one field the one whose words say it plainly; true: this one is left out for the other.
+  bool GivesWay(const char* name, Field& field, double value, int plainness, const std::string& words);
   void CorrectWith(const char* name, Field& field, size_t i);
   void SumUp(const char* name, Field& field, const Quantity& q);
   [[noreturn]] void Contradiction(const char* name, const std::string& words);
@@ -156,6 +158,8 @@ class Reader {
   size_t WeighedThing(const Quantity& q, size_t noun) const;
   bool IsOfLoad(const Quantity& q) const;
   bool IsLoaded(const Quantity& q) const;
+  bool IsWithThings(const Quantity& q) const;
+  void SetLoadedMass(const Quantity& q);
   void FinishLoadedMass();
   size_t WholeBefore(const Quantity& q) const;
   bool IsWhole(size_t noun) const;
@@ -176,6 +180,7 @@ class Reader {
   bool IsWithoutLoad(size_t noun) const;
   bool IsSumAfter(size_t k) const;
   bool IsRepeatedLoad(const Quantity& q) const;
+  bool IsBalance(const Quantity& q) const;
   bool IsTaken(const Quantity& q) const;
   bool IsOnTop(const Quantity& q) const;
   void FinishOnTop();
@@ -213,6 +218,10 @@ class Reader {
   bool ReadQuantity(size_t i);
   void ReadLength(const Quantity& q);
   bool IsOfPlace(const Quantity& q) const;
+  int PlainnessOf(const Quantity& q, size_t head) const;
+  bool IsTopSpeed(const Quantity& q) const;
+  bool IsMinutes(const Quantity& q) const;
+  bool IsFromCentre(const Quantity& q) const;
   bool IsInchUnit(size_t i, size_t unit) const;
   bool IsOfEmptyDrone(const Quantity& q) const;
   bool IsLabelledHover(const Quantity& q) const;
@@ -232,6 +241,7 @@ class Reader {
   void ReadBareNumber(size_t i);
   bool ReadPartNumber(size_t i);
   bool ReadMotorCode(size_t i);
+  void ReadCells(const Quantity& q);
   bool ReadPlural(size_t i, size_t unit);
   bool ReadInchesAsPlural(size_t i, size_t unit);
   const Word* Comparative(size_t k) const;
@@ -287,6 +297,7 @@ class Reader {
     bool each = false, whole = false;  ///< of one motor, of all together; neither: not said
     std::string words;
   };
+  std::map<std::string, int> plainness_;  ///< of the fields, as GivesWay has it
   std::optional<Thrust> thrust_;
   std::optional<double> arm_count_, liquid_, known_load_;
   std::string liquid_words_, known_load_words_;

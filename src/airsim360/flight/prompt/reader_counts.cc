@@ -129,6 +129,8 @@ bool Reader::ReadCount(size_t i) {
   if (none && (Is(i + 1, WordKind::kRotorNoun) || Is(i + 1, WordKind::kPropeller) || Is(i + 1, WordKind::kMotor)) && token.value < 1000)
     SetRotors(token.value, token.text + " " + tokens_[i + 1].text);
   if (!whole || token.value > 40 || token.value < 1) return false;
+  // "A quick one: 4 rotors": a pronoun, and the number to come counts.
+  if (token.text == "one" && i + 1 < tokens_.size() && tokens_[i + 1].kind == Token::Kind::kNumber) return false;
   bool other_words = false;
   for (size_t k = i + 1; k < tokens_.size() && k <= i + 5; ++k) {
     const Word* word = WordAt(k);

@@ -82,13 +82,16 @@ double Reader::PacksInParallel(const Quantity& q) const {
   for (size_t n = k; n-- > 0 && k - n <= 4;) {
     if (tokens_[n].text != "each") continue;
     bool before = false;
+    for (size_t m = q.last + 1; m < tokens_.size() && m <= q.last + 6 && tokens_[m].text != "."; ++m)
+      before |= tokens_[m].text.find("parallel") != std::string::npos;  // "two packs, each 5 Ah, in parallel"
     for (size_t m = n; m-- > 0 && n - m <= 12 && tokens_[m].text != ".";) {
       before |= tokens_[m].text.find("parallel") != std::string::npos;
       const bool counts = before && tokens_[m].Counts(kMostPacks) && Is(m + 1, WordKind::kBattery);
       if (counts) return tokens_[m].value;
     }
   }
-  while (k > 0 && (Is(k - 1, WordKind::kCells) || Is(k - 1, WordKind::kBattery) || Is(k - 1, WordKind::kLithiumIon) || SaysLittle(k - 1) ||
+  while (k > 0 && (IsOneOf(tokens_[k - 1].text, {"pcs", "pc", "pieces", "units", "off", "stuck", "stk"}) || Is(k - 1, WordKind::kCells) ||
+                   Is(k - 1, WordKind::kBattery) || Is(k - 1, WordKind::kLithiumIon) || SaysLittle(k - 1) ||
                    (tokens_[k - 1].kind == Token::Kind::kNumber && Is(k, WordKind::kCells))))
     --k;
   // "2x 16000 mAh", "5000 mAh x2": packs that are counted so fly together.

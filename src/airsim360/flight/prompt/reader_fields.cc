@@ -48,6 +48,23 @@ void Reader::Set(const FieldRange& range, Field& field, double value, const std:
     request_.ranges[range.name] = {value * spanning_->low / spanning_->value, value * spanning_->high / spanning_->value};
 }
 
+bool Reader::GivesWay(const char* name, Field& field, double value, int plainness, const std::string& words) {
+  constexpr int kSaid = 2;  // of a field that was read elsewhere
+  const auto said = plainness_.try_emplace(name, field ? kSaid : plainness).first;
+  const bool same = !field || std::abs(*field - value) <= 0.02 * std::max(*field, value);
+  if (!same && (plainness == 0 || plainness < said->second)) {
+    Decide("'" + words + "' is left out beside '" + request_.words[name] + "'");
+    return true;
+  }
+  if (!same && plainness > said->second) {
+    Decide("'" + request_.words[name] + "' is left out beside '" + words + "'");
+    field.reset();
+    request_.words.erase(name);
+  }
+  said->second = std::max(said->second, plainness);
+  return false;
+}
+
 void Reader::CorrectWith(const char* name, Field& field, size_t i) {
   bool near = true;
   for (size_t k = i; k-- > 0 && i - k < 10;) {
@@ -267,8 +284,9 @@ size_t Reader::OwnerOfDiameter(const Quantity& q) const {
            word->kind == WordKind::kRotors || word->kind == WordKind::kLoad || word->kind == WordKind::kWheelbase;
   };
   for (size_t i = q.first; i-- > 0 && q.first - i <= kPhrase;) {
-    const bool each = i + 1 < tokens_.size() && tokens_[i + 1].text == "each";
-    if (tokens_[i].kind == Token::Kind::kComma && !each) break;
+    bool each = i + 1 < tokens_.size() && tokens_[i + 1].text == "each";
+    for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 3; ++k) each |= IsOneOf(tokens_[k].text, {"each", "apiece"});
+    if (tokens_[i].kind == Token::Kind::kComma && !each && tokens_[i].text != "(") break;
     if (owns(i)) return i;
   }
   for (size_t i = q.last + 1; i < tokens_.size() && tokens_[i].kind != Token::Kind::kComma; ++i) {

@@ -1,6 +1,7 @@
 // Whose mass a number with a unit of mass is.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "airsim360/flight/prompt/reader.h"
 #include "airsim360/flight/prompt/thing_words.h"
@@ -48,17 +49,28 @@ size_t Reader::WholeBefore(const Quantity& q) const {
   // "AUW incl. camera (290 g) = 2.35 kg": what stands in parentheses is of the thing before them.
   const bool apposed = q.first > 1 && tokens_[q.first - 1].text == "(" && IsThing(q.first - 2) && Masses().size() > 1;
   if (apposed) return kNone;
-  bool includes = false;
+  bool includes = false, battery = false;
+  size_t verb = kNone;
   for (size_t k = q.first; k-- > 0 && q.first - k <= 10;) {
     const std::string& text = tokens_[k].text;
     if (Is(k, WordKind::kMassUnit) && used_[k]) return kNone;  // the whole has its mass: this is what it includes
+    // "The aircraft with gimbal and camera weighs 11 kg"
+    if (Is(k, WordKind::kMass) && k + 1 == q.first && text.starts_with("weigh") && verb == kNone && !claimed_[k]) {
+      verb = k;
+      continue;
+    }
     if (Is(k, WordKind::kMass) && text.find("battery") == std::string::npos) return includes && !claimed_[k] ? k : kNone;
     includes |= Is(k, WordKind::kMass) && (MeansIncluding(text) || text.starts_with("incl") || text.starts_with("with"));
-    includes |= Is(k, WordKind::kBreak) && (text == "with" || text == "w" || text.starts_with("incl") || text == "&");
-    const bool thing = Is(k, WordKind::kLoad) || Is(k, WordKind::kBattery) || Is(k, WordKind::kLithiumIon) || Is(k, WordKind::kMass) ||
-                       Is(k, WordKind::kRotors) || Is(k, WordKind::kDrone) || tokens_[k].kind == Token::Kind::kUnknown || SaysLittle(k) ||
-                       includes || text == "and" || text == "+" || text == "/" || text == "(" || text == ")" ||
-                       (text == "." && k > 0 && tokens_[k - 1].text == "incl");
+    includes |= Is(k, WordKind::kBreak) && (IsOneOf(text, {"with", "w", "&", "con", "mit", "avec", "com"}) || text.starts_with("incl"));
+    // "The drone with camera and battery 6.9 kg"
+    const bool own = Is(k, WordKind::kDrone) || Is(k, WordKind::kRotors);
+    if (own && includes && (battery || verb != kNone) && k > 0 && IsArticle(tokens_[k - 1].text) && !claimed_[k])
+      return verb != kNone ? verb : k;
+    battery |= Is(k, WordKind::kBattery);
+    const bool thing = IsThing(k) || Is(k, WordKind::kLoad) || Is(k, WordKind::kBattery) || Is(k, WordKind::kLithiumIon) ||
+                       Is(k, WordKind::kMass) || Is(k, WordKind::kRotors) || Is(k, WordKind::kDrone) ||
+                       tokens_[k].kind == Token::Kind::kUnknown || SaysLittle(k) || includes || text == "and" || text == "+" ||
+                       text == "/" || text == "(" || text == ")" || (text == "." && k > 0 && tokens_[k - 1].text == "incl");
     if (!thing) return kNone;
   }
   return kNone;
@@ -146,6 +158,8 @@ void Reader::ReadMass(const Quantity& q) {
     whole_of_mass_ = whole_said_ = true;
     return Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
   }
+  if (IsBalance(q)) return ReadMassAs(MassRole::kWhole, q);
+  if (IsWithThings(q)) return SetLoadedMass(q);
   if (IsRepeatedLoad(q)) return;
   DropCorrected(q);
   on_top_ |= IsOnTop(q);
@@ -202,6 +216,38 @@ bool Reader::IsLoaded(const Quantity& q) const {
   return (Is(k, WordKind::kLoad) || Is(k, WordKind::kPayload)) && !(k + 1 < tokens_.size() && !EndsPhrase(k + 1));
 }
 
+/// "Drone 4.2 kg, with the lidar 5.6 kg": what the mass before has in addition stands alone before this one.
+bool Reader::IsWithThings(const Quantity& q) const {
+  const double before = request_.mass           ? *request_.mass
+                        : request_.empty_mass   ? *request_.empty_mass
+                        : loose_masses_.empty() ? 0
+                                                : loose_masses_.back().quantity.value;
+  if (before <= 0 || q.value <= before * 1.02 || q.value > before * 2.5 || whole_of_mass_ || (request_.mass && request_.empty_mass))
+    return false;
+  size_t k = q.first;
+  bool thing = false;
+  while (k-- > 0 && q.first - k <= 6) {
+    if (IsOneOf(tokens_[k].text, {"with", "w", "incl", "including", "mit", "avec", "con"})) break;
+    if (!SaysLittle(k) && !IsThing(k) && tokens_[k].text != "and" && !IsArticle(tokens_[k].text)) return false;
+    thing |= IsThing(k);
+  }
+  return thing && k != kNone && k > 0 && q.first - k <= 6 && (EndsPhrase(k - 1) || tokens_[k - 1].text == "or");
+}
+
+/// The mass with what was named, after the mass without it.
+void Reader::SetLoadedMass(const Quantity& q) {
+  if (!request_.mass && request_.empty_mass) return ReadMassAs(MassRole::kWhole, q);
+  if (!request_.mass) {
+    request_.mass = loose_masses_.back().quantity.value;
+    request_.words["mass"] = loose_masses_.back().quantity.words;
+    loose_masses_.pop_back();
+  }
+  request_.empty_mass = std::exchange(request_.mass, std::nullopt);
+  request_.words["empty_mass"] = request_.words["mass"];
+  request_.words.erase("mass");
+  ReadMassAs(MassRole::kWhole, q);
+}
+
 /// "Weighs 2.4 kg, 3 kg with camera": the first is the mass without payload.
 void Reader::FinishLoadedMass() {
   for (size_t i = 0; i < loose_masses_.size(); ++i) {
@@ -235,7 +281,9 @@ bool Reader::IsOfLoad(const Quantity& q) const {
   double whole = request_.mass.value_or(0);
   for (const Loose& other : loose_masses_) whole = std::max(whole, other.quantity.value);
   if (whole < 1.3 * q.value) return false;
-  if (tokens_[before].kind == Token::Kind::kUnknown) return true;
+  if (tokens_[before].kind == Token::Kind::kUnknown) {  // no abbreviation
+    return tokens_[before].text.find_first_not_of("bcdfghjklmnpqrstvwxz") != std::string::npos;
+  }
   if (tokens_[before].kind != Token::Kind::kComma) return false;
   while (before-- > 0 && tokens_[before].kind != Token::Kind::kComma) {
     if (Is(before, WordKind::kDrone) || Is(before, WordKind::kRotors)) return false;

@@ -44,6 +44,8 @@ void Reader::ReadCode(size_t i) {
   used_[i] = true;
   if (Is(i + 1, WordKind::kLengthUnit)) used_[i + 1] = true;
   Use(Beside(i, WordKind::kPropeller, true));
+  const int plainness = PlainnessOf({i, Is(i + 1, WordKind::kLengthUnit) ? i + 1 : i, 0, nullptr, {}}, kNone);
+  if (GivesWay("propeller", request_.propeller, token.code[0] * 0.0254, 2 * plainness, token.text)) return;
   Set(kPropellerRange, request_.propeller, token.code[0] * 0.0254, token.text);
   Set({"pitch", 0.005, 1, "m"}, request_.pitch, token.code[1] * 0.0254, token.text);
   if (token.code[2] > 0) Set({"blades", 2, 6, ""}, request_.blades, std::floor(token.code[2]), token.text);
@@ -85,6 +87,32 @@ bool Reader::ReadPlural(size_t i, size_t unit) {
   std::copy(std::begin(code), std::end(code), std::begin(tokens_[i].code));
   ReadCode(i);
   return true;
+}
+
+/// "4S", "6 cells", which may be seconds, codes of parts or propellers.
+void Reader::ReadCells(const Quantity& q) {
+  const size_t i = q.first;
+  if (ReadPlural(i, q.last)) return;
+  // "no less than 1500 s": no battery has so many cells, these are seconds.
+  if (tokens_[i].value >= 100 && i > 0 && Is(i - 1, WordKind::kCells) && ReadCharge(i)) return;  // "4S 1500s"
+  if (tokens_[i].value > 40 && tokens_[q.last].text == "s") return ReadTime({i, q.last, tokens_[i].value, q.unit, q.words});
+  if (tokens_[i].high > 0) {  // "3-4S": what takes both is made for the higher
+    Decide("of '" + q.words + "' the higher is taken");
+    tokens_[i].value = tokens_[i].high;
+    spanning_ = nullptr;
+  }
+  if (tokens_[i].value != std::floor(tokens_[i].value)) {
+    throw InputError("'" + q.words + "' is not a whole number");
+  }
+  if (const double packs = PacksInSeries(i); packs > 1)
+    return Set({"cells", 1, 24, ""}, request_.cells, packs * tokens_[i].value, tokens_[i - 1].text + " " + q.words);
+  if (ReadInchesAsPlural(i, q.last)) return;
+  CorrectWith("cells", request_.cells, i);
+  // Beside "6S" a "2 s" are seconds.
+  if (const bool apart = tokens_[q.last].text == "s" && !tokens_[q.last].glued;
+      GivesWay("cells", request_.cells, tokens_[i].value, apart ? 1 : 2, q.words))
+    return NameElse(q, kNone);
+  Set({"cells", 1, 24, ""}, request_.cells, tokens_[i].value, q.words);
 }
 
 /// "On 15s" beside a battery whose cells were said: propellers.
@@ -209,6 +237,16 @@ bool Reader::ReadLabelled(size_t i) {
     ReadSpeed({i - 1, i, token.value * 340.3, nullptr, "mach " + token.text});
     return true;
   }
+  // "U8 100KV x 6", "motors x4"
+  const bool counted =
+      i > 1 && Is(i - 1, WordKind::kTimes) &&
+      (Is(i - 2, WordKind::kKvUnit) || Is(i - 2, WordKind::kMotor) || Is(i - 2, WordKind::kRotorNoun) || Is(i - 2, WordKind::kPropeller));
+  if (counted && token.Counts(8) && token.value >= 4 && rotor_words_ == 0 && !request_.rotors &&
+      (i + 1 >= tokens_.size() || EndsPhrase(i + 1))) {
+    used_[i] = true;
+    SetRotors(token.value, tokens_[i - 2].text + " x " + token.text);
+    return true;
+  }
   const auto label = [&](WordKind kind) {
     const size_t noun = Beside(i, kind, false);
     return noun != kNone && !claimed_[noun] ? noun : kNone;
@@ -230,7 +268,8 @@ bool Reader::ReadLabelled(size_t i) {
     SetRotors(token.value, tokens_[noun].text + " " + token.text);
     return true;
   }
-  if (const size_t noun = label(WordKind::kCells); noun != kNone && count && !used_[noun] && !request_.cells) {
+  if (const size_t noun = label(WordKind::kCells);
+      noun != kNone && count && !used_[noun] && !request_.cells && tokens_[noun].text.size() > 1) {
     Use(noun);
     used_[i] = true;
     Set({"cells", 1, 24, ""}, request_.cells, token.value, token.text + " cells");

@@ -25,6 +25,7 @@ double ThingsOf(const std::vector<Token>& tokens, const Quantity& q) {
                       (tokens[i - 2].kind == Token::Kind::kUnknown || tokens[i - 2].Is(WordKind::kLoad));
   if (plural && tokens[i - 3].Counts(kMostThings)) return tokens[i - 3].value;
   const std::string after = text(q.last + 1);
+  constexpr double kMostEach = 500;  // "40 balls of 150 g each"
   const bool each_before = i > 1 && tokens[i - 1].text == "each" && tokens[i - 2].kind == Token::Kind::kComma;
   if (after != "each" && after != "apiece" && !each_before) return 1;
   const bool comma = i > 1 && tokens[i - 1].kind == Token::Kind::kComma;  // "2 crates, 1.5 kg each"
@@ -33,7 +34,7 @@ double ThingsOf(const std::vector<Token>& tokens, const Quantity& q) {
                       tokens[k].Is(WordKind::kPropeller) || tokens[k].Is(WordKind::kRotorNoun) || tokens[k].Is(WordKind::kBattery);
     if (part) return 1;
     if (tokens[k].Counts(kMostThings) && tokens[k + 1].Is(WordKind::kCells)) return 1;
-    if (tokens[k].Counts(kMostThings)) return tokens[k].value;
+    if (tokens[k].Counts(kMostEach)) return tokens[k].value;
   }
   return 1;
 }
@@ -85,8 +86,18 @@ bool Reader::ReadQuantity(size_t i) {
 bool Reader::IsInchUnit(size_t i, size_t unit) const {
   if (tokens_[unit].text != "in") return true;
   if (tokens_[i].value > 100) return false;
-  return unit + 1 >= tokens_.size() ||
-         !IsOneOf(tokens_[unit + 1].text, {"the", "a", "my", "parallel", "series", "total", "hover", "still", "calm", "wind", "winds"});
+  const size_t next = unit + 1;
+  if (next >= tokens_.size()) return true;
+  if (IsOneOf(tokens_[next].text, {"the", "a", "my", "parallel", "series", "total", "hover", "still", "calm", "wind", "winds"}))
+    return false;
+  // "14 in P mode", "24 in real life": before a word that is unknown only with a propeller or a length to come.
+  if (tokens_[unit].glued || tokens_[next].kind != Token::Kind::kUnknown) return true;
+  for (size_t k = next; k < tokens_.size() && k <= next + 4 && tokens_[k].kind != Token::Kind::kComma; ++k) {
+    if (IsPart(k) || Is(k, WordKind::kWheelbase) || Is(k, WordKind::kAcross) || Is(k, WordKind::kRotors) || Is(k, WordKind::kDrone) ||
+        Is(k, WordKind::kClass) || IsThing(k))
+      return tokens_[next].text != "real";
+  }
+  return false;
 }
 
 /// "30 min without load", beside a load: gives way to a time of the loaded drone.
@@ -94,7 +105,8 @@ bool Reader::IsOfEmptyDrone(const Quantity& q) const {
   const bool loaded = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) {
     return token.Is(WordKind::kPayload) || token.Is(WordKind::kLoad) || token.Is(WordKind::kVolumeUnit);
   });
-  if (!loaded) return false;
+  const auto times = std::count_if(tokens_.begin(), tokens_.end(), [](const Token& token) { return token.Is(WordKind::kTimeUnit); });
+  if (!loaded && times < 2) return false;
   const auto empty = [&](size_t k) { return Is(k, WordKind::kEmpty) && !tokens_[k].text.ends_with("weight"); };
   for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 4 && tokens_[k].kind != Token::Kind::kNumber; ++k) {
     if (empty(k)) return true;
@@ -119,6 +131,15 @@ void Reader::Extend(Quantity& q) {
   used_[link] = used_[link + 1] = true;
 }
 
+/// Whether the sign of a foot means minutes: beside a word for flying, or alone where no other time is said and no
+/// drone is so large.
+bool Reader::IsMinutes(const Quantity& q) const {
+  if (PhraseHas(q, WordKind::kFlight) || PhraseHas(q, WordKind::kHover)) return true;
+  const bool alone = q.first > 0 && EndsPhrase(q.first - 1) && (q.last + 1 >= tokens_.size() || EndsPhrase(q.last + 1));
+  const bool timed = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) { return token.Is(WordKind::kTimeUnit); });
+  return alone && !timed && q.value > 1.2 && q.value < 36;
+}
+
 void Reader::Dispatch(const Quantity& q) {
   const size_t i = q.first;
   switch (q.unit->kind) {
@@ -126,6 +147,8 @@ void Reader::Dispatch(const Quantity& q) {
       if (!ReadThrust(q)) ReadMass(q);
       break;
     case WordKind::kLengthUnit:
+      // "Flight time 22'"
+      if (tokens_[q.last].text == "'" && IsMinutes(q)) return ReadTime({i, q.last, tokens_[i].value * 60, q.unit, q.words});
       if (!ReadDistance(q)) ReadLength(q);
       break;
     case WordKind::kTimeUnit:
@@ -152,24 +175,7 @@ void Reader::Dispatch(const Quantity& q) {
       Set({"motor_kv", 10, 50000, "rpm/V"}, request_.motor_kv, q.value, q.words);
       break;
     case WordKind::kCells:
-      if (ReadPlural(i, q.last)) return;
-      // "no less than 1500 s": no battery has so many cells, these are seconds.
-      if (tokens_[i].value >= 100 && i > 0 && Is(i - 1, WordKind::kCells) && ReadCharge(i)) return;  // "4S 1500s"
-      if (tokens_[i].value > 40 && tokens_[q.last].text == "s") return ReadTime({i, q.last, tokens_[i].value, q.unit, q.words});
-      if (tokens_[i].high > 0) {  // "3-4S": what takes both is made for the higher
-        Decide("of '" + q.words + "' the higher is taken");
-        tokens_[i].value = tokens_[i].high;
-        spanning_ = nullptr;
-      }
-      if (tokens_[i].value != std::floor(tokens_[i].value)) {
-        throw InputError("'" + q.words + "' is not a whole number");
-      }
-      if (const double packs = PacksInSeries(i); packs > 1)
-        return Set({"cells", 1, 24, ""}, request_.cells, packs * tokens_[i].value, tokens_[i - 1].text + " " + q.words);
-      if (ReadInchesAsPlural(i, q.last)) return;
-      CorrectWith("cells", request_.cells, i);
-      Set({"cells", 1, 24, ""}, request_.cells, tokens_[i].value, q.words);
-      break;
+      return ReadCells(q);
     case WordKind::kPercent:
       if (!ReadComparison(i, tokens_[i].value * 0.01, q.last)) NameElse(q, kNone);
       break;
@@ -262,6 +268,14 @@ void Reader::ReadLength(const Quantity& q) {
                         kind == WordKind::kRotorNoun || kind == WordKind::kFrame;
   const bool far = q.value > 3 && (!of_drone || across);
   if (kind == WordKind::kElse || kind == WordKind::kThing || load_only || far) return NameElse(q, noun);
+  // "Protective cage 32 cm wide"
+  for (size_t k = q.first; !inches && k-- > 0 && q.first - k <= 5 && !EndsPhrase(k) && !IsDroneWord(k) && !Is(k, WordKind::kPropeller);) {
+    if (Is(k, WordKind::kGuards)) return NameElse(q, kNone);
+  }
+  // "AprilTag 20 cm": of the thing that is named right before; millimetres after a name are of a frame.
+  if (noun == kNone && !inches && q.unit->value > 1e-3 && q.first > 0 && tokens_[q.first - 1].kind == Token::Kind::kUnknown &&
+      IsThing(q.first - 1))
+    return NameElse(q, kNone);
   if (noun == kNone && !inches && IsOfPlace(q)) {
     loose_lengths_.push_back(q);
     return NameElse(q, kNone);
@@ -273,6 +287,7 @@ void Reader::ReadLength(const Quantity& q) {
   const bool blades = kind == WordKind::kPropeller || kind == WordKind::kRotorNoun || kind == WordKind::kBlades;
   if (blades || (inches && kind != WordKind::kArm && kind != WordKind::kWheelbase)) {
     CorrectWith("propeller", request_.propeller, q.first);
+    if (GivesWay("propeller", request_.propeller, value, blades ? 2 : PlainnessOf(q, head), q.words)) return NameElse(q, kNone);
     return Set(kPropellerRange, request_.propeller, value, q.words);
   }
   CorrectWith("arm", request_.arm, q.first);
@@ -280,7 +295,29 @@ void Reader::ReadLength(const Quantity& q) {
     if (!across_) across_ = q;
     return;
   }
-  Set({"arm", 0.02, 3, "m"}, request_.arm, kind == WordKind::kArm ? q.value : q.value / 2, q.words);
+  const double arm = kind == WordKind::kArm || (kind != WordKind::kWheelbase && IsFromCentre(q)) ? q.value : q.value / 2;
+  if (GivesWay("arm", request_.arm, arm, noun != kNone ? 2 : PlainnessOf(q, head), q.words)) return NameElse(q, kNone);
+  Set({"arm", 0.02, 3, "m"}, request_.arm, arm, q.words);
+}
+
+/// How plainly a length without a label of its own is the drone's: 2 with a word for the drone after it, 1 alone, 0 as
+/// one of several ("22 inch uppers, 20 inch lowers").
+int Reader::PlainnessOf(const Quantity& q, size_t head) const {
+  const size_t next = q.last + 1;
+  if (next < tokens_.size() && StartsAny(tokens_[next].text, {"upper", "lower", "top", "bottom", "front", "rear"})) return 0;
+  return head != kNone && (IsDroneWord(head) || Is(head, WordKind::kSizeNoun)) ? 2 : 1;
+}
+
+/// "Motors 32 cm from the centre", "from the middle to each motor 30 cm"
+bool Reader::IsFromCentre(const Quantity& q) const {
+  const auto is_centre = [&](size_t k) { return IsOneOf(tokens_[k].text, {"centre", "center", "middle", "hub", "cog", "mitte"}); };
+  for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 4 && tokens_[k].kind != Token::Kind::kComma; ++k) {
+    if (is_centre(k)) return true;
+  }
+  for (size_t k = q.first; k-- > 0 && q.first - k <= 8 && tokens_[k].kind != Token::Kind::kComma;) {
+    if (is_centre(k)) return true;
+  }
+  return false;
 }
 
 /// Whether a length of which nothing is said may be of a place or a thing: "inside a 3 m cube", "GSD 2 cm".
@@ -312,7 +349,12 @@ void Reader::FinishLengths() {
     if (request_.arm || q.value < 0.04 || q.value > 3) continue;
     const size_t next = q.last + 1;
     const bool thing = next < tokens_.size() && tokens_[next].kind == Token::Kind::kUnknown;
-    if (!thing) continue;
+    size_t before = q.first;
+    while (before-- > 0 && SaysLittle(before)) {
+    }
+    const bool place =
+        before != kNone && IsOneOf(tokens_[before].text, {"on", "onto", "into", "in", "through", "inside", "over", "at", "under"});
+    if (!thing || place) continue;
     for (size_t i = q.first; i <= q.last; ++i) used_[i] = true;
     Set({"arm", 0.02, 3, "m"}, request_.arm, q.value / 2, q.words);
   }
@@ -382,7 +424,22 @@ void Reader::ReadSpeed(const Quantity& q) {
     return Set({"least_speed", 0.1, 150, "m/s"}, request_.least_speed, q.value, q.words);
   }
   CorrectWith("speed", request_.speed, q.first);
+  if (q.unit && GivesWay("speed", request_.speed, q.value, top || IsTopSpeed(q) ? 2 : 1, q.words)) return NameElse(q, kNone);
   Set({"speed", 0.5, 150, "m/s"}, request_.speed, q.value, q.words);
+}
+
+/// "Max 16 m/s", "20 m/s flat out": the most, by a word beside it.
+bool Reader::IsTopSpeed(const Quantity& q) const {
+  const auto says = [&](size_t k) {
+    return StartsAny(tokens_[k].text, {"max", "top", "horizontal", "full", "flat out", "vmax", "fastest"});
+  };
+  for (size_t k = q.first; k-- > 0 && q.first - k <= 4 && tokens_[k].kind != Token::Kind::kComma;) {
+    if (says(k)) return true;
+  }
+  for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 3 && tokens_[k].kind != Token::Kind::kComma; ++k) {
+    if (says(k)) return true;
+  }
+  return false;
 }
 
 void Reader::ReadVolume(const Quantity& q) {

@@ -95,8 +95,20 @@ void Reader::FinishOnTop() {
 /// "Hovers 20 min with 12 kg" after a payload of 12 kg.
 bool Reader::IsRepeatedLoad(const Quantity& q) const {
   if (!request_.payload || q.first == 0 || std::abs(*request_.payload - q.value) > 0.01 * q.value) return false;
-  const bool with = IsOneOf(tokens_[q.first - 1].text, {"with", "w", "mit", "avec", "con", "at", "carrying"});
+  const bool with = IsOneOf(tokens_[q.first - 1].text, {"with", "w", "mit", "avec", "con", "at", "carrying"}) || IsSumAfter(q.first - 1);
   return with && (q.last + 1 >= tokens_.size() || EndsPhrase(q.last + 1));
+}
+
+/// "590 g without the pack, the pack is 390 g, makes 980 g": what is as much as its parts together is their whole.
+bool Reader::IsBalance(const Quantity& q) const {
+  if (request_.mass) return false;
+  const double load = request_.payload.value_or(0);
+  const auto is = [&](double sum) { return std::abs(sum - q.value) < 0.012 * q.value; };
+  if (request_.bare_mass && request_.battery_mass) {
+    const double own = *request_.bare_mass + *request_.battery_mass;
+    if (is(own) || is(own + load)) return true;
+  }
+  return request_.empty_mass && load > 0.03 * q.value && is(*request_.empty_mass + load);
 }
 
 /// "Can take 5 kg": a load by its verb alone.

@@ -312,14 +312,18 @@ bool Reader::IsOfThingBefore(const Quantity& q) const {
   size_t thing = FirstOf(q);
   const bool with = thing > 1 && IsOneOf(tokens_[thing - 1].text, {"with", "mit", "avec", "con"}) && IsThing(thing - 2);
   if (with) --thing;  // "a parcel with 1.5 kg"
-  while (thing-- > 0 && SaysLittle(thing)) {
-  }
+  bool of = false;
+  while (thing-- > 0 && SaysLittle(thing)) of |= IsOneOf(tokens_[thing].text, {"of", "de", "von", "di", "d"});
   if (thing == kNone || !IsThing(thing) || Is(thing, WordKind::kVehicle)) return false;
   const size_t after = q.last + 1;
   if (after < tokens_.size() && !EndsPhrase(after) && !SaysLittle(after) && tokens_[after].kind != Token::Kind::kDash &&
       (IsDroneWord(after) || Is(after, WordKind::kMass)))
     return false;
   if (CarryVerbBefore(thing) != kNone) return true;
+  // "A life buoy of 900 g" beside the drone
+  for (size_t k = thing; of && k-- > 0 && thing - k <= 3 && !EndsPhrase(k);) {
+    if (IsArticle(tokens_[k].text) && SpeaksOfDrone(0, k)) return true;
+  }
   size_t start = thing;
   for (; start-- > 0 && thing - start <= kSpanOfThing;) {
     if (JoinsThing(tokens_[start].text)) return true;

@@ -18,9 +18,16 @@ const std::vector<Rule>& Symbols() {
       {std::regex(R"((\d)\s*\+/?-\s*[\d.]+\s*%?)"), "$1 "},
       {std::regex(R"(\+/?-\s*[\d.]+\s*(%|[a-z]+))"), " "},
       {std::regex(R"((\d)\+\s*(?=(min|h|g|kg|km)\w*\b))"), "$1 "},  // "35+ minutes"
+      // "Rotor radius r = 0.06 m": the symbol of what is named before it.
+      {std::regex(
+           R"((\b(mass|weight|radius|diameter|distance|length|motors|rotors|propellers|props|time|speed|velocity|wheelbase|diagonal|span|payload|endurance|capacity)|\))\s+[a-z](_\{?\w+\}?)?\s*=)"),
+       "$1 = "},
+      {std::regex(R"(@\s*(?=\d+(\.\d+)? ?(kg|g|lbs?|oz)\b))"), " with "},
+      {std::regex(R"(@\s*(?=\d))"), " at "},
       {std::regex(R"(\bm_(p|pl|payload)\s*=)"), " payload "},
       {std::regex(R"(\bm(_\w+)?\s*=)"), " mass "},
       {std::regex(R"(\bd(_\w+)?\s*=)"), " propeller diameter "},
+      {std::regex(R"(\br(_\w+)?\s*=)"), " rotor radius "},
       {std::regex(R"(\bl(_\w+)?\s*=)"), " arm length "},
       {std::regex(R"(\bn(_\w+)?\s*=)"), " rotors "},
       {std::regex(R"(\bt_h\w*\s*=)"), " hover time "},
@@ -49,7 +56,9 @@ const std::vector<Rule>& Numbers() {
       {std::regex(R"(\b((time|flights?|hovers?|endurance|flies|fly|of)[ :~a-z]{0,12})(\d{1,2}):([0-5]\d)( ?min(utes|s)?)?(?![\d:]))"),
        "$1$3 min $4 sec"},
       {std::regex(R"(\b(\d{1,2}):([0-5]\d) ?(min|mins|minutes)\b)"), "$1 min $2 sec"},
-      {std::regex(R"((\d)\s*\*\s*(?=\d))"), "$1x"},  // "24*7.8"
+      {std::regex(R"((\d)\s*\*\s*(?=\d))"), "$1x"},                                 // "24*7.8"
+      {std::regex(R"((\d ?(mm|cm|m)) by (?=\d+(\.\d+)? ?(mm|cm|m)\b))"), "$1 x "},  // a box
+      {std::regex(R"(\b(\d{1,2}(\.\d+)?) ?(in|inch|inches|")? (by|x) (\d{1,2}(\.\d+)?) ?(in|inch|inches|")(?![a-z]))"), "$1x$5 inch"},
       // "Shy of 230 g... say 225"
       {std::regex(
            R"((\d+(\.\d+)?)\s*(kg|g|grams|kilos|min|minutes|lbs?)\b([ ,.;-]+)(let s |lets |let's |let us )?(say|call it|make it|make that) (\d+(\.\d+)?)(?![\d.]*\s*[a-z%\x22]))"),

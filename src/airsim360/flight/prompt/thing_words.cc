@@ -64,7 +64,7 @@ constexpr std::string_view kMakers =
     "aio rx tx mavlink ros lidarless firmware led leds";
 
 constexpr std::string_view kDroneWords =
-    "base rig rigs build builds bird birds beast beasts craft crafts thing things toy toys kit kits model models flyer flyers flier "
+    "base rig rigs ours build builds bird birds beast beasts craft crafts thing things toy toys kit kits model models flyer flyers flier "
     "workhorse monster monsters basher ripper whoop whoops racer racers cruiser cruisers lifter lifters sprayer "
     "sprayers platform platforms system systems unit units setup project projects everything vessel one mine "
     "contraption gadget device apparatus prototype testbed demonstrator frame airframe aircraft machine machines "
@@ -81,7 +81,7 @@ constexpr std::string_view kCarryVerbs =
     "take takes taking get gets getting send sends sending ship ships shipping put puts drag drags airlift airlifts airlifting shuttle shuttles shuttling heft hefts schlep schleps heave heaves "
     "tow tows towing sling slings slinging dangle dangles support supports supporting handle handles accommodate "
     "accommodates convey conveys conveying move moves moving fly release releases releasing dump dumps dumping "
-    "throw throws dispense dispenses spread spreads cart carts carting launch launches mount mounts mounting "
+    "throw throws throwing toss tosses tossing deploy deploys deploying lanza lanzando suelta jette wirft lancia sgancia dispense dispenses spread spreads cart carts carting launch launches mount mounts mounting "
     "mounted swing swings fetch fetches hang hangs hanging lifted host hosts heben hebt tragt tragen tragend "
     "transportiert transportieren schleppt schleppen bringt bringen liefert liefern befordert befordern abwirft "
     "abwerfen porte porter portant transporte transporter souleve soulever emporte emporter emmene emmener livre "
@@ -162,7 +162,9 @@ bool CanBeThing(std::string_view word) {
     return words;
   }();
   const bool letters = std::all_of(word.begin(), word.end(), [](char c) { return c >= 'a' && c <= 'z'; });
-  return letters && word.size() >= 3 && !IsOneOf(word, kNone) && !MeansDrone(word) && !IsCarryVerb(word) && !IsArticle(word) &&
+  // "abt", "tot": abbreviations have no vowels.
+  const bool vowel = word.find_first_of("aeiouy") != std::string_view::npos;
+  return letters && vowel && word.size() >= 3 && !IsOneOf(word, kNone) && !MeansDrone(word) && !IsCarryVerb(word) && !IsArticle(word) &&
          !JoinsThing(word) && !EndsLikeNoThing(word);
 }
 

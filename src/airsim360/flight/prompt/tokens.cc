@@ -7,7 +7,9 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/flight/prompt/foreign_numbers.h"
+#include "airsim360/flight/prompt/markup.h"
 #include "airsim360/flight/prompt/number_words.h"
+#include "airsim360/flight/prompt/other_figures.h"
 #include "airsim360/flight/prompt/plain_text.h"
 #include "airsim360/flight/prompt/spoken_forms.h"
 
@@ -150,6 +152,8 @@ class Cutter {
         }
       }
       Take(key, n > 0, end, best, best_length);
+      // "max. speed" is one phrase; the point after a longer word ends a sentence.
+      if (end - begin > 4 && next + 1 < text_.size() && text_[next] == '.' && text_[next + 1] == ' ') break;
       while (next < text_.size() &&
              (text_[next] == ' ' || text_[next] == '-' || text_[next] == '/' || text_[next] == '.' || text_[next] == '\''))
         ++next;
@@ -311,7 +315,7 @@ class Cutter {
 
 std::vector<Token> Tokenize(std::string_view prompt) {
   if (prompt.size() > kLongestPrompt) throw InputError("the description is longer than 1000 bytes");
-  return JoinNumbers(Cutter(SpeltOut(WithForeignNumbers(PlainText(prompt)))).Run());
+  return WithoutOtherFigures(WithBorrowedUnits(JoinNumbers(Cutter(SpeltOut(WithForeignNumbers(PlainText(WithoutMarkup(prompt))))).Run())));
 }
 
 }  // namespace airsim360::internal
