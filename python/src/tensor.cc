@@ -159,15 +159,17 @@ py::object ToTensor(const py::object& picture) {
   const auto array = picture.cast<py::array>();
   Tensor tensor;
   tensor.data = array.data();
+  // Asked of NumPy: where NumPy 2 keeps it, pybind11 before 2.12 finds 0.
+  const auto itemsize = array.attr("itemsize").cast<py::ssize_t>();
   for (py::ssize_t k = 0; k < array.ndim(); ++k) {
     tensor.shape.push_back(array.shape(k));
-    tensor.strides.push_back(array.strides(k) / array.itemsize());
+    tensor.strides.push_back(array.strides(k) / itemsize);
   }
   const char kind = array.dtype().kind();
   tensor.type = {kind == 'f'   ? TensorType::kFloat
                  : kind == 'i' ? TensorType::kInt
                                : TensorType::kUint,
-                 static_cast<uint8_t>(8 * array.itemsize())};
+                 static_cast<uint8_t>(8 * itemsize)};
   tensor.keep = std::shared_ptr<const void>(array.data(), [held = new py::array(array)](const void*) {
     if (Py_IsInitialized() == 0) return;
     const py::gil_scoped_acquire gil;
