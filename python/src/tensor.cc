@@ -166,10 +166,7 @@ py::object ToTensor(const py::object& picture) {
     tensor.strides.push_back(array.strides(k) / itemsize);
   }
   const char kind = array.dtype().kind();
-  tensor.type = {kind == 'f'   ? TensorType::kFloat
-                 : kind == 'i' ? TensorType::kInt
-                               : TensorType::kUint,
-                 static_cast<uint8_t>(8 * itemsize)};
+  tensor.type = {kind == 'f' ? TensorType::kFloat : kind == 'i' ? TensorType::kInt : TensorType::kUint, static_cast<uint8_t>(8 * itemsize)};
   tensor.keep = std::shared_ptr<const void>(array.data(), [held = new py::array(array)](const void*) {
     if (Py_IsInitialized() == 0) return;
     const py::gil_scoped_acquire gil;
