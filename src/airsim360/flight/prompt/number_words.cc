@@ -31,7 +31,7 @@ class Joiner {
 
   std::vector<Token> Run() {
     while (at_ < in_.size()) {
-      if (IsNumber(in_[at_]) || in_[at_].Is(WordKind::kHalf) || StartsArticle()) {
+      if (IsNumber(in_[at_]) || in_[at_].Is(WordKind::kHalf) || StartsArticle() || IsOneMultiple(at_)) {
         if (!StartsArticle() && Join()) continue;
         if (StartsArticle()) {
           Push(in_[at_].text, 1, 1);
@@ -69,12 +69,32 @@ class Joiner {
     return out_.emplace_back(std::move(token));
   }
 
+  /// "a hundred"
+  bool IsOneMultiple(size_t i) const { return AtText(i, "a") && At(i + 1, WordKind::kMultiplier); }
+
+  /// "five hundred" after "two thousand", "fifty" after "nine hundred": the value of the smaller part at `i` and its
+  /// words; 0 words: there is none.
+  size_t ReadRest(size_t i, double whole, double& rest) const {
+    if (!At(i, WordKind::kNumber) || whole < 100) return 0;
+    double value = in_[i].word->value;
+    size_t used = 1;
+    const size_t unit = i + (i + 1 < in_.size() && in_[i + 1].kind == Token::Kind::kDash ? 2 : 1);
+    if (At(unit, WordKind::kNumber) && value >= 20 && value < 100 && in_[unit].word->value < 10) {  // "twenty-five"
+      value += in_[unit].word->value;
+      used = unit + 1 - i;
+    }
+    if (At(i + used, WordKind::kMultiplier)) value *= in_[i + used++].word->value;
+    rest = value;
+    const double place = std::fmod(whole, 1000) == 0 ? 1000 : std::fmod(whole, 100) == 0 ? 100 : 1;
+    return value > 0 && value < place ? used : 0;
+  }
+
   /// One number from `i` on, of as many words as belong to it; how many those are.
   size_t ReadOne(size_t i, double& value, std::string& text) const {
     const size_t first = i;
-    if (!IsNumber(in_[i])) return 0;
+    if (!IsNumber(in_[i]) && !IsOneMultiple(i)) return 0;
     const bool digits = in_[i].kind == Token::Kind::kNumber;
-    value = digits ? in_[i].value : in_[i].word->value;
+    value = digits ? in_[i].value : IsNumber(in_[i]) ? in_[i].word->value : 1;
     text = in_[i++].text;
     const auto extend = [&](double more) {
       value = more;
@@ -82,8 +102,14 @@ class Joiner {
     };
     for (int n = 0; n < 6 && i < in_.size(); ++n) {
       const size_t word = in_[i].kind == Token::Kind::kDash ? i + 1 : i;
+      const size_t rest_at = AtText(i, "and") ? i + 1 : i;
+      double rest = 0;
+      const size_t rest_words = digits || !At(i - 1, WordKind::kMultiplier) ? 0 : ReadRest(rest_at, value, rest);
       if (At(i, WordKind::kMultiplier)) {
         extend(value * in_[i].word->value);
+      } else if (rest_words > 0) {
+        value += rest;
+        for (const size_t end = rest_at + rest_words; i < end; ++i) text += " " + in_[i].text;
       } else if (!digits && At(word, WordKind::kNumber) && Fits(value, in_[word].word->value)) {
         i = word;
         const double next = in_[i].word->value;
@@ -103,6 +129,7 @@ class Joiner {
       value += in_[i + 1].word->value;
       text += " and " + in_[i + 1].text;
       i += 2;
+      if (!digits && At(i, WordKind::kMultiplier)) extend(value * in_[i].word->value);  // "two and a half thousand"
     } else if (i + 2 < in_.size() && AtText(i, "/") && in_[i + 1].kind == Token::Kind::kNumber && value == 1 && in_[i + 1].value >= 2 &&
                in_[i + 1].value <= 8 && IsUnit(in_[i + 2])) {
       value /= in_[i + 1].value;
@@ -260,13 +287,13 @@ bool ReadPropellerCode(std::string_view text, double (&code)[3], size_t& length)
     if (more == 0) break;
     at += 1 + more;
   }
-  // "4x 10 inch" counts; "100x80 mm" is a box; "5045x3" says blades.
+  // "4x 10 inch" counts; "8x16 in" as well; "100x80 mm" is a box; "5045x3" says blades.
   if (parts == 2 && code[0] >= 1000 && code[1] <= 6) {
     const double blades = code[1];
     const std::string digits = std::to_string(static_cast<int>(code[0]));
     if (!ReadPropellerFigures(digits, code)) return false;
     code[2] = blades;
-  } else if (parts < 2 || code[0] > 60 || code[1] > code[0] * 2 || (parts == 3 && code[2] > 6)) {
+  } else if (parts < 2 || code[0] > 60 || code[1] >= code[0] * 2 || (parts == 3 && code[2] > 6)) {
     return false;
   }
   length = at;

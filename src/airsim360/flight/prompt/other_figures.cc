@@ -121,7 +121,7 @@ class OtherFigures : public FigureWords {
     for (size_t i = 0; i < tokens_.size(); ++i) {
       const Figure figure = FigureAt(i);
       if (figure.is && (IsOfSensor(figure) || IsOfPlace(figure) || IsSeconds(figure) || IsOfCase(figure) || IsOfPerson(figure) ||
-                        IsCompared(figure) || IsOfGround(figure)))
+                        IsCompared(figure) || IsOfGround(figure) || IsOfWaiting(figure) || IsOfPowerLine(figure)))
         apart_[i] = true;
     }
     SetPastFiguresApart(tokens_, apart_);
@@ -241,6 +241,7 @@ class OtherFigures : public FigureWords {
     if (before < figure.number && Is(before, {"every", "within", "alle", "toutes", "cada", "after"})) return true;
     if (before < figure.number && before > 0 && Is(before, {"at"}) && (Is(before - 1, WordKind::kOtherUnit) || IsSensor(Text(before - 1))))
       return true;  // "12 MP at 2 s"
+    if (before < figure.number && value > 24 && Is(before, {"takes", "took", "needs"})) return true;
     return HasMeasure(figure) || Is(figure.unit + 1, {"between", "apart", "later", "after"});
   }
 
@@ -256,9 +257,84 @@ class OtherFigures : public FigureWords {
     for (size_t k = figure.unit + 1; k < tokens_.size() && k <= figure.unit + 3 && !EndsSegment(k); ++k) {
       if (is_case(k)) return IsPutInto(figure.number);
     }
+    const size_t noun = figure.unit + 1;
+    if (Is(noun, WordKind::kPayload) || Is(noun, WordKind::kMass)) return false;  // "transport box, 1.5 kg payload"
+    bool boxed = false;
     for (size_t k = figure.number; k-- > 0 && figure.number - k <= 5;) {
-      if (is_case(k)) return IsPutInto(k) || Is(k > 0 ? k - 1 : 0, {"transport", "shipping", "travel", "carry", "flight"});
-      if (EndsSegment(k) && !Is(k, {"("})) return false;
+      const size_t kind = k > 0 ? k - 1 : 0;
+      const bool kinds = Is(kind, {"transport", "shipping", "travel", "carry", "flight", "pelican", "peli", "hard", "storage"});
+      // "Case: 70 x 50 x 40 cm, 9 kg"
+      if (is_case(k)) return IsPutInto(k) || kinds || (boxed && !IsCarryVerb(Text(kind)) && !IsArticle(Text(kind)));
+      const bool box = EndsSegment(k) && k + 1 == figure.number && k > 0 && IsBox(Text(k - 1));
+      boxed |= box;
+      if (EndsSegment(k) && !Is(k, {"("}) && !box) break;
+    }
+    return IsShipped(figure);
+  }
+
+  /// "Ships in two boxes, 8 kg and 5 kg"
+  bool IsShipped(const Figure& figure) const {
+    bool boxes = false;
+    for (size_t k = figure.number; k-- > 1 && figure.number - k <= kClause && !Is(k, {".", ";", "!"});) {
+      boxes |= Is(k, {"boxes", "cases", "crates", "cartons", "box", "case", "crate", "carton", "parcels", "pallet"});
+      if (IsDrone(k)) return false;
+      const bool put =
+          Is(k, {"in"}) && StartsAny(Text(k - 1), {"ship", "packed", "packs", "deliver", "arrive", "travel", "stored", "stows"});
+      if (put) return boxes && HasOther(figure);
+    }
+    return false;
+  }
+
+  static bool IsBox(const std::string& text) {
+    return !text.empty() && text[0] >= '0' && text[0] <= '9' && text.find('x') != std::string::npos && text.ends_with('m');
+  }
+
+  /// "50 minutes on the charger", "setup within 3 minutes", "coffee for 40 minutes": beside another time, which is flown.
+  bool IsOfWaiting(const Figure& figure) const {
+    if (!HasUnit(figure, WordKind::kTimeUnit) || !HasOther(figure)) return false;
+    for (size_t k = figure.unit + 1; k < tokens_.size() && k <= figure.unit + 4 && !EndsSegment(k); ++k) {
+      if (IsWaiting(k)) return true;
+      if (IsFlown(k)) return false;
+      if (tokens_[k].kind == Token::Kind::kNumber) break;
+    }
+    for (size_t k = figure.number; k-- > 0 && figure.number - k <= kClause && !Is(k, {".", ";", "!", "?", "|"});) {
+      if (IsWaiting(k) || (Is(k, {"time", "times"}) && k > 0 && IsWaiting(k - 1))) return true;
+      if (IsFlown(k) || Is(k, WordKind::kTimeUnit) || Is(k, WordKind::kCapacityUnit) || Is(k, WordKind::kCells) || IsDrone(k)) return false;
+    }
+    return false;
+  }
+
+  bool IsFlown(size_t k) const {
+    return Is(k, WordKind::kFlight) || Is(k, WordKind::kHover) || StartsAny(Text(k), {"fly", "flies", "flew", "flown", "airborne"});
+  }
+
+  bool IsWaiting(size_t k) const {
+    const size_t before = k > 0 ? k - 1 : 0;
+    if (Is(k, {"check", "service", "maintenance", "overhaul"})) return Is(before, {"next", "last", "every", "previous"});
+    // "20 min between charges", "one charge lasts 20 min" are flown.
+    const bool flown = Is(before, {"between", "before", "until", "one", "a", "per", "each", "every", "single", "full"}) && k > 0;
+    if (flown && StartsAny(Text(k), {"charg", "recharg"})) return false;
+    return StartsAny(
+        Text(k), {"charg",    "recharg",  "setup",    "set up",    "unpack", "assembl", "coffee", "lunch",     "driving",  "walk",
+                  "briefing", "ladezeit", "aufladen", "ladedauer", "aufbau", "warm up", "warmup", "preflight", "cooldown", "cool down"});
+  }
+
+  /// "Overhead lines (110 kV and 380 kV)", "the 20 kV grid": kilovolts.
+  bool IsOfPowerLine(const Figure& figure) const {
+    if (!HasUnit(figure, WordKind::kKvUnit)) return false;
+    const auto is_line = [&](size_t k) {
+      return StartsAny(Text(k), {"overhead", "power line", "powerline", "grid", "substation", "pylon", "high voltage", "transmission line",
+                                 "insulator", "conductor", "transformer", "switchgear", "freileitung", "hochspannung"}) ||
+             Is(k, {"line", "lines", "mains", "towers"});
+    };
+    for (size_t k = figure.unit + 1; k < tokens_.size() && k <= figure.unit + 3 && !EndsSegment(k); ++k) {
+      if (is_line(k)) return true;
+      if (Is(k, WordKind::kMotor)) return false;
+    }
+    for (size_t k = figure.number; k-- > 0 && figure.number - k <= 8 && (!EndsSegment(k) || Is(k, {"(", ",", "/"}));) {
+      if (is_line(k)) return true;
+      const bool other_unit = k > 0 && FigureAt(k - 1).is && !Is(k, WordKind::kKvUnit);
+      if (Is(k, WordKind::kMotor) || IsDrone(k) || other_unit) return false;
     }
     return false;
   }

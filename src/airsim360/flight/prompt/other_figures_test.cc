@@ -65,6 +65,48 @@ TEST(OtherFigures, OtherDronesCasesAndPersonsHaveTheirOwn) {
   EXPECT_THROW(DroneFromPrompt("octo of 31 kg take-off mass that lifts me, I'm 82 kg"), InputError);
 }
 
+TEST(OtherFigures, TimesOnTheGroundAreNotFlown) {
+  for (const char* words :
+       {"quad, 18 minutes of flight and 50 minutes on the charger", "quad, flight time 18 min, setup within 3 minutes",
+        "quad, flies 18 min, recharging time 70 min, 10 min to set up", "quad, flies 18 min, recharge 20 min on the generator",
+        "hexa, back on the ground after 18 minutes. Then we had coffee for 40 minutes", "quad, 18 min, next check at 100 h",
+        "quad, 18 min per pack. I charge 6 packs at once, about an hour", "quad, 18 min. Our record of last year was 16 min",
+        "quad, one charge gives eighteen minutes"}) {
+    EXPECT_EQ(ParsePrompt(words).flight_time, 18 * 60) << words;
+  }
+  EXPECT_EQ(ParsePrompt("quad, 18 min between charges").flight_time, 18 * 60);
+  // A second time that is flown contradicts the first.
+  EXPECT_THROW(ParsePrompt("quad, flight time 18 min, flight time 50 min"), InputError);
+}
+
+TEST(OtherFigures, VoltsOfLinesAndOfSingleCellsAreNoMotorsAndPacks) {
+  EXPECT_EQ(ParsePrompt("our lines have 110 kV and 380 kV; hexa, motors 440 KV").motor_kv, 440);
+  EXPECT_EQ(ParsePrompt("hexa for inspecting 220 kV pylons: 15 inch props, 340 KV motors").motor_kv, 340);
+  EXPECT_EQ(ParsePrompt("quad, 6S, landed at 3.5 V per cell").cells, 6);
+  EXPECT_FALSE(ParsePrompt("quad, landed at 3.5 V per cell").cells);
+  EXPECT_FALSE(ParsePrompt("quad of 2 kg; 400kv or 340kv?").motor_kv);
+  EXPECT_THROW(ParsePrompt("quad, motors 400 KV, motors 340 KV"), InputError);
+}
+
+TEST(OtherFigures, CellsOfAPackHoweverTheyAreWired) {
+  EXPECT_EQ(ParsePrompt("X8, packs are 6S 16Ah, you use two in series at a time").cells, 12);
+  EXPECT_EQ(ParsePrompt("quad, 4S, two 5000s in parallel").capacity_ah, 10);
+  EXPECT_EQ(ParsePrompt("quad, 6S6P pack from 5.0 Ah 21700s (36 cells)").capacity_ah, 30);
+  EXPECT_EQ(ParsePrompt("quad, 4S 1800? no, sorry, the new ones are 3S 2700 mAh").cells, 3);
+  EXPECT_EQ(ParsePrompt("quad, 4S 1800? no, sorry, the new ones are 3S 2700 mAh").capacity_ah, 2.7);
+}
+
+TEST(OtherFigures, WhatStandsInABoxOrIsLostIsNotThisDrone) {
+  EXPECT_EQ(ParsePrompt("hexa, transport case: 78 x 52 x 40 cm, 11.5 kg, take-off weight 7.8 kg").mass, 7.8);
+  EXPECT_EQ(ParsePrompt("X8, 4.6 kg all up, price incl. Pelican case (9 kg)").mass, 4.6);
+  EXPECT_EQ(ParsePrompt("hexa, 4 kg AUW. Ships in two boxes, 8 kg and 5 kg").mass, 4);
+  EXPECT_EQ(ParsePrompt("hexa, transport box 30 x 20 x 20 cm, 1.5 kg payload, take-off 7 kg").payload, 1.5);
+  EXPECT_EQ(ParsePrompt("tricopter died, now a proper quad").rotors, 4);
+  EXPECT_EQ(ParsePrompt("the quad we launch from the stern weighs 4 kg with its battery").mass, 4);
+  EXPECT_EQ(ParsePrompt("7-Zoll-Quad, 6S 3300er Lipo, mit Akku 1,05 kg").mass, 1.05);
+  EXPECT_EQ(ParsePrompt("quad, 5 kg take-off mass, carries a 1.5 kg box").payload, 1.5);
+}
+
 TEST(OtherFigures, OfSeveralConditionsOneIsTaken) {
   EXPECT_EQ(ParsePrompt("hexa, 18 kg, 40 min with 2 kg payload, 28 min with 5 kg payload").flight_time, 28 * 60);
   EXPECT_EQ(ParsePrompt("hexa, 18 kg, 40 min with 2 kg payload, 28 min with 5 kg payload").payload, 5);

@@ -156,14 +156,17 @@ class PastFigures : public FigureWords {
     const auto is_noun = [&](size_t k) {
       if (k >= tokens_.size()) return false;
       const Token& token = tokens_[k];
-      return Is(k, {"version", "setup", "weight", "motors"}) ||
+      return Is(k, {"version", "setup", "weight", "motors", "best", "record", "attempt"}) ||
              (token.kind == Token::Kind::kWord && token.word->kind >= WordKind::kRotorNoun && token.word->kind <= WordKind::kThrust);
     };
     const bool used_to = Is(i, {"used"}) && Is(next, {"to"}) &&
                          (Is(next + 1, {"run", "be", "have", "weigh", "swing", "spin", "use", "fly", "take", "carry"}) ||
                           (next + 1 < tokens_.size() && tokens_[next + 1].Is(WordKind::kMass)));
     const bool old = Is(i, {"old", "previous", "former", "earlier", "original"}) && is_noun(next);
-    const bool strong = used_to || old || Is(i, {"previously", "formerly", "originally", "initially"});
+    // "Our record of last year was 16 min"
+    bool record = false;
+    for (size_t k = next; Is(i, {"record"}) && k < tokens_.size() && k <= i + 5 && !EndsSegment(k); ++k) record |= Is(k, {"was", "stood"});
+    const bool strong = used_to || old || record || Is(i, {"previously", "formerly", "originally", "initially"});
     const bool weak = Is(i, {"was", "were", "had", "weighed", "ran"});
     const bool change = StartsAny(Text(i), {"replac", "swap", "exchang", "traded", "upgrad", "went", "chang", "moved", "switch", "dropped",
                                             "convert", "down", "reduced", "increased", "instead", "grew", "modified"});
@@ -172,8 +175,21 @@ class PastFigures : public FigureWords {
       if (tokens_[k].kind == Token::Kind::kNumber && k + 1 < tokens_.size() && tokens_[k + 1].Is(WordKind::kRotorNoun)) apart_[k] = true;
     }
     if (weak || change) MarkReplaced(i, change);
+    MarkLost(i);
     MarkAfter(i);
     MarkNegated(i);
+  }
+
+  /// "The tricopter died, now a proper quad"
+  void MarkLost(size_t i) {
+    const auto is_kind = [&](size_t k) { return tokens_[k].Is(WordKind::kRotors) || tokens_[k].Is(WordKind::kCoaxial); };
+    if (!is_kind(i)) return;
+    bool lost = false;
+    for (size_t k = i + 1; k < tokens_.size() && k <= i + 4 && !EndsSegment(k); ++k)
+      lost |= Is(k, {"died", "dead", "crashed", "broke", "drowned", "retired", "sold", "gone", "burnt", "burned", "lost"});
+    for (size_t k = i + 1; lost && k < tokens_.size(); ++k) {
+      if (is_kind(k) && tokens_[k].word->value != tokens_[i].word->value) apart_[i] = true;
+    }
   }
 
   bool EndsPast(size_t k) const {

@@ -168,6 +168,7 @@ class Reader {
   bool NamesThingAfter(const Quantity& q) const;
   bool IsIncluded(const Quantity& q) const;
   bool IsLeftOut(size_t i) const;
+  bool IsAllWithBattery(size_t noun, const Quantity& q) const;
   bool IsWithBattery(const Quantity& q) const;
   void FinishBareMass();
   void FinishOwnMass();

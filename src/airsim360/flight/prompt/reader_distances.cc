@@ -130,7 +130,7 @@ double Reader::PacksOf(const Quantity& q) const {
 double Reader::CellsInParallel(const Quantity& q) const {
   bool of_cell = false;
   for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 3; ++k)
-    of_cell |= IsOneOf(tokens_[k].text, {"21700", "18650", "cells", "cell"});
+    of_cell |= IsOneOf(tokens_[k].text, {"21700", "18650", "21700s", "18650s", "cells", "cell"});
   if (!of_cell) return 1;
   for (size_t k = 1; k < tokens_.size(); ++k) {
     const Token& count = tokens_[k - 1];

@@ -72,7 +72,7 @@ void Reader::CorrectWith(const char* name, Field& field, size_t i) {
     // "a bicopter - scratch that, the supervisor wants a quad": such words reach further, up to the next
     // figure.
     if (!near && tokens_[k].kind == Token::Kind::kNumber) break;
-    if (!near && !(Is(k, WordKind::kCorrection) && tokens_[k].text.size() > 6)) continue;
+    if (!near && !(Is(k, WordKind::kCorrection) && (tokens_[k].text.size() > 6 || IsOneOf(tokens_[k].text, {"sorry", "oops"})))) continue;
     // "22 inch? no, 18 inch", "half an hour minus a few, say 24 minutes"
     const bool no = (tokens_[k].text == "no" || tokens_[k].text == "say") && k > 0 &&
                     (tokens_[k - 1].kind == Token::Kind::kComma || tokens_[k - 1].kind == Token::Kind::kDash);
@@ -286,7 +286,9 @@ size_t Reader::OwnerOfDiameter(const Quantity& q) const {
   for (size_t i = q.first; i-- > 0 && q.first - i <= kPhrase;) {
     bool each = i + 1 < tokens_.size() && tokens_[i + 1].text == "each";
     for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 3; ++k) each |= IsOneOf(tokens_[k].text, {"each", "apiece"});
-    if (tokens_[i].kind == Token::Kind::kComma && !each && tokens_[i].text != "(") break;
+    // "Six rotors, 22 in dia."
+    const bool beside = i > 0 && i + 1 == q.first && q.unit->value == 0.0254 && tokens_[i].text == "," && Is(i - 1, WordKind::kRotorNoun);
+    if (tokens_[i].kind == Token::Kind::kComma && !each && !beside && tokens_[i].text != "(") break;
     if (owns(i)) return i;
   }
   for (size_t i = q.last + 1; i < tokens_.size() && tokens_[i].kind != Token::Kind::kComma; ++i) {

@@ -154,6 +154,7 @@ void Reader::RefuseFreeEnergy() const {
   bool generator = false, on_board = false;
   for (size_t i = 0; i < tokens_.size(); ++i) {
     const std::string& text = tokens_[i].text;
+    if (i > 1 && text == "generator" && tokens_[i - 1].text == "the" && IsOneOf(tokens_[i - 2].text, {"on", "from", "at"})) continue;
     generator |= text.starts_with("generator") || text.starts_with("dynamo") || text.starts_with("alternator") ||
                  text.starts_with("windmill") || text.starts_with("generador") || text.starts_with("generateur") ||
                  text.starts_with("lichtmaschine");
@@ -162,7 +163,7 @@ void Reader::RefuseFreeEnergy() const {
   }
   const bool fuel = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) {
     return token.text.starts_with("petrol") || token.text.starts_with("gasoline") || token.text == "hybrid" || token.text == "fuel" ||
-           token.text == "ground" || token.text == "diesel";
+           token.text == "ground" || token.text == "truck" || token.text == "van" || token.text == "diesel";
   });
   if (!generator || !on_board || fuel) return;
   throw InputError(

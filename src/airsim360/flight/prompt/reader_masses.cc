@@ -328,6 +328,7 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
       // "410 g without battery, with the 1300 battery 630 g"
       if (request_.bare_mass && q.value > *request_.bare_mass && noun < q.first && IsIncludedBefore(noun))
         return ReadMassAs(MassRole::kWhole, q);
+      if (IsAllWithBattery(noun, q)) return ReadMassAs(MassRole::kWhole, q);
       if (IsLeftOut(noun)) return Set({"bare_mass", 0.004, 400, "kg"}, request_.bare_mass, q.value, q.words);
       return Set({"battery_mass", 0.001, 200, "kg"}, request_.battery_mass, q.value, q.words);
     case WordKind::kBare: {
@@ -408,6 +409,16 @@ bool Reader::NamesThingAfter(const Quantity& q) const {
     if (IsThing(k)) return true;
   }
   return false;
+}
+
+/// "7 inch quad, with battery 1.05 kg", "together with its battery I read 10 kg": the only mass, of a phrase that begins so.
+bool Reader::IsAllWithBattery(size_t noun, const Quantity& q) const {
+  if (noun > q.first || Masses().size() != 1) return false;
+  size_t with = noun;
+  while (with-- > 0 && IsArticle(tokens_[with].text)) {
+  }
+  if (with == kNone || !IsOneOf(tokens_[with].text, {"with", "w", "mit", "avec", "con", "com"})) return false;
+  return with == 0 || tokens_[with - 1].kind == Token::Kind::kComma || tokens_[with - 1].text == "together";
 }
 
 /// Whether `whole` is a mass of the drone without payload and the payload that was said.

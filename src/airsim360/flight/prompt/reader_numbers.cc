@@ -104,6 +104,10 @@ void Reader::ReadCells(const Quantity& q) {
   if (tokens_[i].value != std::floor(tokens_[i].value)) {
     throw InputError("'" + q.words + "' is not a whole number");
   }
+  // "6S6P (36 cells)": all cells of the pack.
+  for (size_t k = 1; tokens_[i].value > 24 && k < tokens_.size(); ++k) {
+    if (tokens_[k].text == "p" && request_.cells && tokens_[i].value == *request_.cells * tokens_[k - 1].value) return NameElse(q, kNone);
+  }
   if (const double packs = PacksInSeries(i); packs > 1)
     return Set({"cells", 1, 24, ""}, request_.cells, packs * tokens_[i].value, tokens_[i - 1].text + " " + q.words);
   if (ReadInchesAsPlural(i, q.last)) return;

@@ -122,6 +122,17 @@ bool Reader::IsOfEmptyDrone(const Quantity& q) const {
 /// "a kilo and a half", "une heure et demie".
 void Reader::Extend(Quantity& q) {
   const size_t link = q.last + 1;
+  // "two kilos four hundred"
+  const bool hundreds = q.unit->kind == WordKind::kMassUnit && q.unit->value == 1 && link < tokens_.size() &&
+                        tokens_[link].kind == Token::Kind::kNumber && tokens_[link].text.find("hundred") != std::string::npos &&
+                        tokens_[link].value < 1000 && (link + 1 >= tokens_.size() || EndsPhrase(link + 1));
+  if (hundreds) {
+    q.value += tokens_[link].value / 1000;
+    q.last = link;
+    q.words += " " + tokens_[link].text;
+    used_[link] = true;
+    return;
+  }
   const bool half = Is(link, WordKind::kBreak) && Is(link + 1, WordKind::kHalf);
   if (!half || (WordAt(link + 2) && WordAt(link + 2)->kind >= WordKind::kMassUnit && WordAt(link + 2)->kind <= WordKind::kOtherUnit))
     return;
@@ -198,6 +209,11 @@ void Reader::ReadCapacity(const Quantity& q) {
 
 /// "Two 6S packs in series": how many packs, else 1.
 double Reader::PacksInSeries(size_t i) const {
+  // "6S 16 Ah, you use two in series"
+  for (size_t k = i + 2; k < tokens_.size() && k < i + 11 && tokens_[k].text != "."; ++k) {
+    const size_t link = tokens_[k - 1].text == "in" ? k - 2 : k - 1;
+    if (tokens_[k].text == "series" && tokens_[link].Counts(4)) return tokens_[link].value;
+  }
   const size_t count = i > 1 && Is(i - 1, WordKind::kTimes) ? i - 2 : i - 1;
   if (i == 0 || !tokens_[count].Counts(kMostThings)) return 1;
   for (size_t k = i + 2; k < tokens_.size() && k < i + 8; ++k) {
@@ -253,8 +269,11 @@ void Reader::ReadLength(const Quantity& q) {
     if (owner != kNone && Is(owner, WordKind::kLoad)) return NameElse(q, noun);
     const bool propellers =
         owner != kNone && (Is(owner, WordKind::kPropeller) || Is(owner, WordKind::kRotorNoun) || Is(owner, WordKind::kBlades));
+    // "Octo / dia 13 in / 950 mm diagonal"
+    const bool alone = inches && owner == kNone && !radius && !request_.propeller &&
+                       std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) { return token.Is(WordKind::kWheelbase); });
     if (propellers || !radius) Use(noun);
-    if (propellers) noun = owner;
+    if (propellers || alone) noun = owner;
     if (propellers && radius) value *= 2;
   }
   WordKind kind = noun == kNone ? WordKind::kFiller : kind_of(noun) == WordKind::kAcross ? WordKind::kWheelbase : kind_of(noun);
@@ -431,7 +450,8 @@ void Reader::ReadSpeed(const Quantity& q) {
 /// "Max 16 m/s", "20 m/s flat out": the most, by a word beside it.
 bool Reader::IsTopSpeed(const Quantity& q) const {
   const auto says = [&](size_t k) {
-    return StartsAny(tokens_[k].text, {"max", "top", "horizontal", "full", "flat out", "vmax", "fastest"});
+    return StartsAny(tokens_[k].text, {"max", "top", "horizontal", "full", "flat out", "vmax", "fastest", "spitze", "hochst"}) ||
+           tokens_[k].text.find("max") != std::string::npos;
   };
   for (size_t k = q.first; k-- > 0 && q.first - k <= 4 && tokens_[k].kind != Token::Kind::kComma;) {
     if (says(k)) return true;

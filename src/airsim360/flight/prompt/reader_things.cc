@@ -249,10 +249,15 @@ bool Reader::HasItsMass(size_t i) const {
 
 /// Whether the clause of token `i` is of a thing: no word for the drone before it, but where a verb carries it.
 bool Reader::IsSubject(size_t i) const {
+  // "The quad that we launch from the stern weighs": the verb's place, not its object.
+  size_t before = i;
+  while (before-- > 0 && IsArticle(tokens_[before].text)) {
+  }
+  const bool place = before != kNone && IsOneOf(tokens_[before].text, {"from", "off", "near", "behind", "beside"});
   for (size_t k = i; k-- > 0 && i - k <= kClause;) {
     if (EndsSentence(tokens_[k]) || tokens_[k].kind == Token::Kind::kNumber) return true;
     if (tokens_[k].text == "," || tokens_[k].text == "(") return true;
-    if (IsCarryVerb(tokens_[k].text) && (!claimed_[k] || Is(k, WordKind::kClass))) return true;
+    if (!place && IsCarryVerb(tokens_[k].text) && (!claimed_[k] || Is(k, WordKind::kClass))) return true;
     // "A drone for my teddy weighs": of the drone. "The drone's camera weighs": of the camera.
     if (IsDroneWord(k) || IsPart(k)) return i - k == 1;
   }

@@ -77,10 +77,32 @@ const std::vector<Rule>& Numbers() {
 const std::vector<Rule>& Phrases() {
   static const std::vector<Rule> kRules = {
       {std::regex(R"(\ben charge\b)"), " "},
+      // "Landed with 3.5 V per cell": of one cell, whatever the pack has.
+      {std::regex(
+           R"(\b(at |with |to |until |of |down to )?\d(\.\d+)? ?(v|volts?) ?(per|a|each|/|pro|par|por) ?(cell|c|zelle|element|celda)\b)"),
+       " "},
+      {std::regex(R"(\bcells? (are |is |was |were )?(at|with|of|to|down to) [2-4](\.\d+)? ?v(olts?)?( each)?\b)"), "cells"},
+      // "One charge gives seven minutes"
+      {std::regex(
+           R"(\b(one|a|each|every|a single|per) (full )?(charge|battery|pack|lipo) (gives|lasts( for)?|yields|allows|brings|is good for|is enough for|keeps it (up|flying)( for)?)( us| me| you| about)?\b)"),
+       "flight time "},
+      // "Cells (36, 2.5 kg of the total)", "'nine-fours'": what is in the whole, what a propeller is called.
+      {std::regex(R"(([,(] ?)\d+(\.\d+)? ?(kg|g|lbs?|oz) of (the|its|that) (total|whole|auw|mtow|tow|weight|mass)\b)"), "$1"},
+      {std::regex(
+           R"(\b(two|three|four|five|six|seven|eight|nine|ten|eleven|twelve)-(twos|threes|fours|fives|sixes|sevens|eights|nines)\b)"),
+       " "},
+      // A list's number, a span of years.
+      {std::regex(R"(#\s?\d+\b)"), " "},
+      {std::regex(R"(\b(19[6-9]\d|20[0-4]\d) ?[-/] ?20[0-4]\d\b(?! ?(kv|mah|g|mm|rpm)\b))"), " "},
+      // "Gear up 6 s": how long it takes to fold the legs.
+      {std::regex(R"(\b(gear|legs|skids) (up|down|retracts?|retraction)( in| within| time)?:? ?\d+(\.\d+)? ?s(ec|econds)?\b)"), " "},
+      // "Should I go with 400 kv or 340 kv?" states neither.
+      {std::regex(R"(\b\d+(\.\d+)? ?(kv|inch|in|"|s|mah|kg|g) or \d+(\.\d+)? ?\2\s*\?)"), " ?"},
       // A dive tells nothing of the drone's own thrust.
       {std::regex(R"(\b\d+(\.\d+)? ?(mph|km/h|kmh|kph|m/s|knots|kts?) in (a|the|full) (power )?dives?\b( and| ,|,)?)"), " "},
       {std::regex(R"(\b(\d+(\.\d+)? ?(mph|km/h|kmh|kph|m/s|knots|kts)) level\b)"), "top speed $1"},
       {std::regex(R"((\d) in parallel\b)"), "$1 parallel"},
+      {std::regex(R"(\b(two|three|four|five|six|[2-6]|twin|dual)( x)? (\d{3,5})s (in )?parallel\b)"), "$1 $3 mah parallel"},
       // "5G WiFi", "2.4G remote": no grams.
       {std::regex(
            R"(\b(2\.4|5\.8|[345])\s?g(hz)?\b(?=[ -]*(wi-?fi|wlan|fpv|lte|network|modem|transmission|signal|link|module|connection|rc|remote|radio|control|transmitter|video|live)))"),
@@ -113,6 +135,7 @@ const std::vector<Rule>& Phrases() {
       {std::regex(R"(\bw/(?!\s*o\b)\s*(?=[a-z0-9]))"), "with "},
       // "6 minutes per charge": a charge that is flown takes no time at the plug.
       {std::regex(R"(\b(per|on|from|off|with) (a |an |one |each |every |a single |single )?(full |single )?charge\b)"), " "},
+      {std::regex(R"(\bbetween (two )?(re)?charges\b)"), " "},
       // "8 separate arms over coax"
       {std::regex(R"(\b(over|instead of|rather than|not|no|non|without|never|vs)[ -](an? )?(coax|coaxial|coaxials)\b)"), " "},
       {std::regex(R"(\b(fl(y|ies|ying|ys)|hover(s|ing)?|stays? (up|airborne|in the air|aloft)|lasts?|runs?|keeps? (going|flying)))"
