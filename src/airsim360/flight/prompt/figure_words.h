@@ -94,4 +94,10 @@ class FigureWords {
 /// several conditions.
 void SetPastFiguresApart(std::vector<Token>& tokens, std::vector<bool>& apart);
 
+/// Sets apart numbers of names ("turbine 14", "job 0093"), money in pounds and hours of work; "hex keys" are no drones.
+void SetSideNumbersApart(std::vector<Token>& tokens, std::vector<bool>& apart);
+
+/// Whether the "in" at that token, after a number, begins a phrase ("two in spring") rather than being inches.
+bool IsPreposition(const std::vector<Token>& tokens, size_t in);
+
 }  // namespace airsim360::internal

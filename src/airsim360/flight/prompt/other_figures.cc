@@ -118,6 +118,7 @@ class OtherFigures : public FigureWords {
   using FigureWords::FigureWords;
 
   std::vector<Token> Run() {
+    SetSideNumbersApart(tokens_, apart_);
     for (size_t i = 0; i < tokens_.size(); ++i) {
       const Figure figure = FigureAt(i);
       if (figure.is && (IsOfSensor(figure) || IsOfPlace(figure) || IsSeconds(figure) || IsOfCase(figure) || IsOfPerson(figure) ||
@@ -314,9 +315,9 @@ class OtherFigures : public FigureWords {
     // "20 min between charges", "one charge lasts 20 min" are flown.
     const bool flown = Is(before, {"between", "before", "until", "one", "a", "per", "each", "every", "single", "full"}) && k > 0;
     if (flown && StartsAny(Text(k), {"charg", "recharg"})) return false;
-    return StartsAny(
-        Text(k), {"charg",    "recharg",  "setup",    "set up",    "unpack", "assembl", "coffee", "lunch",     "driving",  "walk",
-                  "briefing", "ladezeit", "aufladen", "ladedauer", "aufbau", "warm up", "warmup", "preflight", "cooldown", "cool down"});
+    return StartsAny(Text(k), {"charg",   "recharg",   "setup",    "set up",    "unpack",   "assembl",   "coffee", "lunch",
+                               "driving", "walk",      "briefing", "ladezeit",  "aufladen", "ladedauer", "aufbau", "warm up",
+                               "warmup",  "preflight", "cooldown", "cool down", "lesson",   "lecture",   "seminar"});
   }
 
   /// "Overhead lines (110 kV and 380 kV)", "the 20 kV grid": kilovolts.

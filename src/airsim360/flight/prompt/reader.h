@@ -107,6 +107,8 @@ class Reader {
   double PacksInParallel(const Quantity& q) const;
   double PacksOf(const Quantity& q) const;
   double CellsInParallel(const Quantity& q) const;
+  bool IsOfCalendar(const Quantity& q) const;
+  void ReadDays(const Quantity& q);
 
   // reader_thrust.cc
   bool ReadThrust(const Quantity& q);
@@ -182,6 +184,7 @@ class Reader {
   bool IsSumAfter(size_t k) const;
   bool IsRepeatedLoad(const Quantity& q) const;
   bool IsBalance(const Quantity& q) const;
+  bool IsBrought(const Quantity& q) const;
   bool IsTaken(const Quantity& q) const;
   bool IsOnTop(const Quantity& q) const;
   void FinishOnTop();
@@ -234,7 +237,6 @@ class Reader {
   void ReadVoltage(const Quantity& q);
   void ReadCapacity(const Quantity& q);
   double PacksInSeries(size_t i) const;
-  void ReadDays(const Quantity& q);
   bool ReadWeight(const Quantity& q);
   void Dispatch(const Quantity& q);
   void Extend(Quantity& q);

@@ -1,6 +1,7 @@
-// How high and how far it is to fly, and how many packs feed it.
+// How high, how far and for how many days it is to fly, and how many packs feed it.
 #include <algorithm>
 
+#include "airsim360/base/error.h"
 #include "airsim360/flight/prompt/reader.h"
 
 namespace airsim360::internal {
@@ -137,6 +138,38 @@ double Reader::CellsInParallel(const Quantity& q) const {
     if (tokens_[k].text == "p" && count.Counts(20)) return count.value;
   }
   return 1;
+}
+
+/// "In the last five years", "a 2 year warranty": no days of flight.
+bool Reader::IsOfCalendar(const Quantity& q) const {
+  const size_t next = q.last + 1;
+  const auto is_calendar = [](const std::string& text) {
+    return StartsAny(text, {"warrant", "guarant", "project", "contract", "program", "course", "campaign", "licen", "insur", "experience",
+                            "service", "support", "garant", "lease", "mission", "return", "trip", "notice"}) ||
+           IsOneOf(text,
+                   {"old", "ago", "later", "study", "plan", "window", "break", "apart", "before", "after", "earlier", "each", "since"});
+  };
+  for (size_t k = next; k < tokens_.size() && k <= next + 2 && !EndsPhrase(k); ++k) {
+    if (is_calendar(tokens_[k].text)) return true;
+  }
+  const auto before = [&](size_t n) { return q.first >= n ? tokens_[q.first - n].text : std::string(); };
+  if (IsOneOf(before(1), {"past", "next", "every", "within", "after", "each", "in", "previous", "first", "since", "until"})) return true;
+  if (before(1) == "last" && IsOneOf(before(2), {"the", "our", "my", "your", "his", "her", "their", "its", "these"})) return true;
+  // A time that is flown is said elsewhere.
+  for (size_t k = 1; k < tokens_.size(); ++k) {
+    if (Is(k, WordKind::kTimeUnit) && tokens_[k - 1].kind == Token::Kind::kNumber && tokens_[k - 1].value * WordAt(k)->value <= 36000)
+      return true;
+  }
+  return false;
+}
+
+/// Days of flight are more than any multirotor has; days of anything else are none of its figures.
+void Reader::ReadDays(const Quantity& q) {
+  const std::string& text = tokens_[q.last].text;
+  const bool days = text.starts_with("day") || text.starts_with("week") || text.starts_with("month") || text.starts_with("year");
+  const bool flown = PhraseHas(q, WordKind::kFlight) || PhraseHas(q, WordKind::kHover);
+  if (days && flown && !IsOfCalendar(q)) throw InputError("'" + q.words + "': the flight time of a drone is 10 to 36000 s");
+  NameElse(q, kNone);
 }
 
 }  // namespace airsim360::internal

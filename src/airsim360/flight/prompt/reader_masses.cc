@@ -144,6 +144,16 @@ bool Reader::IsWithBattery(const Quantity& q) const {
   return Is(k, WordKind::kBattery) && (k + 1 >= tokens_.size() || tokens_[k + 1].kind != Token::Kind::kNumber);
 }
 
+/// "I bring my 1.6 kg quadcopter to the hill": a person carries the drone.
+bool Reader::IsBrought(const Quantity& q) const {
+  if (q.first < 2 || request_.mass || !IsOneOf(tokens_[q.first - 1].text, {"my", "our"}) || !IsCarryVerb(tokens_[q.first - 2].text))
+    return false;
+  for (size_t k = 0; k < q.first; ++k) {
+    if (Is(k, WordKind::kRotors) || Is(k, WordKind::kDrone) || tokens_[k].kind == Token::Kind::kModel) return false;
+  }
+  return Is(q.last + 1, WordKind::kRotors) || Is(q.last + 1, WordKind::kDrone);
+}
+
 void Reader::ReadMass(const Quantity& q) {
   if (const auto role = roles_.find(q.first); role != roles_.end()) return ReadMassAs(role->second, q);
   if (IsWithBattery(q) && !request_.mass && NounBefore(q, true) == kNone)
@@ -158,7 +168,7 @@ void Reader::ReadMass(const Quantity& q) {
     whole_of_mass_ = whole_said_ = true;
     return Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
   }
-  if (IsBalance(q)) return ReadMassAs(MassRole::kWhole, q);
+  if (IsBalance(q) || IsBrought(q)) return ReadMassAs(MassRole::kWhole, q);
   if (IsWithThings(q)) return SetLoadedMass(q);
   if (IsRepeatedLoad(q)) return;
   DropCorrected(q);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/flight/prompt/figure_words.h"
 
 namespace airsim360::internal {
 namespace {
@@ -88,14 +89,13 @@ bool Reader::IsInchUnit(size_t i, size_t unit) const {
   if (tokens_[i].value > 100) return false;
   const size_t next = unit + 1;
   if (next >= tokens_.size()) return true;
-  if (IsOneOf(tokens_[next].text, {"the", "a", "my", "parallel", "series", "total", "hover", "still", "calm", "wind", "winds"}))
-    return false;
+  if (IsPreposition(tokens_, unit)) return false;
   // "14 in P mode", "24 in real life": before a word that is unknown only with a propeller or a length to come.
   if (tokens_[unit].glued || tokens_[next].kind != Token::Kind::kUnknown) return true;
   for (size_t k = next; k < tokens_.size() && k <= next + 4 && tokens_[k].kind != Token::Kind::kComma; ++k) {
     if (IsPart(k) || Is(k, WordKind::kWheelbase) || Is(k, WordKind::kAcross) || Is(k, WordKind::kRotors) || Is(k, WordKind::kDrone) ||
-        Is(k, WordKind::kClass) || IsThing(k))
-      return tokens_[next].text != "real";
+        Is(k, WordKind::kClass) || (k > next && IsThing(k)))
+      return true;
   }
   return false;
 }
@@ -231,16 +231,6 @@ bool Reader::ReadWeight(const Quantity& q) {
   if (noun == kNone || !Is(noun, WordKind::kMass)) return false;
   ReadMass({q.first, q.last, tokens_[q.first].value / kGravityHere, FindWord("kg", false), q.words});
   return true;
-}
-
-/// Days of flight are more than any multirotor has; days of anything else are none of its figures.
-void Reader::ReadDays(const Quantity& q) {
-  const std::string& text = tokens_[q.last].text;
-  const bool days = text.starts_with("day") || text.starts_with("week") || text.starts_with("month") || text.starts_with("year");
-  const bool flown = PhraseHas(q, WordKind::kFlight) || PhraseHas(q, WordKind::kHover);
-  const bool age = q.last + 1 < tokens_.size() && tokens_[q.last + 1].text == "old";
-  if (days && flown && !age) throw InputError("'" + q.words + "': the flight time of a drone is 10 to 36000 s");
-  NameElse(q, kNone);
 }
 
 /// A quantity that is none of the drone's own figures.

@@ -35,7 +35,7 @@ constexpr std::string_view kFunctionWords =
     "thereabouts odd usual usually currently probably possibly hopefully definitely typically normally "
     "per piece max min approx est etc incl excl inc ex bis nicht sehr nur noch auch aber sollte soll muss will "
     "board bord aboard onboard tout compris chacun chaque cada jeder jede kann tres pas mais aussi avec doit peut faut muy pero tambien debe puede tiene quiero quisiera necesito vuele "
-    "estoy deve molto anche but";
+    "estoy deve molto anche but itself themselves himself herself";
 
 constexpr std::string_view kAdjectives =
     "light lightweight heavy heavier lighter big bigger small smaller tiny huge large larger long longer short slow "

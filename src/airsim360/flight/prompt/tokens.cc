@@ -83,7 +83,7 @@ class Cutter {
       const bool joins = at_ > 0 && IsLetter(text_[at_ - 1]) && at_ + 1 < text_.size() && IsLetter(text_[at_ + 1]) && !EndsInUnit();
       return c == '-' || joins ? AddKind(Token::Kind::kDash, 1) : AddKind(Token::Kind::kComma, 1);
     }
-    if (c == ':' && EndsHeading()) return AddKind(Token::Kind::kComma, 1);
+    if (c == ':' && (EndsHeading() || EndsName())) return AddKind(Token::Kind::kComma, 1);
     const bool ends = c == ',' || c == ';' || c == '.' || c == '!' || c == '?' || c == '(' || c == ')' || c == '[' || c == ']' || c == '|';
     if (c == '.' && FollowsAbbreviation()) return void(++at_);
     if (ends) return AddKind(Token::Kind::kComma, 1);
@@ -102,6 +102,12 @@ class Cutter {
     }
     const bool figure = at_ + 1 < text_.size() && (text_[at_ + 1] == ' ' || IsDigit(text_[at_ + 1]));
     return words > kLabel && figure;
+  }
+
+  /// "At turbine 14: 21 inch props": the number of a name counts nothing beyond its colon.
+  bool EndsName() const {
+    const bool number = !tokens_.empty() && tokens_.back().kind == Token::Kind::kNumber && at_ > 0 && IsDigit(text_[at_ - 1]);
+    return number && at_ + 1 < text_.size() && text_[at_ + 1] == ' ';
   }
 
   bool EndsInUnit() const {
