@@ -7,8 +7,7 @@ namespace airsim360::internal {
 namespace {
 
 bool IsUnit(const std::vector<Token>& tokens, size_t i) {
-  return i < tokens.size() && tokens[i].kind == Token::Kind::kWord && tokens[i].word->kind >= WordKind::kMassUnit &&
-         tokens[i].word->kind <= WordKind::kOtherUnit;
+  return i < tokens.size() && tokens[i].kind == Token::Kind::kWord && IsUnitKind(tokens[i].word->kind);
 }
 bool IsNumber(const std::vector<Token>& tokens, size_t i) { return i < tokens.size() && tokens[i].kind == Token::Kind::kNumber; }
 

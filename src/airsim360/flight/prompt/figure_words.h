@@ -39,8 +39,8 @@ class FigureWords {
     if (i >= tokens_.size() || tokens_[i].kind != Token::Kind::kNumber) return figure;
     figure.unit = i + 1;
     if (figure.unit < tokens_.size() && tokens_[figure.unit].kind == Token::Kind::kDash) ++figure.unit;
-    figure.is = figure.unit < tokens_.size() && tokens_[figure.unit].kind == Token::Kind::kWord &&
-                tokens_[figure.unit].word->kind >= WordKind::kMassUnit && tokens_[figure.unit].word->kind <= WordKind::kOtherUnit;
+    figure.is =
+        figure.unit < tokens_.size() && tokens_[figure.unit].kind == Token::Kind::kWord && IsUnitKind(tokens_[figure.unit].word->kind);
     if (!figure.is) figure.unit = 0;
     return figure;
   }

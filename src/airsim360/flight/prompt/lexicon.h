@@ -78,6 +78,9 @@ enum class WordKind {
   kVehicle,       ///< "boat": refused where no drone is spoken of
 };
 
+/// Whether a word of that kind is a unit.
+constexpr bool IsUnitKind(WordKind kind) { return kind >= WordKind::kMassUnit && kind <= WordKind::kOtherUnit; }
+
 /// An entry of the lexicon; `aliases` are divided by |. A space in an alias is any or no space or hyphen.
 struct Word {
   WordKind kind;

@@ -301,10 +301,9 @@ void Reader::ListUnused() {
     const Word* word = WordAt(i);
     const bool says_nothing =
         token.kind == Token::Kind::kUnknown || token.kind == Token::Kind::kNumber ||
-        (word && ((word->kind >= WordKind::kMassUnit && word->kind <= WordKind::kOtherUnit && i > 0 &&
-                   tokens_[i - 1].kind == Token::Kind::kNumber) ||
-                  word->kind == WordKind::kElse || word->kind == WordKind::kVehicle || word->kind == WordKind::kNoMultirotor ||
-                  word->kind == WordKind::kLoad || word->kind == WordKind::kFactor));
+        (word && ((IsUnitKind(word->kind) && i > 0 && tokens_[i - 1].kind == Token::Kind::kNumber) || word->kind == WordKind::kElse ||
+                  word->kind == WordKind::kVehicle || word->kind == WordKind::kNoMultirotor || word->kind == WordKind::kLoad ||
+                  word->kind == WordKind::kFactor));
     if (says_nothing) request_.unused.push_back(token.text);
   }
 }

@@ -202,9 +202,7 @@ size_t Reader::NounBefore(const Quantity& q, bool adjacent) const {
     const Token::Kind kind = tokens_[i].kind;
     if (EndsPhrase(i) || kind == Token::Kind::kNumber || kind == Token::Kind::kPropellerCode) break;
     const Word* word = WordAt(i);
-    if (word && word->kind >= WordKind::kMassUnit && word->kind <= WordKind::kOtherUnit && i > 0 &&
-        tokens_[i - 1].kind == Token::Kind::kNumber)
-      break;
+    if (word && IsUnitKind(word->kind) && i > 0 && tokens_[i - 1].kind == Token::Kind::kNumber) break;
     if (Claims(i)) {
       const bool able = !WordAt(i) || !q.unit || CanHave(WordAt(i)->kind, q.unit->kind);
       return claimed_[i] || !able ? kNone : i;

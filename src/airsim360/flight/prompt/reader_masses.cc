@@ -125,7 +125,7 @@ size_t Reader::NounOfMass(const Quantity& q) const {
     noun = after != kNone ? after : NounBefore(q, false);
   // "lifting two bags of 3 kg": the verb governs all of its clause.
   for (size_t i = q.first; noun == kNone && i-- > 0 && !EndsPhrase(i) && q.first - i <= 7;) {
-    if (WordAt(i) && WordAt(i)->kind >= WordKind::kMassUnit && WordAt(i)->kind <= WordKind::kOtherUnit) break;
+    if (WordAt(i) && IsUnitKind(WordAt(i)->kind)) break;
     if (Is(i, WordKind::kPayload) && !claimed_[i]) noun = i;
   }
   if (const size_t owner = WeighedThing(q, noun); owner != kNone) noun = owner;

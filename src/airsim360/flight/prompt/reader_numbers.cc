@@ -57,10 +57,7 @@ bool Reader::ReadMotorCode(size_t i) {
   if (i < 2 || request_.motor_kv || !tokens_[i].glued || value < 50 || value > 30000 || value != std::floor(value)) return false;
   const bool onto = tokens_[i - 1].kind == Token::Kind::kDash || tokens_[i - 1].text == "/";
   const Token& name = tokens_[i - 2];
-  if (!onto || !tokens_[i - 1].glued ||
-      (i + 1 < tokens_.size() && WordAt(i + 1) && WordAt(i + 1)->kind >= WordKind::kMassUnit &&
-       WordAt(i + 1)->kind <= WordKind::kOtherUnit))
-    return false;
+  if (!onto || !tokens_[i - 1].glued || (i + 1 < tokens_.size() && WordAt(i + 1) && IsUnitKind(WordAt(i + 1)->kind))) return false;
   const size_t digits = static_cast<size_t>(std::count_if(name.text.begin(), name.text.end(), [](char c) { return c >= '0' && c <= '9'; }));
   const bool coded = name.kind == Token::Kind::kUnknown && digits >= 3 && digits < name.text.size();
   const bool stator = name.kind == Token::Kind::kNumber && IsStator(name.value) && used_[i - 2];

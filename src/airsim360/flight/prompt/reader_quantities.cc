@@ -134,8 +134,7 @@ void Reader::Extend(Quantity& q) {
     return;
   }
   const bool half = Is(link, WordKind::kBreak) && Is(link + 1, WordKind::kHalf);
-  if (!half || (WordAt(link + 2) && WordAt(link + 2)->kind >= WordKind::kMassUnit && WordAt(link + 2)->kind <= WordKind::kOtherUnit))
-    return;
+  if (!half || (WordAt(link + 2) && IsUnitKind(WordAt(link + 2)->kind))) return;
   q.value += tokens_[link + 1].word->value * q.unit->value;
   q.last = link + 1;
   q.words += " " + tokens_[link].text + " " + tokens_[link + 1].text;

@@ -113,7 +113,7 @@ class Cutter {
   bool EndsInUnit() const {
     if (tokens_.size() < 2) return false;
     const Token& last = tokens_.back();
-    const bool unit = last.kind == Token::Kind::kWord && last.word->kind >= WordKind::kMassUnit && last.word->kind <= WordKind::kOtherUnit;
+    const bool unit = last.kind == Token::Kind::kWord && IsUnitKind(last.word->kind);
     return unit && tokens_[tokens_.size() - 2].kind == Token::Kind::kNumber;
   }
 
