@@ -2,17 +2,12 @@
 
 #include <algorithm>
 
+#include "airsim360/vln/predicates/entity_parts.h"
+
 namespace airsim360::internal {
 namespace {
 
 constexpr float kRoomHeight = 5;  // metres below the lowest ceiling that rooms reach down
-
-EntityId EntityAt(const Scene& scene, const SurfaceRef& surface) {
-  const Instance& instance = scene.instances[surface.instance];
-  for (const MeshPart& part : scene.meshes[instance.mesh].parts)
-    if (surface.triangle - part.first_triangle < part.triangle_count && part.entity != kNoEntity) return part.entity;
-  return instance.entity;
-}
 
 // Without a sky, or with a ceiling over its first viewpoint.
 bool BeginsInARoom(const Scene& scene) {

@@ -49,14 +49,6 @@ double ToTriangle(Vec3d p, const std::array<Vec3d, 3>& t) {
   return sum == 0 ? Norm(ap) : Norm(ap - ab * (vb / sum) - ac * (vc / sum));
 }
 
-EntityId EntityAt(const Scene& scene, const SurfaceRef& surface) {
-  const Instance& instance = scene.instances[surface.instance];
-  for (const MeshPart& part : scene.meshes[instance.mesh].parts)
-    if (part.entity != kNoEntity && surface.triangle >= part.first_triangle && surface.triangle < part.first_triangle + part.triangle_count)
-      return part.entity;
-  return instance.entity;
-}
-
 // Whether a camera of 90 degrees holds a direction.
 bool InFrame(const LanguagePicture& picture, Vec3d to) {
   const double ahead = (picture.yaw_deg - picture.azimuth_deg) * kPi / 180;
