@@ -17,6 +17,11 @@ Token UnitLike(const Token& unit) {
   return token;
 }
 
+/// A noun that a figure can be of.
+bool IsLabel(const Token& token) {
+  return token.kind == Token::Kind::kWord && token.word->kind >= WordKind::kDrone && token.word->kind <= WordKind::kElse;
+}
+
 /// "Seventeen kg, no wait, eighteen": the unit of what is taken back.
 bool CorrectsBefore(const std::vector<Token>& tokens, size_t i, size_t& unit) {
   bool takes_back = false;
@@ -29,10 +34,7 @@ bool CorrectsBefore(const std::vector<Token>& tokens, size_t i, size_t& unit) {
     }
     const bool correction = tokens[k].Is(WordKind::kCorrection) || IsOneOf(tokens[k].text, {"no", "sorry", "wait", "rather", "mean"});
     takes_back |= correction;
-    const bool label = !takes_back ? false
-                                   : tokens[k].kind == Token::Kind::kWord && tokens[k].word->kind >= WordKind::kDrone &&
-                                         tokens[k].word->kind <= WordKind::kElse;
-    if (label) continue;  // "350 mm wheelbase, no, 450"
+    if (takes_back && IsLabel(tokens[k])) continue;  // "350 mm wheelbase, no, 450"
     if (!correction && tokens[k].kind != Token::Kind::kComma && tokens[k].kind != Token::Kind::kDash && !tokens[k].Is(WordKind::kFiller))
       return false;
   }
@@ -107,9 +109,7 @@ std::vector<Token> WithBorrowedUnits(std::vector<Token> tokens) {
       // The number alone is said anew.
       const Token number = tokens[i];
       size_t from = unit + 1;
-      while (from < i && tokens[from].kind == Token::Kind::kWord && tokens[from].word->kind >= WordKind::kDrone &&
-             tokens[from].word->kind <= WordKind::kElse)
-        ++from;
+      while (from < i && IsLabel(tokens[from])) ++from;
       tokens.erase(tokens.begin() + static_cast<long>(from), tokens.begin() + static_cast<long>(i) + 1);
       tokens[unit - 1] = number;
       i = unit;

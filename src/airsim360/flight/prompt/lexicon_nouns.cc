@@ -129,7 +129,7 @@ constexpr Word kWords[] = {
      "on its own|by itself|before payload|before the payload|before load|empty with battery|"
      "empty weight with battery|empty incl battery|empty including battery|empty|empty weight|without payload|without load|unladen|operating empty weight|bare weight|w o payload|"
      "w o load|without the payload|without any payload|without cargo|no payload|unloaded|"
-     "empty mass|oew|oem|operating empty mass|operating empty weight|own weight|self weight|own mass|drone itself|quad itself|copter itself|aircraft itself|drone alone|drone only|without it|without them|empty weight incl battery|empty weight including battery|empty weight w battery|weight without payload|lands at|land at|landing weight|landing mass|landing at|with empty tank|empty tank|tank empty|with an empty tank|net weight|net mass|no load"},
+     "empty mass|oew|oem|operating empty mass|own weight|self weight|own mass|drone itself|quad itself|copter itself|aircraft itself|drone alone|drone only|without it|without them|empty weight incl battery|empty weight including battery|empty weight w battery|weight without payload|lands at|land at|landing weight|landing mass|landing at|with empty tank|empty tank|tank empty|with an empty tank|net weight|net mass|no load"},
     {kBare, 0, "",
      "without battery|without the battery|without batteries|without a battery|without batt|without "
      "lipo|without lipos|"

@@ -126,7 +126,6 @@ std::string Keys(std::string text) {
            R"(_([kK]g|g|lbs?|oz|[mM]m|[cC]m|m|in|[iI]nch|inches|[mM]in|minutes|h|hz|[mM]?[aA]h|[wW]h|v|[kK]v|l|mph)\s*([:=,|]+)\s*([\d.]+)(?![\w.]))"),
        "$2 $3 $1"},
       {std::regex(R"(([a-z]{2,})_(?=[a-z]))"), "$1 "},
-      {std::regex(R"(([a-z]{2,})_(?=[a-z]))"), "$1 "},
       // "Mass in kg: 3.2", "AUW/kg = 3.2"
       {std::regex(R"((?:\bin |/ ?)(kg|g|lbs?|mm|cm|m|inch|inches|min|minutes|mAh|Ah|Wh)\s*[:=]\s*([\d.]+)(?![ \t]*[a-zA-Z"%\d.]))"),
        ": $2 $1"},
