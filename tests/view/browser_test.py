@@ -49,6 +49,7 @@ class PageTest(unittest.TestCase):
         self.page.said.clear()
         self.page.open(f"{self.viewer.address}/{hash}")
         self.page.wait("window.airsim360?.first")
+        self.shown()
 
     def set(self, id, value):
         self.page.run(f"{{ const e = document.getElementById('{id}'); e.type === 'checkbox' ? e.checked = {json.dumps(value)} : e.value = {json.dumps(value)};"
@@ -57,6 +58,10 @@ class PageTest(unittest.TestCase):
 
     def settle(self):
         self.page.run("airsim360.refresh()")
+        self.shown()
+
+    def shown(self):
+        """What was laid out is on the screen: the picture learns its size from the browser a frame later."""
         self.page.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
     def assert_usable(self, mode):
