@@ -1,6 +1,8 @@
 #include "airsim360/view/live_world.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -11,6 +13,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/flight/drones/catalog.h"
 #include "airsim360/math/coordinate_limit.h"
+#include "airsim360/render/frame/interruption.h"
 #include "airsim360/scene/viewpoint.h"
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/view/drawing.h"
@@ -32,6 +35,7 @@ constexpr double kMostPassed = 0.25;         // seconds that pass between two pi
 constexpr int64_t kSilenceNs = 500'000'000;  // after which the drone stops
 constexpr double kFlowSeconds = 0.1;
 constexpr double kMostSpeed = 15, kTurnRate = 1.5;  // m/s, rad/s
+constexpr double kKeyStep = 0.5;                    // of a stick: so much at once is a key, not the drift of a gamepad
 constexpr size_t kKeptFrames = 4, kMostKept = 1000, kMostMessage = 65536;
 constexpr int kSmallest = 128, kLargest = 4096;  // columns
 constexpr const char* kShown[] = {"range", "semantic", "entity", "normal", "albedo", "material", "position", "coverage", "flow"};
@@ -108,9 +112,16 @@ struct Seen {
 // What the hands do, of the newest message of them.
 struct Hands {
   Json input;
+  std::array<double, 4> sticks = {};
   int64_t number = 0;  // that the page gave it
   bool fresh = false;  // no picture has them yet
 };
+
+bool IsKey(const std::array<double, 4>& before, const std::array<double, 4>& now) {
+  for (size_t i = 0; i < before.size(); ++i)
+    if (std::abs(now[i] - before[i]) >= kKeyStep) return true;
+  return false;
+}
 
 // A picture that is taken and not yet written: others take theirs meanwhile.
 struct TakenPicture {
@@ -132,6 +143,7 @@ struct LiveWorld::Impl {
   SocketMessage Do(const Json& message, bool may_fly);
   SocketMessage Picture(const Json& message, bool may_fly);
   TakenPicture Take(const Json& message, int width, const Products& products);
+  bool TryCapture(const PanoramicRig& rig, const SimState& state, const NextTrigger* next, Capture& capture);
   SocketMessage Feel(const Json& message);
   void Steer(const Json& message);
   SocketMessage Planes(const Json& message);
@@ -167,6 +179,7 @@ struct LiveWorld::Impl {
   std::deque<Seen> seen;  // newest last
   std::mutex feeling;     // of what follows; hands do not wait for pictures
   Hands hands;
+  std::atomic<bool> up_to_date{true};  // the picture that is being rendered has the newest key
 };
 
 void LiveWorld::Impl::Fly(const Json& input) {
@@ -212,19 +225,21 @@ std::string LiveWorld::Impl::StateFields(const Capture& capture, const Vehicle& 
 SocketMessage LiveWorld::Impl::Feel(const Json& message) {
   const auto number = static_cast<int64_t>(Number(message, "number", 0, 9e15, 0));
   const Json input = message.value("input", Json());
-  SticksOf(input);
+  const std::array<double, 4> sticks = SticksOf(input);
   const std::lock_guard lock(feeling);
-  hands = {input, number, true};
+  if (IsKey(hands.sticks, sticks)) up_to_date = false;
+  hands = {input, sticks, number, true};
   return Said({{"done", "hands"}});
 }
 
 // The hands that came with a picture's question, or those that were told since the last picture.
 void LiveWorld::Impl::Steer(const Json& message) {
+  const std::lock_guard lock(feeling);
+  up_to_date = true;
   if (message.contains("input")) {
     if (!trees.Flies()) Fly(message["input"]);
     return;
   }
-  const std::lock_guard lock(feeling);
   if (!std::exchange(hands.fresh, false)) return;
   steered = hands.number;
   if (!trees.Flies()) Fly(hands.input);
@@ -254,6 +269,17 @@ void LiveWorld::Impl::Prepare(const Json& message, PanoramicRig& rig, std::share
   if (rig.products.flow) next = InstantAfter(loop.model(), *state, 0, kFlowSeconds);
 }
 
+// False: a key came meanwhile, and nobody wants a picture without it.
+bool LiveWorld::Impl::TryCapture(const PanoramicRig& rig, const SimState& state, const NextTrigger* next, Capture& capture) {
+  const InterruptibleScope interruptible(up_to_date);
+  try {
+    CaptureRig(rig, state.vehicles[0].motion, state.t_ns, *renderer, capture, next);
+  } catch (const Interrupted&) {
+    return false;
+  }
+  return true;
+}
+
 TakenPicture LiveWorld::Impl::Take(const Json& message, int width, const Products& products) {
   const std::lock_guard turn(rendering);
   PanoramicRig rig;
@@ -263,11 +289,16 @@ TakenPicture LiveWorld::Impl::Take(const Json& message, int width, const Product
   rig.products = products;
   std::shared_ptr<const SimState> state;
   NextTrigger next;
-  Prepare(message, rig, state, next);
+  const NextTrigger* flow_to = products.flow ? &next : nullptr;
   const std::shared_ptr<Frame> frame = frames.Take();
   Capture capture;
   capture.frame = std::move(*frame);
-  CaptureRig(rig, state->vehicles[0].motion, state->t_ns, *renderer, capture, products.flow ? &next : nullptr);
+  Prepare(message, rig, state, next);
+  // The second one is not given up: somebody who hammers on the keys sees pictures too.
+  if (!TryCapture(rig, *state, flow_to, capture)) {
+    Prepare(message, rig, state, next);
+    CaptureRig(rig, state->vehicles[0].motion, state->t_ns, *renderer, capture, flow_to);
+  }
   *frame = std::move(capture.frame);
   TakenPicture taken{frame, StateFields(capture, state->vehicles[0])};
   const std::lock_guard guard(seeing);

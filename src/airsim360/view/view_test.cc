@@ -215,6 +215,42 @@ TEST_F(Live, HandsThatAreToldOnALineOfTheirOwnFlyLikeThoseOfAPicture) {
   EXPECT_EQ(told, fly(false));
 }
 
+// The clock is read when a picture has taken the hands and before it is rendered: who presses a key then is answered by this picture.
+TEST_F(Live, AKeyDuringAPictureIsInThatPictureAndTheDriftOfAStickInTheNext) {
+  for (const double ahead : {1.0, 0.3}) {
+    LiveWorld* told = nullptr;
+    int reads = 0;
+    LiveWorld world(
+        stage_, {.clock = [&] {
+          if (++reads % 2 == 1)
+            told->Answer(Json{{"do", "hands"}, {"input", {reads % 4 == 1 ? ahead : 0, 0, 0, 0}}, {"number", reads}, {"token", "t"}}.dump(),
+                         "t");
+          return 0.0;
+        }});
+    told = &world;
+    const auto hands = [&] {
+      return airsim360::Read(world.Answer(R"({"do":"picture","width":128})", "t").bytes).header["hands"].get<int>();
+    };
+    EXPECT_EQ(hands(), ahead == 1 ? 1 : 0);
+    EXPECT_EQ(reads, ahead == 1 ? 2 : 1);
+    EXPECT_EQ(hands(), ahead == 1 ? 3 : 1);
+  }
+}
+
+TEST_F(Live, KeysWithoutEndDoNotKeepPicturesBack) {
+  LiveWorld* told = nullptr;
+  int reads = 0;
+  LiveWorld world(stage_, {.clock = [&] {
+                    told->Answer(Json{{"do", "hands"}, {"input", {++reads % 2, 0, 0, 0}}, {"number", reads}, {"token", "t"}}.dump(), "t");
+                    return 0.0;
+                  }});
+  told = &world;
+  for (int i = 1; i <= 5; ++i) {
+    EXPECT_EQ(airsim360::Read(world.Answer(R"({"do":"picture","width":128})", "t").bytes).header["number"], i);
+    EXPECT_EQ(reads, 2 * i);
+  }
+}
+
 TEST_F(Live, HandsAreToldOnceAndNotWithoutTheToken) {
   double now = 0;
   LiveWorld world(stage_, {.clock = [&] { return now; }});

@@ -17,6 +17,7 @@
 #include "airsim360/render/frame/antialias.h"
 #include "airsim360/render/frame/camera_rays.h"
 #include "airsim360/render/frame/daylight.h"
+#include "airsim360/render/frame/interruption.h"
 #include "airsim360/render/frame/label_tables.h"
 #include "airsim360/render/frame/packet_tracer.h"
 #include "airsim360/render/frame/tile_pixels.h"
@@ -255,11 +256,14 @@ uint64_t CpuRenderer::RenderTiles(const RenderRequest& request, bool color, Fram
   const RayField& field = rays_.field();
   const int across = (field.width + kTileSize - 1) / kTileSize, down = (field.height + kTileSize - 1) / kTileSize;
   const int tiles = across * down;
+  const Interruption interruption;
   ParallelFor((tiles + kTilesPerTask - 1) / kTilesPerTask, [&](int64_t task) {
     const FlushDenormals flush_denormals;
     const int first = static_cast<int>(task) * kTilesPerTask;
-    for (int tile = first; tile < std::min(first + kTilesPerTask, tiles); ++tile) RenderTile(request, color, tile, frame);
+    for (int tile = first; tile < std::min(first + kTilesPerTask, tiles) && !interruption.came(); ++tile)
+      RenderTile(request, color, tile, frame);
   });
+  interruption.Check();
   return static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
 }
 

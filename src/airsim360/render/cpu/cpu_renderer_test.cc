@@ -1,13 +1,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <optional>
+#include <thread>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/render/frame/interruption.h"
 #include "airsim360/render/frame/test_room.h"
 #include "airsim360/render/renderer.h"
 
@@ -161,6 +165,43 @@ TEST(CpuRenderer, OneAndManyThreadsGiveTheSameBytes) {
   EXPECT_EQ(one.entity, many.entity);
   EXPECT_EQ(one.range, many.range);
   EXPECT_EQ(one.normal, many.normal);
+}
+
+// Given up at once, and by another thread in the middle; tiers, and what the flag says, as a live picture has them.
+TEST(CpuRenderer, APictureThatIsGivenUpEndsAndLeavesTheNextOneAsItIs) {
+  const Camera camera = Equirectangular{512, 256};
+  for (const Tier tier : {Tier::kLabels, Tier::kFast}) {
+    const RenderRequest request = MakeRequest(camera, {}, tier, kEverything);
+    Frame asked, whole;
+    Room()->Render(request, whole);
+    {
+      const std::atomic<bool> wanted{false};
+      const InterruptibleScope scope(wanted);
+      EXPECT_THROW(Room()->Render(request, asked), Interrupted);
+    }
+    for (const int pause_us : {100, 1000, 3000}) {
+      std::atomic<bool> wanted{true};
+      std::jthread other([&] {
+        std::this_thread::sleep_for(std::chrono::microseconds(pause_us));
+        wanted = false;
+      });
+      const InterruptibleScope scope(wanted);
+      try {
+        Room()->Render(request, asked);
+      } catch (const Interrupted&) {
+      }
+    }
+    Room()->Render(request, asked);
+    EXPECT_EQ(asked.rgb, whole.rgb);
+    EXPECT_EQ(asked.range, whole.range);
+    EXPECT_EQ(asked.entity, whole.entity);
+  }
+}
+
+TEST(CpuRenderer, OthersPicturesAreNotGivenUp) {
+  const std::atomic<bool> wanted{false};
+  const InterruptibleScope scope(wanted);
+  std::jthread other([] { EXPECT_NO_THROW(Labels(*Square(), Equirectangular{64, 32}, {})); });
 }
 
 TEST(CpuRenderer, AreasOfTheRoomCoverEveryPixelAndTheWholeSphere) {

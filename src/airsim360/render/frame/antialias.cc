@@ -8,6 +8,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
 #include "airsim360/image/color.h"
+#include "airsim360/render/frame/interruption.h"
 
 namespace airsim360::internal {
 namespace {
@@ -185,9 +186,12 @@ int64_t Antialiaser::Run(const AntialiasTask& task) {
   const RayField& field = task.rays->field();
   const int across = (field.width + kRunWidth - 1) / kRunWidth, down = (field.height + kTileSize - 1) / kTileSize;
   std::atomic<int64_t> ray_count = 0;
+  const Interruption interruption;
   ParallelFor(int64_t{across} * down, [&](int64_t run) {
+    if (interruption.came()) return;
     ray_count += RunTiles(task, static_cast<int>(run % across) * kRunWidth, static_cast<int>(run / across) * kTileSize);
   });
+  interruption.Check();
   return ray_count;
 }
 
