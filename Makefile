@@ -34,9 +34,9 @@ bench-gpu: install-packages
 fuzz: build
 	@tools/fuzz.sh $(BUILD) $(JOBS) $(or $(SECONDS),300)
 
-# site/index.html, by Debian's mkdocs-material
-docs:
-	@tools/docs.sh
+# site/index.html, by Debian's mkdocs-material, with a gallery that the program renders
+docs: install-packages
+	@tools/docs.sh $(BUILD) $(JOBS)
 
 install-packages:
 	@tools/install_packages.sh
