@@ -45,12 +45,13 @@ struct LaneChangeCase {
   double own_before = 0, own_after = 0;
   double new_follower_before = 0, new_follower_after = 0;
   double old_follower_before = 0, old_follower_after = 0;
+  double bias = 0;  ///< what the other lane is worth for other reasons, m/s^2
 };
 inline bool PaysToChange(const Driver& driver, const LaneChangeCase& c) {
   constexpr double kSafeBraking = 3, kThreshold = 0.2;  // m/s^2
   if (c.new_follower_after < -kSafeBraking || c.own_after < -kSafeBraking) return false;
   const double others = c.new_follower_before - c.new_follower_after + c.old_follower_before - c.old_follower_after;
-  return c.own_after - c.own_before > driver.politeness * others + kThreshold;
+  return c.own_after - c.own_before + c.bias > driver.politeness * others + kThreshold;
 }
 
 }  // namespace airsim360

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/traffic/bus_stops.h"
 #include "airsim360/traffic/turns.h"
 
 namespace airsim360::internal {
@@ -13,6 +14,7 @@ constexpr int64_t kBetweenChangesNs = 8'000'000'000;  // of one vehicle
 constexpr double kRunIn = 12, kRunOut = 45;           // metres of lane before and behind
 constexpr double kLeastSpeed = 3;                     // m/s
 constexpr double kLeastGap = 3;                       // metres to those in front and behind
+constexpr double kToTheStop = 1.5;                    // m/s^2 that a bus gives up to be on the lane of its next stop
 
 }  // namespace
 
@@ -51,6 +53,7 @@ bool LaneChanges::Pays(uint32_t vehicle, LaneId target, double s) const {
     c.old_follower_before = Follow(old_behind->vehicle, own.lane, old_behind->front, &here);
     c.old_follower_after = Follow(old_behind->vehicle, own.lane, old_behind->front, old_front);
   }
+  c.bias = kToTheStop * (ServesStopOn(model_, vehicle, target, s) - ServesStopOn(model_, vehicle, own.lane, own.s));
   return PaysToChange(model_.vehicles[vehicle].driver, c);
 }
 
@@ -74,6 +77,7 @@ void LaneChanges::Consider(uint32_t vehicle, DrivingVehicle& own) {
     own.s = s;
     own.changed_ns = state_.t_ns;
     own.behind = {kNoLane, kNoLane, kNoLane};
+    own.served_s = -1;
     ChooseAhead(model_, vehicle, own);
     return;
   }

@@ -97,6 +97,19 @@ LanePoint LaneMap::At(LaneId id, double s) const {
   return {a + d * (s - lengths[i - 1]), d};
 }
 
+NearestLanePoint LaneMap::Nearest(LaneId id, Vec3d p) const {
+  NearestLanePoint best{.distance = INFINITY};
+  const Lane& lane = roads_->lanes[id];
+  const std::vector<double>& lengths = tables_[id].lengths;
+  for (size_t i = 0; i + 1 < lane.points.size(); ++i) {
+    const Vec3d a = PointOf(lane, i), along = PointOf(lane, i + 1) - a;
+    const double squared = Dot(along, along), t = squared > 0 ? std::clamp(Dot(p - a, along) / squared, 0.0, 1.0) : 0;
+    const double distance = Norm(p - (a + along * t));
+    if (distance < best.distance) best = {lengths[i] + t * std::sqrt(squared), distance};
+  }
+  return best;
+}
+
 SignalLight LaneMap::LightAt(LaneId id, int64_t t_ns) const {
   const Lane& lane = roads_->lanes[id];
   if (lane.signal < 0) return SignalLight::kGreen;

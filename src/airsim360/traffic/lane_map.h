@@ -18,6 +18,12 @@ struct LanePoint {
   Vec3d direction;
 };
 
+/// The place of a lane that is nearest to somewhere.
+struct NearestLanePoint {
+  double s = 0;         ///< metres from its beginning
+  double distance = 0;  ///< metres
+};
+
 /// Another way through the same junction that cannot be driven at the same time.
 struct LaneConflict {
   LaneId other = kNoLane;
@@ -40,6 +46,7 @@ class LaneMap {
   double turn(LaneId id) const { return tables_[id].turn; }
   /// At `s` metres from the beginning; before it and past the end the lane goes on straight.
   LanePoint At(LaneId id, double s) const;
+  NearestLanePoint Nearest(LaneId id, Vec3d p) const;
   std::span<const LaneConflict> conflicts(LaneId id) const { return tables_[id].conflicts; }
   /// Lanes that end where this one begins.
   std::span<const LaneId> previous(LaneId id) const { return tables_[id].previous; }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "airsim360/base/error.h"
@@ -10,26 +9,6 @@
 
 namespace airsim360 {
 namespace {
-
-struct LanePlace {
-  LaneId lane = kNoLane;
-  double s = 0, distance = std::numeric_limits<double>::infinity();
-};
-
-// The place of one lane that is nearest to p.
-LanePlace NearestOn(const LaneMap& lanes, LaneId id, Vec3d p) {
-  LanePlace best{.lane = id};
-  double s = 0;
-  const auto& points = lanes.lane(id).points;
-  for (size_t i = 0; i + 1 < points.size(); ++i) {
-    const Vec3d a = VecCast<double>(points[i]), along = VecCast<double>(points[i + 1]) - a;
-    const double length = Norm(along), t = length > 0 ? std::clamp(Dot(p - a, along) / (length * length), 0.0, 1.0) : 0;
-    const double distance = Norm(p - (a + along * t));
-    if (distance < best.distance) best = {id, s + t * length, distance};
-    s += length;
-  }
-  return best;
-}
 
 constexpr double kRoom = 0.5;  // metres before and behind
 
@@ -50,18 +29,20 @@ void CheckFree(const TrafficModel& model, const TrafficState& state, uint32_t ve
 
 TrafficState WithVehicleAt(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, Vec3d p) {
   const VehicleShape& shape = model.vehicles[vehicle].shape;
-  LanePlace best;
+  LaneId lane = kNoLane;
+  NearestLanePoint best;
   for (LaneId id = 0; id < model.lanes.size(); ++id) {
-    const Lane& lane = model.lanes.lane(id);
-    if (lane.junction >= 0 || (lane.bus && !shape.bus) || model.lanes.length(id) < shape.length) continue;
-    const LanePlace place = NearestOn(model.lanes, id, p);
-    if (place.distance < best.distance) best = place;
+    const Lane& road = model.lanes.lane(id);
+    if (road.junction >= 0 || (road.bus && !shape.bus) || model.lanes.length(id) < shape.length) continue;
+    const NearestLanePoint place = model.lanes.Nearest(id, p);
+    if (lane == kNoLane ? !(place.distance <= kFarthestLane) : place.distance >= best.distance) continue;
+    lane = id;
+    best = place;
   }
-  if (!(best.distance <= kFarthestLane))
-    throw InputError("point: no lane is within " + std::to_string(static_cast<int>(kFarthestLane)) + " m of it");
+  if (lane == kNoLane) throw InputError("point: no lane is within " + std::to_string(static_cast<int>(kFarthestLane)) + " m of it");
   TrafficState changed = state;
-  const double front = std::clamp(best.s + shape.length / 2, shape.length, model.lanes.length(best.lane));
-  changed.vehicles[vehicle] = {.lane = best.lane, .s = front, .choices = state.vehicles[vehicle].choices};
+  const double front = std::clamp(best.s + shape.length / 2, shape.length, model.lanes.length(lane));
+  changed.vehicles[vehicle] = {.lane = lane, .s = front, .choices = state.vehicles[vehicle].choices};
   internal::ChooseAhead(model, vehicle, changed.vehicles[vehicle]);
   CheckFree(model, changed, vehicle);
   return changed;

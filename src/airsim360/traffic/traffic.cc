@@ -7,6 +7,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
 #include "airsim360/base/state_hash.h"
+#include "airsim360/traffic/bus_stops.h"
 #include "airsim360/traffic/lane_changes.h"
 #include "airsim360/traffic/obstacles.h"
 #include "airsim360/traffic/right_of_way.h"
@@ -24,6 +25,7 @@ using internal::RightOfWay;
 
 constexpr double kStopBefore = 0.8;  // metres before a stop line
 constexpr double kStopGap = 1.5;     // metres before somebody in the way
+constexpr double kHaltBefore = 0.3;  // metres before a bus stop
 constexpr double kStands = 0.1;      // m/s
 constexpr double kTick = static_cast<double>(kTrafficTickNs) * 1e-9;
 constexpr double kSlot = 14;  // metres of lane for each vehicle at the start: a bus of 12
@@ -59,12 +61,18 @@ struct Look {
 
 double Accelerate(const Look& look, uint32_t i, DrivingVehicle& own) {
   const Driver& driver = look.model.vehicles[i].driver;
+  if (own.halts_until_ns >= 0) return -driver.braking;
   const double v0 = WantedSpeed(look.model, i, own);
   const InFront front = FindInFront(look.model, look.state, look.occupancy, i);
   double a = IdmAcceleration(driver, own.v, v0, front.gap, front.v);
 
+  const double to_stop = internal::GapToBusStop(look.model, i, own);
+  if (std::isfinite(to_stop)) a = std::min(a, StopFor(driver, own.v, v0, to_stop, kHaltBefore));
+
+  // Who halts before the line does not hold the junction meanwhile.
   const double to_line = look.model.lanes.length(own.lane) - own.s;
-  if (look.model.lanes.lane(own.ahead[0]).junction >= 0 && !look.right_of_way.MayEnter(i, to_line, front.gap > to_line, own))
+  const bool goes_on = to_stop > to_line;
+  if (goes_on && look.model.lanes.lane(own.ahead[0]).junction >= 0 && !look.right_of_way.MayEnter(i, to_line, front.gap > to_line, own))
     a = std::min(a, StopFor(driver, own.v, v0, to_line, kStopBefore));
 
   const double reach = own.v * own.v / (2 * driver.braking) + own.v * driver.headway + 3;
@@ -83,11 +91,13 @@ void EnterNextLanes(const TrafficModel& model, uint32_t i, DrivingVehicle& own) 
     own.ahead[1] = internal::ChooseNext(model, i, own.ahead[0], own);
     own.granted = false;
     own.left_lane = kNoLane;
+    own.served_s = -1;
   }
 }
 
 int8_t IndicatorOf(const TrafficModel& model, const DrivingVehicle& own, int64_t t_ns) {
   constexpr double kTurns = 0.6, kSoon = 30;  // radians, metres
+  if (own.halts_until_ns >= 0) return -1;
   const auto side = [](double left) { return static_cast<int8_t>(left > 0 ? 1 : -1); };
   if (t_ns - own.changed_ns < kLaneChangeNs) return side(-own.shift);
   const double here = model.lanes.turn(own.lane), next = model.lanes.turn(own.ahead[0]);
@@ -113,6 +123,7 @@ void Advance(const TrafficModel& model, uint32_t i, int64_t t_ns, DrivingVehicle
   EnterNextLanes(model, i, own);
   if (own.left_lane != kNoLane && t_ns - own.changed_ns > kLaneChangeNs * 3 / 4) own.left_lane = kNoLane;
   own.braking = own.a < -0.5 || (own.v < kStands && own.a <= 0);
+  internal::ServeBusStop(model, i, t_ns, own);
   own.indicator = IndicatorOf(model, own, t_ns);
   if (own.v >= kStands) own.stopped_ns = -1;
   if (own.v < kStands && own.stopped_ns < 0) own.stopped_ns = t_ns;
@@ -203,8 +214,8 @@ uint64_t HashTraffic(const TrafficState& state) {
   hasher.Add(state.t_ns);
   for (const DrivingVehicle& v : state.vehicles) {
     for (const LaneId lane : {v.lane, v.ahead[0], v.ahead[1], v.behind[0], v.behind[1], v.behind[2], v.left_lane}) hasher.Add(lane);
-    for (const double value : {v.s, v.v, v.a, v.shift}) hasher.Add(value);
-    for (const int64_t value : {v.changed_ns, v.stopped_ns, int64_t{v.indicator}}) hasher.Add(value);
+    for (const double value : {v.s, v.v, v.a, v.shift, v.served_s}) hasher.Add(value);
+    for (const int64_t value : {v.changed_ns, v.stopped_ns, v.halts_until_ns, int64_t{v.indicator}}) hasher.Add(value);
     for (const bool value : {v.granted, v.braking}) hasher.Add(value);
     hasher.Add(v.choices);
   }

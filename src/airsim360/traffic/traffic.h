@@ -30,10 +30,17 @@ struct TrafficVehicle {
   Driver driver;
 };
 
+/// Where buses halt: their front stands `s` metres from the beginning of the lane.
+struct BusStop {
+  LaneId lane = 0;
+  double s = 0;
+};
+
 /// What never changes.
 struct TrafficModel {
   LaneMap lanes;
   std::vector<TrafficVehicle> vehicles;
+  std::vector<BusStop> bus_stops = {};  ///< by lane, then by s
   uint64_t seed = 0;
   int64_t signal_ns = 0;  ///< time of the signals at traffic time 0
 };
@@ -50,6 +57,8 @@ struct DrivingVehicle {
   LaneId left_lane = kNoLane;                               ///< the lane that it is still moving away from
   int64_t changed_ns = INT64_MIN / 2;                       ///< beginning of its last lane change
   int64_t stopped_ns = -1;                                  ///< since when it has stood; -1: it moves
+  int64_t halts_until_ns = -1;                              ///< a bus at a stop; -1: it does not halt
+  double served_s = -1;                                     ///< of its lane's bus stops: served up to here, m
   uint32_t choices = 0;                                     ///< turns chosen so far: key of the next random number
   bool granted = false;                                     ///< the junction ahead, or around it, is held free for it
   bool braking = false;                                     ///< brake lamps

@@ -19,6 +19,10 @@ TrafficModel Manhattan(size_t count, uint64_t seed) {
     if (i % 12 == 0) model.vehicles[i].shape = {.length = 12, .width = 2.5, .height = 3.1, .bus = true};
     model.vehicles[i].driver.speed_factor = 0.85 + 0.3 * static_cast<double>(i % 7) / 6;
   }
+  // A bus stop on every third lane at the kerb.
+  for (LaneId id = 0; id < model.lanes.size(); id += 3)
+    if (const Lane& lane = model.lanes.lane(id); lane.junction < 0 && lane.right == kNoLane && model.lanes.length(id) > 50)
+      model.bus_stops.push_back({id, model.lanes.length(id) / 2});
   return model;
 }
 

@@ -9,6 +9,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
 #include "airsim360/scene/scene_additions.h"
+#include "airsim360/traffic/bus_stops.h"
 #include "airsim360/traffic/disc_grid.h"
 
 namespace airsim360 {
@@ -80,6 +81,18 @@ std::vector<Pattern> FindPatterns(const Scene& scene, std::vector<uint32_t>& sta
   return patterns;
 }
 
+// Shelters and signs of bus stops.
+std::vector<Vec3d> BusStopPlaces(const Scene& scene) {
+  std::vector<Vec3d> places;
+  for (const Entity& entity : scene.entities) {
+    if (entity.bounds.empty() || scene.tree[entity.category].path != "furniture/transit/bus_stop") continue;
+    Vec3f foot = entity.bounds.center();
+    foot.z = entity.bounds.min.z;
+    places.push_back(VecCast<double>(foot));
+  }
+  return places;
+}
+
 Driver MakeDriver(RngStream& rng, bool heavy) {
   Driver driver;
   driver.speed_factor = std::clamp(1 + 0.08 * rng.Normal(), 0.8, 1.2);
@@ -130,7 +143,7 @@ TrafficScene AddTraffic(std::shared_ptr<const Scene> scene, const TrafficRequest
   if (request.count > kMaxVehicles)
     throw InputError("traffic: " + std::to_string(request.count) + " vehicles are not in 0 … " + std::to_string(kMaxVehicles));
   if (!scene->roads || scene->roads->lanes.empty()) throw InputError("traffic: the world '" + scene->name + "' has no roads to drive on");
-  auto traffic = std::make_shared<SimTraffic>(TrafficModel{LaneMap(scene->roads), {}, request.seed});
+  auto traffic = std::make_shared<SimTraffic>(TrafficModel{.lanes = LaneMap(scene->roads), .vehicles = {}, .seed = request.seed});
   const std::vector<Pattern> patterns = FindPatterns(*scene, traffic->standing);
   if (patterns.empty()) throw InputError("traffic: the world '" + scene->name + "' has no vehicles that others could look like");
 
@@ -140,6 +153,7 @@ TrafficScene AddTraffic(std::shared_ptr<const Scene> scene, const TrafficRequest
     chosen.push_back(&patterns[rng.Index(static_cast<uint32_t>(patterns.size()))]);
     traffic->model.vehicles.push_back(VehicleOf(*scene, *chosen.back(), rng));
   }
+  traffic->model.bus_stops = BusStopsBeside(traffic->model.lanes, BusStopPlaces(*scene));
   traffic->epoch_ns = std::llround(request.warm_up * 1e9) / kTrafficTickNs * kTrafficTickNs;
   traffic->model.signal_ns = people_epoch_ns - traffic->epoch_ns;
   auto start = std::make_shared<TrafficState>(StartTraffic(traffic->model));
