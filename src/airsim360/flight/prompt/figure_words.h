@@ -94,6 +94,9 @@ class FigureWords {
 /// several conditions.
 void SetPastFiguresApart(std::vector<Token>& tokens, std::vector<bool>& apart);
 
+/// Sets apart what sentences of another drone, of a former one, or of what can be had besides say again.
+void SetOtherSentencesApart(std::vector<Token>& tokens, std::vector<bool>& apart);
+
 /// Sets apart numbers of names ("turbine 14", "job 0093"), money in pounds and hours of work; "hex keys" are no drones.
 void SetSideNumbersApart(std::vector<Token>& tokens, std::vector<bool>& apart);
 

@@ -126,6 +126,7 @@ class OtherFigures : public FigureWords {
         apart_[i] = true;
     }
     SetPastFiguresApart(tokens_, apart_);
+    SetOtherSentencesApart(tokens_, apart_);
     MarkLighterLoads();
     std::vector<Token> out;
     for (size_t i = 0; i < tokens_.size(); ++i) {

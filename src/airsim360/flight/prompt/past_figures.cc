@@ -121,7 +121,13 @@ class PastFigures : public FigureWords {
     }
     if (!verb || !drone || figure) return;
     if (!(former && past) && !((former || other) && IsContrasted(end))) return;
-    MarkClause(begin, end);
+    if (HasFigureOutside(begin, end)) MarkClause(begin, end);
+  }
+  bool HasFigureOutside(size_t begin, size_t end) const {
+    for (size_t k = 0; k < tokens_.size(); ++k) {
+      if ((k < begin || k >= end) && (FigureAt(k).is || tokens_[k].kind == Token::Kind::kPropellerCode)) return true;
+    }
+    return false;
   }
   void MarkClause(size_t begin, size_t end) {
     for (size_t n = begin; n < end; ++n) {

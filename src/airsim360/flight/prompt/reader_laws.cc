@@ -163,7 +163,7 @@ void Reader::RefuseFreeEnergy() const {
   }
   const bool fuel = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) {
     return token.text.starts_with("petrol") || token.text.starts_with("gasoline") || token.text == "hybrid" || token.text == "fuel" ||
-           token.text == "ground" || token.text == "truck" || token.text == "van" || token.text == "diesel";
+           IsOneOf(token.text, {"ground", "truck", "van", "pickup", "trailer", "jeep", "car", "diesel"});
   });
   if (!generator || !on_board || fuel) return;
   throw InputError(

@@ -24,7 +24,8 @@ const std::vector<Rule>& Symbols() {
        "$1 = "},
       {std::regex(R"(@\s*(?=\d+(\.\d+)? ?(kg|g|lbs?|oz)\b))"), " with "},
       {std::regex(R"(@\s*(?=\d))"), " at "},
-      {std::regex(R"(\bm_(p|pl|payload)\s*=)"), " payload "},
+      {std::regex(R"(\bm_(p|pl|payload)\s*[=:])"), " payload "},
+      {std::regex(R"(\bm_(to|tow|tot|total|auw|take-?off)\s*:)"), " mass "},
       {std::regex(R"(\bm(_\w+)?\s*=)"), " mass "},
       {std::regex(R"(\bd(_\w+)?\s*=)"), " propeller diameter "},
       {std::regex(R"(\br(_\w+)?\s*=)"), " rotor radius "},
@@ -44,6 +45,13 @@ const std::vector<Rule>& Numbers() {
       {std::regex(R"((\d)\s*~\s*(?=\d))"), "$1-"},  // "13~15 min"
       {std::regex(R"(\bsub[ -]?(\d{3})\b(?!\s*-?(g|mm|gr|gram|grams|gramm)\b))"), "under $1 g"},
       {std::regex(R"(\b(single|one)[ -]cell\b)"), "1 cell"},
+      {std::regex(R"(\b(a single|single|just one|one) (\d+(\.\d+)? ?m?ah) (lipo |lihv |li-?ion )?cell\b)"), "1 cell $2"},
+      {std::regex(R"(\b(a single|single|just one|one) (18650|20700|21700)\b)"), "1 cell"},
+      {std::regex(R"(\b(an?|one) full hour\b)"), "1 hour"},
+      // "7 x 12 inch props": so many of them, for no pitch is so much larger than the diameter.
+      {std::regex(
+           R"(\b([3-8]) ?x ?((9|[1-4]\d)(\.\d+)?) ?-?(in|inch|inches|") ?(carbon |folding |wooden )?(props?|propellers?|rotors?)\b)"),
+       "$1 rotors, $2 inch propellers"},
       {std::regex(R"(\bsingle (propeller|prop|motor)\b)"), "1 $1"},
       {std::regex(R"((\d)-?ish\b)"), "$1 "},
       {std::regex(R"((\d ?(min|mins|minutes?)) ?(and )?([0-5]?[05]) ?s\b(?! *\d))"), "$1 $4 sec"},  // "4 min 30 s"
@@ -102,7 +110,25 @@ const std::vector<Rule>& Phrases() {
       {std::regex(R"(\b\d+(\.\d+)? ?(mph|km/h|kmh|kph|m/s|knots|kts?) in (a|the|full) (power )?dives?\b( and| ,|,)?)"), " "},
       {std::regex(R"(\b(\d+(\.\d+)? ?(mph|km/h|kmh|kph|m/s|knots|kts)) level\b)"), "top speed $1"},
       {std::regex(R"((\d) in parallel\b)"), "$1 parallel"},
+      {std::regex(
+           R"(\b(two|three|four|five|six|[2-6]|twin|dual)( x)? parallel ((\d+ ?s )?[\d.]+ ?m?ah)( lipo| li-?ion)? (batteries|packs|lipos)\b)"),
+       "$1 $3 packs in parallel"},
       {std::regex(R"(\b(two|three|four|five|six|[2-6]|twin|dual)( x)? (\d{3,5})s (in )?parallel\b)"), "$1 $3 mah parallel"},
+      // "Fifty kilos, of which 15 is payload"
+      {std::regex(R"(\b(kilos?|kg|g|grams|lbs|pounds)\b([^.;:()]{0,30}\bof which )([\d.]+) ((is|are) (the )?(payload|cargo|load)\b))"),
+       "$1$2$3 $1 $4"},
+      // "1.2 oz lighter than the last model" is a mass of neither.
+      {std::regex(
+           R"(\b[\d.]+ ?(kg|g|grams?|lbs?|pounds?|oz|ounces?) (lighter|heavier) than (the|my|our|its|his|her) (last|old|previous|first|former|predecessor)\b)"),
+       "$2 than $3 $4"},
+      // "The box says 51 minutes, I got 46"
+      {std::regex(
+           R"(\b(box|label|manual|shop|vendor|seller|maker|brochure|spec sheet) (says|claims|promises) [\d.]+ ?min(utes|s)?\b[, ]*(but )?(i|we) (get|got|see|saw|measured) ([\d.]+)\b)"),
+       "$7 minutes"},
+      {std::regex(R"(\boct(a|o)?[ -]rotors?\b)"), "octorotor"},
+      {std::regex(R"(\bhexa?[ -]rotors?\b)"), "hexarotor"},
+      // Aeronautical English for a multirotor.
+      {std::regex(R"(\b((four|five|six|seven|eight|multi|[4-8])[ -]?rotor) helicopter\b)"), "$1 drone"},
       // "5G WiFi", "2.4G remote": no grams.
       {std::regex(
            R"(\b(2\.4|5\.8|[345])\s?g(hz)?\b(?=[ -]*(wi-?fi|wlan|fpv|lte|network|modem|transmission|signal|link|module|connection|rc|remote|radio|control|transmitter|video|live)))"),
