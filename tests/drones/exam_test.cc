@@ -15,7 +15,8 @@ constexpr const char* kFiles[] = {"exam_newcomers.json",    "exam_newcomers_2.js
                                   "exam_newcomers_5.json",  "exam_newcomers_6.json",  "exam_newcomers_7.json",  "exam_newcomers_10.json",
                                   "exam_newcomers_11.json", "exam_newcomers_12.json", "exam_newcomers_13.json", "exam_newcomers_14.json",
                                   "exam_newcomers_15.json", "exam_newcomers_16.json", "exam_newcomers_17.json", "exam_newcomers_18.json",
-                                  "exam_newcomers_19.json", "exam_newcomers_20.json", "exam_newcomers_22.json", "exam_own.json"};
+                                  "exam_newcomers_19.json", "exam_newcomers_20.json", "exam_newcomers_22.json", "exam_newcomers_25.json",
+                                  "exam_own.json"};
 // Many loads, lists of parts and sums in one sentence: of these more are misread.
 constexpr const char* kHardFiles[] = {"exam_newcomers_8.json", "exam_newcomers_9.json"};
 constexpr size_t kFlightEvery = 9;

@@ -14,7 +14,7 @@ constexpr Word kWords[] = {
      "thermal camera|depth camera|stereo camera|multispectral camera|multispectral sensor|hyperspectral camera|"
      "zoom camera|cinema camera|360 camera|speaker|speakers|loudspeaker|loud speaker|megaphone|computer|"
      "companion computer|companion|onboard computer|deck|bait|seed|seeds|defibrillator|aed|magnetometer|radar|"
-     "winch|parachute|robot arm|robotic arm|manipulator arm|gripper arm|canopy|banner|cake|bottle|soda|laptop|kit bag|first aid kit|medicines|drugs|vials|turkey|burger|sandwich|battery bank|flowers|hasselblad|manipulator|gripper|spotlight|searchlight|light|lights|instrument|instruments|"
+     "winch|parachute|robot arm|robotic arm|manipulator arm|gripper arm|canopy|banner|cake|bottle|soda|laptop|kit bag|first aid kit|drop kit|rescue kit|medical kit|survival kit|medicines|drugs|vials|turkey|burger|sandwich|battery bank|flowers|hasselblad|manipulator|gripper|spotlight|searchlight|light|lights|instrument|instruments|"
      "equipment|gear|camera rig|gopro rig|samples|sample|sampler|blood|vaccines|supplies|groceries|hook|"
      "sling load|slung load|fire extinguisher|hose|extinguishing balls|microphone|net|mortar|optics|pod|"
      "sensor head|sensor package|sensor suite|camera package|stuff|goods|food|books|bomb|lens|load|loads|lifebuoy|"

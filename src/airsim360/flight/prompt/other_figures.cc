@@ -260,7 +260,8 @@ class OtherFigures : public FigureWords {
       if (is_case(k)) return IsPutInto(figure.number);
     }
     const size_t noun = figure.unit + 1;
-    if (Is(noun, WordKind::kPayload) || Is(noun, WordKind::kMass)) return false;  // "transport box, 1.5 kg payload"
+    if (Is(noun, WordKind::kPayload) || Is(noun, WordKind::kMass) || Is(noun, WordKind::kWheelbase))
+      return false;  // "transport box, 1.5 kg payload"
     bool boxed = false;
     for (size_t k = figure.number; k-- > 0 && figure.number - k <= 5;) {
       const size_t kind = k > 0 ? k - 1 : 0;

@@ -1,4 +1,6 @@
 // Sentences that speak of another drone, of one that is gone, or of what can be bought besides: what they say again is not the drone's.
+#include <algorithm>
+
 #include "airsim360/flight/prompt/figure_words.h"
 #include "airsim360/flight/prompt/thing_words.h"
 
@@ -40,11 +42,13 @@ class OtherSentences : public FigureWords {
     return IsDrone(k) || Is(k, {"model", "machine", "version", "setup", "prototype", "drone", "copter", "generation", "aircraft", "kit"});
   }
 
-  bool SpeaksOfAnother(size_t i) const { return IsFormer(i) || IsElse(i) || IsBesides(i) || IsOfAYear(i) || IsToBeIgnored(i); }
+  bool SpeaksOfAnother(size_t i) const { return IsFormer(i) || IsElse(i) || IsBesides(i) || IsOfAYear(i) || IsSaidOfBefore(i); }
 
   /// "My last one was 4S", "the previous frame", "it used to be on 3S", "v2 was 190 g", "before this I had a Y6"
   bool IsFormer(size_t i) const {
-    if (Is(i, {"previous", "former", "predecessor", "earlier"})) return Is(i, {"predecessor"}) || IsBuild(i + 1) || IsBuild(i + 2);
+    if (Is(i, {"predecessor"})) return true;
+    if (Is(i, {"previous", "former", "earlier"})) return IsBuild(i + 1) || IsBuild(i + 2) || HasPastVerb(i + 1, 2);
+    if (Is(i, {"sold"}) && Follows(i + 1, 3, {"old"})) return true;
     if (Is(i, {"last", "old", "first", "original"})) {
       const bool built = IsBuild(i + 1) || (IsBuild(i + 2) && tokens_[i + 1].kind != Token::Kind::kNumber);
       return built && (HasPastVerb(i + 1, 5) || Is(i + 1, {"prototype"}) || Is(i + 1, {"version"}));
@@ -58,6 +62,8 @@ class OtherSentences : public FigureWords {
   /// "The competitor's hexa", "his other one", "the baseline in chapter 2"
   bool IsElse(size_t i) const {
     if (StartsAny(Text(i), {"competitor", "rival"})) return true;
+    if (Is(i, {"comparison"}) && i > 0 && Is(i - 1, {"for"})) return true;
+    if (Is(i, {"s"}) && tokens_[i].glued && Is(i + 1, {"one"})) return true;  // "my mate's one"
     const bool owned = i > 0 && Is(i - 1, {"his", "her", "my", "our", "their", "the"});
     if (Is(i, {"other"})) return owned && IsBuild(i + 1);
     return Is(i, {"baseline"}) && owned && Is(i + 1, {"in", "had", "was", "design", "used", "from", "of", "configuration", "model"});
@@ -79,8 +85,13 @@ class OtherSentences : public FigureWords {
     return year >= 1900 && year < 2100 && !FigureAt(i).is && HasPastVerb(i + 1, 3);
   }
 
-  /// "… had N = 6, ignore it"
-  bool IsToBeIgnored(size_t i) const { return Is(i, {"ignore", "disregard"}) && i > 0; }
+  /// What is said of what stands before: "… had N = 6, ignore it", "the 16 Ah pack was tried and given up".
+  bool IsSaidOfBefore(size_t i) const {
+    if (Is(i, {"ignore", "disregard"}) || (Is(i, {"earlier", "previous", "last"}) && Is(i + 1, {"chapter"}))) return i > 0;
+    const bool no = i > 0 && Is(i - 1, {"not", "never"});
+    return (no && Is(i, {"bought", "ordered", "used", "chosen"})) || (Is(i, {"given"}) && Is(i + 1, {"up"})) ||
+           Is(i, {"given up", "rejected"});
+  }
 
   /// What the words at a token are said of: the rest of the sentence, up to where this drone is said to be otherwise. "Ignore it"
   /// is said of what is before.
@@ -90,8 +101,11 @@ class OtherSentences : public FigureWords {
              (Is(k, {"this"}) && (IsDrone(k + 1) || Is(k + 1, {"has", "is", "runs", "flies", "weighs", "uses"})));
     };
     Span span{i, i + 1};
-    if (IsToBeIgnored(i)) {
+    if (IsSaidOfBefore(i)) {
+      span.end = i + 3;
       while (span.begin > 0 && !EndsSentence(span.begin - 1) && !contrasts(span.begin - 1)) --span.begin;
+      span.end = std::min(span.end, tokens_.size());
+      while (Is(i + 1, {"chapter"}) && span.end < tokens_.size() && !EndsSentence(span.end)) ++span.end;
       return span;
     }
     while (span.end < tokens_.size() && !EndsSentence(span.end) && (!contrasts(span.end) || Is(span.end, {"("}))) ++span.end;
@@ -100,9 +114,12 @@ class OtherSentences : public FigureWords {
 
   bool HasOtherOutside(const Figure& figure, Span span) const {
     for (size_t k = 0; k < tokens_.size(); ++k) {
+      if (span.Contains(k) || apart_[k]) continue;
       const Figure other = FigureAt(k);
-      if (!other.is || span.Contains(k) || apart_[k] || !HasUnit(other, tokens_[figure.unit].word->kind)) continue;
-      return true;
+      if (other.is && HasUnit(other, tokens_[figure.unit].word->kind)) return true;
+      // "12S 22000"
+      const bool charge = tokens_[k].kind == Token::Kind::kNumber && tokens_[k].value >= 300 && k > 0 && Is(k - 1, WordKind::kCells);
+      if (charge && !other.is && HasUnit(figure, WordKind::kCapacityUnit)) return true;
     }
     return false;
   }

@@ -19,12 +19,16 @@ TEST(OtherSentences, AFormerDroneIsNotTheOneThatIsDescribed) {
 TEST(OtherSentences, NeitherIsSomebodyElsesNorABaseline) {
   EXPECT_EQ(ParsePrompt("quad of 9 kg that hovers 50 min; the competitor's hexa lifts 12 kg").rotors, 4);
   EXPECT_EQ(ParsePrompt("7 inch quad on 6S. His other one, a 5 inch on 4S, waits for parts.").cells, 6);
+  EXPECT_EQ(ParsePrompt("We replaced the quad (2.9 kg) by a hexacopter of 7.9 kg").rotors, 6);
+  EXPECT_EQ(ParsePrompt("hexa of 95 g; for comparison, the commercial one weighs 27 g").mass, 0.095);
   EXPECT_NEAR(*ParsePrompt("N = 4, D = 14 in, m = 3.2 kg. The baseline in chapter 2 had D = 11 in, ignore it.").propeller, 14 * 0.0254,
               1e-9);
 }
 
 TEST(OtherSentences, WhatCanBeHadBesidesIsNotOnBoard) {
   EXPECT_EQ(ParsePrompt("hexa, 6S 10 Ah, 3.4 kg; a second battery (6S 16 Ah) is available for 120").capacity_ah, 10);
+  EXPECT_EQ(ParsePrompt("octo, 6S 22 Ah; the 16 Ah pack was tried and given up").capacity_ah, 22);
+  EXPECT_EQ(ParsePrompt("hexa, 12S 22000. Batteries up to 30 Ah were not bought.").capacity_ah, 22);
   EXPECT_EQ(ParsePrompt("octo, 18S 30 Ah, 12 min. Stretch goal: 45 Ah and 15 min.").capacity_ah, 30);
 }
 
@@ -46,6 +50,8 @@ TEST(OtherSentences, PacksAndPropellersAreCounted) {
   EXPECT_EQ(ParsePrompt("octo of forty kilos, of which 12 is payload").payload, 12);
   EXPECT_EQ(ParsePrompt("m_TO: 7.5 kg; m_PL: 1.2 kg; octo").payload, 1.2);
   EXPECT_EQ(ParsePrompt("oct-rotor of 15 kg").rotors, 8);
+  EXPECT_EQ(ParsePrompt("a six-armed drone of 3 kg").rotors, 6);
+  EXPECT_NEAR(*ParsePrompt("four rotors, diameter 21 inch, 7.5 kg").propeller, 21 * 0.0254, 1e-9);
 }
 
 }  // namespace

@@ -186,15 +186,16 @@ class PastFigures : public FigureWords {
     MarkNegated(i);
   }
 
+  bool IsKind(size_t k) const { return tokens_[k].Is(WordKind::kRotors) || tokens_[k].Is(WordKind::kCoaxial); }
+
   /// "The tricopter died, now a proper quad"
   void MarkLost(size_t i) {
-    const auto is_kind = [&](size_t k) { return tokens_[k].Is(WordKind::kRotors) || tokens_[k].Is(WordKind::kCoaxial); };
-    if (!is_kind(i)) return;
+    if (!IsKind(i)) return;
     bool lost = false;
     for (size_t k = i + 1; k < tokens_.size() && k <= i + 4 && !EndsSegment(k); ++k)
       lost |= Is(k, {"died", "dead", "crashed", "broke", "drowned", "retired", "sold", "gone", "burnt", "burned", "lost"});
     for (size_t k = i + 1; lost && k < tokens_.size(); ++k) {
-      if (is_kind(k) && tokens_[k].word->value != tokens_[i].word->value) apart_[i] = true;
+      if (IsKind(k) && tokens_[k].word->value != tokens_[i].word->value) apart_[i] = true;
     }
   }
 
@@ -253,6 +254,9 @@ class PastFigures : public FigureWords {
     size_t begin = i;
     while (!change && begin > 0 && i - begin < 8 && !EndsSegment(begin - 1)) --begin;
     for (size_t k = change ? i + 1 : begin; k < end; ++k) {
+      if (change && IsKind(k)) {  // "replaced the old quad by a hexacopter"
+        for (size_t n = end; n < tokens_.size() && n <= end + 3; ++n) apart_[k] = apart_[k] || IsKind(n);
+      }
       const Figure figure = FigureAt(k);
       for (size_t n = end; figure.is && n < tokens_.size() && n <= end + kClause; ++n) {
         const Figure other = FigureAt(n);

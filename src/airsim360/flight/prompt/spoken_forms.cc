@@ -43,11 +43,16 @@ const std::vector<Rule>& Symbols() {
 const std::vector<Rule>& Numbers() {
   static const std::vector<Rule> kRules = {
       {std::regex(R"((\d)\s*~\s*(?=\d))"), "$1-"},  // "13~15 min"
+      {std::regex(R"(\bnot (quite|really|exactly|a) sub[ -]?250\b)"), " "},
       {std::regex(R"(\bsub[ -]?(\d{3})\b(?!\s*-?(g|mm|gr|gram|grams|gramm)\b))"), "under $1 g"},
+      {std::regex(R"((\d ?min) (10|15|20|30|40|45|50)\b(?! ?(-|%|"|[a-z]?ah\b|g\b|kg|m\b|mm|cm|in|km|c\b|v\b|w|k|s\b|l\b|minutes|hover)))"),
+       "$1 $2 sec"},
+      {std::regex(R"(\b(four|five|six|seven|eight|[4-8])[ -]armed\b)"), "$1 rotor"},
       {std::regex(R"(\b(single|one)[ -]cell\b)"), "1 cell"},
       {std::regex(R"(\b(a single|single|just one|one) (\d+(\.\d+)? ?m?ah) (lipo |lihv |li-?ion )?cell\b)"), "1 cell $2"},
       {std::regex(R"(\b(a single|single|just one|one) (18650|20700|21700)\b)"), "1 cell"},
       {std::regex(R"(\b(an?|one) full hour\b)"), "1 hour"},
+      {std::regex(R"(\b([4-6] ?x ?(9|[1-4]\d)|7 ?x ?[1-4]\d|8 ?x ?(1[1-9]|[2-4]\d)) (in|inch|inches)(?=[,;.]))"), "$1 inch props"},
       // "7 x 12 inch props": so many of them, for no pitch is so much larger than the diameter.
       {std::regex(
            R"(\b([3-8]) ?x ?((9|[1-4]\d)(\.\d+)?) ?-?(in|inch|inches|") ?(carbon |folding |wooden )?(props?|propellers?|rotors?)\b)"),
@@ -61,7 +66,8 @@ const std::vector<Rule>& Numbers() {
       {std::regex(R"(\b(propellers?|props?) ?[:=] ?(\d{1,2}(\.\d+)?) x (\d{1,2}(\.\d+)?)(?![\d.]))"), "$1 $2x$4"},
       {std::regex(R"(\b(w/o|without)\s*(?=[).;]|$))"), "without battery "},  // "310 g w/o"
       // "Flight time 4:30", "4:30 min"
-      {std::regex(R"(\b((time|flights?|hovers?|endurance|flies|fly|of)[ :~a-z]{0,12})(\d{1,2}):([0-5]\d)( ?min(utes|s)?)?(?![\d:]))"),
+      {std::regex(
+           R"(\b((time|timed|clocked|logged|flights?|hovers?|endurance|flies|fly|of)[ :~a-z]{0,12})(\d{1,2}):([0-5]\d)( ?min(utes|s)?)?(?![\d:]))"),
        "$1$3 min $4 sec"},
       {std::regex(R"(\b(\d{1,2}):([0-5]\d) ?(min|mins|minutes)\b)"), "$1 min $2 sec"},
       {std::regex(R"((\d)\s*\*\s*(?=\d))"), "$1x"},                                 // "24*7.8"
@@ -114,6 +120,21 @@ const std::vector<Rule>& Phrases() {
            R"(\b(two|three|four|five|six|[2-6]|twin|dual)( x)? parallel ((\d+ ?s )?[\d.]+ ?m?ah)( lipo| li-?ion)? (batteries|packs|lipos)\b)"),
        "$1 $3 packs in parallel"},
       {std::regex(R"(\b(two|three|four|five|six|[2-6]|twin|dual)( x)? (\d{3,5})s (in )?parallel\b)"), "$1 $3 mah parallel"},
+      {std::regex(R"(\b(rotors|propellers|props), (of )?(diameter|dia)\b)"), "$1 diameter"},
+      {std::regex(R"(\b\d{2,4} (identical|matching) )"), " "},  // of a fleet
+      {std::regex(R"(\b(an? |the )?\d+[ -]?(min|minute) (show|lesson|film|video|clip|talk|briefing|interview)\b)"), " "},
+      {std::regex(R"(\breplac(ed|ing) (the|my|our) (old )?[a-z]+ \([^()]*\) (by|with) )"), "with "},
+      {std::regex(R"(\b(we ?'?re|we are|it ?'?s|comes? out|ends? up) at ([\d.]+ ?(kilos?|kg|grams|g)\b))"), "all up $2"},
+      {std::regex(R"(\blimit(ed|s)?( it| the speed| speed)? (to|at) ([\d.]+ ?(m/s|km/h|kmh|mph)))"), "top speed $4"},
+      {std::regex(R"(\b([\d.]+ ?(m/s|km/h|kmh|kph|mph)) (top|max|maximum) speed\b)"), "top speed $1"},
+      // "Needed 2 h to reach the hall": of people.
+      {std::regex(
+           R"(\b(needed|needs?|took|takes) (about )?[\d.]+ ?(h|hours?|min|minutes) to (reach|walk|hike|climb|drive|get|dig|find)\b)"),
+       " "},
+      {std::regex(R"(\b((stays?|remains?) (on|in|at) the [a-z]+ )\([^()]*\))"), "$1"},
+      {std::regex(R"(\b\d+ (pounds|quid)( each)?[, ]*(second[ -]?hand|used|brand new|on ebay|delivered|posted)\b)"), " "},
+      {std::regex(R"(\bwith ([\d.]+ ?(kg|g|lbs?|pounds)) of ([a-z]+ ){1,3}(on board|aboard)\b)"), "with $1 payload"},
+      {std::regex(R"((\d ?(kg|g|lbs?)) spare (for|capacity)\b)"), "$1 payload $3"},
       // "Fifty kilos, of which 15 is payload"
       {std::regex(R"(\b(kilos?|kg|g|grams|lbs|pounds)\b([^.;:()]{0,30}\bof which )([\d.]+) ((is|are) (the )?(payload|cargo|load)\b))"),
        "$1$2$3 $1 $4"},
