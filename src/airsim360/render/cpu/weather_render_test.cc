@@ -73,7 +73,7 @@ TEST(WeatherRender, DropsShowAndStandStillWhenNothingMoves) {
   EXPECT_EQ(with, again);
   int streaked = 0;
   for (size_t i = 0; i < with.size(); ++i) {
-    streaked += std::abs(with.pixels()[i].g - without.pixels()[i].g) > 8;
+    streaked += std::abs(with.pixels()[i].g - without.pixels()[i].g) > 3;
   }
   EXPECT_GT(streaked, 400);
   EXPECT_LT(streaked, 60000);

@@ -140,10 +140,10 @@ TEST(DenoiserTest, WithoutNoiseAShadowEdgeStaysWhereItIs) {
     for (int x = 40; x < 140; ++x) light(x, y) = {0.5f, 0.5f, 0.5f};
   }
   const Image<Rgb32f> filtered = Filter(view, light, &samples);
-  // Beyond 48 degrees pixels that are narrower than high are averaged first.
+  // Beyond 48 degrees pixels that are narrower than high are averaged first. What is left is a five-hundredth of the step.
   const int h = view.height();
   for (int y = h / 4 + 1; y < h - h / 4 - 1; ++y) {
-    for (int x = 0; x < view.width(); ++x) ASSERT_NEAR(filtered(x, y).g, light(x, y).g, 1e-4f) << x << " " << y;
+    for (int x = 0; x < view.width(); ++x) ASSERT_NEAR(filtered(x, y).g, light(x, y).g, 1e-3f) << x << " " << y;
   }
 }
 
@@ -359,6 +359,33 @@ TEST(DenoiserTest, AFireflyGoesAndLeavesNothingAround) {
   EXPECT_LT(light(100, 128).g, 1.5);
   EXPECT_LT(light(101, 128).g, 1.1);
   EXPECT_LT(light(104, 124).g, 1.1);
+}
+
+TEST(DenoiserTest, TwoFirefliesThatTouchDoNotVouchForEachOther) {
+  const View view = MakeBall(512);
+  Image<Rgb32f> light = Noise(view, 1, 0.1f);
+  light(100, 128) = light(101, 129) = {8, 8, 8};
+  const Image<uint8_t> samples(view.width(), view.height(), 4);
+  light = Filter(view, light, &samples);
+  EXPECT_LT(light(100, 128).g, 1.5);
+  EXPECT_LT(light(101, 129).g, 1.5);
+}
+
+// One pixel in twelve met a lamp: neither it nor the rest around it stays.
+TEST(DenoiserTest, RareLightIsSpread) {
+  const View view = MakeBall(512);
+  Image<Rgb32f> light(view.width(), view.height(), {0.2f, 0.2f, 0.2f});
+  RngStream random(7, "lamps");
+  for (Rgb32f& c : light.pixels()) {
+    if (random.Chance(1.0 / 12)) c = {4, 4, 4};
+  }
+  const Image<uint8_t> samples(view.width(), view.height(), 4);
+  const Image<Rgb32f> filtered = Filter(view, light, &samples);
+  int specks = 0, count = 0;
+  for (int y = 80; y < 176; ++y) {
+    for (int x = 0; x < view.width(); ++x) specks += filtered(x, y).g > 1.5f, ++count;
+  }
+  EXPECT_LT(specks, count / 60);
 }
 
 TEST(DenoiserTest, SkyIsLeftAlone) {

@@ -10,8 +10,9 @@ namespace {
 constexpr float kAgreement = 0.5f / 9;
 // A harmonic mean of variances of nine values is too small by (9 - 1 - 2) / (9 - 1).
 constexpr float kHarmonicBias = 8.0f / 6.0f;
-// The noise is never taken for less than this part of the mean variance around.
-constexpr float kLeastShare = 1.0f / 64;
+// The noise is never taken for less than this part of the mean variance around: where light is rare (a sunlit wall at the end of a dark
+// street, windows by night) most windows met none and agree. With a 64th such pixels stayed as specks, and the rest as dark blotches.
+constexpr float kLeastShare = 1.0f / 14;
 
 KERNEL void GatherVector(const FilterPlanes& f, int64_t row, int x, int columns) {
   const int64_t i = row + x;
@@ -70,7 +71,8 @@ KERNEL void WindowVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
   Moments like, entity;
   like.Add(known, real(0.0f));
   entity.Add(known, real(0.0f));
-  real alike = real(0.0f), low = real(1e30f), high = real(-1e30f);
+  // The second of each end, too: where light is rare two such pixels often touch, and would vouch for each other.
+  real alike = real(0.0f), low = real(1e30f), high = real(-1e30f), second_low = low, second_high = high;
   ForNeighbours(
       f, rows, x, step_x, [&](int64_t j, bool) __attribute__((always_inline)) {
         const mask_t surface = SameId(Ids(f.id, j), c.id), same = SameId(Ids(f.data_id[0], j), c.id);
@@ -81,12 +83,15 @@ KERNEL void WindowVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
         const real m = luminance(At3(f.light[0], j));
         like.Add(same && close, m - l);
         entity.Add(same, m - l);
+        second_low = sel(same, rmin(second_low, rmax(low, m)), second_low);
+        second_high = sel(same, rmax(second_high, rmin(high, m)), second_high);
         low = sel(same, rmin(low, m), low);
         high = sel(same, rmax(high, m), high);
       });
   const mask_t enough = like.n > 2.5f;
   const real variance = sel(enough, like.Variance(), sel(entity.n > 2.5f, entity.Variance(), real(-1.0f)));
-  const real beyond = rmax(rmax(l - high, low - l), real(0.0f));
+  const mask_t many = entity.n > 5.5f;
+  const real beyond = rmax(rmax(l - sel(many, second_high, high), sel(many, second_low, low) - l), real(0.0f));
   Put(f.window, i, variance);
   Put(f.own, i, If(known && (entity.n > 3.5f), beyond * beyond));
   Put(f.loose, i, clamp01((4.0f - alike) * 0.5f));

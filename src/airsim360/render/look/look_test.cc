@@ -12,6 +12,7 @@
 #include "airsim360/render/look/photo.h"
 #include "airsim360/render/look/scatter.h"
 #include "airsim360/render/look/scatter_kernels.h"
+#include "airsim360/render/sky/atmosphere.h"
 
 namespace airsim360 {
 namespace {
@@ -261,6 +262,31 @@ TEST(PhotoTest, MeteringHitsItsAim) {
       EXPECT_NEAR(sum / whole, aim, 0.015) << brightness;
     }
   }
+}
+
+// A tenth of the sphere shines as windows do, the rest is as dark as the night: a twenty-fifth may burn out. By day all of it does.
+TEST(PhotoTest, ADarkSkyDoesNotBurnOutWhatShines) {
+  const auto burnt = [](double dark_cd_m2) {
+    Image<Rgb32f> light(kWidth, kHeight);
+    double clipped = 0, whole = 0;
+    const auto unit = static_cast<float>(dark_cd_m2 / kLuxPerUnit);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const float value = unit * (10 * x < kWidth ? 200.0f * (1.0f + 40.0f * static_cast<float>(x) / kWidth) : 1.0f);
+        light(x, y) = {value, value, value};
+      }
+    CameraLook look;
+    look.white_error = look.full_well = look.metering_spread = look.contrast_spread = look.softness_px = look.sharpening = look.glare = 0;
+    Image<Rgb8> rgb;
+    TakePhoto(look, Request(), light, rgb);
+    for (int y = 0; y < kHeight; ++y) {
+      const double weight = std::cos(kPi * (0.5 - (y + 0.5) / kHeight));
+      for (int x = 0; x < kWidth; ++x) clipped += weight * (rgb(x, y).g >= 254), whole += weight;
+    }
+    return clipped / whole;
+  };
+  EXPECT_GT(burnt(400), 0.09);
+  EXPECT_LT(burnt(0.05), 0.055);
 }
 
 TEST(PhotoTest, StopsComeOnTopOfTheMeter) {

@@ -70,6 +70,12 @@ double LightHistogram::MeanEncoded(const std::vector<float>& curve, double clip,
   return mean;
 }
 
+double LightHistogram::BrighterThan(double share) const {
+  int bin = kBins - 1;
+  for (double beyond = share_[1][static_cast<size_t>(bin)]; bin > 0 && beyond <= share;) beyond += share_[1][static_cast<size_t>(--bin)];
+  return middle_[static_cast<size_t>(bin)];
+}
+
 double LightHistogram::LogMean(int channel) const {
   double sum = 0, weight = 0;
   const auto& shares = share_[static_cast<size_t>(channel)];

@@ -18,6 +18,8 @@ class LightHistogram {
 
   /// Mean over the solid angle of the luminance of encoded values, where `curve` encodes the root of light / clip.
   double MeanEncoded(const std::vector<float>& curve, double clip, const std::array<double, 3>& scale) const;
+  /// Light of green, which most of luminance is, that `share` of the solid angle is brighter than.
+  double BrighterThan(double share) const;
   /// Geometric mean of a channel, without the darkest (below 2^-20).
   double LogMean(int channel) const;
 

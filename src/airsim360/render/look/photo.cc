@@ -21,6 +21,8 @@ constexpr float kMostWhite = 400, kDiscWhite = 30;  // of light that is scattere
 constexpr double kBrightestWhite = 1e7;             // cd/m2
 // From the first to the second luminance of white, cd/m2, the meter's aim falls by a share.
 constexpr double kDayWhite = 500, kDimWhite = 5, kDimmer = 0.35;
+// Of the solid angle, what may burn out where white is at the second: a dark sky does not make a city's windows white.
+constexpr double kMostBurnt = 0.04;
 
 // Everything that the rows of a picture need.
 struct Plan {
@@ -170,6 +172,7 @@ void Meter(const CameraLook& look, const PhotoRequest& request, const DrawnLook&
       const double full = MeterExposure(histogram, plan.curve, clip, gains, drawn.metering, low, high);
       const double dim = std::clamp(1 - std::log10(kLuxPerUnit / full / kDimWhite) / std::log10(kDayWhite / kDimWhite), 0.0, 1.0);
       exposure = MeterExposure(histogram, plan.curve, clip, gains, drawn.metering * (1 - kDimmer * dim), low, high);
+      if (dim > 0) exposure = std::min(exposure, clip / histogram.BrighterThan(1 - (1 - kMostBurnt) * dim));
     }
   }
   exposure *= std::exp2(request.exposure_ev);

@@ -55,13 +55,14 @@ StratusDeck::StratusDeck(float base, float illuminance, Vec3f to_sun, Vec2f wind
     const float z = std::sqrt((static_cast<float>(k / kAround) + 0.5f) / kUp);
     const Vec3f d = DirectionOf((static_cast<float>(k % kAround) + 0.5f) * 2 * kPi / kAround, std::asin(z));
     level += Light(d) * (kPi / (kUp * kAround));
+    reflectance_ += Reflectance(d) / (kUp * kAround);
   }
   zenith_ = illuminance / level;
   mean_ = level / (7 * kPi / 9);  // level ground under the bare gradation
 }
 
-// Transmission of the cloud's depth there, by the two-stream form 1 / (1 + 0.105 depth), and the sun's glow through it.
-float StratusDeck::Light(Vec3f d) const {
+// Optical depth of the water there.
+float StratusDeck::Depth(Vec3f d) const {
   const float t = DistanceToAltitude(std::max(d.z, 0.002f), base_), scale = 1 / 2600.0f;
   const float x = d.x * t * scale, y = d.y * t * scale;
   const float bend_x = Fractal(0.5f * x, 0.5f * y, 3, seed_ + 401), bend_y = Fractal(0.5f * x, 0.5f * y, 3, seed_ + 411);
@@ -70,14 +71,18 @@ float StratusDeck::Light(Vec3f d) const {
   const float lumps = 0.8f * Fractal(u, v, 6, seed_ + 421) + 0.45f * rolls;
   const float banks = Fractal(u * 0.22f, v * 0.22f, 3, seed_ + 431);
   const float far = Exp(-t / 14000);
-  const float depth = depth_ * Exp((-1.15f * lumps * (0.25f + 0.75f * far) - 1.1f * banks * (0.3f + 0.7f * far)) * contrast_);
-  const float through = 1 / (1 + 0.105f * depth), off = 1 - Dot(d, to_sun_);
+  return depth_ * Exp((-1.15f * lumps * (0.25f + 0.75f * far) - 1.1f * banks * (0.3f + 0.7f * far)) * contrast_);
+}
+
+// What passes of the light above, and the sun's glow through it.
+float StratusDeck::Light(Vec3f d) const {
+  const float depth = Depth(d), through = Through(depth), off = 1 - Dot(d, to_sun_);
   const float glow = 1 + glow_ * (1.2f * Exp(-off / 0.10f) * through / 0.35f + 4.0f * Exp(-off / 0.006f) * Exp(-depth / 9));
   return Gradation(d.z) * through * glow;
 }
 
 Vec3f StratusDeck::Radiance(Vec3f direction) const { return kDeckColor * (zenith_ * Light(direction)); }
 
-Vec3f StratusDeck::AirLight() const { return kDeckColor * (zenith_ * Gradation(0) * mean_); }
+Vec3f StratusDeck::AirLight(Vec3f below) const { return kDeckColor * (zenith_ * Gradation(0) * mean_) + below * reflectance_; }
 
 }  // namespace airsim360::internal

@@ -31,13 +31,17 @@ class StratusDeck {
   StratusDeck(float base, float illuminance, Vec3f to_sun, Vec2f wind, uint32_t seed);
   /// Radiance of a direction above the horizon.
   Vec3f Radiance(Vec3f direction) const;
-  /// Of the air below it, at the horizon.
-  Vec3f AirLight() const;
+  /// Share of the light from below that a direction sends back: what its water does not let through.
+  float Reflectance(Vec3f direction) const { return 1 - Through(Depth(direction)); }
+  /// Of the air below it, at the horizon; `below` is the radiance of the ground's own lamps.
+  Vec3f AirLight(Vec3f below) const;
 
  private:
+  float Depth(Vec3f direction) const;
+  static float Through(float depth) { return 1 / (1 + 0.105f * depth); }  // the two-stream form
   float Light(Vec3f direction) const;
 
-  float base_, zenith_ = 1, mean_ = 1;
+  float base_, zenith_ = 1, mean_ = 1, reflectance_ = 0;
   Vec3f to_sun_;
   Vec2f wind_;
   int seed_;

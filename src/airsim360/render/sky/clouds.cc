@@ -121,7 +121,8 @@ void Clouds::LightLayers() {
     const FieldShade shade(layer, light_.to_sun, kSunReach);
     // Between clouds light goes to and fro.
     const Vec3f between = Mix(sun, Vec3f{1, 1, 1} * Luminance(sun), 0.4f) * (0.02f * cover * shade.At(middle));
-    lights_.push_back({light_.sun_at(middle), light_.sky * (1 - 0.2f * cover) + between, light_.ground * (1 - 0.45f * cover), shade});
+    lights_.push_back(
+        {light_.sun_at(middle), light_.sky * (1 - 0.2f * cover) + between, light_.ground * (1 - 0.45f * cover) + light_.town, shade});
   }
   cirrus_sun_ = light_.sun_at(cirrus_.height());
 }
@@ -278,8 +279,10 @@ Vec3f Clouds::Over(Vec3f direction, Vec3f behind, Vec3f air, float dither) const
   if (!any()) return behind;
   Ray ray{Normalized(Vec3f{direction.x, direction.y, std::max(direction.z, kLowestRay)}), air, dither, 0};
   if (deck_) {
-    ray.air = deck_->AirLight();
-    Put(ray, deck_->Radiance(ray.direction), 1, DistanceToAltitude(ray.direction.z, deck_base_));
+    ray.air = deck_->AirLight(light_.town);
+    Vec3f light = deck_->Radiance(ray.direction);
+    if (light_.town != Vec3f{}) light += light_.town * deck_->Reflectance(ray.direction);
+    Put(ray, light, 1, DistanceToAltitude(ray.direction.z, deck_base_));
     return ray.light;
   }
   ray.cosine = Dot(ray.direction, light_.to_sun);

@@ -21,6 +21,7 @@ struct CloudLight {
   std::function<Vec3f(float)> sun_at;  ///< irradiance facing the sun, by altitude in metres
   Vec3f sky;                           ///< mean radiance of the clear sky
   Vec3f ground;                        ///< radiance of the ground below a clear sky
+  Vec3f town;                          ///< radiance of its lamps, whatever stands above
   ClearAir air;                        ///< before the clouds
   float overcast;                      ///< what a closed deck gives level ground, units
 };

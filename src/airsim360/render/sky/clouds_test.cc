@@ -35,6 +35,7 @@ struct ClearDay {
             [this](float height) { return atmosphere.SunIrradiance(height); },
             diffuse * static_cast<float>(1 / kPi),
             (diffuse + direct) * static_cast<float>(0.16 / kPi),
+            {},
             ClearAir(2.5),
             2.4f};
   }
@@ -153,6 +154,30 @@ TEST(CloudLight, BrokenSkiesGiveTheIlluminanceThatIsMeasured) {
   RecordProperty("diffuse_share", std::to_string(diffuse / global));
   EXPECT_NEAR(global / clear / expected, 1, 0.15) << cover;
   EXPECT_NEAR(diffuse / global / (0.3 + 0.7 * cover * cover), 1, 0.25) << cover;
+}
+
+// By night the town below is all their light: more cloud sends back more of it, none more than it gets, and a deck the two-stream
+// form's share of its depths (9 to 24 on the mean, thick places weighing less).
+TEST(CloudLight, ATownLightsItsCloudsTheMoreTheMoreOfThemThereAre) {
+  const CloudLight night{Day().to_sun, [](float) { return Vec3f{}; }, {}, {}, {1, 1, 1}, ClearAir(1.8), 0};
+  const auto returned = [&](const char* preset) {
+    const Clouds clouds(Under(preset, 3), night);
+    double sum = 0;
+    for (int k = 0; k < ClearDay::kUp * ClearDay::kAround; ++k) {
+      const Vec3f d = ClearDay::At(k);
+      sum += Luminance(clouds.Over(d, {}, {}, HashUnit(k, 0, 1))) / (ClearDay::kUp * ClearDay::kAround);
+    }
+    return sum;
+  };
+  EXPECT_EQ(returned("clear"), 0);
+  double before = 0;
+  for (const char* preset : {"humilis", "broken", "overcast"}) {
+    const double now = returned(preset);
+    EXPECT_GT(now, before) << preset;
+    before = now;
+  }
+  EXPECT_GT(before, 0.4);
+  EXPECT_LT(before, 0.75);
 }
 
 TEST(CloudShadow, MarchIsWithinFivePerCentOfABruteForceOne) {

@@ -132,9 +132,10 @@ void Sky::BakeSky(const Environment& environment) {
   // Then clouds before it, and stars behind them.
   const Vec3f level = LevelIrradiance(clear), open = level + sun_irradiance_ * std::max(0.0f, to_sun_.z);
   constexpr float kGroundAlbedo = 0.16f;
-  // Clouds over a town are lit from below, some ten times brighter than its clear sky (Kyba et al. 2011).
-  const Vec3f town = environment.lamps_on() ? kTownLight * (0.04f / kLuxPerUnit) : Vec3f{};
-  const Clouds clouds(environment, {to_sun_, light_at, level * (1 / kPi), open * (kGroundAlbedo / kPi) + town,
+  // A large city sends up some 0.3 lm from a square metre; clouds over it are then some ten times brighter than its clear sky
+  // (Kyba et al. 2011).
+  const Vec3f town = environment.lamps_on() ? kTownLight * (0.1f / kLuxPerUnit) : Vec3f{};
+  const Clouds clouds(environment, {to_sun_, light_at, level * (1 / kPi), open * (kGroundAlbedo / kPi), town,
                                     ClearAir(environment.turbidity), OvercastIlluminance(sun.z, Luminance(open))});
   table_ = MakeTable(2048, 512, false);
   if (sun.z < 0) AddStars(table_);

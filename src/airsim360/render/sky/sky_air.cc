@@ -19,7 +19,8 @@ constexpr float kFogHeight = 160,
 // Upward radiance of a deep fog over pi times the level illuminance above it; the rest goes back to space.
 constexpr float kFogShare = 0.6f;
 // What lamps give the air of a town: streets, a quarter of its ground, are lit by 5 to 10 lx (EN 13201, classes P3 and M4).
-constexpr Vec3f kStreetLight = kTownLight * (2.0f / kLuxPerUnit);
+// Rain and snow mostly fall above the roofs, in the light that goes up and what clouds send back of it.
+constexpr Vec3f kStreetLight = kTownLight * (2.0f / kLuxPerUnit), kRoofLight = kTownLight * (0.5f / kLuxPerUnit);
 
 void Put(float (&to)[3], Vec3f from) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
@@ -127,7 +128,7 @@ void Sky::BakeWeather(const Environment& environment) {
   air_.weather = fog + falling;
   air_.weather_height = (fog * kFogHeight + falling * kPrecipitationHeight) / std::max(air_.weather, 1e-9f);
   const Vec3f level = Irradiance({0, 0, 1}) + sun_irradiance_ * (std::max(0.0f, to_sun_.z) * cloud_shadow_.mean()) +
-                      (environment.lamps_on() ? kStreetLight : Vec3f{});
+                      (environment.lamps_on() ? kRoofLight + (kStreetLight - kRoofLight) * (fog / std::max(air_.weather, 1e-9f)) : Vec3f{});
   const float depth = air_.weather * air_.weather_height / std::max(to_sun_.z, 0.05f);
   sun_irradiance_ *= std::exp(-depth);
   Put(air_.weather_light, level * (kFogShare / kPi));

@@ -119,6 +119,25 @@ TEST(SkyLight, NightIsDarkButNotBlackAndTheFullMoonGivesAFractionOfALux) {
   EXPECT_LT(dark, 3e-3);
 }
 
+// Kyba et al. (2011), Berlin: an overcast sky over the middle of a city is ten times brighter than a clear one; the four times
+// to fifteen of their other places. Far from lamps it is darker.
+TEST(SkyLight, AClosedDeckMakesTheNightsOfATownBrighterAndThoseOfTheCountryDarker) {
+  Environment night;
+  night.sun_elevation_deg = -30, night.cloud_cover = 0, night.cirrus_cover = 0, night.moon_phase = 0;
+  const auto lux = [&](double cover, Lamps lamps, double rain = 0, double visibility = 0) {
+    night.cloud_cover = cover, night.lamps = lamps, night.rain_mm_h = rain, night.visibility_m = visibility;
+    return Sky(night).GroundIlluminance() * kLuxPerUnit;
+  };
+  const double clear = lux(0, Lamps::kOn), overcast = lux(1, Lamps::kOn);
+  EXPECT_GT(overcast, 4 * clear);
+  EXPECT_LT(overcast, 15 * clear);
+  EXPECT_LT(lux(1, Lamps::kOff), 0.6 * lux(0, Lamps::kOff));
+  // Rain scatters more of the town's light, fog among its lamps most.
+  const double rain = lux(1, Lamps::kOn, 6), fog = lux(1, Lamps::kOn, 0, 180);
+  EXPECT_GT(rain, overcast);
+  EXPECT_GT(fog, 1.5 * rain);
+}
+
 TEST(SkyLight, StarsBringTheirOwnIlluminance) {
   SkyTable table = MakeTable(2048, 512, false);
   AddStars(table);
