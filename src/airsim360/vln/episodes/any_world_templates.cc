@@ -1,6 +1,7 @@
 #include "airsim360/vln/episodes/any_world_templates.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -51,47 +52,71 @@ const char* Said(const std::string& sector) {
   return kSaid.at(sector);
 }
 
+// What an instruction speaks of. `floors`: some of these things stand over each other, so that only those on this floor are meant.
+struct Named {
+  Noun noun;
+  bool floors = false;
+
+  std::string text() const { return noun.word + (floors ? " on this floor" : ""); }
+  Query Asked(std::vector<Predicate> predicates) const {
+    if (floors) predicates.insert(predicates.begin(), Bearing("on_floor"));
+    return {noun, std::move(predicates)};
+  }
+};
+
 // Five lengths of the same task, from three words to two sentences.
-std::vector<InstructionTemplate> OfNoun(const Noun& noun) {
-  const std::string& word = noun.word;
+std::vector<InstructionTemplate> OfNoun(const Named& named) {
+  const std::string word = named.text();
   std::vector<InstructionTemplate> made;
-  const auto add = [&](const std::string& kind, std::string text, Query query, const char* heading) -> InstructionTemplate& {
-    std::string id = "any/" + word + "/" + kind;
+  const auto add = [&](const std::string& kind, std::string text, std::vector<Predicate> predicates,
+                       const char* heading) -> InstructionTemplate& {
+    std::string id = "any/" + named.noun.word + "/" + kind;
     std::ranges::replace(id, ' ', '_');
-    made.push_back({.id = std::move(id), .text = std::move(text), .query = std::move(query), .heading = heading});
+    made.push_back({.id = std::move(id), .text = std::move(text), .query = named.Asked(std::move(predicates)), .heading = heading});
     return made.back();
   };
-  add("1", "Nearest " + word + ".", {noun, {Nearest()}}, "any");
-  add("2", "Fly to the nearest " + word + " and stop.", {noun, {Nearest()}}, "any");
+  add("1", "Nearest " + word + ".", {Nearest()}, "any");
+  add("2", "Fly to the nearest " + word + " and stop.", {Nearest()}, "any");
   int turn = 0;
   for (const Sector& sector : kSectors) {
     add("3/" + std::string(sector.name), "Fly to the nearest " + word + " " + Said(sector.name) + " and stop when you are close to it.",
-        {noun, {Bearing(sector.name), Nearest()}}, sector.name);
+        {Bearing(sector.name), Nearest()}, sector.name);
     // The longest words for every second direction: as many as all other lengths together would be too alike.
     if (++turn % 2 == 0)
       add("5/" + std::string(sector.name),
           "Look around you first. There may be more than one " + word + ", but only those " + Said(sector.name) +
               " count. Choose the one of them that is nearest to where you are now, fly to it without touching anything, and stop beside it.",
-          {noun, {Bearing(sector.name), Nearest()}}, sector.name);
+          {Bearing(sector.name), Nearest()}, sector.name);
   }
-  add("4", "Turn until you find the " + word + " that is nearest to you, fly to it, keep a few metres away, and stop there.",
-      {noun, {Nearest()}}, "any");
-  InstructionTemplate& second =
-      add("3/second", "Fly straight ahead and stop when you reach the second " + word + ".",
-          {noun, {{.kind = PredicateKind::kAlong, .width = 10}, {.kind = PredicateKind::kOrdinal, .k = 2}}}, "ahead");
+  add("4", "Turn until you find the " + word + " that is nearest to you, fly to it, keep a few metres away, and stop there.", {Nearest()},
+      "any");
+  InstructionTemplate& second = add("3/second", "Fly straight ahead and stop when you reach the second " + word + ".",
+                                    {{.kind = PredicateKind::kAlong, .width = 10}, {.kind = PredicateKind::kOrdinal, .k = 2}}, "ahead");
   second.farthest = 90;
   return made;
 }
 
 // Two things one after the other, the second seen in the direction of the flight to the first.
-InstructionTemplate OneThenTheOther(const Noun& first, const Noun& second, const char* sector) {
-  std::string id = "any/" + first.word + "/then/" + second.word + "/" + sector;
+InstructionTemplate OneThenTheOther(const Named& first, const Named& second, const char* sector) {
+  std::string id = "any/" + first.noun.word + "/then/" + second.noun.word + "/" + sector;
   std::ranges::replace(id, ' ', '_');
   return {.id = std::move(id),
-          .text = "Fly straight to the nearest " + first.word + ". Still facing the way you flew, go on to the nearest " + second.word +
+          .text = "Fly straight to the nearest " + first.text() + ". Still facing the way you flew, go on to the nearest " + second.text() +
                   " " + Said(sector) + " and stop beside it.",
-          .query = {first, {Nearest()}},
-          .then = {{.query = {second, {Bearing(sector), Nearest()}}}}};
+          .query = first.Asked({Nearest()}),
+          .then = {{.query = second.Asked({Bearing(sector), Nearest()})}}};
+}
+
+// Two of them have a storey between their feet and the same place seen from above.
+bool StandOverEachOther(const std::vector<Box3f>& boxes) {
+  constexpr float kStorey = 2;  // metres
+  for (size_t i = 0; i < boxes.size(); ++i)
+    for (size_t k = 0; k < i; ++k) {
+      const Box3f &a = boxes[i], &b = boxes[k];
+      const bool overlap = a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
+      if (overlap && std::abs(a.min.z - b.min.z) > kStorey) return true;
+    }
+  return false;
 }
 
 // Rooms are small.
@@ -108,27 +133,28 @@ void FitRoom(InstructionTemplate& made) {
 
 std::vector<InstructionTemplate> AnyWorldTemplates(const Scene& scene, bool rooms) {
   std::map<std::string, std::set<std::string>> by_word;  // categories
-  std::map<std::string, int> count;
+  std::map<std::string, std::vector<Box3f>> boxes;
   for (const Entity& entity : scene.entities) {
     const std::string& path = scene.tree[entity.category].path;
     const Vec3f size = entity.bounds.size();
     const float largest = std::max({size.x, size.y, size.z});
     if (entity.bounds.empty() || !IsNameable(path) || largest < kSmallest || largest > kLargest) continue;
     by_word[WordOf(path)].insert(path);
-    ++count[WordOf(path)];
+    boxes[WordOf(path)].push_back(entity.bounds);
   }
   if (by_word.empty())
     throw InputError("world '" + scene.name + "' names nothing that an instruction could send a drone to: label it (docs/guide/labels.md)");
   // Rare things first: they are landmarks.
   std::vector<std::string> words;
   for (const auto& [word, categories] : by_word) words.push_back(word);
-  std::ranges::stable_sort(words, {}, [&](const std::string& word) { return count[word]; });
+  std::ranges::stable_sort(words, {}, [&](const std::string& word) { return boxes[word].size(); });
   words.resize(std::min(words.size(), kMostNouns));
-  std::vector<Noun> nouns;
-  for (const std::string& word : words) nouns.push_back({.word = word, .categories = {by_word[word].begin(), by_word[word].end()}});
+  std::vector<Named> nouns;
+  for (const std::string& word : words)
+    nouns.push_back({{.word = word, .categories = {by_word[word].begin(), by_word[word].end()}}, rooms && StandOverEachOther(boxes[word])});
   std::vector<InstructionTemplate> templates;
-  for (const Noun& noun : nouns)
-    for (InstructionTemplate& made : OfNoun(noun)) templates.push_back(std::move(made));
+  for (const Named& named : nouns)
+    for (InstructionTemplate& made : OfNoun(named)) templates.push_back(std::move(made));
   // Each thing leads on to three others.
   for (size_t i = 0; i < nouns.size(); ++i)
     for (size_t k = 1; k <= std::min<size_t>(3, nouns.size() - 1); ++k)

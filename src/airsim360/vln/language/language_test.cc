@@ -142,6 +142,18 @@ TEST(SurfacePoints, LieOnTheThingEvenly) {
   EXPECT_LT(Norm(sum / static_cast<double>(points.size()) - Vec3d{4, 5, 0.5}), 0.25);
 }
 
+// A shelf full of books: each of them is less than one of the points.
+TEST(SurfacePoints, LieOnThingsOfManySmallPartsToo) {
+  TestTown town;
+  const EntityId shelf = town.Boxes("shelf", "furniture/bookcase", 300, {0, 10, 0}, {0.1f, 0, 0}, {0.1f, 1, 1});
+  const internal::SurfacePoints surfaces(town.Build());
+  const auto points = surfaces.Of(shelf);
+  ASSERT_NEAR(static_cast<double>(points.size()), internal::SurfacePoints::kMost, 2);
+  Vec3d sum;
+  for (const Vec3d& p : points) sum += p;
+  EXPECT_LT(Norm(sum / static_cast<double>(points.size()) - Vec3d{14.95, 10, 0.5}), 0.5);
+}
+
 // A thing of many pixels may be a strip of something at the edge of a camera's picture, or the top of something behind a wall.
 TEST(Sight, WhatIsSmallHiddenOrCutIsNotClear) {
   TestTown town;

@@ -28,12 +28,12 @@ struct LookoutOptions {
   uint64_t seed = 0;
   int width = 1024;  ///< of panoramas
   int cameras = 1;
-  bool later = false;  ///< whether to fly ahead
+  bool later = false;  ///< whether to fly ahead, past something that is the only one of its word
   bool masks = false;
 };
 
-/// A free place of that number with things of the lexicon in sight; nullopt: its draws found none. A pure function of the world,
-/// the options and the number. `renderer`: of labels.
+/// Of a few free places of that number the one that promises most, with things of the lexicon in sight; nullopt: its draws found
+/// none. A pure function of the world, the options and the number. `renderer`: of labels.
 std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexicon, const SurfacePoints& surfaces, Renderer& renderer,
                                    uint64_t number, const LookoutOptions& options);
 

@@ -1,6 +1,7 @@
 #include "airsim360/vln/language/make_language.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -78,9 +79,9 @@ class Maker {
  private:
   std::vector<Placed> Batch() {
     std::vector<std::vector<Placed>> found(kBatch);
-    const auto workers = static_cast<int64_t>(renderers_.size());
-    ParallelFor(workers, [&](int64_t worker) {
-      for (int64_t i = worker; i < kBatch; i += workers) found[i] = At(next_ + static_cast<uint64_t>(i), *renderers_[worker]);
+    std::atomic<int64_t> begun = 0;
+    ParallelFor(static_cast<int64_t>(renderers_.size()), [&](int64_t worker) {
+      for (int64_t i = begun++; i < kBatch; i = begun++) found[i] = At(next_ + static_cast<uint64_t>(i), *renderers_[worker]);
     });
     next_ += kBatch;
     summary_.lookouts += kBatch;

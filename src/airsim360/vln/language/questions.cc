@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "airsim360/vln/language/draft.h"
 
@@ -79,10 +80,13 @@ class Asker {
   void AskOfPair(size_t picture, const Name& a, const Name& b) {
     AskNearer(picture, a, b);
     AskBehind(picture, a, b);
-    if (picture == 0)
-      AskFacing(a, b);
-    else
-      AskSide(picture, a, b);
+    // Either way round: that the answers are opposite is worth learning.
+    for (const auto& [first, second] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+      if (picture == 0)
+        AskFacing(*first, *second);
+      else
+        AskSide(picture, *first, *second);
+    }
     for (int i = 0; i < kThirds; ++i) {
       const Name c = speaker_.Turned(Pick(speaker_.names(picture)), quarters_);
       if (!AreTwo(a, c) || !AreTwo(b, c)) continue;

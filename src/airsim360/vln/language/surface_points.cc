@@ -51,11 +51,18 @@ std::vector<Vec3d> SurfacePoints::Of(EntityId entity) const {
   double area = 0;
   for (const EntityPart& p : parts_.at(entity)) area += SpreadOf(scene_->instances[p.instance].mesh, p.part).area;
   std::vector<Vec3d> points;
+  double up_to = 0;
   for (const EntityPart& p : parts_.at(entity)) {
     const Instance& instance = scene_->instances[p.instance];
     const Spread& spread = SpreadOf(instance.mesh, p.part);
-    const auto share = static_cast<size_t>(std::lround(kMost * spread.area / std::max(area, 1e-12)));
-    for (size_t i = 0; i < std::min(share, spread.points.size()); ++i) points.push_back(VecCast<double>(instance.X_WM * spread.points[i]));
+    // Rounded so that what many small parts lose one by one is not lost: a shelf is mostly books.
+    const double before = up_to;
+    up_to += kMost * spread.area / std::max(area, 1e-12);
+    const auto share = static_cast<size_t>(std::floor(up_to + 0.5) - std::floor(before + 0.5));
+    // The first of a part that gets one of its points at a time would always be the same corner of it.
+    const size_t first = share < 4 ? points.size() % kMost : 0;
+    for (size_t i = 0; i < share && i < spread.points.size(); ++i)
+      points.push_back(VecCast<double>(instance.X_WM * spread.points[(first + i) % spread.points.size()]));
   }
   return points;
 }

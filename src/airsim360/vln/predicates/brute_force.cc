@@ -323,6 +323,7 @@ bool BruteForce::Holds(const Predicate& predicate, const Noun& noun, const Shape
   const Plan to = (OnPlan(shape.middle) - eye) / ahead;  // real: ahead, imaginary: to the left
   switch (predicate.kind) {
     case PredicateKind::kBearing:
+      if (predicate.sector == "on_floor") return OnFloorBy(view.p_W.z, shape.low, shape.high) > 0;
       return IsInSector(predicate.sector, to, shape.middle.z - view.p_W.z);
     case PredicateKind::kHeightQuantile:
       return IsTall(shape, noun, predicate);

@@ -21,7 +21,7 @@ constexpr double kWide = 8;  // metres: what is narrower fills its box across
 
 /// Centre of a sector and half its width.
 std::pair<double, double> SectorOf(const std::string& name) {
-  std::vector<std::string> names = {"above", "below"};
+  std::vector<std::string> names = {"above", "below", "on_floor"};
   for (const Sector& sector : kSectors) {
     if (name == sector.name) return {sector.azimuth, sector.half_width};
     names.emplace_back(sector.name);
@@ -49,6 +49,8 @@ ValueOf Bearing(const Predicate& predicate, const Viewpoint& view) {
     const double sign = predicate.sector == "above" ? 1 : -1;
     return {"deg", 2, [=](const Thing& thing) { return sign * Elevation(view, thing.center()) - kAboveElevation; }};
   }
+  if (predicate.sector == "on_floor")
+    return {"m", 0.1, [=](const Thing& thing) { return OnFloorBy(view.p_W.z, thing.box.min.z, thing.box.max.z); }};
   const auto [middle, half] = SectorOf(predicate.sector);
   return {"deg", 4, [=, middle = middle, half = half](const Thing& thing) {
             // A wide thing has to lie deeper in its sector: its middle is less sure.

@@ -139,6 +139,22 @@ TEST(Decide, AboveAndBelowAreElevations) {
   EXPECT_EQ(Meant(scene, {Named("box"), {Sector("below")}}, {{{0, 0, 10}, 0}}), low);
 }
 
+TEST(Decide, OnThisFloorIsWhatStandsThereOrPassesThroughIt) {
+  // Eyes 1.5 m over a floor at 3 m; storeys of 3 m.
+  const Query here{Named("box"), {Sector("on_floor"), Is(PredicateKind::kNearest)}};
+  const auto meant = [&](float base, float height) {
+    TestTown town;
+    town.Box("box", kBox, {6, 0, 0}, {1, 1, height}, base);
+    const EntityId far = town.Box("box", kBox, {30, 0, 0}, {1, 1, 1}, 3);
+    return Meant(town.Build(), here, {{{0, 0, 4.5}, 0}}) != far;
+  };
+  EXPECT_TRUE(meant(3, 0.5));    // low, on this floor
+  EXPECT_TRUE(meant(5, 0.5));    // hangs from its ceiling
+  EXPECT_TRUE(meant(0, 9));      // a shaft through all of them
+  EXPECT_FALSE(meant(0, 2.1f));  // a door on the floor below
+  EXPECT_FALSE(meant(6, 2));     // stands on the floor above
+}
+
 TEST(Decide, TheSecondOnTheWayIsCountedAlongTheHeading) {
   TestTown town;
   town.Box("tree", kTree, {10, 3, 0}, {2, 2, 6});

@@ -2,6 +2,7 @@
 // instructions of the AirSim360 paper.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ enum class PredicateKind {
 inline constexpr const char* kPredicateNames[] = {"nearest", "ordinal", "bearing",   "height_quantile", "opposite_side", "side_of",
                                                   "across",  "along",   "on_top_of", "storey",          "surrounded_by"};
 
-/// Directions from the heading, degrees, positive to the right; `above` and `below` are elevations.
+/// Directions from the heading, degrees, positive to the right; `above` and `below` are elevations, `on_floor` is a range of heights.
 struct Sector {
   const char* name;
   double azimuth, half_width;
@@ -35,14 +36,24 @@ inline constexpr Sector kSectors[] = {{"ahead", 0, 45},        {"right", 90, 45}
                                       {"ahead_left", -45, 40}, {"ahead_right", 45, 40}, {"rear_right", 135, 40}, {"rear_left", -135, 40}};
 inline constexpr double kAboveElevation = 8;  ///< degrees: higher is "above", lower than its negative "below"
 
+/// Metres by which a thing from `low` to `high` is on the floor over which somebody's eyes are one to two metres high; negative: it
+/// is not. Its foot is there, or it passes by on its way through several storeys. Storeys are 2.9 m high at least.
+constexpr double OnFloorBy(double eye, double low, double high) {
+  constexpr double kFoot[2] = {-2.4, 0.6}, kBody[2] = {-0.9, 0.3};  // metres from the eyes, between knees and head
+  const double stands = std::min(low - eye - kFoot[0], eye + kFoot[1] - low),
+               passes = std::min(high - eye - kBody[0], eye + kBody[1] - low);
+  return std::max(stands, passes);
+}
+
 struct Predicate {
   PredicateKind kind = PredicateKind::kNearest;
-  std::string sector = {};    ///< bearing: of kSectors, or "above", "below"; side_of: "left", "right"; height_quantile: "", "width"
-  int k = 1;                  ///< ordinal
-  double share = 0.5;         ///< height_quantile, surrounded_by
-  double width = 12;          ///< along, ordinal: metres of the corridor to either side
-  double within = 40;         ///< surrounded_by: metres from the thing
-  bool at_turn = false;       ///< seen from where the instruction turns, not from the start
+  std::string sector =
+      {};                ///< bearing: of kSectors, or "above", "below", "on_floor"; side_of: "left", "right"; height_quantile: "", "width"
+  int k = 1;             ///< ordinal
+  double share = 0.5;    ///< height_quantile, surrounded_by
+  double width = 12;     ///< along, ordinal: metres of the corridor to either side
+  double within = 40;    ///< surrounded_by: metres from the thing
+  bool at_turn = false;  ///< seen from where the instruction turns, not from the start
   bool side_of_axis = false;  ///< side_of
   Noun of = {};               ///< on_top_of, storey, surrounded_by
 };
