@@ -62,6 +62,8 @@ function(airsim360_program name dir)
   list(TRANSFORM ARG_DEPS PREPEND airsim360_)
   list(TRANSFORM ARG_TEST_DEPS PREPEND airsim360_)
   target_link_libraries(${name}_app PUBLIC ${ARG_DEPS} ${ARG_LIBS})
+  # Commands read flags and files; what takes time is in the modules. A third of their compilation is spared.
+  target_compile_options(${name}_app PRIVATE -O1)
   add_executable(${name} ${CMAKE_SOURCE_DIR}/${dir}/main.cc)
   target_link_libraries(${name} PRIVATE ${name}_app)
   if(AIRSIM360_PCH)

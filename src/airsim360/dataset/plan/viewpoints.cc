@@ -20,6 +20,22 @@ constexpr double kRareShare = 0.06;               // of viewpoints: categories s
 constexpr double kAimShare = 0.045;               // of frames, for a category that no viewpoint sees
 constexpr double kMostAims = 0.6;                 // of all frames
 
+bool Contains(const Box2d& box, double x, double y) { return x >= box.min.x && x <= box.max.x && y >= box.min.y && y <= box.max.y; }
+
+// The ground of a town without its backdrop, whose blocks are made to be seen from here; unlimited where a scene does not tell them
+// apart.
+Box2d GroundBeforeBackdrop(const Scene& scene) {
+  constexpr double kFar = 1e12;
+  Box3f ground;
+  bool backdrop = false;
+  for (const Mesh& mesh : scene.meshes) {
+    if (mesh.name == "ground") ground.Add(mesh.Bounds());
+    backdrop |= mesh.name == "backdrop";
+  }
+  if (!backdrop || ground.empty()) return {{-kFar, -kFar}, {kFar, kFar}};
+  return {{ground.min.x, ground.min.y}, {ground.max.x, ground.max.y}};
+}
+
 }  // namespace
 
 std::optional<double> GroundUnder(const RayTracer& tracer, Vec2d at) {
@@ -62,6 +78,8 @@ ViewpointSampler::ViewpointSampler(const RayTracer& tracer, const RecipeRow& row
     has_area_ = true;
     area_ = AreaOf(row, "row '" + row.name + "': ");
   }
+  limit_ = has_area_ ? area_ : GroundBeforeBackdrop(tracer.scene());
+  if (!has_area_) std::erase_if(ground_.cells, [&](Vec2d corner) { return !Contains(limit_, corner.x, corner.y); });
   const Scene& scene = tracer.scene();
   for (const Entity& entity : scene.entities) {
     if (!entity.bounds.empty()) entities_[entity.category].push_back(entity.id);
@@ -130,7 +148,7 @@ bool ViewpointSampler::Near(CategoryId category, int64_t k, Vec3d& p_W) const {
     const double azimuth = random.Uniform(0, 2 * std::numbers::pi), elevation = random.Uniform(-0.1, 0.9);
     const Vec3d p =
         target + Vec3d{std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)} * distance;
-    if (has_area_ && (p.x < area_.min.x || p.x > area_.max.x || p.y < area_.min.y || p.y > area_.max.y)) continue;
+    if (!Contains(limit_, p.x, p.y)) continue;
     const auto hit = tracer_.Intersect(VecCast<float>(p), VecCast<float>(Normalized(target - p)));
     if (!hit || scene.entity(EntityOfHit(scene, hit->surface)).category != category) continue;
     const auto ground = GroundUnder(tracer_, {p.x, p.y});

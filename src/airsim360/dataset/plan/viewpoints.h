@@ -35,7 +35,8 @@ class ViewpointSampler {
   uint64_t seed_;
   SurveyedGround ground_;
   bool has_area_ = false;
-  Box2d area_;
+  Box2d area_;   ///< that the row has
+  Box2d limit_;  ///< no viewpoint lies outside
   std::vector<std::pair<CategoryId, double>> aims_;
   std::map<CategoryId, std::vector<EntityId>> entities_;
 };
