@@ -290,13 +290,14 @@ TakenPicture LiveWorld::Impl::Take(const Json& message, int width, const Product
   std::shared_ptr<const SimState> state;
   NextTrigger next;
   const NextTrigger* flow_to = products.flow ? &next : nullptr;
+  Prepare(message, rig, state, next);
   const std::shared_ptr<Frame> frame = frames.Take();
   Capture capture;
-  capture.frame = std::move(*frame);
-  Prepare(message, rig, state, next);
-  // The second one is not given up: somebody who hammers on the keys sees pictures too.
+  capture.frame = std::exchange(*frame, Frame());  // whatever fails, what goes back to the pool is a frame
+  // The second one is not given up: somebody who hammers on the keys sees pictures too. It comes sooner, with rough edges.
   if (!TryCapture(rig, *state, flow_to, capture)) {
     Prepare(message, rig, state, next);
+    if (rig.tier == Tier::kFast && rig.edge_samples == 0) rig.edge_samples = 1;
     CaptureRig(rig, state->vehicles[0].motion, state->t_ns, *renderer, capture, flow_to);
   }
   *frame = std::move(capture.frame);

@@ -237,6 +237,15 @@ TEST_F(Live, AKeyDuringAPictureIsInThatPictureAndTheDriftOfAStickInTheNext) {
   }
 }
 
+TEST_F(Live, APictureThatFailsLeavesTheNextOneWhole) {
+  LiveWorld world(stage_, {.clock = [] { return 0.0; }});
+  const auto picture = [&] { return world.Answer(R"({"do":"picture","width":128})", "t").bytes; };
+  const std::string before = picture();
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NE(world.Answer(R"({"do":"picture","width":128,"token":"t","input":[2,0,0,0]})", "t").bytes.find("-1 ... 1"), std::string::npos);
+  EXPECT_EQ(airsim360::Read(picture()).header["planes"], airsim360::Read(before).header["planes"]);
+}
+
 TEST_F(Live, KeysWithoutEndDoNotKeepPicturesBack) {
   LiveWorld* told = nullptr;
   int reads = 0;

@@ -7,6 +7,7 @@
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
+#include "airsim360/worlds/props/mailbox.h"
 #include "airsim360/worlds/props/prop_builder.h"
 #include "airsim360/worlds/props/wheels.h"
 
@@ -166,13 +167,7 @@ Model MakeFoodTruck(uint32_t, uint64_t) {
   return b.Finish();
 }
 
-Model MakeOrangeMailbox(uint32_t, uint64_t seed) {
-  const PropKind& blue = FindPropKind("mailbox");
-  Model model = blue.make(0, seed);
-  for (Material& m : model.materials)
-    if (m.name == "paint" && m.base_color.z > 0.15f && m.base_color.x < 0.02f) m.base_color = {0.78f, 0.20f, 0.012f};
-  return model;
-}
+Model MakeOrangeMailbox(uint32_t, uint64_t) { return MailboxOf({0.78f, 0.20f, 0.012f}); }
 
 // A bottle of 9 m with a cap, on a round base: an advertisement on a roof.
 Model MakeGiantBottle(uint32_t, uint64_t) {

@@ -185,6 +185,19 @@ TEST(PropKinds, AreSortedAndHaveDistinctNames) {
   for (size_t i = 1; i < kinds.size(); ++i) EXPECT_LT(kinds[i - 1].name, kinds[i].name);
 }
 
+// Instructions name it by its colour.
+TEST(PropKinds, TheOrangeMailboxIsOrangeAndTheOtherBlue) {
+  const auto painted = [](const char* name, auto&& is) {
+    const Model model = FindPropKind(name).make(0, 0);
+    return std::ranges::any_of(model.materials, [&](const Material& m) { return m.name.starts_with("paint") && is(m.base_color); });
+  };
+  const auto orange = [](Vec3f c) { return c.x > 3 * c.y && c.y > 3 * c.z; };
+  const auto blue = [](Vec3f c) { return c.z > 3 * c.y && c.y > 3 * c.x; };
+  EXPECT_TRUE(painted("orange_mailbox", orange));
+  EXPECT_FALSE(painted("orange_mailbox", blue));
+  EXPECT_TRUE(painted("mailbox", blue));
+}
+
 TEST(PropKinds, UnknownNameIsAnInputErrorWithTheNearest) {
   try {
     FindPropKind("bench_wod");

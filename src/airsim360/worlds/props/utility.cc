@@ -5,10 +5,13 @@
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
+#include "airsim360/worlds/props/mailbox.h"
 #include "airsim360/worlds/props/prop_builder.h"
 
 namespace airsim360::internal {
 namespace {
+
+constexpr Vec3f kMailBlue{0.012f, 0.045f, 0.17f};
 
 // Barrel with flanges, bonnet, two hose nozzles and one pumper nozzle (front).
 Model MakeFireHydrant(uint32_t variant, uint64_t) {
@@ -39,38 +42,7 @@ Model MakeFireHydrant(uint32_t variant, uint64_t) {
   return b.Finish();
 }
 
-// US collection box: rounded top, pull-down door at the front, four legs.
-Model MakeMailbox(uint32_t, uint64_t) {
-  PropBuilder b("mailbox");
-  const Vec3f blue{0.012f, 0.045f, 0.17f};
-  b.Use(Paint(blue, 0.35f), ScratchedTexture());
-  // Side outline in (y, z), swept along x.
-  std::vector<Vec2f> side = {{-0.26f, 0.18f}, {0.26f, 0.18f}, {0.26f, 0.95f}};
-  for (int i = 1; i < 12; ++i) {
-    const float a = std::numbers::pi_v<float> * static_cast<float>(i) / 12;
-    side.push_back({0.26f * std::cos(a), 0.95f + 0.27f * std::sin(a)});
-  }
-  side.push_back({-0.26f, 0.95f});
-  b.Place(AffineTransform{Mat3f::FromColumns({0, 1, 0}, {0, 0, 1}, {1, 0, 0}), {}});
-  b.Prism(side, -0.25f, 0.25f);
-  b.Place({});
-  for (float x : {-0.21f, 0.21f}) {
-    for (float y : {-0.22f, 0.22f}) b.BevelBox({x - 0.025f, y - 0.025f, 0}, {x + 0.025f, y + 0.025f, 0.19f}, 0.004f);
-  }
-  b.BevelBox({-0.26f, -0.27f, 0.17f}, {0.26f, 0.27f, 0.20f}, 0.006f);
-  // Door: a panel over the front of the rounded top with a handle.
-  b.Place(Turn(-18, 0, 0, {0, -0.245f, 1.00f}));
-  b.BevelBox({-0.20f, -0.035f, -0.09f}, {0.20f, 0.0f, 0.13f}, 0.008f);
-  b.Use(Metal());
-  b.BevelBox({-0.12f, -0.055f, 0.08f}, {0.12f, -0.034f, 0.10f}, 0.005f);
-  b.Place({});
-  Canvas label(256, 96, {0.75f, 0.75f, 0.75f});
-  label.Letters("CITY MAIL", {0.5f, 0.34f}, 0.30f, blue);
-  label.Letters("PICK UP 5 PM", {0.5f, 0.75f}, 0.16f, {0.35f, 0.02f, 0.02f});
-  b.Use(Paint({1, 1, 1}), label.Finish("city mail"));
-  b.Picture({-0.18f, -0.2615f, 0.62f}, {0.18f, -0.2615f, 0.62f}, {0.18f, -0.2615f, 0.755f}, {-0.18f, -0.2615f, 0.755f});
-  return b.Finish();
-}
+Model MakeMailbox(uint32_t, uint64_t) { return MailboxOf(kMailBlue); }
 
 // Single-space meter: post, rounded housing with a dome window, slot and key plate.
 Model MakeParkingMeter(uint32_t variant, uint64_t) {
@@ -128,6 +100,37 @@ Model MakeElectricBox(uint32_t variant, uint64_t) {
 }
 
 }  // namespace
+
+Model MailboxOf(Vec3f paint) {
+  PropBuilder b("mailbox");
+  b.Use(Paint(paint, 0.35f), ScratchedTexture());
+  // Side outline in (y, z), swept along x.
+  std::vector<Vec2f> side = {{-0.26f, 0.18f}, {0.26f, 0.18f}, {0.26f, 0.95f}};
+  for (int i = 1; i < 12; ++i) {
+    const float a = std::numbers::pi_v<float> * static_cast<float>(i) / 12;
+    side.push_back({0.26f * std::cos(a), 0.95f + 0.27f * std::sin(a)});
+  }
+  side.push_back({-0.26f, 0.95f});
+  b.Place(AffineTransform{Mat3f::FromColumns({0, 1, 0}, {0, 0, 1}, {1, 0, 0}), {}});
+  b.Prism(side, -0.25f, 0.25f);
+  b.Place({});
+  for (float x : {-0.21f, 0.21f}) {
+    for (float y : {-0.22f, 0.22f}) b.BevelBox({x - 0.025f, y - 0.025f, 0}, {x + 0.025f, y + 0.025f, 0.19f}, 0.004f);
+  }
+  b.BevelBox({-0.26f, -0.27f, 0.17f}, {0.26f, 0.27f, 0.20f}, 0.006f);
+  // Door: a panel over the front of the rounded top with a handle.
+  b.Place(Turn(-18, 0, 0, {0, -0.245f, 1.00f}));
+  b.BevelBox({-0.20f, -0.035f, -0.09f}, {0.20f, 0.0f, 0.13f}, 0.008f);
+  b.Use(Metal());
+  b.BevelBox({-0.12f, -0.055f, 0.08f}, {0.12f, -0.034f, 0.10f}, 0.005f);
+  b.Place({});
+  Canvas label(256, 96, {0.75f, 0.75f, 0.75f});
+  label.Letters("CITY MAIL", {0.5f, 0.34f}, 0.30f, kMailBlue);
+  label.Letters("PICK UP 5 PM", {0.5f, 0.75f}, 0.16f, {0.35f, 0.02f, 0.02f});
+  b.Use(Paint({1, 1, 1}), label.Finish("city mail"));
+  b.Picture({-0.18f, -0.2615f, 0.62f}, {0.18f, -0.2615f, 0.62f}, {0.18f, -0.2615f, 0.755f}, {-0.18f, -0.2615f, 0.755f});
+  return b.Finish();
+}
 
 std::vector<PropKind> UtilityKinds() {
   return {
