@@ -111,7 +111,6 @@ struct Seen {
 
 // What the hands do, of the newest message of them.
 struct Hands {
-  Json input;
   std::array<double, 4> sticks = {};
   int64_t number = 0;  // that the page gave it
   bool fresh = false;  // no picture has them yet
@@ -152,7 +151,7 @@ struct LiveWorld::Impl {
   SocketMessage Keep();
   SocketMessage Save();
   SocketMessage Reset();
-  void Fly(const Json& input);
+  void Fly(const std::array<double, 4>& sticks);
   void PassTime();
   std::shared_ptr<const SimModel> Model();
   void Prepare(const Json& message, PanoramicRig& rig, std::shared_ptr<const SimState>& state, NextTrigger& next);
@@ -182,8 +181,8 @@ struct LiveWorld::Impl {
   std::atomic<bool> up_to_date{true};  // the picture that is being rendered has the newest key
 };
 
-void LiveWorld::Impl::Fly(const Json& input) {
-  const auto [ahead, left, up, turn] = SticksOf(input);
+void LiveWorld::Impl::Fly(const std::array<double, 4>& sticks) {
+  const auto [ahead, left, up, turn] = sticks;
   VelocityCommand command{.v = Vec3d{ahead, left, up} * kMostSpeed, .body_heading = true};
   command.yaw = {YawTarget::Mode::kRate, turn * kTurnRate};
   loop.Post({0, FlightCommand{command, kSilenceNs}});
@@ -224,11 +223,10 @@ std::string LiveWorld::Impl::StateFields(const Capture& capture, const Vehicle& 
 // Applied when the next picture is taken.
 SocketMessage LiveWorld::Impl::Feel(const Json& message) {
   const auto number = static_cast<int64_t>(Number(message, "number", 0, 9e15, 0));
-  const Json input = message.value("input", Json());
-  const std::array<double, 4> sticks = SticksOf(input);
+  const std::array<double, 4> sticks = SticksOf(message.value("input", Json()));
   const std::lock_guard lock(feeling);
   if (IsKey(hands.sticks, sticks)) up_to_date = false;
-  hands = {input, sticks, number, true};
+  hands = {sticks, number, true};
   return Said({{"done", "hands"}});
 }
 
@@ -237,12 +235,12 @@ void LiveWorld::Impl::Steer(const Json& message) {
   const std::lock_guard lock(feeling);
   up_to_date = true;
   if (message.contains("input")) {
-    if (!trees.Flies()) Fly(message["input"]);
+    if (!trees.Flies()) Fly(SticksOf(message["input"]));
     return;
   }
   if (!std::exchange(hands.fresh, false)) return;
   steered = hands.number;
-  if (!trees.Flies()) Fly(hands.input);
+  if (!trees.Flies()) Fly(hands.sticks);
 }
 
 SocketMessage LiveWorld::Impl::Picture(const Json& message, bool may_fly) {

@@ -74,11 +74,8 @@ std::vector<Vec3f> EvenDirections(int n) {
 
 ViewpointSampler::ViewpointSampler(const RayTracer& tracer, const RecipeRow& row, uint64_t seed, const std::vector<Aim>& aims)
     : tracer_(tracer), row_(row), seed_(seed), ground_(FindSurveyedGround(tracer.scene())) {
-  if (!row.area.empty()) {
-    has_area_ = true;
-    area_ = AreaOf(row, "row '" + row.name + "': ");
-  }
-  limit_ = has_area_ ? area_ : GroundBeforeBackdrop(tracer.scene());
+  has_area_ = !row.area.empty();
+  limit_ = has_area_ ? AreaOf(row, "row '" + row.name + "': ") : GroundBeforeBackdrop(tracer.scene());
   if (!has_area_) std::erase_if(ground_.cells, [&](Vec2d corner) { return !Contains(limit_, corner.x, corner.y); });
   const Scene& scene = tracer.scene();
   for (const Entity& entity : scene.entities) {
@@ -113,8 +110,8 @@ Vec3d ViewpointSampler::Even(int64_t k) const {
   for (int64_t i = 0; i < kTries; ++i) {
     const auto n = static_cast<uint64_t>(k + i * kTryStride);
     const double u = LowDiscrepancy(n, 0, offset[0]), v = LowDiscrepancy(n, 1, offset[1]);
-    const Vec2d at =
-        has_area_ ? Vec2d{area_.min.x + u * (area_.max.x - area_.min.x), area_.min.y + v * (area_.max.y - area_.min.y)} : ground_.At(u, v);
+    const Vec2d at = has_area_ ? Vec2d{limit_.min.x + u * (limit_.max.x - limit_.min.x), limit_.min.y + v * (limit_.max.y - limit_.min.y)}
+                               : ground_.At(u, v);
     const auto ground = GroundUnder(tracer_, at);
     if (!ground && open && !ground_.cells.empty()) continue;
     const double bottom = ground.value_or(scene.bounds.min.z);

@@ -35,8 +35,7 @@ class ViewpointSampler {
   uint64_t seed_;
   SurveyedGround ground_;
   bool has_area_ = false;
-  Box2d area_;   ///< that the row has
-  Box2d limit_;  ///< no viewpoint lies outside
+  Box2d limit_;  ///< no viewpoint lies outside: the row's area, or the ground before a backdrop
   std::vector<std::pair<CategoryId, double>> aims_;
   std::map<CategoryId, std::vector<EntityId>> entities_;
 };

@@ -55,10 +55,12 @@ class FigureWords {
   double Value(const Figure& figure) const { return tokens_[figure.number].value * tokens_[figure.unit].word->value; }
 
   bool IsDrone(size_t k) const {
-    return k < tokens_.size() &&
-           (tokens_[k].kind == Token::Kind::kModel || tokens_[k].Is(WordKind::kDrone) || tokens_[k].Is(WordKind::kRotors) ||
-            tokens_[k].Is(WordKind::kCoaxial) || Is(k, {"one", "ones", "build", "rig", "frame"}));
+    return k < tokens_.size() && (tokens_[k].kind == Token::Kind::kModel || tokens_[k].Is(WordKind::kDrone) || IsRotors(k) ||
+                                  Is(k, {"one", "ones", "build", "rig", "frame"}));
   }
+
+  /// A word for how many rotors there are: "hexa", "X8".
+  bool IsRotors(size_t k) const { return Is(k, WordKind::kRotors) || Is(k, WordKind::kCoaxial); }
 
   /// Another figure of that kind, which is the drone's as far as is known.
   bool HasOther(const Figure& figure) const {

@@ -97,18 +97,17 @@ class OtherSentences : public FigureWords {
   /// is said of what is before.
   Span ReachOf(size_t i) const {
     const auto contrasts = [&](size_t k) {
-      return Is(k, {"but", "now", "new", "mine", "ours", "present", "currently", "today", "this one", "whereas", "("}) ||
+      return Is(k, {"but", "now", "new", "mine", "ours", "present", "currently", "today", "this one", "whereas"}) ||
              (Is(k, {"this"}) && (IsDrone(k + 1) || Is(k + 1, {"has", "is", "runs", "flies", "weighs", "uses"})));
     };
     Span span{i, i + 1};
     if (IsSaidOfBefore(i)) {
-      span.end = i + 3;
-      while (span.begin > 0 && !EndsSentence(span.begin - 1) && !contrasts(span.begin - 1)) --span.begin;
-      span.end = std::min(span.end, tokens_.size());
+      span.end = std::min(i + 3, tokens_.size());
+      while (span.begin > 0 && !EndsSentence(span.begin - 1) && !contrasts(span.begin - 1) && !Is(span.begin - 1, {"("})) --span.begin;
       while (Is(i + 1, {"chapter"}) && span.end < tokens_.size() && !EndsSentence(span.end)) ++span.end;
       return span;
     }
-    while (span.end < tokens_.size() && !EndsSentence(span.end) && (!contrasts(span.end) || Is(span.end, {"("}))) ++span.end;
+    while (span.end < tokens_.size() && !EndsSentence(span.end) && !contrasts(span.end)) ++span.end;
     return span;
   }
 
@@ -123,7 +122,6 @@ class OtherSentences : public FigureWords {
     }
     return false;
   }
-  bool IsRotors(size_t k) const { return tokens_[k].Is(WordKind::kRotors) || tokens_[k].Is(WordKind::kCoaxial); }
 
   void SetApart(Span span) {
     bool any = false;

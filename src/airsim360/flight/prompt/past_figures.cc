@@ -132,9 +132,9 @@ class PastFigures : public FigureWords {
   void MarkClause(size_t begin, size_t end) {
     for (size_t n = begin; n < end; ++n) {
       MarkFigure(n);
-      if (!tokens_[n].Is(WordKind::kRotors) && !tokens_[n].Is(WordKind::kCoaxial)) continue;
+      if (!IsRotors(n)) continue;
       for (size_t m = end; m < tokens_.size(); ++m) {  // where the other kind is said
-        if (tokens_[m].Is(WordKind::kRotors) || tokens_[m].Is(WordKind::kCoaxial)) apart_[n] = true;
+        if (IsRotors(m)) apart_[n] = true;
       }
     }
   }
@@ -186,16 +186,14 @@ class PastFigures : public FigureWords {
     MarkNegated(i);
   }
 
-  bool IsKind(size_t k) const { return tokens_[k].Is(WordKind::kRotors) || tokens_[k].Is(WordKind::kCoaxial); }
-
   /// "The tricopter died, now a proper quad"
   void MarkLost(size_t i) {
-    if (!IsKind(i)) return;
+    if (!IsRotors(i)) return;
     bool lost = false;
     for (size_t k = i + 1; k < tokens_.size() && k <= i + 4 && !EndsSegment(k); ++k)
       lost |= Is(k, {"died", "dead", "crashed", "broke", "drowned", "retired", "sold", "gone", "burnt", "burned", "lost"});
     for (size_t k = i + 1; lost && k < tokens_.size(); ++k) {
-      if (IsKind(k) && tokens_[k].word->value != tokens_[i].word->value) apart_[i] = true;
+      if (IsRotors(k) && tokens_[k].word->value != tokens_[i].word->value) apart_[i] = true;
     }
   }
 
@@ -254,8 +252,8 @@ class PastFigures : public FigureWords {
     size_t begin = i;
     while (!change && begin > 0 && i - begin < 8 && !EndsSegment(begin - 1)) --begin;
     for (size_t k = change ? i + 1 : begin; k < end; ++k) {
-      if (change && IsKind(k)) {  // "replaced the old quad by a hexacopter"
-        for (size_t n = end; n < tokens_.size() && n <= end + 3; ++n) apart_[k] = apart_[k] || IsKind(n);
+      if (change && IsRotors(k)) {  // "replaced the old quad by a hexacopter"
+        for (size_t n = end; n < tokens_.size() && n <= end + 3; ++n) apart_[k] = apart_[k] || IsRotors(n);
       }
       const Figure figure = FigureAt(k);
       for (size_t n = end; figure.is && n < tokens_.size() && n <= end + kClause; ++n) {
