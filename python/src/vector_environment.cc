@@ -1,5 +1,5 @@
 // The native vector environment; airsim360/gym wraps it.
-#include "airsim360/tasks/vector_environment.h"
+#include "airsim360/tasks/gym/vector_environment.h"
 
 #include "airsim360/base/error.h"
 #include "handles.h"

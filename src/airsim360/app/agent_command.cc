@@ -14,7 +14,7 @@
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
-#include "airsim360/tasks/agent_server.h"
+#include "airsim360/tasks/agents/agent_server.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {

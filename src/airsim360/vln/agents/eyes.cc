@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "airsim360/image/codecs.h"
-#include "airsim360/tasks/agent_action.h"
+#include "airsim360/tasks/agents/agent_action.h"
 
 namespace airsim360 {
 namespace {

@@ -1,4 +1,4 @@
-#include "airsim360/tasks/vector_environment.h"
+#include "airsim360/tasks/gym/vector_environment.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Whatever a client sends is understood or refused with a RequestError, and takes little time.
 #include <string_view>
 
-#include "airsim360/tasks/agent_request.h"
+#include "airsim360/tasks/agents/agent_request.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "airsim360/tasks/agent_server.h"
+#include "airsim360/tasks/agents/agent_server.h"
 
 #include "airsim360/http/http_server.h"
 

@@ -1,10 +1,10 @@
-#include "airsim360/tasks/agent_api.h"
+#include "airsim360/tasks/agents/agent_api.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "airsim360/base/base64.h"
-#include "airsim360/tasks/agent_slot.h"
+#include "airsim360/tasks/agents/agent_slot.h"
 
 namespace airsim360 {
 namespace {

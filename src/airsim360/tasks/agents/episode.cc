@@ -1,4 +1,4 @@
-#include "airsim360/tasks/episode.h"
+#include "airsim360/tasks/agents/episode.h"
 
 #include <algorithm>
 #include <cmath>

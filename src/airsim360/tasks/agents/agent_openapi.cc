@@ -1,4 +1,4 @@
-#include "airsim360/tasks/agent_api.h"
+#include "airsim360/tasks/agents/agent_api.h"
 
 namespace airsim360 {
 

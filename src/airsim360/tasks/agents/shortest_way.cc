@@ -1,4 +1,4 @@
-#include "airsim360/tasks/shortest_way.h"
+#include "airsim360/tasks/agents/shortest_way.h"
 
 #include <algorithm>
 #include <cmath>

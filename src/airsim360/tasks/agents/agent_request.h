@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "airsim360/base/error.h"
-#include "airsim360/tasks/episode.h"
+#include "airsim360/tasks/agents/episode.h"
 
 namespace airsim360 {
 

@@ -1,5 +1,5 @@
 // Scores go by the way around walls, not through them.
-#include "airsim360/tasks/shortest_way.h"
+#include "airsim360/tasks/agents/shortest_way.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "airsim360/opening/world_loader.h"
 #include "airsim360/planning/search.h"
-#include "airsim360/tasks/episode.h"
+#include "airsim360/tasks/agents/episode.h"
 
 namespace airsim360 {
 namespace {

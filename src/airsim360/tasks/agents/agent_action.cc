@@ -1,4 +1,4 @@
-#include "airsim360/tasks/agent_action.h"
+#include "airsim360/tasks/agents/agent_action.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "airsim360/tasks/navigation_task.h"
+#include "airsim360/tasks/gym/navigation_task.h"
 
 #include <algorithm>
 #include <cmath>

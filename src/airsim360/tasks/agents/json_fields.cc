@@ -1,9 +1,9 @@
-#include "airsim360/tasks/json_fields.h"
+#include "airsim360/tasks/agents/json_fields.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "airsim360/tasks/agent_request.h"
+#include "airsim360/tasks/agents/agent_request.h"
 
 namespace airsim360::internal {
 namespace {

@@ -1,4 +1,4 @@
-#include "airsim360/tasks/agent_answers.h"
+#include "airsim360/tasks/agents/agent_answers.h"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "airsim360/tasks/agent_request.h"
+#include "airsim360/tasks/agents/agent_request.h"
 
 namespace airsim360::internal {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "airsim360/base/base64.h"
-#include "airsim360/tasks/agent_slot.h"
+#include "airsim360/tasks/agents/agent_slot.h"
 
 namespace airsim360 {
 namespace {

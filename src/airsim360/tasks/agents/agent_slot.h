@@ -8,8 +8,8 @@
 #include <string>
 
 #include "airsim360/scene/scene_state.h"
-#include "airsim360/tasks/agent_answers.h"
-#include "airsim360/tasks/agent_api.h"
+#include "airsim360/tasks/agents/agent_answers.h"
+#include "airsim360/tasks/agents/agent_api.h"
 
 namespace airsim360 {
 namespace internal {

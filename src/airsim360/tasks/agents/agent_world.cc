@@ -1,4 +1,4 @@
-#include "airsim360/tasks/agent_world.h"
+#include "airsim360/tasks/agents/agent_world.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/routes/roadmap.h"
-#include "airsim360/tasks/agent_action.h"
+#include "airsim360/tasks/agents/agent_action.h"
 
 namespace airsim360 {
 namespace {

@@ -1,5 +1,5 @@
 // Episodes: what actions do, how episodes end, how they are scored.
-#include "airsim360/tasks/episode.h"
+#include "airsim360/tasks/agents/episode.h"
 
 #include <gtest/gtest.h>
 

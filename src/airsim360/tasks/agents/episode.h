@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "airsim360/sim/sim_loop.h"
-#include "airsim360/tasks/agent_action.h"
-#include "airsim360/tasks/agent_world.h"
-#include "airsim360/tasks/shortest_way.h"
+#include "airsim360/tasks/agents/agent_action.h"
+#include "airsim360/tasks/agents/agent_world.h"
+#include "airsim360/tasks/agents/shortest_way.h"
 
 namespace airsim360 {
 

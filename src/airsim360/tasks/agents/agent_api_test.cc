@@ -1,5 +1,5 @@
 // The agent interface without a socket: requests, answers, mistakes.
-#include "airsim360/tasks/agent_api.h"
+#include "airsim360/tasks/agents/agent_api.h"
 #include "airsim360/base/base64.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "airsim360/image/codecs.h"
-#include "airsim360/tasks/agent_answers.h"
+#include "airsim360/tasks/agents/agent_answers.h"
 
 namespace airsim360 {
 namespace {

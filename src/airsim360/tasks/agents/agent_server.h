@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "airsim360/tasks/agent_api.h"
+#include "airsim360/tasks/agents/agent_api.h"
 
 namespace airsim360 {
 

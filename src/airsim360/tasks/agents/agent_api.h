@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "airsim360/tasks/agent_request.h"
-#include "airsim360/tasks/agent_world.h"
+#include "airsim360/tasks/agents/agent_request.h"
+#include "airsim360/tasks/agents/agent_world.h"
 
 namespace airsim360 {
 

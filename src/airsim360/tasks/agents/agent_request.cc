@@ -1,11 +1,11 @@
-#include "airsim360/tasks/agent_request.h"
+#include "airsim360/tasks/agents/agent_request.h"
 
 #include <charconv>
 #include <cmath>
 #include <map>
 
 #include "airsim360/flight/drones/catalog.h"
-#include "airsim360/tasks/json_fields.h"
+#include "airsim360/tasks/agents/json_fields.h"
 
 namespace airsim360 {
 namespace {

@@ -13,7 +13,7 @@
 #include "airsim360/sensors/rig.h"
 #include "airsim360/sim/sim_loop.h"
 #include "airsim360/stage/stage.h"
-#include "airsim360/tasks/navigation_task.h"
+#include "airsim360/tasks/gym/navigation_task.h"
 
 namespace airsim360 {
 

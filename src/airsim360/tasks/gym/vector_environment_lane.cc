@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "airsim360/sim/living_world.h"
-#include "airsim360/tasks/vector_environment.h"
+#include "airsim360/tasks/gym/vector_environment.h"
 
 namespace airsim360 {
 namespace {
