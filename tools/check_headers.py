@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Checks that every header of src/ can be included alone, in three cheap ways which together say so.
 
-1. What it takes from the standard library it includes, itself or by headers of this project. The precompiled headers of the
-   build hide where it does not; this rule needs no compiler.
-2. A header that is the first of this project's which some source includes is compiled alone by every build.
+1. What it takes from the standard library it includes, itself or by headers of this project, and so the types of this project.
+   Precompiled headers and sources that are compiled together hide where it does not; this rule needs no compiler.
+2. A header that is the first of this project's which some source includes is compiled alone by a build with
+   -DAIRSIM360_UNITY=OFF.
 3. The others are compiled here, after the standard headers.
 
 Usage: check_headers.py BUILD_FOLDER [--all] [--jobs N]. Prints one line for each header that fails and exits 1 if there is any.
@@ -89,6 +90,44 @@ def missing(path):
                 yield f"{path}: {name} without <{names[name].split()[0]}>"
 
 
+DECLARED = re.compile(r"^(?:template <[^\n]*>\n)?(?:class|struct|enum class|enum|union)\s+(?:alignas\(\w+\) )?(\w+)\b(?![^\n{]*;)|^using (\w+) =", re.M)
+OWN = re.compile(r"\b(?:class|struct|enum|union|using|typename|concept)\s+(?:class\s+)?(?:alignas\(\w+\)\s+)?(\w+)")
+
+
+def project_closure(path, cache={}):
+    """Headers of the project that a header includes."""
+    if path not in cache:
+        cache[path] = set()  # ends cycles
+        ours = includes(path)[0]
+        cache[path] = set(ours).union(*(project_closure(p) for p in ours))
+    return cache[path]
+
+
+def forward(path, cache={}):
+    """Types that a header declares without saying what they are."""
+    if path not in cache:
+        cache[path] = set(re.findall(r"\b(?:class|struct|enum class) (\w+);", (ROOT / path).read_text())) if (ROOT / path).exists() else set()
+    return cache[path]
+
+
+def types(every):
+    """Name of a type -> the only header that declares it."""
+    found = {}
+    for path in every:
+        for names in DECLARED.findall((ROOT / path).read_text()):
+            found.setdefault(names[0] or names[1], set()).add(path)
+    return {name: paths.pop() for name, paths in found.items() if len(paths) == 1}
+
+
+def missing_types(path, home):
+    """The headers of this project that a header needs and does not get."""
+    text = COMMENT.sub(" ", INCLUDE.sub("", (ROOT / path).read_text()))
+    there = project_closure(path) | {path}
+    for name in sorted(set(re.findall(r"(?<![\w:.>~])([A-Z]\w+)\b(?!\s*[(=]|<[^<>]*>\()", text)) & set(home) - set(OWN.findall(text))):
+        if home[name] not in there and not any(name in forward(p) for p in there):
+            yield f"{path}: {name} without {home[name].removeprefix('src/')}"
+
+
 def proven():
     """Headers that a build compiles before any other of the project."""
     first = set()
@@ -130,7 +169,8 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
     every = headers()
-    failures = [line for path in every for line in missing(path)]
+    home = types(every)
+    failures = [line for path in every for line in (*missing(path), *missing_types(path, home))]
     compiler, flags = commands(options.build)
     compiler = [compiler, "-std=c++20"] + (["-msse4.2"] if os.uname().machine == "x86_64" else [])
     with tempfile.TemporaryDirectory() as folder:

@@ -112,6 +112,12 @@ class TrafficVehicle(TypedDict):
     """(3,) m/s in W."""
     size: _F64
     """(3,) length, width and height, metres."""
+    track_id: int
+    """Number of the vehicle, from 1: the same for the whole simulation."""
+    lane: int
+    """Number of the lane that its front is on, of the world's roads."""
+    lane_position: float
+    """Metres from the beginning of the lane to its front."""
     indicator: Literal["left", "right", "off"]
     braking: bool
     """Brake lamps."""
@@ -119,22 +125,31 @@ class TrafficVehicle(TypedDict):
 
 
 class Event(TypedDict):
-    """What happened to a drone, from Simulation.events(). The keys of a contact are there for contacts alone."""
+    """What happened to a drone or on a road, from Simulation.events(). The keys of a contact and of a near miss are there for those
+    alone."""
 
     event: Literal["collision", "crash", "command refused", "command lost", "command done", "fence", "rotor failed",
-                   "battery low", "battery empty", "world edge", "near person"]
-    drone: int
-    """Number of the drone."""
+                   "battery low", "battery empty", "world edge", "near person", "near miss"]
+    drone: int | None
+    """Number of the drone; None for near misses without one."""
     t_ns: int
     """Simulated time, nanoseconds."""
     entity: NotRequired[int]
     """Entity id of what was met."""
     point: NotRequired[_F64]
-    """(3,) metres in W."""
+    """(3,) metres in W: of a contact, or of the first of a near miss."""
     normal: NotRequired[_F64]
     """(3,) unit normal in W, away from the surface."""
     impact_speed: NotRequired[float]
     """m/s along the normal."""
+    first: NotRequired[str]
+    """Vehicle of a near miss: "traffic/012" (docs/guide/traffic.md)."""
+    second: NotRequired[str]
+    """Whom it nearly met: "traffic/040", "person/007", or a drone's name."""
+    time_to_collision: NotRequired[float]
+    """The least of a near miss, seconds."""
+    braking: NotRequired[float]
+    """m/s^2 that would have avoided it then."""
     text: NotRequired[str]
     """More in words, for instance why a command was refused."""
 

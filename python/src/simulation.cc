@@ -6,6 +6,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/scene/viewpoint.h"
+#include "airsim360/sim/living_world.h"
 #include "airsim360/sim/traffic/traffic.h"
 #include "airsim360/sim/trajectory_reference.h"
 
@@ -180,13 +181,20 @@ py::list Simulation::Events() {
   for (const SimEvent& event : loop_->TakeEvents()) {
     py::dict d;
     d["event"] = kSimEventNames[static_cast<size_t>(event.kind)];
-    d["drone"] = event.vehicle;
+    d["drone"] = event.vehicle == kNoDrone ? py::object(py::none()) : py::int_(event.vehicle);
     d["t_ns"] = event.t_ns;
     if (event.collision.count > 0) {
       d["entity"] = event.collision.entity;
       d["point"] = FromVec3(event.collision.p_W);
       d["normal"] = FromVec3(event.collision.normal_W);
       d["impact_speed"] = event.collision.impact_speed;
+    }
+    if (event.kind == SimEvent::Kind::kNearMiss) {
+      d["first"] = NameOfRoadUser(*model_, event.near_miss.a);
+      d["second"] = NameOfRoadUser(*model_, event.near_miss.b);
+      d["time_to_collision"] = event.near_miss.seconds;
+      d["braking"] = event.near_miss.braking;
+      d["point"] = FromVec3(event.near_miss.p);
     }
     if (!event.text.empty()) d["text"] = event.text;
     list.append(std::move(d));
@@ -231,7 +239,10 @@ py::list Simulation::Vehicles() const {
     d["orientation"] = FromQuaternion(ToQuaternion(X_WB.R));
     d["velocity"] = FromVec3(X_WB.R.column(0) * vehicle.v);
     d["size"] = FromVec3({shape.length, shape.width, shape.height});
-    d["indicator"] = vehicle.indicator > 0 ? "left" : vehicle.indicator < 0 ? "right" : "off";
+    d["track_id"] = i + 1;
+    d["lane"] = vehicle.lane;
+    d["lane_position"] = vehicle.s;
+    d["indicator"] = IndicatorName(vehicle);
     d["braking"] = vehicle.braking;
     d["stopped"] = vehicle.stopped_ns >= 0;
     list.append(std::move(d));

@@ -57,6 +57,7 @@ TEST(GpuColor, OfRainIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   Environment rain = ClearSky(25);
   rain.wetness = 0.9, rain.rain_mm_h = 8;
+  ExpectTheCpus(MakeOpenSquare(), rain, "square in rain", 64);
   ExpectTheCpus(BuildWorld("sunlit_room", {.seed = 1}), rain, "sunlit_room in rain", 64);
 }
 
@@ -64,7 +65,16 @@ TEST(GpuColor, OfSnowIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   Environment snow = ClearSky(25);
   snow.snow_depth = 0.6, snow.snowfall_mm_h = 3;
+  ExpectTheCpus(MakeOpenSquare(), snow, "square in snow", 64);
   ExpectTheCpus(BuildWorld("sunlit_room", {.seed = 1}), snow, "sunlit_room in snow", 64);
+}
+
+TEST(GpuColor, OfFogBeforeAndBehindRoofsIsTheCpus) {
+  AIRSIM360_NEEDS_GPU();
+  Environment fog = ClearSky(25);
+  fog.visibility_m = 30;
+  ExpectTheCpus(MakeOpenSquare(), fog, "square in fog", 64);
+  ExpectTheCpus(BuildWorld("sunlit_room", {.seed = 1}), fog, "sunlit_room in fog", 64);
 }
 
 // Every mesh with vertex normals swells in waves, so that its normals follow.

@@ -1,8 +1,7 @@
 // Labels of the GPU are those of the CPU, through every camera.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
+#include "airsim360/math/angles.h"
 #include "airsim360/render/frame/test_room.h"
 #include "airsim360/worlds/worlds.h"
 #include "gpu_fixture.h"
@@ -12,7 +11,6 @@ namespace {
 
 using test::Compare;
 using test::LabelDifference;
-constexpr double kPi = std::numbers::pi;
 
 RenderRequest LabelRequest(const Camera& camera, const RigidTransform& X_WC) {
   RenderRequest request;

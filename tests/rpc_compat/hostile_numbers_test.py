@@ -101,6 +101,8 @@ FUNCTIONS = {
     "simRemovePerson": ["person/001"], "simSendPerson": ["person/000", POSITION, 1.0],
     "simSetPersonState": ["person/000", "stop", 1.0], "simMessagePerson": ["person/000", "stop"],
     "simReleasePerson": ["person/000"],
+    # Traffic.
+    "simListTraffic": [], "simGetTraffic": [], "simGetNearMisses": [],
     # Missions.
     "simFlyMission": ["<root/>", ""], "simGetMission": [""], "simStopMission": [""],
     # Cosys-AirSim's.

@@ -72,6 +72,21 @@ class Episodes(unittest.TestCase):
         self.assertGreater(len({len(e["instruction"].split()) for e in lines(out)}), 4)
         self.assertEqual(json.loads(run("vln", "check", out, "--json").stdout)["wrong"], 0)
 
+    def test_a_limit_is_shared_among_nouns_and_asks_for_as_many_as_can_be_made(self):
+        out = self.path / "limit.jsonl"
+        run("vln", "make", "--world", "office", "--templates", "any", "--starts", 1, "--limit", 6, "--out", out)
+        self.assertEqual(len(lines(out)), 6)
+        self.assertEqual(len({e["query"]["noun"]["word"] for e in lines(out)}), 6)
+        self.assertEqual(json.loads(run("vln", "check", out, "--json").stdout)["wrong"], 0)
+
+    def test_what_shows_too_little_is_refused_or_said(self):
+        template = {**TEMPLATES[0], "id": "room/far", "in_sight": 100_000}
+        templates, out = self.path / "sight.json", self.path / "sight.jsonl"
+        templates.write_text(json.dumps([template]), encoding="utf-8")
+        self.assertIn("100000 are needed", run("vln", "make", "--world", "box_room", "--templates", templates, "--out", out, status=1).stderr)
+        templates.write_text(json.dumps([{**template, "in_sight": "yes"}]), encoding="utf-8")
+        self.assertIn("in_sight", run("vln", "make", "--world", "box_room", "--templates", templates, "--out", out, status=2).stderr)
+
     def test_parts_of_an_instruction_follow_each_other_each_with_a_proof(self):
         wall = {"noun": {"word": "east wall", "names": ["wall east"]}, "predicates": [{"is": "nearest"}]}
         template = {**TEMPLATES[0], "id": "room/two", "text": "Fly straight to the box. Still facing the way you flew, go on to the east wall and stop.",
@@ -198,7 +213,7 @@ class Episodes(unittest.TestCase):
         for words, says in ((("--protocol", "aerialvnl"), "aerialvln"), (("--agent", "orcale"), "oracle"), (("--view", "erb"), "erp"),
                             (("--workers", 0), "--workers"), (("--decisions", "yolo"), "yomo"), (("--program", "cat"), "--program")):
             self.assertIn(says, run("vln", "run", self.episodes, *words, "--out", self.path / "x.jsonl", status=2).stderr)
-        for words, says in ((("--recipe", "omni360"), "omni360-vln"), (("--recipe", "omni360-vln", "--world", "box_room"), "--recipe"),
+        for words, says in ((("--recipe", "omni360"), "omni360-vln"), (("--recipe", "omni360-vln", "--world", "box_room"), "world of the recipe"),
                             (("--recipe", "omni360-vln", "--seeds", 2), "--recipe")):
             self.assertIn(says, run("vln", "make", *words, "--out", self.path / "x.jsonl", status=2).stderr)
         self.assertIn("--starts", run("vln", "make", "--world", "box_room", "--starts", 0, "--out", self.path / "x.jsonl", status=2).stderr)

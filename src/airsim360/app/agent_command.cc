@@ -15,16 +15,17 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/tasks/agents/agent_server.h"
+#include "airsim360/vln/episodes/language_episode.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {
 namespace {
 
 struct AgentArguments {
-  std::string world, host = "127.0.0.1", wind;
+  std::string world, tasks, host = "127.0.0.1", wind;
   RenderSettings picture;
   int port = 8361, episodes = 64;
-  bool realtime = false;
+  bool realtime = false, tells_goal = false;
   EnvironmentFlags environment;
   PeopleArguments people;
   TrafficArguments traffic;
@@ -32,21 +33,58 @@ struct AgentArguments {
 
 double SteadySeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+// A world that can be looked at at once: its light is there, and not when the first agent waits for a picture.
+std::shared_ptr<AgentWorld> OpenForAgents(const StageOptions& options, const RenderSettings& picture) {
+  const auto stage = std::make_shared<Stage>(options);
+  const std::string& name = options.world.world;
+  LogInfo(name + ": built after " + ClockText(stage->load_seconds()) + "; lighting it, which takes longest in rooms");
+  const auto world = std::make_shared<AgentWorld>(stage, picture);
+  {
+    const LongTask lighting("lighting " + name);
+    stage->renderer(picture.tier);
+    constexpr int kSmall = 64;  // pixels across: what a first picture makes is the same for any
+    world->Panorama(BodyPose(world->places().front(), 0, 0, 0), kSmall);
+  }
+  LogInfo(name + ": ready after " + ClockText(stage->load_seconds()));
+  return world;
+}
+
+// Episodes of `vln make`, as tasks.
+std::vector<AgentTask> TasksOf(const std::string& file, bool tells_goal) {
+  std::vector<AgentTask> tasks;
+  for (const LanguageEpisode& e : ReadEpisodes(file)) {
+    EpisodeSpec spec;
+    spec.instruction = e.instruction;
+    spec.goal = e.goal;
+    spec.more_goals = e.places;
+    spec.start = e.start.p_W;
+    spec.start_yaw = e.start.yaw;
+    spec.reference_path = e.ref;
+    spec.seed = e.seed;
+    spec.success_radius = e.radius;
+    spec.tells_goal = tells_goal;
+    tasks.push_back({e.id, {e.world, e.world_seed, e.people, e.weather}, std::move(spec)});
+  }
+  return tasks;
+}
+
 AgentApiOptions OptionsOf(const AgentArguments& arguments, const GlobalOptions& globals) {
   AgentApiOptions api{.world = arguments.world, .world_seed = globals.seed};
   for (const WorldInfo& world : ListWorlds()) api.worlds.push_back(world.name);
-  StageOptions options = StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed),
+  if (!arguments.tasks.empty()) api.tasks = TasksOf(arguments.tasks, arguments.tells_goal);
+  if (api.world.empty()) api.world = api.tasks.empty() ? "" : api.tasks.front().world.name;
+  if (api.world.empty()) throw InputError("--world: give a world, or --tasks EPISODES.jsonl");
+  StageOptions options = StageOptionsOf(api.world, globals, arguments.environment, arguments.people.Request(globals.seed),
                                         arguments.traffic.Request(globals.seed));
   options.wind = ReadWindFile(arguments.wind);
   CheckRenderSettings(arguments.picture, "--");
-  api.open = [picture = arguments.picture, options](const std::string& name, uint64_t seed) {
+  api.open = [picture = arguments.picture, options](const AgentWorldKey& key) {
     StageOptions stage = options;
-    stage.world.world = name;
-    stage.world.seed = seed;
-    const auto world = std::make_shared<Stage>(stage);
-    world->renderer(picture.tier);  // now, and not when the first agent waits for a picture
-    LogInfo(name + ": ready after " + ClockText(world->load_seconds()));
-    return std::make_shared<AgentWorld>(world, picture);
+    stage.world.world = key.name;
+    stage.world.seed = key.seed;
+    if (key.people.value_or(0) > 0 && !stage.people.any()) stage.people = {.count = static_cast<size_t>(*key.people), .seed = key.seed};
+    if (!key.weather.empty() && stage.environment.weather.empty()) stage.environment.weather = key.weather;
+    return OpenForAgents(stage, picture);
   };
   api.realtime = arguments.realtime;
   api.clock = SteadySeconds;
@@ -80,7 +118,10 @@ void Serve(const AgentArguments& arguments, const GlobalOptions& globals) {
 void AddAgentCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand("agent", "navigation episodes for VLA/VLM models over HTTP and WebSocket (docs/guide/agents.md)");
   auto arguments = std::make_shared<AgentArguments>();
-  command->add_option("--world", arguments->world, "name or file of the world of episodes that name none")->required();
+  command->add_option("--world", arguments->world, "name or file of the world of episodes that name none");
+  command->add_option("--tasks", arguments->tasks,
+                      "episodes.jsonl of vln make, which episodes can ask for by name; their goals are not told");
+  command->add_flag("--tell-goal", arguments->tells_goal, "tell the goals of tasks, and how far they are");
   command->add_option("--port", arguments->port, "TCP port, 0 = any free one (default 8361)");
   command->add_option("--host", arguments->host, "IPv4 address to listen on (default 127.0.0.1)");
   AddConfigFlags(*command, [arguments](ConfigVisitor& v) { arguments->picture.Visit(v); });

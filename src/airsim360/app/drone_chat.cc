@@ -14,7 +14,7 @@ namespace airsim360 {
 namespace {
 namespace fs = std::filesystem;
 
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
 constexpr uint64_t kMostAnswer = 1 << 20;  // bytes
 constexpr int kSeconds = 60;
@@ -111,27 +111,27 @@ std::string Post(const std::string& address, const std::string& key, const std::
   return text;
 }
 
-Json ParseAnswer(const std::string& text, const std::string& address) {
-  const auto check = [](int depth, Json::parse_event_t, Json&) {
+ParsedJson ParseAnswer(const std::string& text, const std::string& address) {
+  const auto check = [](int depth, ParsedJson::parse_event_t, ParsedJson&) {
     if (depth > kDeepest) throw RuntimeError("--llm: the server's answer is nested deeper than 16 levels");
     return true;
   };
   try {
-    return Json::parse(text.begin(), text.end(), check);
-  } catch (const Json::exception&) {
+    return ParsedJson::parse(text.begin(), text.end(), check);
+  } catch (const ParsedJson::exception&) {
     throw RuntimeError("--llm: the server at " + address + " does not answer with JSON: " + Excerpt(text));
   }
 }
 
 /// choices[0].message.content
-std::string Content(const Json& answer, const std::string& text, const std::string& address) {
-  const Json none;
-  const auto field = [&](const Json& of, const char* name) -> const Json& {
+std::string Content(const ParsedJson& answer, const std::string& text, const std::string& address) {
+  const ParsedJson none;
+  const auto field = [&](const ParsedJson& of, const char* name) -> const ParsedJson& {
     const auto found = of.is_object() ? of.find(name) : of.end();
     return of.is_object() && found != of.end() ? *found : none;
   };
-  const Json& choices = field(answer, "choices");
-  const Json& content = field(field(choices.is_array() && !choices.empty() ? choices[0] : none, "message"), "content");
+  const ParsedJson& choices = field(answer, "choices");
+  const ParsedJson& content = field(field(choices.is_array() && !choices.empty() ? choices[0] : none, "message"), "content");
   if (content.is_string()) return content.get<std::string>();
   throw RuntimeError("--llm: the answer of " + address + " has no text choices[0].message.content: " + Excerpt(text));
 }
@@ -142,7 +142,7 @@ DroneRequest AskForDrone(const DroneChat& chat, const std::string& words) {
   const std::string address = Endpoint(chat.url), key = Key(chat.key_environment);
   if (words.size() > kLongestWords) throw InputError("the description has " + std::to_string(words.size()) + " bytes, more than 1000");
   const std::string text = Post(address, key, Body(chat, words));
-  const Json answer = ParseAnswer(text, address);
+  const ParsedJson answer = ParseAnswer(text, address);
   DroneRequest request = ReadDroneForm(Content(answer, text, address), words);
   std::string model = chat.model;
   if (model.empty() && answer.contains("model") && answer["model"].is_string()) model = answer["model"].get<std::string>().substr(0, 80);

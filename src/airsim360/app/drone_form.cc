@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr size_t kLongestShown = 80;  // bytes of foreign text in a message
+constexpr size_t kLongestQuoted = 80;  // bytes of foreign text in a message
 constexpr size_t kLongestPrompt = 1000;
 
 struct NumberField {
@@ -93,7 +93,7 @@ std::vector<std::string> FieldNames() {
 }
 
 std::string Shown(std::string_view text) {
-  return internal::PrintableText(text.substr(0, kLongestShown)) + (text.size() > kLongestShown ? " ..." : "");
+  return internal::PrintableText(text.substr(0, kLongestQuoted)) + (text.size() > kLongestQuoted ? " ..." : "");
 }
 
 std::string ShownValue(const Json& value) { return Shown(value.dump(-1, ' ', true, Json::error_handler_t::replace)); }

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct CocoArguments {
   std::string pred, gt, type = "segm", kind = "bbox", weights = "pixel", protocol;
   bool class_agnostic = false, wrap = false;
   std::vector<int64_t> most;
@@ -159,7 +159,8 @@ std::vector<double> PlaceAp(const CocoTruths& truths, const std::vector<CocoObje
 }
 
 // Objects whose nearest column is within `--seam` columns of the seam, and the others; objects by the latitude of the middle of their box.
-void AppendPlaces(Json& json, const Arguments& a, const CocoTruths& truths, const std::vector<CocoObject>& results, const CocoRun& run) {
+void AppendPlaces(Json& json, const CocoArguments& a, const CocoTruths& truths, const std::vector<CocoObject>& results,
+                  const CocoRun& run) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (a.seam < 0 || a.bands < 0 || a.bands > 1000)
     throw InputError("--seam and --latitude-bands must be at least 1, and at most 1000 bands");
@@ -197,7 +198,7 @@ void WriteTable(const std::string& path, const CocoTable& table, const CocoTruth
   WriteCsv(path, rows);
 }
 
-void RunTask(const Arguments& a, Task task, const GlobalOptions& globals, std::vector<std::string> notes) {
+void RunTask(const CocoArguments& a, Task task, const GlobalOptions& globals, std::vector<std::string> notes) {
   CocoTruths truths = ReadCocoTruths(a.gt, task.run.kind);
   const std::vector<CocoObject> results = ReadCocoResults(a.pred, task.run.kind, truths);
   if (truths.images.empty()) throw InputError(a.gt + ": has no images");
@@ -247,7 +248,7 @@ void RunTask(const Arguments& a, Task task, const GlobalOptions& globals, std::v
     PrintFigures(json);
 }
 
-void AddCommon(CLI::App& command, Arguments& a) {
+void AddCommon(CLI::App& command, CocoArguments& a) {
   command.add_option("pred", a.pred, "COCO results: a list of image_id, category_id, score and what is compared")->required();
   command.add_option("gt", a.gt, "COCO annotations: images, annotations, categories")->required();
   command.add_flag("--class-agnostic", a.class_agnostic, "all categories are one");
@@ -256,7 +257,7 @@ void AddCommon(CLI::App& command, Arguments& a) {
   AddReportFlags(command, a.report, "a row a category");
 }
 
-void RunEntity(Arguments a, const GlobalOptions& globals) {
+void RunEntity(CocoArguments a, const GlobalOptions& globals) {
   Task task;
   std::vector<std::string> notes;
   const std::vector<std::string> types = {"segm", "bbox"}, protocols = {"coco", "entityseg"};
@@ -280,7 +281,7 @@ void RunEntity(Arguments a, const GlobalOptions& globals) {
   RunTask(a, task, globals, notes);
 }
 
-void RunKeypoints(const Arguments& a, const GlobalOptions& globals) {
+void RunKeypoints(const CocoArguments& a, const GlobalOptions& globals) {
   Task task;
   task.run.kind = CocoKind::kKeypoints;
   task.run.options = KeypointCocoOptions();
@@ -288,7 +289,7 @@ void RunKeypoints(const Arguments& a, const GlobalOptions& globals) {
   RunTask(a, task, globals, {"at most 20 detections of a picture count; sigmas are the category's `sigmas`, else COCO's 17"});
 }
 
-void RunBoxes(const Arguments& a, const GlobalOptions& globals) {
+void RunBoxes(const CocoArguments& a, const GlobalOptions& globals) {
   Task task;
   task.run.options.most_detections = ParseMost(a.most, task.run.options.most_detections);
   std::vector<std::string> notes;
@@ -312,7 +313,8 @@ void RunBoxes(const Arguments& a, const GlobalOptions& globals) {
 }  // namespace
 
 void AddEvalCoco(CLI::App& command, GlobalOptions& globals) {
-  const auto entity = std::make_shared<Arguments>(), keypoints = std::make_shared<Arguments>(), boxes = std::make_shared<Arguments>();
+  const auto entity = std::make_shared<CocoArguments>(), keypoints = std::make_shared<CocoArguments>(),
+             boxes = std::make_shared<CocoArguments>();
   CLI::App* one = command.add_subcommand("entity", "average precision of masks or boxes (COCO)");
   AddCommon(*one, *entity);
   one->add_option("--type", entity->type, "what is compared: segm (masks, the default) or bbox");

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct DepthArguments {
   std::string pred, gt, protocol;
   ViewOptions view;
   ReportOptions report;
@@ -47,7 +47,7 @@ constexpr std::array<Protocol, 3> kProtocols = {{
 }};
 
 // What one picture gives: errors of each view, of each rolled prediction, and after scaling; what looks like a mistake.
-struct Result {
+struct DepthResult {
   std::vector<DepthErrors> views, rolled;
   DepthErrors scaled;
   std::string mistake;
@@ -63,7 +63,7 @@ const Protocol* FindProtocol(const std::string& name) {
   throw InputError("--protocol: " + UnknownChoiceMessage("protocol of depth", name, names));
 }
 
-void ApplyProtocol(const Protocol* protocol, Arguments& a) {
+void ApplyProtocol(const Protocol* protocol, DepthArguments& a) {
   if (!protocol) return;
   if (protocol->min_depth > 0) a.depth.min_depth = std::max(a.depth.min_depth, protocol->min_depth);
   if (protocol->max_depth > 0) a.depth.max_depth = std::min(a.depth.max_depth, protocol->max_depth);
@@ -73,7 +73,7 @@ void ApplyProtocol(const Protocol* protocol, Arguments& a) {
     throw InputError("--protocol " + a.protocol + " brings its own weights: leave --weights and --projection out");
 }
 
-void Check(Arguments& a) {
+void Check(DepthArguments& a) {
   CheckViewOptions(a.view);
   CheckSheetOptions(a.sheet);
   ApplyProtocol(FindProtocol(a.protocol), a);
@@ -85,7 +85,7 @@ void Check(Arguments& a) {
   if (!a.clip.empty() && !(a.clip[0] > 0 && a.clip[1] > a.clip[0])) throw InputError("--clip: must be 0 < MIN < MAX");
 }
 
-NumberPicture ReadScaled(const std::filesystem::path& path, const Arguments& a, bool prediction) {
+NumberPicture ReadScaled(const std::filesystem::path& path, const DepthArguments& a, bool prediction) {
   NumberPicture picture = ReadDepthPicture(path, a.files);
   const double scale = prediction ? a.pred_scale : a.gt_scale;
   for (double& v : picture.values) {
@@ -113,12 +113,12 @@ DepthErrors Measure(const NumberPicture& pred, const NumberPicture& gt, const Pi
   }
 }
 
-Result MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, const std::vector<Rolled>& turns, size_t index,
-                   const Arguments& a, ViewCache& cache) {
+DepthResult MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, const std::vector<Rolled>& turns, size_t index,
+                        const DepthArguments& a, ViewCache& cache) {
   const NumberPicture pred = ReadScaled(pair.prediction, a, true), gt = ReadScaled(pair.truth, a, false);
   CheckSizes(pred, gt, pair.prediction, pair.truth);
   const auto views = cache.Of(gt.width, gt.height);
-  Result result;
+  DepthResult result;
   result.mistake = LikelyDepthMistake(pred.values, gt.values, gt.width, gt.height);
   for (const PixelView& view : *views) result.views.push_back(Measure(pred, gt, view, a.depth, pair.prediction));
   if (a.protocol == "unik3d") {
@@ -137,7 +137,7 @@ Result MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, c
 
 // Means over pictures with valid pixels, `draws[i]` times each.
 template <class Of>
-std::vector<double> MeanFigures(const std::vector<Result>& results, const Of& of, std::span<const uint32_t> draws = {}) {
+std::vector<double> MeanFigures(const std::vector<DepthResult>& results, const Of& of, std::span<const uint32_t> draws = {}) {
   std::vector<double> sums(kDepthFigures.size(), 0);
   double count = 0;
   for (size_t i = 0; i < results.size(); ++i) {
@@ -158,12 +158,12 @@ std::vector<Figure> Named(const std::vector<double>& values, const char* suffix 
   return figures;
 }
 
-int64_t Valid(const std::vector<Result>& results, size_t view) {
+int64_t Valid(const std::vector<DepthResult>& results, size_t view) {
   return std::accumulate(results.begin(), results.end(), int64_t{0},
-                         [view](int64_t sum, const Result& r) { return sum + r.views[view].valid; });
+                         [view](int64_t sum, const DepthResult& r) { return sum + r.views[view].valid; });
 }
 
-void WriteTable(const std::string& path, const std::vector<FilePair>& pairs, const std::vector<Result>& results) {
+void WriteTable(const std::string& path, const std::vector<FilePair>& pairs, const std::vector<DepthResult>& results) {
   std::vector<std::vector<std::string>> rows = {{"picture", "valid"}};
   for (const auto name : kDepthFigures) rows[0].emplace_back(name);
   for (size_t i = 0; i < results.size(); ++i) {
@@ -173,7 +173,7 @@ void WriteTable(const std::string& path, const std::vector<FilePair>& pairs, con
   WriteCsv(path, rows);
 }
 
-void Run(Arguments a, const GlobalOptions& globals) {
+void Run(DepthArguments a, const GlobalOptions& globals) {
   Check(a);
   const std::vector<std::string> endings = {".npy", ".exr", ".h5", ".hdf5", ".png"};
   const FilePairs files = PairFiles(a.pred, a.gt, endings, "range");
@@ -181,12 +181,12 @@ void Run(Arguments a, const GlobalOptions& globals) {
   std::vector<FilePairs> rolled;
   for (const Rolled& turn : turns) rolled.push_back(PairFiles(turn.path, a.gt, endings, "range"));
   ViewCache cache(a.view);
-  const auto results = MeasureAll<Result>("eval depth", files.pairs.size(),
-                                          [&](size_t i) { return MeasurePair(files.pairs[i], rolled, turns, i, a, cache); });
+  const auto results = MeasureAll<DepthResult>("eval depth", files.pairs.size(),
+                                               [&](size_t i) { return MeasurePair(files.pairs[i], rolled, turns, i, a, cache); });
 
   const auto of_view = [&](size_t view, std::span<const uint32_t> draws = {}) {
     return MeanFigures(
-        results, [view](const Result& r) -> const DepthErrors& { return r.views[view]; }, draws);
+        results, [view](const DepthResult& r) -> const DepthErrors& { return r.views[view]; }, draws);
   };
   Json json;
   const std::vector<Figure> main = Named(of_view(0));
@@ -197,7 +197,7 @@ void Run(Arguments a, const GlobalOptions& globals) {
   json["projection"] = a.view.projection;
   if (!a.protocol.empty()) json["protocol"] = a.protocol;
   if (a.protocol == "unik3d")
-    json.update(ToJson(Named(MeanFigures(results, [](const Result& r) -> const DepthErrors& { return r.scaled; }), "_si")));
+    json.update(ToJson(Named(MeanFigures(results, [](const DepthResult& r) -> const DepthErrors& { return r.scaled; }), "_si")));
   std::vector<std::pair<std::string, std::string>> mistakes;
   for (size_t i = 0; i < results.size(); ++i) mistakes.emplace_back(files.pairs[i].prediction.string(), results[i].mistake);
   JudgeMistakes(mistakes, a.view.force, json);
@@ -211,7 +211,7 @@ void Run(Arguments a, const GlobalOptions& globals) {
   });
   std::vector<std::vector<Figure>> turned;
   for (size_t r = 0; r < turns.size(); ++r)
-    turned.push_back(Named(MeanFigures(results, [r](const Result& one) -> const DepthErrors& { return one.rolled[r]; })));
+    turned.push_back(Named(MeanFigures(results, [r](const DepthResult& one) -> const DepthErrors& { return one.rolled[r]; })));
   AppendRolled(json, turns, turned, main);
   std::vector<std::string> names(kDepthFigures.begin(), kDepthFigures.end());
   AppendIntervals(json, a.report, globals.seed, results.size(), names, [&](std::span<const uint32_t> draws) { return of_view(0, draws); });
@@ -226,7 +226,7 @@ void Run(Arguments a, const GlobalOptions& globals) {
   Json notes = files.notes;
   if (const Protocol* protocol = FindProtocol(a.protocol)) notes.push_back(std::string(protocol->name) + ": " + protocol->quirk);
   int64_t not_positive = 0;
-  for (const Result& r : results) not_positive += r.views[0].not_positive;
+  for (const DepthResult& r : results) not_positive += r.views[0].not_positive;
   if (not_positive > 0)
     json["warnings"].push_back(
         std::to_string(not_positive) +
@@ -242,7 +242,7 @@ void Run(Arguments a, const GlobalOptions& globals) {
 
 void AddEvalDepth(CLI::App& command, GlobalOptions& globals) {
   CLI::App* depth = command.add_subcommand("depth", "errors of predicted ranges or depths");
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<DepthArguments>();
   depth->add_option("pred", a->pred, ".npy, .exr, .h5 or 16-bit .png, a folder of them, or a dataset of ours (its range)")->required();
   depth->add_option("gt", a->gt, "the truth: the same, with the same names")->required();
   depth->add_option("--protocol", a->protocol, "unik3d, deep360 or pano3d: as those papers' code measures");

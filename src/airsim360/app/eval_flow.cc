@@ -13,21 +13,21 @@ namespace airsim360 {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Result = std::vector<FlowErrors>;  // one a view
+using FlowResult = std::vector<FlowErrors>;  // one a view
 
-struct Arguments {
+struct FlowArguments {
   std::string pred, gt;
   bool visible = false;
   ViewOptions view;
   ReportOptions report;
 };
 
-Result MeasurePair(const FilePair& pair, const Arguments& a, ViewCache& cache) {
+FlowResult MeasurePair(const FilePair& pair, const FlowArguments& a, ViewCache& cache) {
   const NumberPicture pred = ReadFlowPicture(pair.prediction, false), gt = ReadFlowPicture(pair.truth, a.visible);
   if (pred.width != gt.width || pred.height != gt.height)
     throw InputError(pair.prediction.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " +
                      pair.truth.string() + " has " + std::to_string(gt.width) + "x" + std::to_string(gt.height));
-  Result result;
+  FlowResult result;
   for (const PixelView& view : *cache.Of(gt.width, gt.height)) {
     try {
       std::vector<double> p, g;
@@ -44,7 +44,7 @@ Result MeasurePair(const FilePair& pair, const Arguments& a, ViewCache& cache) {
   return result;
 }
 
-std::vector<double> MeanFigures(const std::vector<Result>& results, size_t view, std::span<const uint32_t> draws = {}) {
+std::vector<double> MeanFigures(const std::vector<FlowResult>& results, size_t view, std::span<const uint32_t> draws = {}) {
   std::vector<double> sums(kFlowFigures.size(), 0);
   double count = 0;
   for (size_t i = 0; i < results.size(); ++i) {
@@ -58,23 +58,24 @@ std::vector<double> MeanFigures(const std::vector<Result>& results, size_t view,
   return sums;
 }
 
-Json ViewJson(const std::vector<Result>& results, size_t view) {
+Json ViewJson(const std::vector<FlowResult>& results, size_t view) {
   const std::vector<double> means = MeanFigures(results, view);
   Json json;
   int64_t valid = 0;
   for (size_t f = 0; f < means.size(); ++f) json[std::string(kFlowFigures[f])] = means[f];
-  for (const Result& result : results) valid += result[view].valid;
+  for (const FlowResult& result : results) valid += result[view].valid;
   json["valid"] = valid;
   return json;
 }
 
-void Run(const Arguments& a, const GlobalOptions& globals) {
+void Run(const FlowArguments& a, const GlobalOptions& globals) {
   CheckViewOptions(a.view);
   if (!a.view.rolled.empty() || !a.view.turned.empty())
     throw InputError("--rolled and --turned are not for flow: it moves between pictures");
   const FilePairs files = PairFiles(a.pred, a.gt, {".flo", ".npy", ".exr", ".png"}, "flow");
   ViewCache cache(a.view);
-  const auto results = MeasureAll<Result>("eval flow", files.pairs.size(), [&](size_t i) { return MeasurePair(files.pairs[i], a, cache); });
+  const auto results =
+      MeasureAll<FlowResult>("eval flow", files.pairs.size(), [&](size_t i) { return MeasurePair(files.pairs[i], a, cache); });
   Json json = ViewJson(results, 0);
   if (json["valid"].get<int64_t>() == 0) throw InputError(a.gt + ": no pixel has a flow");
   json["pictures"] = results.size();
@@ -104,7 +105,7 @@ void Run(const Arguments& a, const GlobalOptions& globals) {
 
 void AddEvalFlow(CLI::App& command, GlobalOptions& globals) {
   CLI::App* flow = command.add_subcommand("flow", "errors of optical flow: EPE, Fl-all, angle on the sphere");
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<FlowArguments>();
   flow->add_option("pred", a->pred, ".flo, .npy, .exr or KITTI's .png, a folder of them, or a dataset of ours (its flow)")->required();
   flow->add_option("gt", a->gt, "the truth: the same, with the same names")->required();
   flow->add_flag("--visible", a->visible, "leave out what the truth's channel `occluded` says is hidden in the next picture (.exr)");

@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Counts = std::vector<PanopticCount>;
 
-struct Arguments {
+struct PanopticArguments {
   PanopticPaths paths;
   ViewOptions view;
   ReportOptions report;
@@ -26,7 +26,7 @@ struct Arguments {
   std::vector<std::string> held_out;
 };
 
-struct Result {
+struct PanopticResult {
   std::vector<Counts> views, rolled;
   std::string mistake;
 };
@@ -45,13 +45,13 @@ Counts Measure(const LabelPicture& pred, const LabelPicture& gt, const PanopticF
   return counts;
 }
 
-Result MeasureFrame(const PanopticInput& input, size_t i, const std::vector<PanopticInput>& rolled, const std::vector<Rolled>& turns,
-                    ViewCache& cache) {
+PanopticResult MeasureFrame(const PanopticInput& input, size_t i, const std::vector<PanopticInput>& rolled,
+                            const std::vector<Rolled>& turns, ViewCache& cache) {
   const size_t categories = input.truth.categories.size();
   const PanopticFrame &gt_frame = input.truth.frames[i], &pred_frame = input.Prediction(i);
   const auto [pred, gt] = input.Read(i);
   const auto views = cache.Of(gt.width, gt.height);
-  Result result;
+  PanopticResult result;
   try {
     // What is listed and what is drawn must agree in whole pictures, whatever is measured.
     if (!views->front().source.empty()) Measure(pred, gt, pred_frame, gt_frame, PixelView{}, categories);
@@ -69,7 +69,7 @@ Result MeasureFrame(const PanopticInput& input, size_t i, const std::vector<Pano
 }
 
 template <class Of>
-Counts Sum(const std::vector<Result>& results, size_t categories, const Of& of, std::span<const uint32_t> draws = {}) {
+Counts Sum(const std::vector<PanopticResult>& results, size_t categories, const Of& of, std::span<const uint32_t> draws = {}) {
   Counts sum(categories);
   for (size_t i = 0; i < results.size(); ++i) {
     const uint32_t times = draws.empty() ? 1 : draws[i];
@@ -114,7 +114,7 @@ Json OpenWorld(const Counts& counts, const std::vector<PanopticCategory>& catego
   return {{"held_out", held_out}, {"known", QualityJson(MeanQuality(counts, known))}, {"unknown", QualityJson(MeanQuality(counts, held))}};
 }
 
-void Run(Arguments a, const GlobalOptions& globals) {
+void Run(PanopticArguments a, const GlobalOptions& globals) {
   CheckViewOptions(a.view);
   CheckSheetOptions(a.sheet);
   const PanopticInput input(a.paths);
@@ -124,12 +124,12 @@ void Run(Arguments a, const GlobalOptions& globals) {
   std::vector<PanopticInput> rolled;
   for (const Rolled& turn : turns) rolled.emplace_back(PanopticPaths{turn.path, a.paths.gt, "", a.paths.gt_dir});
   ViewCache cache(a.view);
-  const auto results = MeasureAll<Result>("eval panoptic", input.truth.frames.size(),
-                                          [&](size_t i) { return MeasureFrame(input, i, rolled, turns, cache); });
+  const auto results = MeasureAll<PanopticResult>("eval panoptic", input.truth.frames.size(),
+                                                  [&](size_t i) { return MeasureFrame(input, i, rolled, turns, cache); });
 
   const auto of_view = [&](size_t view, std::span<const uint32_t> draws = {}) {
     return Sum(
-        results, categories.size(), [view](const Result& r) -> const Counts& { return r.views[view]; }, draws);
+        results, categories.size(), [view](const PanopticResult& r) -> const Counts& { return r.views[view]; }, draws);
   };
   Json json;
   std::vector<std::pair<std::string, std::string>> mistakes;
@@ -149,7 +149,8 @@ void Run(Arguments a, const GlobalOptions& globals) {
   const std::vector<Figure> main = Flat(whole, categories);
   std::vector<std::vector<Figure>> turned;
   for (size_t r = 0; r < turns.size(); ++r)
-    turned.push_back(Flat(Sum(results, categories.size(), [r](const Result& one) -> const Counts& { return one.rolled[r]; }), categories));
+    turned.push_back(
+        Flat(Sum(results, categories.size(), [r](const PanopticResult& one) -> const Counts& { return one.rolled[r]; }), categories));
   AppendRolled(json, turns, turned, main);
   std::vector<std::string> names;
   for (const Figure& figure : main) names.push_back(figure.first);
@@ -178,7 +179,7 @@ void Run(Arguments a, const GlobalOptions& globals) {
 
 void AddEvalPanoptic(CLI::App& command, GlobalOptions& globals) {
   CLI::App* panoptic = command.add_subcommand("panoptic", "panoptic quality: PQ, SQ, RQ");
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<PanopticArguments>();
   AddPanopticPaths(*panoptic, a->paths);
   panoptic
       ->add_option("--open-world", a->held_out,

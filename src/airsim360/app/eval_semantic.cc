@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct SemanticArguments {
   std::string pred, gt, classes, protocol;
   std::vector<std::string> ignore, held_out;
   ViewOptions view;
@@ -25,7 +25,7 @@ struct Arguments {
   SheetOptions sheet;
 };
 
-struct Result {
+struct SemanticResult {
   std::vector<Confusion> views, rolled;
   std::string mistake;
   int64_t unknown = 0;  // predicted ids that are no class
@@ -34,7 +34,9 @@ struct Result {
 // Index of a class by id.
 using ClassIndex = std::vector<uint16_t>;
 
-constexpr const char* kWildpassQuirk = "wildpass: pictures are brought to 1024x512 (nearest pixel) before they are compared";
+constexpr const char* kWildpassQuirk =
+    "wildpass: pictures are brought to 1024x512 (nearest pixel) before they are compared; truths of 255 are left out, where its evaluator "
+    "counts predictions of its classes as wrong";
 
 size_t FindClass(const std::vector<LabelClass>& classes, const std::string& name, const char* flag) {
   std::vector<std::string> names;
@@ -76,12 +78,12 @@ Confusion Measure(const std::vector<uint16_t>& pred, const std::vector<uint16_t>
   return confusion;
 }
 
-Result MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, const std::vector<Rolled>& turns, size_t i,
-                   const ClassIndex& truths, const ClassIndex& index, size_t classes, ViewCache& cache) {
+SemanticResult MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, const std::vector<Rolled>& turns, size_t i,
+                           const ClassIndex& truths, const ClassIndex& index, size_t classes, ViewCache& cache) {
   const LabelPicture gt = ReadLabelPicture(pair.truth), pred = ReadPrediction(pair.prediction, gt, pair.truth);
   const auto views = cache.Of(gt.width, gt.height);
   const std::vector<uint16_t> gt_classes = ClassesOf(gt, truths), pred_classes = ClassesOf(pred, index);
-  Result result;
+  SemanticResult result;
   result.mistake = LikelyLabelMistake(pred.ids, gt.ids, gt.width, gt.height);
   for (const uint16_t c : pred_classes) result.unknown += c == Confusion::kOther;
   for (const PixelView& view : *views) result.views.push_back(Measure(pred_classes, gt_classes, view, classes));
@@ -101,7 +103,7 @@ std::vector<Figure> FiguresOf(const Confusion& c) {
 }
 
 template <class Of>
-Confusion Sum(const std::vector<Result>& results, size_t classes, const Of& of, std::span<const uint32_t> draws = {}) {
+Confusion Sum(const std::vector<SemanticResult>& results, size_t classes, const Of& of, std::span<const uint32_t> draws = {}) {
   Confusion sum(classes);
   for (size_t i = 0; i < results.size(); ++i) {
     const uint32_t times = draws.empty() ? 1 : draws[i];
@@ -139,7 +141,7 @@ Json OpenWorld(const Confusion& c, const std::vector<LabelClass>& classes, const
   return {{"held_out", held_out}, {"miou_known", sums[0] / counts[0]}, {"miou_held_out", sums[1] / counts[1]}};
 }
 
-void Check(Arguments& a) {
+void Check(SemanticArguments& a) {
   if (a.protocol == "wildpass")
     a.view.resize_width = 1024, a.view.resize_height = 512;
   else if (!a.protocol.empty())
@@ -151,19 +153,19 @@ void Check(Arguments& a) {
     throw InputError("--protocol wildpass counts pixels of its own size: leave --weights and --projection out");
 }
 
-Json Notes(const Arguments& a, const FilePairs& files, const std::vector<Result>& results) {
+Json Notes(const SemanticArguments& a, const FilePairs& files, const std::vector<SemanticResult>& results) {
   Json notes = files.notes;
   notes.push_back(
       "one confusion table of all pictures; classes that neither truth nor prediction has are left out of means, truths that are no class are ignored");
   if (!a.protocol.empty()) notes.push_back(kWildpassQuirk);
   int64_t unknown = 0;
-  for (const Result& r : results) unknown += r.unknown;
+  for (const SemanticResult& r : results) unknown += r.unknown;
   if (unknown > 0)
     notes.push_back(std::to_string(unknown) + " predicted pixels are of no class of the file: where the truth has one they are wrong");
   return notes;
 }
 
-void Run(Arguments a, const GlobalOptions& globals) {
+void Run(SemanticArguments a, const GlobalOptions& globals) {
   Check(a);
   const std::vector<LabelClass> classes = ReadClassFile(a.classes);
   const ClassIndex index = IndexClasses(classes);
@@ -178,12 +180,13 @@ void Run(Arguments a, const GlobalOptions& globals) {
   for (const Rolled& turn : turns) rolled.push_back(PairFiles(turn.path, a.gt, endings, "semantic"));
   ViewCache cache(a.view);
   const size_t n = classes.size();
-  const auto results = MeasureAll<Result>("eval semantic", files.pairs.size(),
-                                          [&](size_t i) { return MeasurePair(files.pairs[i], rolled, turns, i, truths, index, n, cache); });
+  const auto results = MeasureAll<SemanticResult>("eval semantic", files.pairs.size(), [&](size_t i) {
+    return MeasurePair(files.pairs[i], rolled, turns, i, truths, index, n, cache);
+  });
 
   const auto of_view = [&](size_t view, std::span<const uint32_t> draws = {}) {
     return Sum(
-        results, n, [view](const Result& r) -> const Confusion& { return r.views[view]; }, draws);
+        results, n, [view](const SemanticResult& r) -> const Confusion& { return r.views[view]; }, draws);
   };
   Json json;
   std::vector<std::pair<std::string, std::string>> mistakes;
@@ -201,7 +204,7 @@ void Run(Arguments a, const GlobalOptions& globals) {
   AppendViews(json, a.view, [&](size_t view) { return ToJson(FiguresOf(of_view(view))); });
   std::vector<std::vector<Figure>> turned;
   for (size_t r = 0; r < turns.size(); ++r)
-    turned.push_back(FiguresOf(Sum(results, n, [r](const Result& one) -> const Confusion& { return one.rolled[r]; })));
+    turned.push_back(FiguresOf(Sum(results, n, [r](const SemanticResult& one) -> const Confusion& { return one.rolled[r]; })));
   AppendRolled(json, turns, turned, main);
   std::vector<std::string> names;
   for (const Figure& figure : main) names.push_back(figure.first);
@@ -228,7 +231,7 @@ void Run(Arguments a, const GlobalOptions& globals) {
 
 void AddEvalSemantic(CLI::App& command, GlobalOptions& globals) {
   CLI::App* semantic = command.add_subcommand("semantic", "mIoU of label pictures");
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<SemanticArguments>();
   semantic->add_option("pred", a->pred, "label .png (gray or palette) or .npy, a folder of them, or a dataset of ours (its semantic)")
       ->required();
   semantic->add_option("gt", a->gt, "the truth: the same, with the same names")->required();

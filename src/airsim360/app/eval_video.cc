@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct VideoArguments {
   PanopticPaths paths;
   std::string protocol, weights = "pixel";
   std::vector<int> windows = {1, 2, 3, 4};
@@ -49,7 +49,7 @@ struct Result {
   std::map<int, std::vector<PanopticCount>> windows;
 };
 
-Video PanopticVideo(const Arguments& a) {
+Video PanopticVideo(const VideoArguments& a) {
   auto input = std::make_shared<PanopticInput>(a.paths);
   Video video{input->truth.categories, {}, input->notes};
   std::map<std::string, size_t> index;
@@ -65,7 +65,7 @@ Video PanopticVideo(const Arguments& a) {
   return video;
 }
 
-Video StepVideo(const Arguments& a) {
+Video StepVideo(const VideoArguments& a) {
   if (a.classes < 1 || a.classes > 254) throw InputError("--classes " + std::to_string(a.classes) + ": must be 1 to 254");
   const StepClasses classes{a.classes, a.void_class, {a.things.begin(), a.things.end()}};
   Video video;
@@ -142,7 +142,8 @@ void CountWindows(const std::vector<SeenFrame>& frames, int window, std::vector<
   }
 }
 
-Result MeasureSequence(const Sequence& sequence, const Arguments& a, const std::vector<PanopticCategory>& categories, ViewCache& cache) {
+Result MeasureSequence(const Sequence& sequence, const VideoArguments& a, const std::vector<PanopticCategory>& categories,
+                       ViewCache& cache) {
   std::vector<bool> things;
   for (const PanopticCategory& category : categories) things.push_back(category.thing);
   Result result{std::make_shared<TrackingQuality>(things), {}};
@@ -211,7 +212,7 @@ std::vector<Figure> FiguresOf(const Scores& scores, const std::vector<PanopticCa
   return figures;
 }
 
-void Run(const Arguments& a, const GlobalOptions& globals) {
+void Run(const VideoArguments& a, const GlobalOptions& globals) {
   if (!a.protocol.empty() && a.protocol != "step")
     throw InputError("--protocol: " + UnknownChoiceMessage("protocol of video", a.protocol, std::vector<std::string>{"step"}));
   std::set<int> windows;
@@ -268,7 +269,7 @@ void Run(const Arguments& a, const GlobalOptions& globals) {
 
 void AddEvalVideo(CLI::App& command, GlobalOptions& globals) {
   CLI::App* video = command.add_subcommand("video", "segmentation and tracking of panoptic video: STQ, AQ, SQ, VPQ");
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<VideoArguments>();
   AddPanopticPaths(*video, a->paths);
   video->get_option("pred")->description(
       "COCO panoptic JSON whose ids are the same over frames (images may have video_id), a dataset of ours, or a folder of STEP's PNGs");

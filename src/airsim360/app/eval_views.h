@@ -8,7 +8,6 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +18,7 @@
 #include "airsim360/base/log.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/eval/sphere/pixel_view.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/vector.h"
 
 namespace airsim360 {
@@ -67,9 +67,8 @@ struct Rolled {
   template <class Pixel>
   std::vector<Pixel> Back(std::span<const Pixel> pixels, int width) const {
     if (!turn_deg) return RollBack<Pixel>(pixels, width, columns);
-    constexpr double kRadians = std::numbers::pi / 180;
     const int height = static_cast<int>(pixels.size() / static_cast<size_t>(width));
-    return Take<Pixel>(pixels, TurnedView(width, height, turn_deg->x * kRadians, turn_deg->y * kRadians, turn_deg->z * kRadians));
+    return Take<Pixel>(pixels, TurnedView(width, height, turn_deg->x * kDegree, turn_deg->y * kDegree, turn_deg->z * kDegree));
   }
 };
 /// Those of --rolled, then those of --turned.

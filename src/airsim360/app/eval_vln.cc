@@ -1,5 +1,7 @@
 // airsim360 eval vln: scores of flown paths.
 #include <memory>
+#include <optional>
+#include <set>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/eval_commands.h"
@@ -12,11 +14,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct VlnArguments {
   std::string episodes, results, protocol = "ours";
-  double radius = 20;
+  std::optional<double> radius;
   ReportOptions report;
 };
+
+constexpr double kUsualRadius = 20;  // metres, of files that say none
 
 std::vector<double> MeanFigures(const std::vector<VlnScore>& scores, std::span<const uint32_t> draws = {}) {
   std::vector<double> sums(kVlnFigures.size(), 0);
@@ -41,13 +45,16 @@ void WriteTable(const std::string& path, const std::vector<NamedVlnEpisode>& epi
   WriteCsv(path, rows);
 }
 
-void Run(const Arguments& a, const GlobalOptions& globals) {
+void Run(const VlnArguments& a, const GlobalOptions& globals) {
   const VlnProtocol& protocol = FindVlnProtocol(a.protocol);
-  CheckPositive("--radius", a.radius);
+  if (a.radius) CheckPositive("--radius", *a.radius);
   const auto episodes = ReadVlnFiles(a.episodes, a.results.empty() ? a.episodes : a.results);
+  std::set<double> radii;
+  const auto radius_of = [&](const VlnEpisode& e) { return a.radius.value_or(e.radius.value_or(kUsualRadius)); };
+  for (const auto& one : episodes) radii.insert(radius_of(one.episode));
   const auto scores = MeasureAll<VlnScore>("eval vln", episodes.size(), [&](size_t i) {
     try {
-      return ScoreVln(episodes[i].episode, a.radius, protocol);
+      return ScoreVln(episodes[i].episode, radius_of(episodes[i].episode), protocol);
     } catch (const InputError& error) {
       throw InputError("episode '" + episodes[i].id + "': " + error.what());
     }
@@ -57,7 +64,7 @@ void Run(const Arguments& a, const GlobalOptions& globals) {
   const std::vector<std::string> names(kVlnFigures.begin(), kVlnFigures.end());
   for (size_t f = 0; f < names.size(); ++f) json[names[f]] = means[f];
   json["episodes"] = episodes.size();
-  json["radius"] = a.radius;
+  json["radius"] = radii.size() == 1 ? Json(*radii.begin()) : Json(std::vector<double>(radii.begin(), radii.end()));
   json["protocol"] = a.protocol;
   double collisions = 0;
   for (const auto& one : episodes) collisions += one.episode.collided;
@@ -76,10 +83,10 @@ void Run(const Arguments& a, const GlobalOptions& globals) {
 
 void AddEvalVln(CLI::App& command, GlobalOptions& globals) {
   CLI::App* vln = command.add_subcommand("vln", "scores of navigation by instruction: SR, OSR, SPL, NE, nDTW, sDTW, CLS");
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<VlnArguments>();
   vln->add_option("episodes", a->episodes, ".json or .jsonl with the reference path `ref` of every `id`")->required();
   vln->add_option("results", a->results, "the same ids with the flown path `pred` (default: the first file holds both)");
-  vln->add_option("--radius", a->radius, "metres from the goal that count as success (default 20)");
+  vln->add_option("--radius", a->radius, "metres from the goal that count as success (default: what the files say, or 20)");
   vln->add_option("--protocol", a->protocol, "ours, aerialvln, openfly, citynav-mgp, citynav-vlnce, traveluav or uavon");
   AddReportFlags(*vln, a->report, "a row an episode");
   vln->callback([a, &globals] { Run(*a, globals); });

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <numbers>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
@@ -25,6 +24,7 @@
 #include "airsim360/dataset/video.h"
 #include "airsim360/flight/drones/catalog.h"
 #include "airsim360/flight/prompt/drone_file.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/planning/time_allocation.h"
 #include "airsim360/routes/route_file.h"
 #include "airsim360/scene/viewpoint.h"
@@ -78,16 +78,15 @@ std::vector<FlyTask> TasksOf(const FlyArguments& arguments, const std::shared_pt
 
 // Where the drone begins: hovering at the first waypoint, or standing under the pose.
 void SetStart(const FlyArguments& arguments, const Scene& scene, const PolynomialTrajectory* trajectory, DroneSetup& setup) {
-  constexpr double kRadians = std::numbers::pi / 180;
   if (trajectory != nullptr) {
     const Vec3d way = trajectory->At(std::min(1.0, trajectory->duration())).p - trajectory->At(0).p;
     setup.X_WB = BodyPose(trajectory->At(0).p, std::atan2(way.y, way.x), 0, 0);
     setup.airborne = true;
   } else if (!arguments.pose.empty()) {
     const PoseArgument pose = ParsePose(arguments.pose);
-    setup.X_WB = BodyPose(pose.p, pose.yaw_deg * kRadians, 0, 0);
+    setup.X_WB = BodyPose(pose.p, pose.yaw_deg * kDegree, 0, 0);
   } else {
-    setup.X_WB = BodyPose(VecCast<double>(FirstViewpoint(scene)), scene.spawn_yaw_deg * kRadians, 0, 0);
+    setup.X_WB = BodyPose(VecCast<double>(FirstViewpoint(scene)), scene.spawn_yaw_deg * kDegree, 0, 0);
   }
 }
 
@@ -116,6 +115,10 @@ nlohmann::ordered_json ResultJson(const FlyArguments& arguments, const DroneMode
       json["impact_speed"] = c.impact_speed;
       json["point"] = {c.p_W.x, c.p_W.y, c.p_W.z};
       json["normal"] = {c.normal_W.x, c.normal_W.y, c.normal_W.z};
+    }
+    if (event.kind == SimEvent::Kind::kNearMiss) {
+      json["time_to_collision"] = event.near_miss.seconds;
+      json["braking"] = event.near_miss.braking;
     }
     if (!event.text.empty()) json["text"] = event.text;
     events.push_back(json);

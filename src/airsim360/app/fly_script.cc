@@ -9,7 +9,7 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kLongest = 600;  // seconds that a task may take that ends by itself
+constexpr double kLongestTask = 600;  // seconds that a task may take that ends by itself
 
 constexpr std::pair<std::string_view, std::string_view> kForms[] = {
     {"takeoff", "takeoff [HEIGHT]"},        {"hover", "hover SECONDS"}, {"goto", "goto X,Y,Z[,SPEED]"},
@@ -61,13 +61,13 @@ FlyTask ParseTask(const std::string& task) {
   const auto numbers = [&](size_t least, size_t most) { return Numbers(task, Trimmed(rest), least, most); };
   if (word == "takeoff") {
     const auto n = numbers(0, 1);
-    return {task, TakeoffCommand{.height = n.empty() ? 2 : Positive(task, n[0])}, kLongest, true};
+    return {task, TakeoffCommand{.height = n.empty() ? 2 : Positive(task, n[0])}, kLongestTask, true};
   }
   if (word == "hover") return {task, HoverCommand{}, Positive(task, numbers(1, 1)[0])};
   if (word == "goto") {
     const auto n = numbers(3, 4);
     const double speed = n.size() > 3 ? Positive(task, n[3]) : 0;
-    return {task, PositionCommand{.p_W = {n[0], n[1], n[2]}, .speed = speed, .yaw = {YawTarget::Mode::kForward}}, kLongest, true};
+    return {task, PositionCommand{.p_W = {n[0], n[1], n[2]}, .speed = speed, .yaw = {YawTarget::Mode::kForward}}, kLongestTask, true};
   }
   if (word == "velocity") {
     const auto n = numbers(4, 4);
@@ -75,8 +75,8 @@ FlyTask ParseTask(const std::string& task) {
   }
   if (word == "return" || word == "land") {
     numbers(0, 0);
-    if (word == "return") return {task, ReturnCommand{}, kLongest, true};
-    return {task, LandCommand{}, kLongest, true};
+    if (word == "return") return {task, ReturnCommand{}, kLongestTask, true};
+    return {task, LandCommand{}, kLongestTask, true};
   }
   std::vector<std::string> words;
   for (const auto& form : kForms) words.emplace_back(form.first);

@@ -267,8 +267,9 @@ void AddTable(CLI::App& mpde, GlobalOptions& globals) {
   CLI::App* command = mpde.add_subcommand("table", "the paper's table: four training sets, four test sets, several seeds");
   auto arguments = std::make_shared<TableArguments>();
   command->add_option("DIR", arguments->options.people, "folder of `collect --recipe`, with subsets.json")->required();
-  command->add_option("--real", arguments->real,
-                      "NAME=FILE: real data in MonoLoco's layout as nuscenes, kitti or freeman; stand-ins without");
+  command->add_option(
+      "--real", arguments->real,
+      "NAME=FILE[:SPLIT]: real data in MonoLoco's layout as nuscenes, kitti or freeman (split val unless named); stand-ins without");
   command->add_option("--seeds", arguments->options.seeds, "networks of each row (default 3)");
   command->add_option("--our-share", arguments->options.our_share, "of the batches, relative to the base (default 1)")
       ->check(CLI::Range(0.001, 1000.0));

@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 
 #include "airsim360/app/arguments.h"
@@ -17,6 +16,7 @@
 #include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/scene/viewpoint.h"
 #include "airsim360/sim/people_survey.h"
 #include "airsim360/sim/traffic/traffic.h"
@@ -24,7 +24,6 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kLookDown = -20;  // degrees, of a narrow camera near people
 
 struct RenderArguments {
@@ -50,8 +49,8 @@ PoseArgument ScenePose(const Scene& scene) {
   pose.yaw_deg = scene.spawn_yaw_deg;
   const Vec3d to_middle = VecCast<double>(scene.bounds.center() - spawn);
   if (!scene.bounds.empty() && !scene.bounds.Contains(spawn)) {
-    pose.yaw_deg = std::atan2(to_middle.y, to_middle.x) * kDegrees;
-    pose.pitch_deg = std::atan2(to_middle.z, std::hypot(to_middle.x, to_middle.y)) * kDegrees;
+    pose.yaw_deg = std::atan2(to_middle.y, to_middle.x) * kRadian;
+    pose.pitch_deg = std::atan2(to_middle.z, std::hypot(to_middle.x, to_middle.y)) * kRadian;
   }
   return pose;
 }
@@ -61,7 +60,7 @@ PoseArgument DefaultPose(const SimModel& model, const DatasetSpec& spec) {
   const std::optional<PeopleSurvey> survey = PlanPeopleSurvey(model, {.seed = spec.seed, .viewpoints = 1});
   if (!survey) return ScenePose(model.tracer->scene());
   const RoutePoint start = survey->route.At(0);
-  PoseArgument pose{.p = start.p, .yaw_deg = start.yaw * kDegrees};
+  PoseArgument pose{.p = start.p, .yaw_deg = start.yaw * kRadian};
   // People are below; a panorama sees them anyway, and its horizon stays level.
   if (!IsPanoramic(spec)) pose.pitch_deg = kLookDown;
   return pose;
@@ -91,8 +90,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   if (arguments.pose.empty()) pose = DefaultPose(model, spec);
   spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," + Number(pose.yaw_deg) + "," +
                Number(pose.pitch_deg) + "," + Number(pose.roll_deg);
-  constexpr double kRadians = std::numbers::pi / 180;
-  Flight flight = Hover(BodyPose(pose.p, pose.yaw_deg * kRadians, pose.pitch_deg * kRadians, pose.roll_deg * kRadians));
+  Flight flight = Hover(BodyPose(pose.p, pose.yaw_deg * kDegree, pose.pitch_deg * kDegree, pose.roll_deg * kDegree));
   if (stage.people()) flight.shots[0].people = stage.people()->start;
   if (stage.traffic()) flight.shots[0].traffic = stage.traffic()->start;
   CheckCameraPlaces(*model.tracer, spec, flight);

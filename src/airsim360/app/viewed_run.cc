@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/json_depth.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/sim/sim_loop.h"
 #include "airsim360/view/planes.h"
@@ -23,7 +23,6 @@ constexpr int64_t kMostPlaces = 500'000;
 constexpr size_t kMostWorlds = 2;
 constexpr std::string_view kTranscriptEnd = ".transcript.jsonl";
 constexpr const char* kShown[] = {"range", "semantic", "entity", "normal"};
-constexpr double kDegree = std::numbers::pi / 180;
 
 Json PointJson(Vec3d p) { return {p.x, p.y, p.z}; }
 

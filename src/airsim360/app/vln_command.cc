@@ -50,28 +50,49 @@ struct MakeArguments {
   std::string recipe, out;
 };
 
+Json UnboundJson(const std::vector<Unbound>& all) {
+  Json list = Json::array();
+  for (const Unbound& u : all)
+    list.push_back({{"template", u.template_id}, {"world", u.world}, {"world_seed", u.world_seed}, {"start", u.start}, {"why", u.why}});
+  return list;
+}
+
+void PrintUnbound(const char* what, const std::vector<Unbound>& all) {
+  for (const Unbound& u : all)
+    std::printf("%s: %s, %s of seed %llu, start %d: %s\n", what, u.template_id.c_str(), u.world.c_str(),
+                static_cast<unsigned long long>(u.world_seed), u.start, u.why.c_str());
+}
+
 void PrintMade(const VlnMade& made, const std::string& out, const GlobalOptions& globals) {
-  Json difficulty = {{"easy", 0}, {"medium", 0}, {"hard", 0}}, unbound = Json::array();
+  Json difficulty = {{"easy", 0}, {"medium", 0}, {"hard", 0}};
   for (const LanguageEpisode& e : made.episodes) difficulty[e.difficulty] = difficulty[e.difficulty].get<int>() + 1;
-  for (const Unbound& u : made.unbound)
-    unbound.push_back({{"template", u.template_id}, {"world", u.world}, {"world_seed", u.world_seed}, {"start", u.start}, {"why", u.why}});
   if (globals.json) {
-    PrintJson({{"out", out}, {"episodes", made.episodes.size()}, {"difficulty", difficulty}, {"unbound", unbound}});
+    PrintJson({{"out", out},
+               {"episodes", made.episodes.size()},
+               {"difficulty", difficulty},
+               {"unbound", UnboundJson(made.unbound)},
+               {"hidden", UnboundJson(made.hidden)}});
     return;
   }
   std::printf("%zu episodes in %s (%d easy, %d medium, %d hard)\n", made.episodes.size(), out.c_str(), difficulty["easy"].get<int>(),
               difficulty["medium"].get<int>(), difficulty["hard"].get<int>());
-  for (const Unbound& u : made.unbound)
-    std::printf("not bound: %s, start %d, seed %llu: %s\n", u.template_id.c_str(), u.start, static_cast<unsigned long long>(u.world_seed),
-                u.why.c_str());
+  PrintUnbound("not bound", made.unbound);
+  PrintUnbound("begins out of sight", made.hidden);
 }
 
-// What a recipe makes, with the seed, people, weather and limit of the flags.
+// What a recipe makes, of one world or of all, with the seed, people, weather and limit of the flags.
 VlnMade MakeRecipe(const MakeArguments& arguments, const GlobalOptions& globals) {
   std::vector<std::string> known;
   for (const WorldInfo& info : ListWorlds()) known.push_back(info.name);
   VlnMade made;
-  for (VlnMakeOptions& options : VlnRecipe(arguments.recipe, known)) {
+  std::vector<VlnMakeOptions> parts = VlnRecipe(arguments.recipe, known);
+  if (const std::string& world = arguments.options.world; !world.empty()) {
+    std::vector<std::string> worlds;
+    for (const VlnMakeOptions& part : parts) worlds.push_back(part.world);
+    std::erase_if(parts, [&](const VlnMakeOptions& part) { return part.world != world; });
+    if (parts.empty()) throw InputError("--world: " + UnknownChoiceMessage("world of the recipe", world, worlds));
+  }
+  for (VlnMakeOptions& options : parts) {
     options.seed = globals.seed;
     options.people = arguments.options.people;
     options.limit = arguments.options.limit;
@@ -80,6 +101,7 @@ VlnMade MakeRecipe(const MakeArguments& arguments, const GlobalOptions& globals)
     VlnMade part = MakeEpisodes(options);
     std::ranges::move(part.episodes, std::back_inserter(made.episodes));
     std::ranges::move(part.unbound, std::back_inserter(made.unbound));
+    std::ranges::move(part.hidden, std::back_inserter(made.hidden));
   }
   return made;
 }
@@ -87,7 +109,7 @@ VlnMade MakeRecipe(const MakeArguments& arguments, const GlobalOptions& globals)
 void Make(MakeArguments& arguments, const GlobalOptions& globals) {
   VlnMakeOptions& options = arguments.options;
   options.seed = globals.seed;
-  if (options.world.empty() == arguments.recipe.empty()) throw InputError("--world: give either a world or a --recipe");
+  if (options.world.empty() && arguments.recipe.empty()) throw InputError("--world: give a world or a --recipe");
   if (!options.weather.empty() && options.weather != "mix") ApplyFlags({.weather = options.weather}, {});
   options.open = [&](uint64_t seed) { return Open(globals, options.world, seed, 0); };
   const VlnMade made = arguments.recipe.empty() ? MakeEpisodes(options) : MakeRecipe(arguments, globals);
@@ -102,8 +124,8 @@ void AddMake(CLI::App& parent, GlobalOptions& globals) {
   CLI::App* command = parent.add_subcommand("make", "episodes: instructions bound to a world, each with the proof that it means one thing");
   const auto a = std::make_shared<MakeArguments>();
   command->add_option("--world", a->options.world, "name or file of the world");
-  CLI::Option* recipe =
-      command->add_option("--recipe", a->recipe, "instead of a world, many: omni360-vln, over 10,000 episodes in all of them");
+  CLI::Option* recipe = command->add_option(
+      "--recipe", a->recipe, "what is made of which worlds: omni360-vln, over 10,000 episodes in all; with --world the part of that world");
   command
       ->add_option("--templates", a->options.templates,
                    "paper37, any (the same style over whatever a world has), or a JSON file (default paper37)")
@@ -112,7 +134,7 @@ void AddMake(CLI::App& parent, GlobalOptions& globals) {
   command->add_option("--seeds", a->options.seeds, "worlds, of the seeds from --seed on (default 1)")->excludes(recipe);
   command->add_option("--people", a->options.people, "people in the world when episodes are flown (default 0)");
   command->add_option("--weather", a->options.weather, "of pictures, or mix: another one an episode");
-  command->add_option("--limit", a->options.limit, "episodes of a seed at most (default all)");
+  command->add_option("--limit", a->options.limit, "episodes of a seed at most, of all nouns in turn (default all)");
   command->add_option("--out", a->out, "episodes.jsonl")->required();
   command->callback([a, &globals] { Make(*a, globals); });
 }

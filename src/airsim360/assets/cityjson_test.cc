@@ -26,7 +26,7 @@ double AreaOf(const Mesh& mesh, bool only_level) {
   return sum;
 }
 
-std::string ErrorOf(const std::string& text) {
+std::string CityJsonError(const std::string& text) {
   try {
     ReadCityJson("bad.city.json", text);
   } catch (const InputError& error) {
@@ -135,7 +135,7 @@ TEST(CityJson, PartsAreOfOneEntityWithTheirBuilding) {
   const ImportedFile file =
       ReadCityJson("p.city.json", City(R"("b":{"type":"Building","children":["p","q"],"geometry":[]},"p":)" + part + R"(,"q":)" + part));
   EXPECT_EQ(AreasByName(file), (std::map<std::string, double>{{"b", 2}}));
-  EXPECT_NE(ErrorOf(City(R"("p":)" + part)).find("/CityObjects/p/parents/0: there is no such object"), std::string::npos);
+  EXPECT_NE(CityJsonError(City(R"("p":)" + part)).find("/CityObjects/p/parents/0: there is no such object"), std::string::npos);
 }
 
 TEST(CityJson, TheHighestLevelOfDetailCountsTemplatesIncluded) {
@@ -150,7 +150,7 @@ TEST(CityJson, TheHighestLevelOfDetailCountsTemplatesIncluded) {
   EXPECT_NEAR(AreasByName(ReadCityJson("l.city.json", City(object, templates("1")))).at("t"), 3, 1e-6);
   EXPECT_NEAR(AreasByName(ReadCityJson("l.city.json", City(object, templates("\"3\"")))).at("t"), 0.5, 1e-6);
   for (const char* lod : {"\"high\"", "\"2,2\"", "\"2.2 \"", "\"\"", "\"1e999\"", "-1", "\"10\"", "null", "[2]"})
-    EXPECT_NE(ErrorOf(City(R"("t":{"type":"Road","geometry":[)" + Squares(1, R"("lod":)" + std::string(lod)) + "]}"))
+    EXPECT_NE(CityJsonError(City(R"("t":{"type":"Road","geometry":[)" + Squares(1, R"("lod":)" + std::string(lod)) + "]}"))
                   .find("/CityObjects/t/geometry/0/lod: "),
               std::string::npos)
         << lod;
@@ -181,21 +181,22 @@ TEST(CityJson, MaterialsOfTheFileColourItsSurfaces) {
       EXPECT_EQ(material.kind, SurfaceKind::kGlass);
     }
   }
-  EXPECT_NE(ErrorOf(City(object(R"({"second":{"values":[[0,7,null]]}})"), appearance)).find("there are 2 materials (7)"),
+  EXPECT_NE(CityJsonError(City(object(R"({"second":{"values":[[0,7,null]]}})"), appearance)).find("there are 2 materials (7)"),
             std::string::npos);
 }
 
 TEST(CityJson, DamageNamesThePlace) {
   const std::string good = ReadTextFile(kHouse);
-  EXPECT_NE(ErrorOf(Replaced(good, "[0, 1, 5, 4]", "[0, 1, 99, 4]")).find("/CityObjects/house-1/geometry/1/boundaries/0/1/0/2"),
+  EXPECT_NE(CityJsonError(Replaced(good, "[0, 1, 5, 4]", "[0, 1, 99, 4]")).find("/CityObjects/house-1/geometry/1/boundaries/0/1/0/2"),
             std::string::npos);
-  EXPECT_NE(ErrorOf(Replaced(good, "\"2.0\"", "\"9.0\"")).find("/version"), std::string::npos);
-  EXPECT_NE(ErrorOf(Replaced(good, "[[0, 1, 1, 1, 1, 2, 2]]", "[[0, 1, 1, 1, 7, 2, 2]]")).find("semantic"), std::string::npos);
-  EXPECT_NE(ErrorOf(Replaced(good, "\"template\": 0", "\"template\": 3")).find("/template"), std::string::npos);
-  EXPECT_NE(ErrorOf(good.substr(0, 700)).find("bad.city.json:"), std::string::npos);
-  EXPECT_NE(ErrorOf(Replaced(good, "[0.001, 0.001, 0.001]", "[0, 1, 1]")).find("/transform/scale: no scale may be 0"), std::string::npos);
-  EXPECT_NE(ErrorOf("{}").find("not CityJSON"), std::string::npos);
-  EXPECT_NE(ErrorOf(Replaced(good, "[0.001, 0.001, 0.001]", "[1e300, 1, 1]")).find("out of range"), std::string::npos);
+  EXPECT_NE(CityJsonError(Replaced(good, "\"2.0\"", "\"9.0\"")).find("/version"), std::string::npos);
+  EXPECT_NE(CityJsonError(Replaced(good, "[[0, 1, 1, 1, 1, 2, 2]]", "[[0, 1, 1, 1, 7, 2, 2]]")).find("semantic"), std::string::npos);
+  EXPECT_NE(CityJsonError(Replaced(good, "\"template\": 0", "\"template\": 3")).find("/template"), std::string::npos);
+  EXPECT_NE(CityJsonError(good.substr(0, 700)).find("bad.city.json:"), std::string::npos);
+  EXPECT_NE(CityJsonError(Replaced(good, "[0.001, 0.001, 0.001]", "[0, 1, 1]")).find("/transform/scale: no scale may be 0"),
+            std::string::npos);
+  EXPECT_NE(CityJsonError("{}").find("not CityJSON"), std::string::npos);
+  EXPECT_NE(CityJsonError(Replaced(good, "[0.001, 0.001, 0.001]", "[1e300, 1, 1]")).find("out of range"), std::string::npos);
 }
 
 std::string KindError(const std::string& text) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "airsim360/assets/gltf_extras.h"
 #include "airsim360/assets/written_world.h"
 #include "airsim360/image/codecs.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace internal {
@@ -242,8 +242,7 @@ void Exporter::AddInstances() {
 // A directional light shines along -Z of its node: that axis is turned away from the sun.
 void Exporter::AddSun() {
   if (scene_.sky_entity == kNoEntity) return;
-  constexpr double kDegrees = std::numbers::pi / 180;
-  const double azimuth = scene_.environment.sun_azimuth_deg * kDegrees, elevation = scene_.environment.sun_elevation_deg * kDegrees;
+  const double azimuth = scene_.environment.sun_azimuth_deg * kDegree, elevation = scene_.environment.sun_elevation_deg * kDegree;
   const Vec3d to_sun = ToG(Vec3d{std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation), std::sin(elevation)});
   const Vec3d side = std::abs(to_sun.y) < 0.999 ? Normalized(Cross(Vec3d{0, 1, 0}, to_sun)) : Vec3d{1, 0, 0};
   const Vec3d up = Cross(to_sun, side);

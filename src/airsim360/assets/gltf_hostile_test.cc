@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-std::string ErrorOf(const std::string& text, const ResourceLoader& load = kNoFiles) {
+std::string GltfError(const std::string& text, const ResourceLoader& load = kNoFiles) {
   try {
     ReadGltf("test.gltf", AsBytes(text), load);
   } catch (const InputError& error) {
@@ -24,22 +24,22 @@ std::string ErrorOf(const std::string& text, const ResourceLoader& load = kNoFil
 std::string ErrorAfter(const std::string& pointer, const json& value) {
   GltfDocument doc = GltfDocument::Triangle();
   doc.json[json::json_pointer(pointer)] = value;
-  return ErrorOf(doc.Text());
+  return GltfError(doc.Text());
 }
 
 TEST(HostileGltf, BrokenJsonNamesLineAndColumn) {
-  EXPECT_TRUE(Contains(ErrorOf("{\n  \"asset\": {\n    \"version\" \"2.0\"}}"), {"test.gltf:3:19: not valid JSON"}));
-  EXPECT_TRUE(Contains(ErrorOf("{\"asset\": "), {"ends too early"}));
-  EXPECT_TRUE(Contains(ErrorOf(""), {"test.gltf:1:1"}));
-  EXPECT_TRUE(Contains(ErrorOf("[1]"), {"an object expected"}));
+  EXPECT_TRUE(Contains(GltfError("{\n  \"asset\": {\n    \"version\" \"2.0\"}}"), {"test.gltf:3:19: not valid JSON"}));
+  EXPECT_TRUE(Contains(GltfError("{\"asset\": "), {"ends too early"}));
+  EXPECT_TRUE(Contains(GltfError(""), {"test.gltf:1:1"}));
+  EXPECT_TRUE(Contains(GltfError("[1]"), {"an object expected"}));
 }
 
-TEST(HostileGltf, DeepNestingOfJsonIsNoRecursion) { EXPECT_TRUE(Contains(ErrorOf(std::string(1000000, '[')), {"not valid JSON"})); }
+TEST(HostileGltf, DeepNestingOfJsonIsNoRecursion) { EXPECT_TRUE(Contains(GltfError(std::string(1000000, '[')), {"not valid JSON"})); }
 
 TEST(HostileGltf, EveryTruncationOfAGlbIsAnError) {
   const std::string glb = GltfDocument::Triangle().Glb();
-  EXPECT_EQ(ErrorOf(glb), "no error");
-  for (size_t size = 0; size < glb.size(); ++size) EXPECT_NE(ErrorOf(glb.substr(0, size)), "no error") << size;
+  EXPECT_EQ(GltfError(glb), "no error");
+  for (size_t size = 0; size < glb.size(); ++size) EXPECT_NE(GltfError(glb.substr(0, size)), "no error") << size;
 }
 
 TEST(HostileGltf, WrongTypesNameTheirPlaceAndValue) {
@@ -60,7 +60,7 @@ TEST(HostileGltf, IndicesOutOfRangeNameTheCount) {
   GltfDocument doc = GltfDocument::Triangle();
   doc.AddAccessor<uint16_t>({0, 1, 3}, 5123, "SCALAR");
   doc.json["meshes"][0]["primitives"][0]["indices"] = 2;
-  EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"element 2 is vertex 3 of 3"}));
+  EXPECT_TRUE(Contains(GltfError(doc.Text()), {"element 2 is vertex 3 of 3"}));
 }
 
 TEST(HostileGltf, HugeCountsAreRefusedBeforeMemoryIsTaken) {
@@ -73,7 +73,7 @@ TEST(HostileGltf, HugeCountsAreRefusedBeforeMemoryIsTaken) {
   EXPECT_TRUE(Contains(ErrorAfter("/buffers/0/byteLength", uint64_t{4} << 30), {"bytes are there"}));
   GltfDocument doc = GltfDocument::Triangle();
   doc.json["accessors"][0] = {{"componentType", 5126}, {"count", 100000000}, {"type", "VEC3"}};  // zeros from nowhere
-  EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"/accessors/0/count"}));
+  EXPECT_TRUE(Contains(GltfError(doc.Text()), {"/accessors/0/count"}));
 }
 
 TEST(HostileGltf, BadStridesAndTypesAreRefused) {
@@ -90,22 +90,22 @@ TEST(HostileGltf, SparseIndicesAreChecked) {
   const size_t value = doc.AddView<float>({4, 0, 0});
   doc.json["accessors"][0]["sparse"] = {
       {"count", 1}, {"indices", {{"bufferView", index}, {"componentType", 5121}}}, {"values", {{"bufferView", value}}}};
-  EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"/accessors/0/sparse/indices: index 3 of 3"}));
+  EXPECT_TRUE(Contains(GltfError(doc.Text()), {"/accessors/0/sparse/indices: index 3 of 3"}));
   doc.json["accessors"][0]["sparse"]["count"] = 4000000000u;
-  EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"/accessors/0/sparse/count"}));
+  EXPECT_TRUE(Contains(GltfError(doc.Text()), {"/accessors/0/sparse/count"}));
 }
 
 TEST(HostileGltf, NodesMustBeAForest) {
   GltfDocument doc = GltfDocument::Triangle();
   doc.json["nodes"] = json::array({{{"children", {1}}}, {{"children", {0}}}});
-  EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"cycle"}));
+  EXPECT_TRUE(Contains(GltfError(doc.Text()), {"cycle"}));
   doc.json["nodes"] = json::array({{{"children", {0}}}});
-  EXPECT_NE(ErrorOf(doc.Text()), "no error");
+  EXPECT_NE(GltfError(doc.Text()), "no error");
   doc.json["nodes"] = json::array({{{"children", {2}}}, {{"children", {2}}}, {{"mesh", 0}}});
-  EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"two parents"}));
+  EXPECT_TRUE(Contains(GltfError(doc.Text()), {"two parents"}));
   doc.json["nodes"] = json::array({{{"mesh", 0}}});
   doc.json["scenes"] = json::array({{{"nodes", {0, 0}}}});
-  EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"twice"}));
+  EXPECT_TRUE(Contains(GltfError(doc.Text()), {"twice"}));
 }
 
 TEST(HostileGltf, DepthIsBounded) {
@@ -113,18 +113,18 @@ TEST(HostileGltf, DepthIsBounded) {
   doc.json["nodes"] = json::array();
   for (int i = 0; i < 1000; ++i) doc.json["nodes"].push_back({{"children", {i + 1}}});
   doc.json["nodes"].push_back({{"mesh", 0}});
-  EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"nested deeper than 256"}));
+  EXPECT_TRUE(Contains(GltfError(doc.Text()), {"nested deeper than 256"}));
 }
 
 TEST(HostileGltf, NumbersThatAreNotFiniteAreRefused) {
   GltfDocument doc = GltfDocument::Triangle();
   doc.AddAccessor<float>({0, 0, 0, NAN, 0, 0, 0, 1, 0}, 5126, "VEC3");
   doc.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 2;
-  EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"vertex 1", "not finite"}));
+  EXPECT_TRUE(Contains(GltfError(doc.Text()), {"vertex 1", "not finite"}));
   EXPECT_TRUE(Contains(ErrorAfter("/nodes/0/rotation", {0, 0, 0, 0}), {"quaternion"}));
   std::string text = GltfDocument::Triangle().Text();
   text.replace(text.find("\"mesh\":0"), 8, "\"mesh\":0,\"scale\":[1e999,1,1]");
-  EXPECT_NE(ErrorOf(text), "no error");
+  EXPECT_NE(GltfError(text), "no error");
 }
 
 TEST(HostileGltf, UnknownRequiredExtensionIsNamed) {
@@ -144,14 +144,14 @@ TEST(HostileGltf, CompressedStreamsAreCheckedBeforeTheyAreDecoded) {
       doc.AddView<uint8_t>({'D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0, 0xff, 0xff, 0xff, 0xff, 0x0f, 0xff, 0xff, 0xff, 0xff, 0x0f});
   doc.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", view},
                                                                                         {"attributes", {{"POSITION", 0}}}};
-  EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"claims 4294967295"}));
+  EXPECT_TRUE(Contains(GltfError(doc.Text()), {"claims 4294967295"}));
 
   GltfDocument packed = GltfDocument::Triangle();
   packed.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
       {"buffer", 0}, {"byteLength", 36}, {"byteStride", 12}, {"count", 4000000000u}, {"mode", "ATTRIBUTES"}};
-  EXPECT_TRUE(Contains(ErrorOf(packed.Text()), {"compressed bytes can hold"}));
+  EXPECT_TRUE(Contains(GltfError(packed.Text()), {"compressed bytes can hold"}));
   packed.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["count"] = 3;
-  EXPECT_TRUE(Contains(ErrorOf(packed.Text()), {"damaged compressed data"}));
+  EXPECT_TRUE(Contains(GltfError(packed.Text()), {"damaged compressed data"}));
 }
 
 TEST(HostileGltf, DamagedPicturesAreErrors) {
@@ -161,7 +161,7 @@ TEST(HostileGltf, DamagedPicturesAreErrors) {
   doc.json["textures"] = json::array({{{"source", 0}}});
   doc.json["materials"] = json::array({{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}});
   doc.json["meshes"][0]["primitives"][0]["material"] = 0;
-  EXPECT_TRUE(Contains(ErrorOf(doc.Text()), {"images/0"}));
+  EXPECT_TRUE(Contains(GltfError(doc.Text()), {"images/0"}));
 }
 
 TEST(HostileGltf, LimitsBoundWhatAFileMayAskFor) {

@@ -13,7 +13,7 @@ namespace {
 
 using Files = std::map<std::string, std::string>;
 
-ImportedFile Read(const std::string& text, const Files& files = {}) {
+ImportedFile ReadText(const std::string& text, const Files& files = {}) {
   return ReadObj("test.obj", text, [&](const std::string& name) -> std::optional<Bytes> {
     const auto it = files.find(name);
     if (it == files.end()) return std::nullopt;
@@ -22,9 +22,9 @@ ImportedFile Read(const std::string& text, const Files& files = {}) {
   });
 }
 
-std::string ErrorOf(const std::string& text, const Files& files = {}) {
+std::string ObjError(const std::string& text, const Files& files = {}) {
   try {
-    Read(text, files);
+    ReadText(text, files);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -34,7 +34,7 @@ std::string ErrorOf(const std::string& text, const Files& files = {}) {
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 TEST(Obj, AxesTextureOriginAndNormalsAreConverted) {
-  const ImportedFile file = Read(kSquare + "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n");
+  const ImportedFile file = ReadText(kSquare + "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n");
   const Mesh& mesh = file.meshes.at(0);
   ASSERT_EQ(mesh.positions.size(), 3u);
   EXPECT_EQ(mesh.positions[2], (Vec3f{1, 0, 1}));
@@ -44,7 +44,7 @@ TEST(Obj, AxesTextureOriginAndNormalsAreConverted) {
 
 TEST(Obj, PolygonsNegativeIndicesAndContinuedLinesGiveTheSameSquare) {
   for (const char* face : {"f 1 2 3 4\n", "f -4 -3 -2 -1\n", "f 1 2 \\\n 3 4\n", "f 1// 2// 3// 4//\r\n"}) {
-    const ImportedFile file = Read(kSquare + face);
+    const ImportedFile file = ReadText(kSquare + face);
     ASSERT_EQ(file.meshes.size(), 1u) << face;
     EXPECT_EQ(file.meshes[0].triangles.size(), 2u) << face;
     for (Vec3f n : file.meshes[0].normals) EXPECT_EQ(n, (Vec3f{0, -1, 0})) << face;
@@ -52,16 +52,16 @@ TEST(Obj, PolygonsNegativeIndicesAndContinuedLinesGiveTheSameSquare) {
 }
 
 TEST(Obj, ObjectsAndGroupsBecomeNodesAndNamedOnesContinue) {
-  const ImportedFile file = Read(kSquare + "o house\nf 1 2 3\ng roof\nf 1 2 4\no house\nf 2 3 4\ng\nf 1 3 4\n");
+  const ImportedFile file = ReadText(kSquare + "o house\nf 1 2 3\ng roof\nf 1 2 4\no house\nf 2 3 4\ng\nf 1 3 4\n");
   ASSERT_EQ(file.nodes.size(), 2u);
   EXPECT_EQ(file.nodes[0].name, "house");
   EXPECT_EQ(file.meshes[0].triangles.size(), 3u);
   EXPECT_EQ(file.nodes[1].name, "roof");
-  EXPECT_EQ(Read(kSquare + "g\nf 1 2 3\ng\nf 1 2 4\n").nodes.size(), 2u);
+  EXPECT_EQ(ReadText(kSquare + "g\nf 1 2 3\ng\nf 1 2 4\n").nodes.size(), 2u);
 }
 
 TEST(Obj, MaterialsSplitPartsAndKeepTheirNamesWithoutALibrary) {
-  const ImportedFile file = Read("mtllib gone.mtl\n" + kSquare + "usemtl red paint\nf 1 2 3\nusemtl glass\nf 1 3 4\n");
+  const ImportedFile file = ReadText("mtllib gone.mtl\n" + kSquare + "usemtl red paint\nf 1 2 3\nusemtl glass\nf 1 3 4\n");
   EXPECT_EQ(file.meshes.at(0).parts.size(), 2u);
   EXPECT_EQ(file.materials.at(0).name, "red paint");
   ASSERT_EQ(file.warnings.size(), 3u);
@@ -72,7 +72,7 @@ TEST(Mtl, SurfacesAreToldFromOpacityNameAndHighlight) {
   const Files files = {{"m.mtl",
                         "Ns 3\nnewmtl pane\nKd 0.5 0.5 0.5\nd 0.3\nnewmtl chrome\nKd .6 .6 .6\nKs .9 .9 .9\nNs 200\n"
                         "newmtl leaves\nKd 0.1 0.5 0.1\nnewmtl chalk\nKd 0.9 0.9 0.9\nKs 0 0 0\nNs 900\n"}};
-  const ImportedFile file = Read(
+  const ImportedFile file = ReadText(
       "mtllib m.mtl\n" + kSquare + "usemtl pane\nf 1 2 3\nusemtl chrome\nf 1 3 4\nusemtl leaves\nf 1 2 4\nusemtl chalk\nf 2 3 4\n", files);
   ASSERT_EQ(file.materials.size(), 4u);
   EXPECT_EQ(file.materials[0].kind, SurfaceKind::kGlass);
@@ -91,7 +91,7 @@ TEST(Mtl, PicturesReplaceTheColourAndHolesMakeAMask) {
                         "picture.png\nmap_d hole.png\n"},
                        {"my picture.png", std::string(AsText(png))},
                        {"hole.png", std::string(AsText(hole))}};
-  const ImportedFile file = Read("mtllib m.mtl\n" + kSquare + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n", files);
+  const ImportedFile file = ReadText("mtllib m.mtl\n" + kSquare + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n", files);
   EXPECT_EQ(file.materials.at(0).base_color, (Vec3f{1, 1, 1}));
   EXPECT_EQ(file.materials.at(0).alpha_mode, AlphaMode::kOpaque);
   EXPECT_EQ(file.materials.at(1).alpha_mode, AlphaMode::kMask);
@@ -100,31 +100,31 @@ TEST(Mtl, PicturesReplaceTheColourAndHolesMakeAMask) {
 
 TEST(Mtl, MissingPicturesLeaveAColourThatTheirNameTells) {
   const Files files = {{"m.mtl", "newmtl a\nKd 0.6 0.6 0.6\nmap_Kd WoodPlanks01.jpg\n"}};
-  const Vec3f wood = Read("mtllib m.mtl\n" + kSquare + "usemtl a\nf 1 2 3\n", files).materials.at(0).base_color;
+  const Vec3f wood = ReadText("mtllib m.mtl\n" + kSquare + "usemtl a\nf 1 2 3\n", files).materials.at(0).base_color;
   EXPECT_GT(wood.x, wood.z * 1.5f);
 }
 
 TEST(HostileObj, DamageNamesItsLine) {
-  EXPECT_TRUE(Contains(ErrorOf("v 0 0\n"), {"test.obj:1: three numbers"}));
-  EXPECT_TRUE(Contains(ErrorOf("\nv 0 zero 0\n"), {"test.obj:2: 'zero' is not a number"}));
-  EXPECT_TRUE(Contains(ErrorOf("v 0 nan 0\n"), {"'nan' is not a finite number"}));
-  EXPECT_TRUE(Contains(ErrorOf("v 0 1e999 0\n"), {"1e999"}));
-  EXPECT_TRUE(Contains(ErrorOf("v 0 1e30 0\n"), {"too large"}));
-  EXPECT_TRUE(Contains(ErrorOf(kSquare + "f 1 2 9\n"), {"test.obj:5: vertex index 9 of 4"}));
-  EXPECT_TRUE(Contains(ErrorOf(kSquare + "f 1 2 -5\n"), {"vertex index -5 of 4"}));
-  EXPECT_TRUE(Contains(ErrorOf(kSquare + "f 0 1 2\n"), {"vertex index 0 of 4"}));
-  EXPECT_TRUE(Contains(ErrorOf(kSquare + "f 1 2 99999999999999999999\n"), {"is not a vertex index"}));
-  EXPECT_TRUE(Contains(ErrorOf(kSquare + "f 1/7 2/7 3/7\n"), {"test.obj:5: texture index 7 of 0"}));
-  EXPECT_TRUE(Contains(ErrorOf(kSquare + "f 1//5000000000 2//1 3//1\n"), {"normal index 5000000000 of 0"}));
-  EXPECT_TRUE(Contains(ErrorOf("\x89PNG\r\n"), {"is not an OBJ statement"}));
-  EXPECT_TRUE(Contains(ErrorOf(std::string("v 0 0 0\n\0\0\0", 11)), {"zero byte"}));
-  EXPECT_TRUE(Contains(ErrorOf("mtllib m.mtl\n", {{"m.mtl", "newmtl a\nKd red\n"}}), {"m.mtl:2: 'red' is not a number"}));
+  EXPECT_TRUE(Contains(ObjError("v 0 0\n"), {"test.obj:1: three numbers"}));
+  EXPECT_TRUE(Contains(ObjError("\nv 0 zero 0\n"), {"test.obj:2: 'zero' is not a number"}));
+  EXPECT_TRUE(Contains(ObjError("v 0 nan 0\n"), {"'nan' is not a finite number"}));
+  EXPECT_TRUE(Contains(ObjError("v 0 1e999 0\n"), {"1e999"}));
+  EXPECT_TRUE(Contains(ObjError("v 0 1e30 0\n"), {"too large"}));
+  EXPECT_TRUE(Contains(ObjError(kSquare + "f 1 2 9\n"), {"test.obj:5: vertex index 9 of 4"}));
+  EXPECT_TRUE(Contains(ObjError(kSquare + "f 1 2 -5\n"), {"vertex index -5 of 4"}));
+  EXPECT_TRUE(Contains(ObjError(kSquare + "f 0 1 2\n"), {"vertex index 0 of 4"}));
+  EXPECT_TRUE(Contains(ObjError(kSquare + "f 1 2 99999999999999999999\n"), {"is not a vertex index"}));
+  EXPECT_TRUE(Contains(ObjError(kSquare + "f 1/7 2/7 3/7\n"), {"test.obj:5: texture index 7 of 0"}));
+  EXPECT_TRUE(Contains(ObjError(kSquare + "f 1//5000000000 2//1 3//1\n"), {"normal index 5000000000 of 0"}));
+  EXPECT_TRUE(Contains(ObjError("\x89PNG\r\n"), {"is not an OBJ statement"}));
+  EXPECT_TRUE(Contains(ObjError(std::string("v 0 0 0\n\0\0\0", 11)), {"zero byte"}));
+  EXPECT_TRUE(Contains(ObjError("mtllib m.mtl\n", {{"m.mtl", "newmtl a\nKd red\n"}}), {"m.mtl:2: 'red' is not a number"}));
 }
 
-TEST(Obj, TextureIndicesMayRunAhead) { EXPECT_EQ(ErrorOf(kSquare + "f 1/1 2/1 3/1\nvt 0 0\n"), "no error"); }
+TEST(Obj, TextureIndicesMayRunAhead) { EXPECT_EQ(ObjError(kSquare + "f 1/1 2/1 3/1\nvt 0 0\n"), "no error"); }
 
 TEST(Obj, FacesOfTwoCornersAreAWarning) {
-  const ImportedFile file = Read(kSquare + "f 1 2\nf 1 2 3\n");
+  const ImportedFile file = ReadText(kSquare + "f 1 2\nf 1 2 3\n");
   EXPECT_EQ(file.meshes.at(0).triangles.size(), 1u);
   ASSERT_EQ(file.warnings.size(), 1u);
   EXPECT_TRUE(Contains(file.warnings[0], {"test.obj:5"}));
@@ -139,12 +139,12 @@ TEST(HostileObj, TriangleLimitHolds) {
 }
 
 TEST(Obj, NormalsThatAreNotThereAreComputedWithAWarning) {
-  const ImportedFile file = Read(kSquare + "f 1//5 2//5 3//5\n"), plain = Read(kSquare + "f 1 2 3\n");
+  const ImportedFile file = ReadText(kSquare + "f 1//5 2//5 3//5\n"), plain = ReadText(kSquare + "f 1 2 3\n");
   EXPECT_EQ(file.meshes.at(0).normals, plain.meshes.at(0).normals);
   ASSERT_EQ(file.warnings.size(), 1u);
   EXPECT_TRUE(Contains(file.warnings[0], {"test.obj:5", "normal index 5 of 0", "computed"}));
   // Those that are there stay.
-  const ImportedFile some = Read(kSquare + "vn 0 0.6 0.8\nf 1//1 2//9 3//9\n");
+  const ImportedFile some = ReadText(kSquare + "vn 0 0.6 0.8\nf 1//1 2//9 3//9\n");
   EXPECT_EQ(std::count(some.meshes.at(0).normals.begin(), some.meshes.at(0).normals.end(), Vec3f{0, -0.8f, 0.6f}), 1);
 }
 

@@ -15,11 +15,11 @@ namespace {
 
 const ResourceLoader kNothing = [](const std::string&) { return std::optional<Bytes>(); };
 
-ImportedFile Read(const std::string& text) { return ReadPly("a.ply", AsBytes(text), kNothing); }
+ImportedFile ReadPlyText(const std::string& text) { return ReadPly("a.ply", AsBytes(text), kNothing); }
 
-std::string ErrorOf(const std::string& text) {
+std::string PlyError(const std::string& text) {
   try {
-    Read(text);
+    ReadPlyText(text);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -75,13 +75,13 @@ double Area(const Mesh& mesh) {
 }
 
 TEST(Ply, TheThreeFormatsGiveTheSameMesh) {
-  const ImportedFile first = Read(Shapes(kFormats[0]));
+  const ImportedFile first = ReadPlyText(Shapes(kFormats[0]));
   ASSERT_EQ(first.meshes.size(), 1u);
   EXPECT_EQ(first.meshes[0].triangles.size(), 5u);
   EXPECT_DOUBLE_EQ(Area(first.meshes[0]), 1 + 2.5);  // shoelace formula of both outlines
   EXPECT_EQ(first.meshes[0].positions[0], (Vec3f{0, 0, -3}));
   for (const char* format : kFormats) {
-    const ImportedFile file = Read(Shapes(format));
+    const ImportedFile file = ReadPlyText(Shapes(format));
     EXPECT_EQ(file.meshes[0].positions, first.meshes[0].positions) << format;
     EXPECT_EQ(file.meshes[0].triangles, first.meshes[0].triangles) << format;
   }
@@ -91,7 +91,7 @@ TEST(Ply, EveryCutOffFileIsAnErrorThatNamesThePlace) {
   for (const char* format : kFormats) {
     const std::string text = Shapes(format);
     for (size_t size = 0; size + 1 < text.size(); ++size) {
-      const std::string error = ErrorOf(text.substr(0, size));
+      const std::string error = PlyError(text.substr(0, size));
       // The last digits of an ASCII file may go unnoticed: what is left of the number is one too.
       if (std::string(format) == "ascii" && size > text.rfind('-')) continue;
       EXPECT_TRUE(Contains(error, {"a.ply:"})) << format << " " << size;
@@ -126,7 +126,7 @@ TEST(Ply, TriangleStripsBeginAnewAtMinusOne) {
       "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
       "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
       "0 0 0 1 0 0 0 1 0 1 1 0 5 0 0 6 0 0 5 1 0\n8 0 1 2 3 -1 4 5 6\n";
-  const ImportedFile file = Read(text);
+  const ImportedFile file = ReadPlyText(text);
   EXPECT_EQ(file.meshes[0].triangles.size(), 3u);
   EXPECT_DOUBLE_EQ(Area(file.meshes[0]), 1.5);  // all turn the same way
 }
@@ -135,20 +135,20 @@ TEST(Ply, DamageNamesLineOrElement) {
   const std::string vertices = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n",
                     faces = "element face 1\nproperty list uchar int vertex_indices\n";
   const auto ascii = [](const std::string& rest) { return "ply\nformat ascii 1.0\n" + rest; };
-  EXPECT_TRUE(Contains(ErrorOf("plx\n"), {"a.ply: not a PLY file"}));
-  EXPECT_TRUE(Contains(ErrorOf("ply\nformat cube 1.0\n"), {"a.ply:2:", "'cube'"}));
-  EXPECT_TRUE(Contains(ErrorOf(ascii("element vertex -1\n")), {"a.ply:3:", "'-1'"}));
-  EXPECT_TRUE(Contains(ErrorOf(ascii("property float x\n")), {"a.ply:3:", "before any element"}));
-  EXPECT_TRUE(Contains(ErrorOf(ascii("element v 1\nproperty flot x\n")), {"a.ply:4:", "'flot'"}));
-  EXPECT_TRUE(Contains(ErrorOf(ascii("element v 1\nproperty list float int x\n")), {"a.ply:4:", "whole number"}));
-  EXPECT_TRUE(Contains(ErrorOf(ascii(vertices + faces)), {"a.ply:", "no end"}));
+  EXPECT_TRUE(Contains(PlyError("plx\n"), {"a.ply: not a PLY file"}));
+  EXPECT_TRUE(Contains(PlyError("ply\nformat cube 1.0\n"), {"a.ply:2:", "'cube'"}));
+  EXPECT_TRUE(Contains(PlyError(ascii("element vertex -1\n")), {"a.ply:3:", "'-1'"}));
+  EXPECT_TRUE(Contains(PlyError(ascii("property float x\n")), {"a.ply:3:", "before any element"}));
+  EXPECT_TRUE(Contains(PlyError(ascii("element v 1\nproperty flot x\n")), {"a.ply:4:", "'flot'"}));
+  EXPECT_TRUE(Contains(PlyError(ascii("element v 1\nproperty list float int x\n")), {"a.ply:4:", "whole number"}));
+  EXPECT_TRUE(Contains(PlyError(ascii(vertices + faces)), {"a.ply:", "no end"}));
   const std::string header = ascii(vertices + faces + "end_header\n");
-  EXPECT_TRUE(Contains(ErrorOf(header + "0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n"), {"a.ply:12:", "vertex 2", "'x'"}));
-  EXPECT_TRUE(Contains(ErrorOf(header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"), {"face 0", "only 3 vertices"}));
-  EXPECT_TRUE(Contains(ErrorOf(header + "0 0 0\n1 0 0\n0 1 0\n200 0 1 2\n"), {"face 0", "list of 200"}));
-  EXPECT_TRUE(Contains(ErrorOf(header + "0 0 0\n1 0 0\n0 1e30 0\n3 0 1 2\n"), {"vertex 2", "1e9"}));
-  EXPECT_TRUE(Contains(ErrorOf(ascii("element vertex 99999999999999\nproperty float x\nend_header\n1\n")), {"cannot stand in"}));
-  EXPECT_TRUE(Contains(ErrorOf(ascii(vertices + "end_header\n0 0 0 1 0 0 0 1 0\n")), {"3 points and no surface"}));
+  EXPECT_TRUE(Contains(PlyError(header + "0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n"), {"a.ply:12:", "vertex 2", "'x'"}));
+  EXPECT_TRUE(Contains(PlyError(header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"), {"face 0", "only 3 vertices"}));
+  EXPECT_TRUE(Contains(PlyError(header + "0 0 0\n1 0 0\n0 1 0\n200 0 1 2\n"), {"face 0", "list of 200"}));
+  EXPECT_TRUE(Contains(PlyError(header + "0 0 0\n1 0 0\n0 1e30 0\n3 0 1 2\n"), {"vertex 2", "1e9"}));
+  EXPECT_TRUE(Contains(PlyError(ascii("element vertex 99999999999999\nproperty float x\nend_header\n1\n")), {"cannot stand in"}));
+  EXPECT_TRUE(Contains(PlyError(ascii(vertices + "end_header\n0 0 0 1 0 0 0 1 0\n")), {"3 points and no surface"}));
 }
 
 }  // namespace

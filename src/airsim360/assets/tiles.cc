@@ -11,6 +11,7 @@
 #include "airsim360/assets/gltf_uri.h"
 #include "airsim360/assets/tiles_parts.h"
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/box.h"
 #include "airsim360/math/geodesy.h"
 
@@ -37,10 +38,9 @@ Vec3d MiddleOf(const JsonRef& volume, const TileTransform& X) {
   if (const auto box = volume.Find("box")) return placed(box->Numbers(12));
   if (const auto sphere = volume.Find("sphere")) return placed(sphere->Numbers(4));
   if (const auto region = volume.Find("region")) {
-    constexpr double kDegrees = 180 / std::numbers::pi;
     const std::vector<double> r = region->Numbers(6);  // west, south, east, north, low, high
     const double east = r[2] < r[0] ? r[2] + 2 * std::numbers::pi : r[2];
-    return EcefFromGeodetic({(r[1] + r[3]) / 2 * kDegrees, (r[0] + east) / 2 * kDegrees, (r[4] + r[5]) / 2});
+    return EcefFromGeodetic({(r[1] + r[3]) / 2 * kRadian, (r[0] + east) / 2 * kRadian, (r[4] + r[5]) / 2});
   }
   volume.Fail("a box, a sphere or a region expected");
 }

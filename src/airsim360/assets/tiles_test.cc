@@ -5,11 +5,11 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "airsim360/assets/gltf_test_internal.h"
 #include "airsim360/assets/test_text.h"
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/geodesy.h"
 
 namespace airsim360::internal {
@@ -141,8 +141,7 @@ TEST_F(TilesTest, ATilesetOnTheEarthStandsUprightEastAndNorth) {
   doc.json["nodes"][0]["matrix"] = {ge.x, ge.y, ge.z, 0, gu.x, gu.y, gu.z, 0, gs.x, gs.y, gs.z, 0, go.x, go.y, go.z, 1};
   files_["a.glb"] = doc.Glb();
   Json region = Tile(0, "ADD", "a.glb");
-  constexpr double kRadians = std::numbers::pi / 180;
-  region["boundingVolume"] = {{"region", {16.37 * kRadians, 48.2 * kRadians, 16.37 * kRadians, 48.2 * kRadians, 170, 172}}};
+  region["boundingVolume"] = {{"region", {16.37 * kDegree, 48.2 * kDegree, 16.37 * kDegree, 48.2 * kDegree, 170, 172}}};
   const ImportedFile own = Read(Tileset(region));
   const Vec3f base = at(own, {0, 0, 0});
   EXPECT_TRUE(near(at(own, {1, 0, 0}) - base, {1, 0, 0}));

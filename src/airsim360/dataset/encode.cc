@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "airsim360/base/hash.h"
 #include "airsim360/base/parallel.h"
@@ -11,6 +10,7 @@
 #include "airsim360/dataset/people/person_record.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/image/palette_png.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/scene/category_colors.h"
 
 namespace airsim360 {
@@ -18,11 +18,10 @@ namespace {
 
 // Compass heading, pitch and roll of the panorama, degrees.
 GPano PhotoSpherePose(const Mat3d& R_WC) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   const Vec3d right = R_WC.column(0), down = R_WC.column(1), forward = R_WC.column(2);
-  double heading = std::atan2(forward.x, forward.y) * kDegrees;
+  double heading = std::atan2(forward.x, forward.y) * kRadian;
   if (heading < 0) heading += 360;
-  return {heading, std::asin(std::clamp(forward.z, -1.0, 1.0)) * kDegrees, std::atan2(-right.z, -down.z) * kDegrees};
+  return {heading, std::asin(std::clamp(forward.z, -1.0, 1.0)) * kRadian, std::atan2(-right.z, -down.z) * kRadian};
 }
 
 Bytes EncodeRgb(const Capture& capture, Projection projection, const DatasetSpec& spec) {

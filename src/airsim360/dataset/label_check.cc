@@ -12,12 +12,12 @@
 namespace airsim360::internal {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
 namespace {
 
 // Ids of one picture and of one annotation, both ways, with their areas. Throws on malformed JSON.
-std::string CompareLabels(const fs::path& file, const Json& annotation, bool allows_void) {
+std::string CompareLabels(const fs::path& file, const ParsedJson& annotation, bool allows_void) {
   std::map<int64_t, int64_t> in_picture, in_json;
   const Image<uint32_t> ids = DecodeIdPng(ReadFile(file), file.string());
   for (int y = 0; y < ids.height(); ++y) {
@@ -28,7 +28,7 @@ std::string CompareLabels(const fs::path& file, const Json& annotation, bool all
       in_picture[row[begin]] += x - begin;
     }
   }
-  for (const Json& segment : annotation.at("segments_info")) {
+  for (const ParsedJson& segment : annotation.at("segments_info")) {
     in_json[segment.at("id").get<int64_t>()] = segment.at("area").get<int64_t>();
   }
   if (in_picture.erase(0) > 0 && !allows_void) return "pixels without an entity";
@@ -46,14 +46,15 @@ std::string CompareLabels(const fs::path& file, const Json& annotation, bool all
 
 // Ends of the names of pictures that have pixels without a ray.
 std::vector<std::string> SuffixesWithVoid(const fs::path& folder) {
-  const Json meta = fs::exists(folder / kMetaName) ? Json::parse(ReadTextFile(folder / kMetaName), nullptr, false) : Json();
+  const ParsedJson meta =
+      fs::exists(folder / kMetaName) ? ParsedJson::parse(ReadTextFile(folder / kMetaName), nullptr, false) : ParsedJson();
   std::vector<std::string> suffixes;
-  const Json::json_pointer projection("/parameters/projection"), cameras("/parameters/cameras");
+  const ParsedJson::json_pointer projection("/parameters/projection"), cameras("/parameters/cameras");
   if (!meta.is_object()) return suffixes;
   if (meta.contains(cameras) && meta[cameras].is_array()) {
-    for (const Json& camera : meta[cameras]) {
-      if (!camera.is_object() || !camera.value("name", Json()).is_string()) continue;
-      if (const Json kind = camera.value("projection", Json()); kind == "fisheye" || kind == "lens")
+    for (const ParsedJson& camera : meta[cameras]) {
+      if (!camera.is_object() || !camera.value("name", ParsedJson()).is_string()) continue;
+      if (const ParsedJson kind = camera.value("projection", ParsedJson()); kind == "fisheye" || kind == "lens")
         suffixes.push_back("_" + camera["name"].get<std::string>() + ".png");
     }
   } else if (meta.contains(projection) && meta[projection] == "fisheye") {
@@ -65,16 +66,16 @@ std::vector<std::string> SuffixesWithVoid(const fs::path& folder) {
 }  // namespace
 
 void CheckLabels(const fs::path& folder, std::vector<Finding>& findings) {
-  const Json panoptic = Json::parse(ReadTextFile(folder / "panoptic.json", uint64_t{8} << 30), nullptr, false);
+  const ParsedJson panoptic = ParsedJson::parse(ReadTextFile(folder / "panoptic.json", uint64_t{8} << 30), nullptr, false);
   if (!panoptic.is_object() || !panoptic.contains("annotations") || !panoptic["annotations"].is_array()) {
     findings.push_back({Finding::Kind::kLabels, "panoptic.json", "not COCO panoptic JSON"});
     return;
   }
   const std::vector<std::string> with_void = SuffixesWithVoid(folder);
-  const Json& annotations = panoptic["annotations"];
+  const ParsedJson& annotations = panoptic["annotations"];
   std::vector<std::vector<Finding>> found(annotations.size());
   ParallelFor(static_cast<int64_t>(annotations.size()), [&](int64_t i) {
-    const Json& annotation = annotations[static_cast<size_t>(i)];
+    const ParsedJson& annotation = annotations[static_cast<size_t>(i)];
     std::string path = "panoptic.json", problem;
     try {
       path = "entity/" + annotation.at("file_name").get<std::string>();

@@ -1,12 +1,12 @@
 // meta.json: what a dataset is, for people and programs.
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "airsim360/dataset/record/config_json.h"
 #include "airsim360/dataset/record/intrinsics.h"
 #include "airsim360/dataset/record/spec.h"
 #include "airsim360/dataset/record/version.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/scene/category_colors.h"
 
 namespace airsim360 {
@@ -20,13 +20,12 @@ Json PoseJson(const RigidTransform& X) {
 }
 
 Json GimbalJson(const GimbalMount& gimbal) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   Json json;
   AddConfig([spec = gimbal.spec](ConfigVisitor& v) mutable { spec.Visit(v); }, json);
   json.erase("max_rate_deg");
-  json["yaw_deg"] = gimbal.command.yaw * kDegrees;
-  json["pitch_deg"] = gimbal.command.pitch * kDegrees;
-  json["roll_deg"] = gimbal.command.roll * kDegrees;
+  json["yaw_deg"] = gimbal.command.yaw * kRadian;
+  json["pitch_deg"] = gimbal.command.pitch * kRadian;
+  json["roll_deg"] = gimbal.command.roll * kRadian;
   return json;
 }
 

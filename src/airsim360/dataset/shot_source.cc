@@ -89,7 +89,7 @@ FrameLabels ShotSource::Label(size_t frame, const std::shared_ptr<const SceneSta
 std::shared_ptr<const SceneState> ShotSource::StateOf(const Shot& shot) const {
   std::optional<PeoplePoses> poses;
   if (input_.people && shot.people) poses = PosesOf(shot);
-  return Shown(poses, input_.traffic ? shot.traffic : nullptr, shot.t_ns);
+  return Shown(poses, input_.traffic ? shot.traffic : nullptr, shot.t_ns, shot);
 }
 
 // The scene that flow leads to, with the same levels of detail: the next frame's, after the last one as people and traffic would
@@ -107,7 +107,7 @@ std::shared_ptr<const SceneState> ShotSource::StateAfter(size_t frame) const {
   std::shared_ptr<const TrafficState> traffic;
   if (input_.traffic && shot.traffic)
     traffic = last ? TrafficLater(*input_.traffic, shot.traffic, t_ns + input_.traffic->epoch_ns) : shots[frame + 1].traffic;
-  return Shown(poses, traffic, t_ns);
+  return Shown(poses, traffic, t_ns, shot);
 }
 
 std::vector<uint8_t> ShotSource::LevelsOf(const Shot& shot) const {
@@ -121,12 +121,16 @@ PeoplePoses ShotSource::PosesOf(const Shot& shot) const {
 }
 
 std::shared_ptr<const SceneState> ShotSource::Shown(const std::optional<PeoplePoses>& poses,
-                                                    const std::shared_ptr<const TrafficState>& traffic, int64_t t_ns) const {
+                                                    const std::shared_ptr<const TrafficState>& traffic, int64_t t_ns,
+                                                    const Shot& seen) const {
   if (!poses && !traffic) return nullptr;
   auto state = std::make_shared<SceneState>();
   state->t_ns = t_ns;
   if (poses) ShowPeople(*input_.people, *poses, *state);
-  if (traffic) ShowTraffic(*input_.traffic, *traffic, t_ns + input_.traffic->epoch_ns, *state);
+  if (traffic) {
+    const int64_t epoch_ns = input_.traffic->epoch_ns;
+    ShowTraffic(*input_.traffic, *traffic, t_ns + epoch_ns, *state, {seen.traffic.get(), seen.t_ns + epoch_ns});
+  }
   std::ranges::sort(state->moved, {}, &MovedInstance::instance);
   return state;
 }

@@ -29,7 +29,7 @@ class ShotSource {
   PeoplePoses PosesOf(const Shot& shot) const;
   std::vector<uint8_t> LevelsOf(const Shot& shot) const;
   std::shared_ptr<const SceneState> Shown(const std::optional<PeoplePoses>& poses, const std::shared_ptr<const TrafficState>& traffic,
-                                          int64_t t_ns) const;
+                                          int64_t t_ns, const Shot& seen) const;
 
   const CollectInput& input_;
   std::optional<DynamicTracer> dynamic_;

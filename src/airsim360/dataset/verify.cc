@@ -16,7 +16,7 @@
 namespace airsim360 {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
 namespace {
 
@@ -75,7 +75,8 @@ int64_t CheckFrameLines(const fs::path& folder, const Checksums& checksums, std:
   for (size_t begin = 0; begin < text.size(); ++frames) {
     const size_t end = std::min(text.find('\n', begin), text.size());
     const std::string place = "line " + std::to_string(frames + 1);
-    const Json line = Json::parse(text.begin() + static_cast<ptrdiff_t>(begin), text.begin() + static_cast<ptrdiff_t>(end), nullptr, false);
+    const ParsedJson line =
+        ParsedJson::parse(text.begin() + static_cast<ptrdiff_t>(begin), text.begin() + static_cast<ptrdiff_t>(end), nullptr, false);
     begin = end + 1;
     if (!line.is_object() || !line.contains("sha256") || !line["sha256"].is_object()) {
       findings.push_back({Finding::Kind::kDamaged, "frames.jsonl", place + " is not a frame"});

@@ -17,7 +17,7 @@ namespace airsim360 {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
 // How often pictures come: the mean over all of them.
 double RateOf(int64_t first_ns, int64_t last_ns, size_t pictures, double otherwise) {
@@ -39,7 +39,7 @@ std::vector<Picture> PicturesOf(const fs::path& folder, const std::string& exten
   std::vector<Picture> pictures;
   std::istringstream lines(ReadTextFile(folder / "frames.jsonl"));
   for (std::string line; std::getline(lines, line);) {
-    const Json frame = Json::parse(line, nullptr, false);
+    const ParsedJson frame = ParsedJson::parse(line, nullptr, false);
     const std::string place = (folder / "frames.jsonl").string() + ":" + std::to_string(pictures.size() + 1);
     if (!frame.is_object() || !frame.contains("stem") || !frame["stem"].is_string() || !frame.contains("t_ns") ||
         !frame["t_ns"].is_number_integer() || !frame.contains("sha256"))
@@ -98,8 +98,8 @@ VideoResult FilmDataset(const fs::path& folder, const fs::path& file, VideoOptio
   if (!fs::exists(folder / kMetaName)) throw InputError("'" + folder.string() + "' is not a dataset: it has no " + kMetaName);
   if (!fs::exists(folder / "frames.jsonl"))
     throw InputError("'" + folder.string() + "' is not complete: run its collection again to finish it");
-  const Json meta = Json::parse(ReadTextFile(folder / kMetaName), nullptr, false);
-  const Json parameters = meta.is_object() ? meta.value("parameters", Json::object()) : Json::object();
+  const ParsedJson meta = ParsedJson::parse(ReadTextFile(folder / kMetaName), nullptr, false);
+  const ParsedJson parameters = meta.is_object() ? meta.value("parameters", ParsedJson::object()) : ParsedJson::object();
   const bool jpeg = parameters.value("rgb_format", std::string("png")) == "jpg";
   std::vector<Picture> pictures = PicturesOf(folder, jpeg ? ".jpg" : ".png");
   options.spherical = parameters.value("projection", std::string("erp")) == "erp";

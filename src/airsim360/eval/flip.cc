@@ -9,12 +9,11 @@
 #include "airsim360/eval/check_images.h"
 #include "airsim360/eval/image_metrics.h"
 #include "airsim360/image/color.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/vector.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Section 4.1.3: exponent of the colour difference, and where it is bent.
 constexpr double kQc = 0.7, kPc = 0.4, kPt = 0.95;

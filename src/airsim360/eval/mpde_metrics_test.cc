@@ -4,15 +4,13 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(MpdeMetrics, AnErrorAcrossTheBackIsSmallWrappedAndLargeAsMonolocoLogsIt) {
   const std::vector<PersonPose> truth = {{10, kPi - 0.1}}, predicted = {{11.5, -kPi + 0.1}};

@@ -4,18 +4,17 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "airsim360/base/error.h"
 #include "airsim360/image/draw.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
 
 constexpr int kWidth = 512, kHeight = 256, kView = 96;
-constexpr double kPi = std::numbers::pi;
 using View = std::vector<double>;  // kView x kView luminances
 
 // The nearest pixel; columns wrap.

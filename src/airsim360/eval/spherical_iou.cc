@@ -2,16 +2,14 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/vector.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void Check(const SphericalBox& box) {
   const double sum = box.lon + box.lat + box.width + box.height + box.gamma;

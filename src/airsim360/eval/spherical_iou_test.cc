@@ -2,17 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
 #include "airsim360/eval/spherical_iou.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/transform.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 bool Inside(const SphericalBox& box, Vec3d d) {
   // The camera that looks at the box: turn the direction back instead.

@@ -15,7 +15,7 @@ DroneModel Powered() {
   return m;
 }
 
-DroneState Hovering(const DroneModel& model) {
+DroneState HoveringOnBattery(const DroneModel& model) {
   DroneState s;
   s.rotor_speeds.fill(HoverSpeed(model));
   return s;
@@ -36,7 +36,7 @@ TEST(Battery, CellVoltageIsThePublishedCurve) {
 
 TEST(Battery, VoltageAndCurrentGiveThePowerThatTheRotorsTake) {
   const DroneModel m = Powered();
-  const DroneState s = Hovering(m);
+  const DroneState s = HoveringOnBattery(m);
   const double voltage = BatteryVoltage(m, s);
   const double current = (4 * internal::CellVoltage(1.0) - voltage) / m.battery.resistance;
   EXPECT_NEAR(voltage * current, HoverPower(m), 1e-9 * HoverPower(m));
@@ -46,7 +46,7 @@ TEST(Battery, VoltageAndCurrentGiveThePowerThatTheRotorsTake) {
 TEST(Battery, HoverSpendsTheChargeThatItsPowerAsksFor) {
   const DroneModel m = Powered();
   const DroneDynamics drone(m, 1e-2);
-  DroneState s = Hovering(m);
+  DroneState s = HoveringOnBattery(m);
   const RotorSpeeds hover = s.rotor_speeds;
   double ampere_seconds = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -76,7 +76,7 @@ TEST(Battery, MorePowerThanItCanGiveLeavesFiniteFigures) {
   DroneModel m = Powered();
   m.battery.resistance = 10;
   const DroneDynamics drone(m, 1e-3);
-  DroneState s = Hovering(m);
+  DroneState s = HoveringOnBattery(m);
   const RotorSpeeds hover = s.rotor_speeds;
   for (int i = 0; i < 20000; ++i) drone.Step({}, hover, kAllRotorsWork, s);
   EXPECT_TRUE(std::isfinite(Norm(s.p_WB)));

@@ -52,12 +52,12 @@ void LimitScans(j_common_ptr info) {
   std::longjmp(error->jump, 1);
 }
 
-class Reader {
+class JpegReader {
  public:
-  Reader(std::span<const std::byte> bytes, std::string_view name) : bytes_(bytes), name_(name) { decoder_.err = Prepare(error_); }
-  ~Reader() { jpeg_destroy_decompress(&decoder_); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  JpegReader(std::span<const std::byte> bytes, std::string_view name) : bytes_(bytes), name_(name) { decoder_.err = Prepare(error_); }
+  ~JpegReader() { jpeg_destroy_decompress(&decoder_); }
+  JpegReader(const JpegReader&) = delete;
+  JpegReader& operator=(const JpegReader&) = delete;
 
   Image<Rgba8> Read() {
     if (!TryReadHeader()) internal::ThrowDamaged(name_, error_.message);
@@ -154,7 +154,7 @@ bool TryEncode(const Image<Rgb8>& image, int quality, std::string_view app1, jpe
 
 namespace internal {
 
-Image<Rgba8> DecodeJpegRgba8(std::span<const std::byte> bytes, std::string_view name) { return Reader(bytes, name).Read(); }
+Image<Rgba8> DecodeJpegRgba8(std::span<const std::byte> bytes, std::string_view name) { return JpegReader(bytes, name).Read(); }
 
 }  // namespace internal
 

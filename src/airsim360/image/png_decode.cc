@@ -41,17 +41,17 @@ struct Info {
   int bit_depth = 0, color_type = 0;
 };
 
-class Reader {
+class PngReader {
  public:
-  Reader(std::span<const std::byte> bytes, std::string_view name) : name_(name) {
+  PngReader(std::span<const std::byte> bytes, std::string_view name) : name_(name) {
     source_.rest = bytes;
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source_, OnError, OnWarning);
     info_ = png_ ? png_create_info_struct(png_) : nullptr;
     if (!info_) throw RuntimeError("libpng: out of memory");
   }
-  ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
 
   /// Reads up to the pixels; checks the size before memory is taken.
   Info ReadHeader() {
@@ -128,7 +128,7 @@ class Reader {
 };
 
 template <class Pixel>
-Image<Pixel> ReadInto(Reader& reader, const Info& info, Form form) {
+Image<Pixel> ReadInto(PngReader& reader, const Info& info, Form form) {
   Image<Pixel> image(static_cast<int>(info.width), static_cast<int>(info.height));
   std::vector<png_bytep> rows(info.height);
   for (uint32_t y = 0; y < info.height; ++y) rows[y] = reinterpret_cast<png_bytep>(image.row(static_cast<int>(y)).data());
@@ -141,7 +141,7 @@ Image<Pixel> ReadInto(Reader& reader, const Info& info, Form form) {
 namespace internal {
 
 Image<Rgba8> DecodePngRgba8(std::span<const std::byte> bytes, std::string_view name) {
-  Reader reader(bytes, name);
+  PngReader reader(bytes, name);
   const Info info = reader.ReadHeader();
   return ReadInto<Rgba8>(reader, info, Form::kRgba8);
 }
@@ -149,7 +149,7 @@ Image<Rgba8> DecodePngRgba8(std::span<const std::byte> bytes, std::string_view n
 }  // namespace internal
 
 PngKind ReadPngKind(std::span<const std::byte> bytes, std::string_view name) {
-  const Info info = Reader(bytes, name).ReadHeader();
+  const Info info = PngReader(bytes, name).ReadHeader();
   if (info.color_type == PNG_COLOR_TYPE_PALETTE) return {3, 8};
   return {info.color_type & PNG_COLOR_MASK_COLOR ? 3 : 1, info.bit_depth};
 }
@@ -165,11 +165,11 @@ Image<uint16_t> Widened(const Image<uint8_t>& narrow) {
 }  // namespace
 
 bool IsPalettePng(std::span<const std::byte> bytes, std::string_view name) {
-  return Reader(bytes, name).ReadHeader().color_type == PNG_COLOR_TYPE_PALETTE;
+  return PngReader(bytes, name).ReadHeader().color_type == PNG_COLOR_TYPE_PALETTE;
 }
 
 PalettePicture DecodePalettePng(std::span<const std::byte> bytes, std::string_view name) {
-  Reader reader(bytes, name);
+  PngReader reader(bytes, name);
   const Info info = reader.ReadHeader();
   if (info.color_type != PNG_COLOR_TYPE_PALETTE) internal::ThrowDamaged(name, "a PNG with a palette is expected");
   PalettePicture picture{.indices = {}, .palette = reader.Palette()};
@@ -185,7 +185,7 @@ Image<uint16_t> DecodeLabelPng(std::span<const std::byte> bytes, std::string_vie
 }
 
 Image<uint16_t> DecodeGrayPng(std::span<const std::byte> bytes, std::string_view name) {
-  Reader reader(bytes, name);
+  PngReader reader(bytes, name);
   const Info info = reader.ReadHeader();
   if (info.color_type & PNG_COLOR_MASK_COLOR) internal::ThrowDamaged(name, "a gray PNG is expected, this one has colour");
   if (info.bit_depth == 16) return ReadInto<uint16_t>(reader, info, Form::kGray);
@@ -193,13 +193,13 @@ Image<uint16_t> DecodeGrayPng(std::span<const std::byte> bytes, std::string_view
 }
 
 Image<Rgb16> DecodeRgb16Png(std::span<const std::byte> bytes, std::string_view name) {
-  Reader reader(bytes, name);
+  PngReader reader(bytes, name);
   const Info info = reader.ReadHeader();
   return ReadInto<Rgb16>(reader, info, Form::kRgb16);
 }
 
 Image<uint32_t> DecodeIdPng(std::span<const std::byte> bytes, std::string_view name) {
-  Reader reader(bytes, name);
+  PngReader reader(bytes, name);
   const Info info = reader.ReadHeader();
   if (info.bit_depth != 8 || (info.color_type != PNG_COLOR_TYPE_RGB && info.color_type != PNG_COLOR_TYPE_RGB_ALPHA)) {
     internal::ThrowDamaged(name, "an id picture is an 8-bit RGB PNG");

@@ -1,18 +1,18 @@
 #include "airsim360/math/geodesy.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kE2 = kWgs84Flattening * (2 - kWgs84Flattening);  // first eccentricity squared
 
 }  // namespace
 
 Vec3d EcefFromGeodetic(const GeoPoint& point) {
-  const double latitude = point.latitude_deg * kRadians, longitude = point.longitude_deg * kRadians;
+  const double latitude = point.latitude_deg * kDegree, longitude = point.longitude_deg * kDegree;
   const double s = std::sin(latitude), c = std::cos(latitude);
   const double prime_vertical = kWgs84Axis / std::sqrt(1 - kE2 * s * s);
   const double across = (prime_vertical + point.altitude) * c;
@@ -32,11 +32,11 @@ GeoPoint GeodeticFromEcef(Vec3d p) {
   const double w = kE2 * (u + v - q) / (2 * v);
   const double k = std::sqrt(u + v + w * w) - w;
   const double D = k * std::sqrt(across2) / (k + kE2), length = std::hypot(D, p.z);
-  return {2 * std::atan2(p.z, D + length) / kRadians, std::atan2(p.y, p.x) / kRadians, (k + kE2 - 1) / k * length};
+  return {2 * std::atan2(p.z, D + length) / kDegree, std::atan2(p.y, p.x) / kDegree, (k + kE2 - 1) / k * length};
 }
 
 GeoFrame::GeoFrame(const GeoPoint& origin) : origin_(origin) {
-  const double latitude = origin.latitude_deg * kRadians, longitude = origin.longitude_deg * kRadians;
+  const double latitude = origin.latitude_deg * kDegree, longitude = origin.longitude_deg * kDegree;
   const double sp = std::sin(latitude), cp = std::cos(latitude);
   const double sl = std::sin(longitude), cl = std::cos(longitude);
   X_EW_.R = Mat3d::FromColumns({-sl, cl, 0}, {-sp * cl, -sp * sl, cp}, {cp * cl, cp * sl, sp});

@@ -2,14 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void ExpectNear(Vec3d a, Vec3d b, double tolerance) { EXPECT_LT(Norm(a - b), tolerance); }
 

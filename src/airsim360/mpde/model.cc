@@ -12,7 +12,7 @@
 namespace airsim360 {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 static_assert(std::endian::native == std::endian::little, "safetensors is little-endian");
 
 constexpr const char* kFormat = "airsim360-mpde-1";
@@ -30,7 +30,7 @@ MpdePrediction PredictionOf(std::span<const float> out) {
 
 // Header and data of a safetensors file.
 struct Parts {
-  Json header;
+  OrderedJson header;
   std::span<const std::byte> data;
 };
 
@@ -43,18 +43,18 @@ Parts Split(const Bytes& bytes, const std::filesystem::path& file) {
   const std::string_view text = AsText(std::span(bytes).subspan(sizeof length, length));
   // Depth first: the parser recurses.
   if (std::ranges::count(text, '[') + std::ranges::count(text, '{') > 10000) Refuse(file, "its header nests too deeply");
-  Parts parts{Json::parse(text, nullptr, false), std::span(bytes).subspan(sizeof length + length)};
+  Parts parts{OrderedJson::parse(text, nullptr, false), std::span(bytes).subspan(sizeof length + length)};
   if (!parts.header.is_object()) Refuse(file, "its header is no JSON object");
   return parts;
 }
 
-std::string Entry(const Json& metadata, const char* key, const std::filesystem::path& file) {
+std::string Entry(const OrderedJson& metadata, const char* key, const std::filesystem::path& file) {
   if (!metadata.is_object() || !metadata.contains(key) || !metadata[key].is_string())
     Refuse(file, std::string("__metadata__ lacks '") + key + "': it is no model of `airsim360 mpde train`");
   return metadata[key];
 }
 
-double Number(const Json& metadata, const char* key, const std::filesystem::path& file) {
+double Number(const OrderedJson& metadata, const char* key, const std::filesystem::path& file) {
   const std::string text = Entry(metadata, key, file);
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
@@ -67,11 +67,12 @@ void Fill(Tensor<float>& tensor, const Parts& parts, const std::filesystem::path
   const auto found = parts.header.find(tensor.name);
   if (found == parts.header.end()) Refuse(file, "tensor '" + tensor.name + "' is missing");
   const uint64_t size = tensor.value.size() * sizeof(float);
-  const Json& entry = *found;
-  if (!entry.is_object() || entry.value("dtype", Json()) != "F32" || entry.value("shape", Json()) != Json{tensor.rows, tensor.columns})
+  const OrderedJson& entry = *found;
+  if (!entry.is_object() || entry.value("dtype", OrderedJson()) != "F32" ||
+      entry.value("shape", OrderedJson()) != OrderedJson{tensor.rows, tensor.columns})
     Refuse(file, "tensor '" + tensor.name + "': must be F32 of shape [" + std::to_string(tensor.rows) + ", " +
                      std::to_string(tensor.columns) + "]");
-  const Json offsets = entry.value("data_offsets", Json());
+  const OrderedJson offsets = entry.value("data_offsets", OrderedJson());
   if (!offsets.is_array() || offsets.size() != 2 || !offsets[0].is_number_unsigned() || !offsets[1].is_number_unsigned())
     Refuse(file, "tensor '" + tensor.name + "': data_offsets must be two numbers");
   const uint64_t begin = offsets[0], end = offsets[1];
@@ -121,7 +122,7 @@ std::vector<MpdePrediction> PredictTogether(std::span<MpdeModel> models, std::sp
 
 void WriteMpdeModel(const MpdeModel& model, const std::filesystem::path& file) {
   const NetworkShape& shape = model.network.shape();
-  Json header;
+  OrderedJson header;
   header["__metadata__"] = {{"format", kFormat},
                             {"encoding", kMpdeEncodingNames[static_cast<int>(model.encoding)]},
                             {"hidden", std::to_string(shape.hidden)},
@@ -134,7 +135,7 @@ void WriteMpdeModel(const MpdeModel& model, const std::filesystem::path& file) {
     header[tensor.name] = {{"dtype", "F32"}, {"shape", {tensor.rows, tensor.columns}}, {"data_offsets", {offset, offset + size}}};
     offset += size;
   }
-  std::string text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = header.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   text.resize((text.size() + 7) / 8 * 8, ' ');  // the data begin on 8 bytes
   const uint64_t length = text.size();
   Bytes bytes(sizeof length + text.size());
@@ -150,7 +151,7 @@ void WriteMpdeModel(const MpdeModel& model, const std::filesystem::path& file) {
 MpdeModel ReadMpdeModel(const std::filesystem::path& file) {
   const Bytes bytes = ReadFile(file, kLargestFile);
   const Parts parts = Split(bytes, file);
-  const Json metadata = parts.header.value("__metadata__", Json());
+  const OrderedJson metadata = parts.header.value("__metadata__", OrderedJson());
   if (Entry(metadata, "format", file) != kFormat)
     Refuse(file, "format '" + Entry(metadata, "format", file).substr(0, 40) + "' is not " + kFormat);
   const std::string encoding = Entry(metadata, "encoding", file);

@@ -13,16 +13,18 @@ constexpr size_t Opposite(size_t i) { return i == 0 ? 0 : i % 2 == 1 ? i + 1 : i
 constexpr size_t kShoulders = 5, kHips = 11, kAnkles = 15;
 constexpr double kSmallest = 1e-4;  // of sizes that are divided by: a person 10 km away
 
-struct Point {
+struct ImagePoint {
   double x = 0, y = 0;
 };
 
-Point Middle(const KeypointRays& rays, size_t pair) {
+ImagePoint Middle(const KeypointRays& rays, size_t pair) {
   return {0.5 * (rays[2 * pair] + rays[2 * pair + 2]), 0.5 * (rays[2 * pair + 1] + rays[2 * pair + 3])};
 }
 
 // A person of `length` metres that spans `size` on the plane one metre ahead, in the direction of (x, y).
-double DistanceOf(double length, double size, Point p) { return length / std::max(size, kSmallest) * std::sqrt(1 + p.x * p.x + p.y * p.y); }
+double DistanceOf(double length, double size, ImagePoint p) {
+  return length / std::max(size, kSmallest) * std::sqrt(1 + p.x * p.x + p.y * p.y);
+}
 
 }  // namespace
 
@@ -43,8 +45,8 @@ void Encode(const KeypointRays& rays, MpdeEncoding encoding, std::span<float> in
     std::ranges::transform(rays, inputs.begin(), [](float v) { return 10 * v; });
     return;
   }
-  const Point shoulders = Middle(rays, kShoulders), hips = Middle(rays, kHips);
-  const Point middle{0.5 * (shoulders.x + hips.x), 0.5 * (shoulders.y + hips.y)};
+  const ImagePoint shoulders = Middle(rays, kShoulders), hips = Middle(rays, kHips);
+  const ImagePoint middle{0.5 * (shoulders.x + hips.x), 0.5 * (shoulders.y + hips.y)};
   double square = 0;
   for (size_t i = 0; i < kMpdeKeypoints; ++i) square += std::pow(rays[2 * i] - middle.x, 2) + std::pow(rays[2 * i + 1] - middle.y, 2);
   const double size = std::max(std::sqrt(square / kMpdeKeypoints), kSmallest);
@@ -59,13 +61,13 @@ void Encode(const KeypointRays& rays, MpdeEncoding encoding, std::span<float> in
 
 double ConstantHeightDistance(const KeypointRays& rays) {
   constexpr double kStature = 1.72, kEyesToAnkles = 0.936 - 0.039;
-  const Point eyes = Middle(rays, 1), ankles = Middle(rays, kAnkles);
+  const ImagePoint eyes = Middle(rays, 1), ankles = Middle(rays, kAnkles);
   return DistanceOf(kStature * kEyesToAnkles, ankles.y - eyes.y, {0.5 * (eyes.x + ankles.x), 0.5 * (eyes.y + ankles.y)});
 }
 
 double ConstantTrunkDistance(const KeypointRays& rays) {
   constexpr double kTrunk = 0.5;
-  const Point shoulders = Middle(rays, kShoulders), hips = Middle(rays, kHips);
+  const ImagePoint shoulders = Middle(rays, kShoulders), hips = Middle(rays, kHips);
   return DistanceOf(kTrunk, std::hypot(shoulders.x - hips.x, shoulders.y - hips.y), hips);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "airsim360/base/error.h"
+#include "airsim360/mpde/data_name.h"
 #include "airsim360/mpde/evaluate.h"
 
 namespace airsim360 {
@@ -43,15 +44,16 @@ Data Gather(const MpdeTableOptions& options) {
   const PeopleData train = ReadPeopleFolder(options.people, "train", {}), test = ReadPeopleFolder(options.people, "test", {});
   if (train.shapes.empty() || test.shapes.empty())
     throw InputError(options.people + ": splits train and test must both hold people; see docs/guide/mpde.md");
-  const auto real = [&](const char* name) { return options.real.contains(name) ? options.real.at(name) : std::string(); };
-  data.base = real("nuscenes").empty() ? MpdeSet{.name = "stand-in of nuscenes", .shapes = train.shapes, .draw = NamedViews("nuscenes")}
-                                       : MpdeSet{.name = "nuscenes", .samples = ReadMonolocoFile(real("nuscenes"), "train")};
+  const auto real = [&](const char* name) { return options.real.contains(name) ? ParseMpdeData(options.real.at(name)) : MpdeDataName(); };
+  data.base = real("nuscenes").path.empty()
+                  ? MpdeSet{.name = "stand-in of nuscenes", .shapes = train.shapes, .draw = NamedViews("nuscenes")}
+                  : MpdeSet{.name = "nuscenes", .samples = ReadMonolocoFile(real("nuscenes").path, "train")};
   data.ours = {OurSet(options, "ours", 0, 90, "drone20"), OurSet(options, "ours, pitch 0", 0, kLevel, "drone0"),
                OurSet(options, "ours, pitch 20", 20, kLevel, "drone20")};
   for (size_t i = 0; i < kMpdeTests.size(); ++i) {
     const MpdeTestSet& set = kMpdeTests[i];
-    if (!real(set.name).empty()) {
-      data.tests.push_back(ReadMonolocoFile(real(set.name), "val"));
+    if (const MpdeDataName file = real(set.name); !file.path.empty()) {
+      data.tests.push_back(ReadMonolocoFile(file.path, file.split.empty() ? "val" : file.split));
     } else if (!set.published && !test.samples.empty()) {
       data.tests.push_back(test.samples);
     } else {

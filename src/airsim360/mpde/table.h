@@ -26,8 +26,9 @@ inline constexpr std::array<MpdeTestSet, 4> kMpdeTests = {{{"nuscenes", "nuscene
 inline constexpr const char* kMpdeRows[] = {"base", "base + ours, all", "base + ours, pitch 0", "base + ours, pitch 20"};
 
 struct MpdeTableOptions {
-  std::string people;                       ///< folder with subsets.json: splits train and test
-  std::map<std::string, std::string> real;  ///< file in MonoLoco's layout by name of test set; nuscenes is trained on as well
+  std::string people;  ///< folder with subsets.json: splits train and test
+  std::map<std::string, std::string>
+      real;  ///< FILE[:SPLIT] in MonoLoco's layout by name of test set (split val); nuscenes' train is trained on
   MpdeTraining training;
   uint64_t seeds = 3;
   uint64_t test_samples = 4000;  ///< views drawn for each stand-in

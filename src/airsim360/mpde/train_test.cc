@@ -270,6 +270,16 @@ TEST(MpdeTable, HasThePapersRowsOnWhateverIsAtHand) {
   for (size_t i = 0; i < 4; ++i)
     all += cells[i].distance_m.mean * static_cast<double>(kMpdeTests[i].weight), weight += static_cast<double>(kMpdeTests[i].weight);
   EXPECT_NEAR(table.rows[1].all.distance_m.mean, all / weight, 1e-9);
+  // A real test set is read of the split that is named: val, of which this file has nobody, unless another is.
+  const fs::path real = folder / "joints.json";
+  WriteFileAtomically(real, Monoloco("-5"));
+  options.seeds = 1, options.real["freeman"] = real.string();
+  EXPECT_THROW(MakeMpdeTable(options, [](const std::string&) {}), InputError);
+  options.real["freeman"] += ":train";
+  const MpdeTable with_real = MakeMpdeTable(options, [](const std::string&) {});
+  EXPECT_EQ(with_real.test_is_real, (std::vector<bool>{false, false, true, false}));
+  EXPECT_EQ(with_real.test_count, (std::vector<int64_t>{50, 50, 2, 1}));
+  EXPECT_EQ(with_real.rows[0].cells[0].distance_m.mean, MakeMpdeTable(options, [](const std::string&) {}).rows[0].cells[0].distance_m.mean);
   options.real["kity"] = "x";
   EXPECT_THROW(MakeMpdeTable(options, [](const std::string&) {}), InputError);
   fs::remove_all(folder);

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr int kTries = 32;
 constexpr double kClosest = 0.3;  // metres ahead of the camera
 
@@ -131,12 +131,12 @@ void AddKeypointNoise(const ViewDraw& draw, RngStream& random, KeypointRays& ray
 MpdeSample DrawView(const PersonShape& shape, const ViewDraw& draw, RngStream& random) {
   MpdeSample sample;
   sample.person = shape.person;
-  const double limit = std::tan(draw.half_height_deg * kRadians);
+  const double limit = std::tan(draw.half_height_deg * kDegree);
   for (int i = 0; i < kTries; ++i) {
     const double distance = draw.nearest * std::pow(draw.farthest / draw.nearest, random.Uniform());
-    const double bearing = draw.bearing_deg * kRadians * random.Uniform(-1, 1), turn = random.Uniform(-std::numbers::pi, std::numbers::pi);
+    const double bearing = draw.bearing_deg * kDegree * random.Uniform(-1, 1), turn = random.Uniform(-std::numbers::pi, std::numbers::pi);
     const double height = random.Uniform(draw.lowest, draw.highest);
-    const double pitch = (draw.pitch_deg + draw.pitch_spread_deg * random.Normal()) * kRadians;
+    const double pitch = (draw.pitch_deg + draw.pitch_spread_deg * random.Normal()) * kDegree;
     const Vec3d feet{distance * std::cos(bearing), distance * std::sin(bearing), draw.slope * distance * random.Normal() - height};
     const double size = draw.stature > 0 ? std::exp(draw.stature * random.Normal()) : 1;
     const double c = size * std::cos(turn), s = size * std::sin(turn);

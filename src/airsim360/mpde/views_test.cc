@@ -4,17 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/mpde/test_people.h"
 
 namespace airsim360 {
 namespace {
 
 using internal::StickPerson;
-constexpr double kPi = std::numbers::pi;
 
 const ViewDraw kExact{.slope = 0, .noise = 0, .noise_px = 0};
 

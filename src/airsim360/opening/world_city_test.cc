@@ -14,7 +14,7 @@ WorldAdditions Read(std::string_view text) {
   return additions;
 }
 
-std::string MessageOf(std::string_view text) {
+std::string CityError(std::string_view text) {
   try {
     WorldAdditions additions = Read(text);
     additions.Resolve("town.yaml");
@@ -39,13 +39,13 @@ TEST(WorldAdditions, AreReadFromAWorldFile) {
 }
 
 TEST(WorldAdditions, MistakesAreNamedWithLineAndNearestKey) {
-  const std::string unknown = MessageOf("city:\n  trafic: 1\n");
+  const std::string unknown = CityError("city:\n  trafic: 1\n");
   EXPECT_NE(unknown.find("town.yaml:2"), std::string::npos) << unknown;
   EXPECT_NE(unknown.find("traffic"), std::string::npos) << unknown;
-  EXPECT_NE(MessageOf("city: {height: 9}").find("town.yaml:1"), std::string::npos);
-  EXPECT_NE(MessageOf("city: {styles: [decco]}").find("deco"), std::string::npos);
-  EXPECT_NE(MessageOf("props: [{label: vehicle/car}]").find("model"), std::string::npos);
-  EXPECT_NE(MessageOf("props: [{model: nowhere.glb}]").find("nowhere.glb"), std::string::npos);
+  EXPECT_NE(CityError("city: {height: 9}").find("town.yaml:1"), std::string::npos);
+  EXPECT_NE(CityError("city: {styles: [decco]}").find("deco"), std::string::npos);
+  EXPECT_NE(CityError("props: [{label: vehicle/car}]").find("model"), std::string::npos);
+  EXPECT_NE(CityError("props: [{model: nowhere.glb}]").find("nowhere.glb"), std::string::npos);
 }
 
 TEST(PlacedModels, BecomeEntitiesOfTheirCategory) {

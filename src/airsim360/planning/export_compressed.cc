@@ -16,7 +16,7 @@ constexpr int64_t kLongestPiece = 60'000;                                   // m
 constexpr int kPoints[4] = {0, 1, 3, 7};                                    // control points after the first, by type
 enum Type : uint8_t { kConstant = 0, kDegree7 = 3 };
 
-double Binomial(int n, int k) {
+double BinomialCoefficient(int n, int k) {
   double b = 1;
   for (int i = 0; i < k; ++i) b = b * (n - i) / (i + 1);
   return b;
@@ -27,7 +27,7 @@ void ToBezier(const double (&c)[kPowers], double duration, double (&points)[kPow
   constexpr int n = kPowers - 1;
   for (int i = 0; i <= n; ++i) {
     points[i] = 0;
-    for (int k = 0; k <= i; ++k) points[i] += c[k] * std::pow(duration, k) * Binomial(i, k) / Binomial(n, k);
+    for (int k = 0; k <= i; ++k) points[i] += c[k] * std::pow(duration, k) * BinomialCoefficient(i, k) / BinomialCoefficient(n, k);
   }
 }
 

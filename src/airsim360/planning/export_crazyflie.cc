@@ -12,7 +12,7 @@
 namespace airsim360 {
 namespace {
 
-constexpr int kPowers = 8, kColumns = 33;
+constexpr int kPiecePowers = 8, kColumns = 33;
 constexpr int kChecks = 64;  // times a row at which its error is measured
 constexpr int kMaxHalvings = 12, kMaxYawHalvings = 4;
 constexpr double kYawTolerance = 0.5 * std::numbers::pi / 180;
@@ -20,7 +20,7 @@ constexpr size_t kMaxRows = 100'000;
 
 // Coefficients of one segment about local time `from`, padded to degree 7.
 struct Piece {
-  double c[3][kPowers] = {};
+  double c[3][kPiecePowers] = {};
   double duration = 0;
 };
 
@@ -38,16 +38,16 @@ Piece PieceOf(const PolynomialTrajectory& path, size_t segment, double from, dou
 template <class Number>
 Number Horner(const Number* c, Number t) {
   Number sum = 0;
-  for (int i = kPowers; i-- > 0;) sum = sum * t + c[i];
+  for (int i = kPiecePowers; i-- > 0;) sum = sum * t + c[i];
   return sum;
 }
 
-Poly4d Rounded(const Piece& piece, const std::array<double, kPowers>& yaw) {
+Poly4d Rounded(const Piece& piece, const std::array<double, kPiecePowers>& yaw) {
   Poly4d row;
   for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < kPowers; ++i) row.p[axis][i] = static_cast<float>(piece.c[axis][i]);
+    for (int i = 0; i < kPiecePowers; ++i) row.p[axis][i] = static_cast<float>(piece.c[axis][i]);
   }
-  for (int i = 0; i < kPowers; ++i) row.p[3][i] = static_cast<float>(yaw[static_cast<size_t>(i)]);
+  for (int i = 0; i < kPiecePowers; ++i) row.p[3][i] = static_cast<float>(yaw[static_cast<size_t>(i)]);
   row.duration = static_cast<float>(piece.duration);
   return row;
 }
@@ -116,7 +116,7 @@ Poly4dRows ToPoly4d(const PolynomialTrajectory& path, const YawRule& rule, doubl
 std::string Poly4dCsv(std::span<const Poly4d> rows) {
   std::string out = "duration";
   for (const char* name : {"x", "y", "z", "yaw"}) {
-    for (int i = 0; i < kPowers; ++i) out += std::string(",") + name + "^" + std::to_string(i);
+    for (int i = 0; i < kPiecePowers; ++i) out += std::string(",") + name + "^" + std::to_string(i);
   }
   out += '\n';
   char text[32];

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/planning/number_text.h"
 
 namespace airsim360 {
@@ -156,7 +157,7 @@ std::string PolynomialTrajectoryYaml(const PlanRecord& plan) {
 
 std::string MavlinkSetpointsCsv(const PlanRecord& plan, double interval) {
   std::string out = "time_boot_ms,coordinate_frame,type_mask,x,y,z,vx,vy,vz,afx,afy,afz,yaw,yaw_rate\n";
-  constexpr double kTurn = 2 * std::numbers::pi, kStep = 1e-3;  // s, of the rate's difference
+  constexpr double kStep = 1e-3;  // s, of the rate's difference
   const YawProfile yaw(plan.trajectory, plan.yaw);
   for (const double t : SampleTimes(plan.trajectory.duration(), interval)) {
     const TrajectoryPoint point = plan.trajectory.At(t);
@@ -166,10 +167,10 @@ std::string MavlinkSetpointsCsv(const PlanRecord& plan, double interval) {
       AppendVector(out, {v.y, v.x, -v.z}, ",");
     }
     out += ',';
-    AppendNumber(out, std::remainder(std::numbers::pi / 2 - yaw.At(t), kTurn));
+    AppendNumber(out, std::remainder(std::numbers::pi / 2 - yaw.At(t), kTau));
     out += ',';
     // Anticlockwise seen from above is negative in NED; 0.0 instead of -0.
-    AppendNumber(out, 0.0 - std::remainder(yaw.At(t + kStep) - yaw.At(t - kStep), kTurn) / (2 * kStep));
+    AppendNumber(out, 0.0 - std::remainder(yaw.At(t + kStep) - yaw.At(t - kStep), kTau) / (2 * kStep));
     out += '\n';
   }
   return out;

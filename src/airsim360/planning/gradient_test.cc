@@ -11,7 +11,7 @@ namespace {
 using internal::RandomRoute;
 using internal::Route;
 
-constexpr SplineKind kKinds[] = {SplineKind::kMinimumSnap, SplineKind::kPaperQuintic, SplineKind::kMinimumJerk};
+constexpr SplineKind kGradientKinds[] = {SplineKind::kMinimumSnap, SplineKind::kPaperQuintic, SplineKind::kMinimumJerk};
 
 /// F of a route by a fixed smooth function of its coefficients and durations, with its partial derivatives.
 struct Probe {
@@ -62,7 +62,7 @@ double Difference(double& x, double step, F f) {
 }
 
 TEST(Gradients, BackpropagationEqualsFiniteDifferences) {
-  for (const SplineKind kind : kKinds) {
+  for (const SplineKind kind : kGradientKinds) {
     for (const bool free_jerk : {false, true}) {
       for (const size_t segments : {1, 2, 3, 6, 9}) {
         Route route = RandomRoute(segments, 5 + segments, /*moving_ends=*/true);
@@ -118,7 +118,7 @@ TEST(Gradients, CostGradientEqualsTheHamiltonianAndTheJumpOfTheSeventhDerivative
 }
 
 TEST(Gradients, CostGradientEqualsFiniteDifferencesForAllKinds) {
-  for (const SplineKind kind : kKinds) {
+  for (const SplineKind kind : kGradientKinds) {
     Route route = RandomRoute(5, 8, true);
     MinimumSnapSolver solver;
     solver.Solve(route.Problem(kind, false));

@@ -14,7 +14,7 @@ using internal::Panel;
 using internal::Svg;
 
 constexpr int kSamples = 800;
-constexpr double kMargin = 0.08;  // of the extent, around a way on its map
+constexpr double kMapMargin = 0.08;  // of the extent, around a way on its map
 
 // Blue (slow) over yellow to red (fast).
 std::string SpeedColor(double part) {
@@ -34,7 +34,7 @@ struct Extent {
     high = Max(high, p);
   }
   GroundView View(const Panel& panel) const {
-    const double size = std::max({high.x - low.x, high.y - low.y, 4.0}), margin = kMargin * size + 2;
+    const double size = std::max({high.x - low.x, high.y - low.y, 4.0}), margin = kMapMargin * size + 2;
     return {panel, low.x - margin, low.y - margin, high.x + margin, high.y + margin};
   }
 };

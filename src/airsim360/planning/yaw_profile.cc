@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// Shorter horizontal vectors (m/s or m) have no heading worth following.
 constexpr double kShortest = 1e-3;
 /// Steps by which the nearest moment with a heading is looked for.

@@ -3,15 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/planning/minimum_snap.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 PolynomialTrajectory Straight(Vec3d to) {
   const std::vector<Vec3d> waypoints = {{0, 0, 0}, to};

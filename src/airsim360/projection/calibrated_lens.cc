@@ -4,15 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Of laws with a tangent: 89.95 degrees, where it is 1256.
 constexpr double kAlmostRight = kPi / 2 - 8e-4;
 constexpr double kRounding = std::numeric_limits<double>::epsilon();

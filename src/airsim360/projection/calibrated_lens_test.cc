@@ -3,16 +3,15 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/projection/calibrated_lens.h"
 #include "airsim360/projection/camera_model.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Numbers = std::vector<double>;
 
 // The pixel of a point as its publication has it; p are the parameters after fx fy cx cy.

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/projection/calibrated_lens.h"
 #include "airsim360/projection/fisheye_radius.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Position in [0, width] x [0, height], edges included so that rounding loses no ray.
 bool Inside(Vec2d pixel, int width, int height) { return pixel.x >= 0 && pixel.x <= width && pixel.y >= 0 && pixel.y <= height; }

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/projection/calibrated_lens.h"
 #include "airsim360/projection/fisheye_radius.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A model: the names of its parameters in order, and where each goes: h, k, d, t, s and a digit are the arrays of
 // CalibratedLens (shape, radial, divisor, tangential, prism); f is both focal lengths.

@@ -4,15 +4,13 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Angle between unit vectors, good for small angles.
 double Angle(Vec3d a, Vec3d b) { return std::atan2(Norm(Cross(a, b)), Dot(a, b)); }

@@ -10,7 +10,7 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kCell = 12;           // metres
+constexpr double kFreeCell = 12;       // metres
 constexpr float kEverydaySize = 25;    // metres: longest extent of things that tell where the world is
 constexpr double kHeldByCells = 0.85;  // part of the things that the cells looked at hold
 constexpr double kLowBias = 3;         // exponent of the height: more places near the ground
@@ -22,7 +22,7 @@ std::vector<Vec2d> OccupiedCells(const Scene& scene) {
     const Vec3f size = entity.bounds.size();
     if (!scene.tree[entity.category].thing || entity.bounds.empty() || std::max({size.x, size.y, size.z}) > kEverydaySize) continue;
     const Vec3f center = entity.bounds.center();
-    ++count[{static_cast<int>(std::floor(center.x / kCell)), static_cast<int>(std::floor(center.y / kCell))}];
+    ++count[{static_cast<int>(std::floor(center.x / kFreeCell)), static_cast<int>(std::floor(center.y / kFreeCell))}];
   }
   // The densest cells, which together hold most of the things: what is scattered far away is not the world.
   std::vector<int> counts;
@@ -39,7 +39,7 @@ std::vector<Vec2d> OccupiedCells(const Scene& scene) {
   }
   std::vector<Vec2d> cells;
   for (const auto& [cell, things] : count) {
-    if (things >= least) cells.push_back({cell.first * kCell, cell.second * kCell});
+    if (things >= least) cells.push_back({cell.first * kFreeCell, cell.second * kFreeCell});
   }
   return cells;
 }
@@ -82,7 +82,7 @@ Vec2d SurveyedGround::At(double u, double v) const {
   }
   const double cell = u * static_cast<double>(cells.size());
   const Vec2d corner = cells[static_cast<size_t>(cell)];
-  return {corner.x + (cell - std::floor(cell)) * kCell, corner.y + v * kCell};
+  return {corner.x + (cell - std::floor(cell)) * kFreeCell, corner.y + v * kFreeCell};
 }
 
 namespace {
@@ -116,7 +116,7 @@ Box2d InhabitedGround(const Scene& scene) {
   box = {ground.cells.front(), ground.cells.front()};
   for (const Vec2d corner : ground.cells) {
     box.min = {std::min(box.min.x, corner.x), std::min(box.min.y, corner.y)};
-    box.max = {std::max(box.max.x, corner.x + kCell), std::max(box.max.y, corner.y + kCell)};
+    box.max = {std::max(box.max.x, corner.x + kFreeCell), std::max(box.max.y, corner.y + kFreeCell)};
   }
   return box;
 }

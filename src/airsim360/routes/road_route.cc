@@ -14,7 +14,7 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kCell = 2;  // metres
+constexpr double kRoadCell = 2;  // metres
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Cells of the ground that are road seen from above, and how far each is from the edge of the road.
@@ -25,7 +25,7 @@ struct RoadGrid {
   std::vector<float> inside;  // cells to the nearest one that is no road; 0 = no road
 
   Vec3d At(int cell, double above) const {
-    return {corner.x + (cell % nx + 0.5) * kCell, corner.y + (cell / nx + 0.5) * kCell, height[cell] + above};
+    return {corner.x + (cell % nx + 0.5) * kRoadCell, corner.y + (cell / nx + 0.5) * kRoadCell, height[cell] + above};
   }
   template <class Visit>
   void ForNeighbours(int cell, const Visit& visit) const {
@@ -60,8 +60,8 @@ RoadGrid FindRoads(const RayTracer& tracer) {
   const Box3d box = FlightBox(tracer);
   RoadGrid grid;
   grid.corner = {box.min.x, box.min.y};
-  grid.nx = std::max(1, static_cast<int>((box.max.x - box.min.x) / kCell));
-  grid.ny = std::max(1, static_cast<int>((box.max.y - box.min.y) / kCell));
+  grid.nx = std::max(1, static_cast<int>((box.max.x - box.min.x) / kRoadCell));
+  grid.ny = std::max(1, static_cast<int>((box.max.y - box.min.y) / kRoadCell));
   grid.height.assign(static_cast<size_t>(grid.nx) * grid.ny, 0);
   grid.inside.assign(grid.height.size(), 0);
   ParallelFor(grid.ny, [&](int64_t y) {

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/coordinate_limit.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Derivatives 0, 1 and 2 of the quintic Hermite basis with zero acceleration at both ends, at s in [0, 1],
 // for (p0, v0, v1, p1).

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/rpc/ned.h"
 
 namespace airsim360 {
@@ -30,8 +31,7 @@ void ForSensors(const AirSimSettings& settings, const VehicleSettings& vehicle, 
 
 Mount AsMount(const RigidTransform& X_BS) {
   const GimbalAngles angles = AnglesOf(X_BS.R);
-  constexpr double kDegrees = 180 / std::numbers::pi;
-  return {X_BS.p, angles.yaw * kDegrees, angles.pitch * kDegrees, angles.roll * kDegrees};
+  return {X_BS.p, angles.yaw * kRadian, angles.pitch * kRadian, angles.roll * kRadian};
 }
 
 LidarSpec AsLidar(const SensorSettings& sensor, bool cosys) {
@@ -87,11 +87,10 @@ DroneModel AirSimQuad() {
 }
 
 RigidTransform MountOf(const SettingsPose& pose, const SettingsPose& otherwise) {
-  constexpr double kRadians = std::numbers::pi / 180;
   const Vec3d p_F{Given(pose.x, Given(otherwise.x, 0)), Given(pose.y, Given(otherwise.y, 0)), Given(pose.z, Given(otherwise.z, 0))};
   // Yaw turns to the right, pitch and roll are as ours.
-  return BodyPose(FrdFromBody(p_F), -Given(pose.yaw, Given(otherwise.yaw, 0)) * kRadians,
-                  Given(pose.pitch, Given(otherwise.pitch, 0)) * kRadians, Given(pose.roll, Given(otherwise.roll, 0)) * kRadians);
+  return BodyPose(FrdFromBody(p_F), -Given(pose.yaw, Given(otherwise.yaw, 0)) * kDegree,
+                  Given(pose.pitch, Given(otherwise.pitch, 0)) * kDegree, Given(pose.roll, Given(otherwise.roll, 0)) * kDegree);
 }
 
 RaySensors MakeRaySensors(const AirSimSettings& settings, const VehicleSettings& vehicle) {

@@ -96,7 +96,7 @@ class Api {
 };
 
 // Each adds one family of functions; together all of AirSim's, AirSim360's and Cosys-AirSim's, and those
-// for people and missions.
+// for people, traffic and missions.
 void AddConnectionCalls(Api& api);
 void AddVehicleCalls(Api& api);
 void AddMoveCalls(Api& api);
@@ -108,6 +108,7 @@ void AddObjectCalls(Api& api);
 void AddWorldCalls(Api& api);
 void AddWeatherCalls(Api& api);
 void AddPeopleCalls(Api& api);
+void AddTrafficCalls(Api& api);
 void AddMissionCalls(Api& api);
 void AddPlotCalls(Api& api);
 void AddCosysCalls(Api& api);

@@ -6,6 +6,7 @@
 #include "airsim360/rpc/api.h"
 #include "airsim360/rpc/ned.h"
 #include "airsim360/sim/people/people.h"
+#include "airsim360/sim/traffic/traffic.h"
 
 namespace airsim360 {
 namespace {
@@ -40,6 +41,10 @@ bool MoveObject(Session& s, Text name, const ChangePlace& change) {
   if (entity == kNoEntity || !IsThere(s.world(), entity) || s.HasVehicle(name)) return false;
   if (s.model().people && IsPerson(*s.model().people, entity)) {
     NoticeOnce("'" + name + "' is a person and walks by itself");
+    return false;
+  }
+  if (s.model().traffic && VehicleOf(*s.model().traffic, entity)) {
+    NoticeOnce("'" + name + "' is a vehicle of the traffic and drives by itself");
     return false;
   }
   if (objects.InstancesOf(entity).empty()) {

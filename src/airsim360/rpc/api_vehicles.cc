@@ -49,7 +49,7 @@ void AddStateCalls(Api& api) {
   });
 }
 
-void AddPoseCalls(Api& api) {
+void AddVehiclePoseCalls(Api& api) {
   api.Read("simGetVehiclePose", [](const Snapshot& now, const std::string& vehicle) {
     const size_t i = now.Find(vehicle);
     return airsim::ToPose(now.state.vehicles[i].motion.X_WB, now.vehicles[i].origin_W);
@@ -118,7 +118,7 @@ void AddGainCalls(Api& api) {
 void AddVehicleCalls(Api& api) {
   AddControlCalls(api);
   AddStateCalls(api);
-  AddPoseCalls(api);
+  AddVehiclePoseCalls(api);
   AddGainCalls(api);
 }
 

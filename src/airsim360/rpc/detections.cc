@@ -27,10 +27,11 @@ airsim::DetectionInfo Describe(const Entity& entity, const std::string& name, co
   info.box2D.max = {static_cast<float>(pixels.right + 1), static_cast<float>(pixels.bottom + 1)};
   const RigidTransform X_AO = X_WA.inverse() * place.X_WO;
   Vec3d low{1e30, 1e30, 1e30}, high = -low;
-  const Vec3d half = VecCast<double>(entity.bounds.size()) * 0.5 * place.scale;
+  const Vec3f half = VecCast<float>(VecCast<double>(entity.bounds.size()) * 0.5 * place.scale);
+  const Box3f box = place.box_O.value_or(Box3f{-half, half});
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3d sign{corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0};
-    const Vec3d p_F = FrdFromBody(X_AO * (half * sign));
+    const Vec3f p_O{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z};
+    const Vec3d p_F = FrdFromBody(X_AO * VecCast<double>(p_O));
     low = Min(low, p_F);
     high = {std::max(high.x, p_F.x), std::max(high.y, p_F.y), std::max(high.z, p_F.z)};
   }

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kStillYawRate = 0.01;  // AirSim's, rad/s
 constexpr double kLandingSpeed = 0.2;
 constexpr int kLandedTurns = 10;
@@ -72,7 +72,7 @@ class ManualTask : public FlightTask {
  public:
   ManualTask(const FlightView& start, double vx_max, double vy_max, double z_min, double duration, airsim::DrivetrainType drivetrain,
              const airsim::YawMode& yaw)
-      : start_yaw_(start.yaw_deg / kDegrees), vx_max_(vx_max), vy_max_(vy_max), z_min_(z_min), drivetrain_(drivetrain), yaw_(yaw) {
+      : start_yaw_(start.yaw_deg / kRadian), vx_max_(vx_max), vy_max_(vy_max), z_min_(z_min), drivetrain_(drivetrain), yaw_(yaw) {
     timeout = duration;
     result_at_timeout = true;
   }
@@ -100,7 +100,7 @@ airsim::YawMode AdjustYaw(Vec3d v_N, airsim::DrivetrainType drivetrain, airsim::
   if (drivetrain != airsim::DrivetrainType::kForwardOnly || yaw.is_rate) return yaw;
   // Too slow for a direction: the heading stays.
   if (Norm(v_N) <= kDistanceAccuracy) return kNoTurning;
-  yaw.yaw_or_rate = static_cast<float>(NormalizedDegrees(yaw.yaw_or_rate + std::atan2(v_N.y, v_N.x) * kDegrees));
+  yaw.yaw_or_rate = static_cast<float>(NormalizedDegrees(yaw.yaw_or_rate + std::atan2(v_N.y, v_N.x) * kRadian));
   return yaw;
 }
 

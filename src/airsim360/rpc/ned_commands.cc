@@ -1,11 +1,9 @@
 #include "airsim360/rpc/ned_commands.h"
 
-#include <numbers>
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180;
 
 VerticalTarget Vertical(NedVertical vertical, Vec3d origin_W) {
   if (vertical.is_throttle) return {VerticalTarget::Mode::kThrottle, vertical.value};
@@ -15,7 +13,7 @@ VerticalTarget Vertical(NedVertical vertical, Vec3d origin_W) {
 }  // namespace
 
 YawTarget YawOf(const airsim::YawMode& mode) {
-  const double angle = mode.yaw_or_rate * kRadians;
+  const double angle = mode.yaw_or_rate * kDegree;
   if (mode.is_rate) return {YawTarget::Mode::kRate, -angle};
   return {YawTarget::Mode::kAngle, SwapHeading(angle)};
 }

@@ -4,12 +4,11 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void ExpectNear(Vec3d a, Vec3d b, double tolerance = 1e-6) { EXPECT_LT(Norm(a - b), tolerance) << a.x << " " << a.y << " " << a.z; }
 

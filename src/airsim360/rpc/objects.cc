@@ -6,6 +6,7 @@
 #include "airsim360/rpc/ned.h"
 #include "airsim360/rpc/snapshot.h"
 #include "airsim360/sim/people/people.h"
+#include "airsim360/sim/traffic/traffic.h"
 
 namespace airsim360 {
 
@@ -84,6 +85,26 @@ ObjectPlace PlaceIn(const WorldView& world, const ObjectIndex& objects, EntityId
   return found == world.places.end() ? objects.PlaceOf(entity) : found->second;
 }
 
+namespace {
+
+// Of a vehicle that drives, or that the traffic hides; nullopt: it is none.
+std::optional<ObjectPlace> PlaceInTraffic(const Snapshot& now, const ObjectIndex& objects, EntityId entity) {
+  if (!now.model->traffic || !now.state.traffic) return std::nullopt;
+  const SimTraffic& traffic = *now.model->traffic;
+  if (const auto i = VehicleOf(traffic, entity)) {
+    const VehicleShape& shape = traffic.model.vehicles[*i].shape;
+    ObjectPlace place{.X_WO = PoseOf(traffic.model, *now.state.traffic, *i, now.state.t_ns + traffic.epoch_ns), .is_body = true};
+    place.box_O = Box3f{VecCast<float>(Vec3d{-shape.length / 2, -shape.width / 2, 0}),
+                        VecCast<float>(Vec3d{shape.length / 2, shape.width / 2, shape.height})};
+    return place;
+  }
+  const std::vector<uint32_t>& instances = objects.InstancesOf(entity);
+  const bool gone = !instances.empty() && std::ranges::binary_search(traffic.standing, instances.front());
+  return gone ? std::optional(ObjectPlace{.X_WO = {}, .hidden = true}) : std::nullopt;
+}
+
+}  // namespace
+
 ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId entity) {
   for (size_t i = 0; i < now.model->drones.size(); ++i) {
     if (now.model->drones[i]->setup().entity == entity) return {.X_WO = now.state.vehicles[i].motion.X_WB, .is_body = true};
@@ -93,6 +114,7 @@ ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId e
     const auto X = PlaceOfPerson(people, *now.state.people, now.state.t_ns + people.epoch_ns, entity);
     return X ? ObjectPlace{.X_WO = *X, .is_body = true} : ObjectPlace{.X_WO = {}, .hidden = true};
   }
+  if (const auto place = PlaceInTraffic(now, objects, entity)) return *place;
   return PlaceIn(*now.world, objects, entity);
 }
 

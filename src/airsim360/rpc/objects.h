@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct ObjectPlace {
   RigidTransform X_WO;
   Vec3d scale = {1, 1, 1};
   bool hidden = false;
-  bool is_body = false;  ///< of a drone or a person: X_WO is the pose of a body that looks along +X
+  bool is_body = false;             ///< of a drone, a person or a vehicle of the traffic: X_WO is the pose of a body that looks along +X
+  std::optional<Box3f> box_O = {};  ///< around it, where its bounds in the scene are not those of a body at X_WO
 };
 /// Its attitude in N. An object that is not turned has the unit quaternion, whatever the axes.
 Mat3d NedAttitude(const ObjectPlace& place);
@@ -53,8 +55,9 @@ struct Snapshot;
 struct WorldView;
 /// Where the scene or a call has put an object.
 ObjectPlace PlaceIn(const WorldView& world, const ObjectIndex& objects, EntityId entity);
-/// Where an object is in a snapshot: drones where they fly, people where they walk, other things as
-/// PlaceIn says. `hidden` for people who are not in the world.
+/// Where an object is in a snapshot: drones where they fly, people where they walk, vehicles of the traffic where they drive
+/// (the ground below their middle), other things as PlaceIn says. `hidden` for people who are not in the world, and for vehicles
+/// of the world that would stand in the way of the traffic.
 ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId entity);
 
 /// AirSim's id of a name: a sum of its letters (Unreal/Plugins/AirSim/Source/AirBlueprintLib.h).

@@ -68,9 +68,9 @@ AirSimServer::AirSimServer(std::shared_ptr<Stage> stage, const ServerOptions& op
   impl_->images = std::make_unique<ImageService>(*impl_->session, *impl_->stage, options.picture);
   WriteRecordings(*impl_->session, *impl_->images);
   impl_->api = std::make_unique<Api>(*impl_->session, *impl_->images, impl_->loans);
-  for (const auto add :
-       {AddConnectionCalls, AddVehicleCalls, AddMoveCalls, AddImageCalls, AddCameraCalls, AddDetectionCalls, AddSensorCalls, AddObjectCalls,
-        AddWorldCalls, AddWeatherCalls, AddPeopleCalls, AddMissionCalls, AddPlotCalls, AddCosysCalls, AddUnavailableCalls}) {
+  for (const auto add : {AddConnectionCalls, AddVehicleCalls, AddMoveCalls, AddImageCalls, AddCameraCalls, AddDetectionCalls,
+                         AddSensorCalls, AddObjectCalls, AddWorldCalls, AddWeatherCalls, AddPeopleCalls, AddTrafficCalls, AddMissionCalls,
+                         AddPlotCalls, AddCosysCalls, AddUnavailableCalls}) {
     add(*impl_->api);
   }
   for (const std::string& notice : options.settings.notices) LogInfo(notice);

@@ -174,6 +174,7 @@ void Session::Publish() {
   next->state = loop_->state();
   next->model = loop_->shared_model();
   next->world = world_;
+  next->near_misses = near_misses_;
   next->paused = pacer_.paused();
   next->epoch_ns = snapshot_->epoch_ns;
   next->real_time_factor = pacer_.real_time_factor();
@@ -202,9 +203,23 @@ void Session::StepOnce() {
     }
   }
   // Nobody is told of events: calls ask for what they want to know.
-  loop_->AdvanceWhile(1, [](const SimState&, std::span<const SimEvent>) { return true; });
+  loop_->AdvanceWhile(1, [&](const SimState&, std::span<const SimEvent> happened) {
+    NoteNearMisses(happened);
+    return true;
+  });
   for (const auto& control : controls_) {
     if (control->status().is_drone) control->Observe(AirSimQuad(), loop_->state().vehicles[control->index()]);
+  }
+}
+
+void Session::NoteNearMisses(std::span<const SimEvent> happened) {
+  for (const SimEvent& event : happened) {
+    if (event.kind != SimEvent::Kind::kNearMiss) continue;
+    // Snapshots keep the list that they have.
+    auto longer = near_misses_ ? std::make_shared<std::vector<NearMiss>>(*near_misses_) : std::make_shared<std::vector<NearMiss>>();
+    if (longer->size() >= kMostNearMisses) longer->erase(longer->begin());
+    longer->push_back(event.near_miss);
+    near_misses_ = std::move(longer);
   }
 }
 

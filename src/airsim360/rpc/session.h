@@ -91,6 +91,7 @@ class Session {
   void Run();
   bool RunJobs();
   void StepOnce();
+  void NoteNearMisses(std::span<const SimEvent> happened);
   void Publish();
   void BuildVehicles(Stage& stage);
   void RebuildModel();
@@ -114,6 +115,7 @@ class Session {
   std::unique_ptr<SimLoop> loop_;
   std::vector<std::unique_ptr<VehicleControl>> controls_;
   std::map<std::string, std::shared_ptr<MissionPilot>> missions_;  // by name of the drone
+  std::shared_ptr<const std::vector<NearMiss>> near_misses_;       // in snapshots, too
   std::shared_ptr<const WorldView> world_;
   std::shared_ptr<WorldView> new_world_;  // while a job changes it
   Pacer pacer_;

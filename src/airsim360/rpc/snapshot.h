@@ -60,11 +60,14 @@ struct VehicleStatus {
   airsim::RCData rc;
 };
 
+inline constexpr size_t kMostNearMisses = 1000;
+
 struct Snapshot {
   SimState state;
   std::vector<VehicleStatus> vehicles;
   std::shared_ptr<const SimModel> model;
   std::shared_ptr<const WorldView> world;
+  std::shared_ptr<const std::vector<NearMiss>> near_misses;  ///< that are over, the latest kMostNearMisses; null: none
   bool paused = false;
   uint64_t epoch_ns = 0;  ///< sim time 0 on the clients' clock
   double real_time_factor = 1;

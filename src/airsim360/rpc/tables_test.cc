@@ -3,11 +3,11 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/rpc/limits.h"
 #include "airsim360/rpc/ned.h"
 #include "airsim360/rpc/ned_commands.h"
@@ -18,8 +18,6 @@
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A key of the settings with the text that goes around `"Key": value`.
 struct SettingsKey {

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kDegrees = std::numbers::pi / 180;
 
 double Turn(double degrees) { return degrees - 360 * std::floor(degrees / 360); }
 
@@ -63,8 +61,8 @@ double DeltaT(double year) { return year < 1900 ? 10 : year < 1990 ? 0.6 * (year
 // Degrees by which the air lifts what stands at this true elevation: Saemundsson (Meeus 16.4); below the
 // horizon the curve of NOAA's solar calculator, which meets it.
 double Refraction(double elevation) {
-  if (elevation < -0.575) return -20.774 / 3600 / std::tan(elevation * kDegrees);
-  return std::max(0.0, 1.02 / 60 / std::tan((elevation + 10.3 / (elevation + 5.11)) * kDegrees));
+  if (elevation < -0.575) return -20.774 / 3600 / std::tan(elevation * kDegree);
+  return std::max(0.0, 1.02 / 60 / std::tan((elevation + 10.3 / (elevation + 5.11)) * kDegree));
 }
 
 }  // namespace
@@ -116,27 +114,27 @@ SunAngles SunPosition(const UtcTime& time, const GeoPlace& place) {
   const double t = (day + DeltaT(time.year) / 86400 - 2451545) / 36525;
 
   // Apparent longitude of the sun, its declination and right ascension.
-  const double anomaly = (357.52911 + t * (35999.05029 - 0.0001537 * t)) * kDegrees;
+  const double anomaly = (357.52911 + t * (35999.05029 - 0.0001537 * t)) * kDegree;
   const double center = (1.914602 - t * (0.004817 + 0.000014 * t)) * std::sin(anomaly) + (0.019993 - 0.000101 * t) * std::sin(2 * anomaly) +
                         0.000289 * std::sin(3 * anomaly);
-  const double node = (125.04 - 1934.136 * t) * kDegrees;
-  const double longitude = (280.46646 + t * (36000.76983 + 0.0003032 * t) + center - 0.00569 - 0.00478 * std::sin(node)) * kDegrees;
-  const double tilt = (23.4392911 - 0.0130042 * t + 0.00256 * std::cos(node)) * kDegrees;
+  const double node = (125.04 - 1934.136 * t) * kDegree;
+  const double longitude = (280.46646 + t * (36000.76983 + 0.0003032 * t) + center - 0.00569 - 0.00478 * std::sin(node)) * kDegree;
+  const double tilt = (23.4392911 - 0.0130042 * t + 0.00256 * std::cos(node)) * kDegree;
   const double ascension = std::atan2(std::cos(tilt) * std::sin(longitude), std::cos(longitude));
   const double declination = std::asin(std::sin(tilt) * std::sin(longitude));
 
   // Hour angle from sidereal time (Meeus 12.4).
   const double u = (day - 2451545) / 36525;
   const double sidereal = 280.46061837 + 360.98564736629 * (day - 2451545) + 0.000387933 * u * u;
-  const double hour = (Turn(sidereal) + place.longitude_deg) * kDegrees - ascension;
-  const double latitude = place.latitude_deg * kDegrees;
+  const double hour = (Turn(sidereal) + place.longitude_deg) * kDegree - ascension;
+  const double latitude = place.latitude_deg * kDegree;
 
   // Horizontal coordinates, parallax, refraction.
   const double azimuth = std::atan2(std::sin(hour), std::cos(hour) * std::sin(latitude) - std::tan(declination) * std::cos(latitude));
   double elevation =
-      std::asin(std::sin(latitude) * std::sin(declination) + std::cos(latitude) * std::cos(declination) * std::cos(hour)) / kDegrees;
-  elevation -= 8.794 / 3600 * std::cos(elevation * kDegrees);
-  return {Turn(azimuth / kDegrees + 180), elevation + Refraction(elevation)};
+      std::asin(std::sin(latitude) * std::sin(declination) + std::cos(latitude) * std::cos(declination) * std::cos(hour)) / kDegree;
+  elevation -= 8.794 / 3600 * std::cos(elevation * kDegree);
+  return {Turn(azimuth / kDegree + 180), elevation + Refraction(elevation)};
 }
 
 }  // namespace airsim360

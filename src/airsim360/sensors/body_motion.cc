@@ -1,13 +1,10 @@
 #include "airsim360/sensors/body_motion.h"
 
-#include <numbers>
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 
-RigidTransform Mount::pose() const {
-  constexpr double kRadians = std::numbers::pi / 180;
-  return BodyPose(p_BS, yaw_deg * kRadians, pitch_deg * kRadians, roll_deg * kRadians);
-}
+RigidTransform Mount::pose() const { return BodyPose(p_BS, yaw_deg * kDegree, pitch_deg * kDegree, roll_deg * kDegree); }
 
 void Mount::Visit(ConfigVisitor& v) {
   constexpr double kFarthest = 100;  // metres: no drone is larger

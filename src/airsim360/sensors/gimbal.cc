@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "airsim360/math/angles.h"
+
 namespace airsim360 {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
-
 GimbalAngles Limited(const GimbalSpec& spec, const GimbalAngles& a) {
-  const double yaw = spec.yaw_limit_deg * kRadians, roll = spec.roll_limit_deg * kRadians;
-  return {std::clamp(a.yaw, -yaw, yaw), std::clamp(a.pitch, spec.pitch_low_deg * kRadians, spec.pitch_high_deg * kRadians),
+  const double yaw = spec.yaw_limit_deg * kDegree, roll = spec.roll_limit_deg * kDegree;
+  return {std::clamp(a.yaw, -yaw, yaw), std::clamp(a.pitch, spec.pitch_low_deg * kDegree, spec.pitch_high_deg * kDegree),
           std::clamp(a.roll, -roll, roll)};
 }
 
@@ -52,7 +52,7 @@ GimbalState StartGimbal(const GimbalSpec& spec, const GimbalAngles& command, con
 
 void StepGimbal(const GimbalSpec& spec, const Mat3d& R_WB, double dt, GimbalState& state) {
   const GimbalAngles wanted = Limited(spec, WantedJoints(spec, state.command, R_WB));
-  const double reach = spec.max_rate_deg * kRadians * dt;
+  const double reach = spec.max_rate_deg * kDegree * dt;
   const auto turn = [&](double from, double to) { return from + std::clamp(to - from, -reach, reach); };
   // A yaw joint that goes all the way round takes the shorter way.
   double yaw = wanted.yaw;

@@ -5,12 +5,11 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/sensors/lens.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Approximately normal with variance 1: the sum of four uniform numbers (Irwin-Hall), at most 3.46.
 float NormalOfBits(uint64_t bits) {

@@ -5,17 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 
 #include "airsim360/base/error.h"
 #include "airsim360/image/color.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/frame/test_room.h"
 #include "airsim360/sensors/rig.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
 
 /// Renders the test room.
 class LensTest : public testing::Test {

@@ -8,12 +8,12 @@
 #include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/sensors/sample_clock.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr size_t kPacket = 16, kTile = 64 * kPacket;  // shots of one task
 constexpr uint64_t kMostShots = uint64_t{1} << 26;
 
@@ -22,14 +22,14 @@ std::vector<Vec3f> SpinningDirections(const LidarSpec& spec) {
   std::vector<Vec2d> elevations;  // cosine, sine
   const double rise = spec.channels > 1 ? (spec.high_deg - spec.low_deg) / static_cast<double>(spec.channels - 1) : 0;
   for (uint64_t i = 0; i < spec.channels; ++i) {
-    const double elevation = (spec.low_deg + rise * static_cast<double>(i)) * kRadians;
+    const double elevation = (spec.low_deg + rise * static_cast<double>(i)) * kDegree;
     elevations.push_back({std::cos(elevation), std::sin(elevation)});
   }
   std::vector<Vec3f> directions;
   directions.reserve(spec.shots());
   const double turn = spec.sweep_deg / static_cast<double>(spec.columns);
   for (uint64_t column = 0; column < spec.columns; ++column) {
-    const double azimuth = (spec.start_deg - turn * static_cast<double>(column)) * kRadians;
+    const double azimuth = (spec.start_deg - turn * static_cast<double>(column)) * kDegree;
     const double c = std::cos(azimuth), s = std::sin(azimuth);
     for (const Vec2d& e : elevations) directions.push_back(VecCast<float>(Vec3d{e.x * c, e.x * s, e.y}));
   }
@@ -43,7 +43,7 @@ Vec3f RosetteDirection(const LidarSpec& spec, uint64_t scan, uint64_t shot) {
   const double t = (static_cast<double>(scan) + part) / spec.rate_hz;
   const double a = 2 * std::numbers::pi * std::fmod(7294.0 / 60 * t, 1.0);
   const double b = -2 * std::numbers::pi * std::fmod(4664.0 / 60 * t, 1.0);
-  const double half = spec.field_deg / 2 * kRadians;
+  const double half = spec.field_deg / 2 * kDegree;
   const double y = half / 2 * (std::cos(a) + std::cos(b)), z = half / 2 * (std::sin(a) + std::sin(b));
   const double angle = std::hypot(y, z);
   const double scale = angle > 0 ? std::sin(angle) / angle : 1;

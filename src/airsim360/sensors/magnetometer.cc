@@ -1,15 +1,14 @@
 #include "airsim360/sensors/magnetometer.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/sensors/sample_clock.h"
 
 namespace airsim360 {
 
 Vec3d MagneticField::InWorld() const {
-  constexpr double kRadians = std::numbers::pi / 180;
-  const double down = inclination_deg * kRadians, east = declination_deg * kRadians;
+  const double down = inclination_deg * kDegree, east = declination_deg * kDegree;
   return Vec3d{std::cos(down) * std::sin(east), std::cos(down) * std::cos(east), -std::sin(down)} * strength;
 }
 

@@ -2,15 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/math/standard_atmosphere.h"
 #include "airsim360/sensors/sensor_set.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void ExpectNear(Vec3d a, Vec3d b, double tolerance = 1e-12) { EXPECT_LT(Norm(a - b), tolerance); }
 

@@ -5,22 +5,21 @@
 #include <cmath>
 #include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/sensors/solid_angles.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
-void ExpectNear(Vec3d a, Vec3d b, double tolerance = 1e-12) { EXPECT_LT(Norm(a - b), tolerance); }
+void ExpectSamePlace(Vec3d a, Vec3d b, double tolerance = 1e-12) { EXPECT_LT(Norm(a - b), tolerance); }
 
 TEST(CameraPose, BodyFrameLooksAlongTheBodysForwardAxisWithItsUp) {
   const RigidTransform X_WB = BodyPose({1, 2, 3}, 90 * kDegree, 0, 0);
   const RigidTransform X_WC = CameraPose(PanoramicRig{}, X_WB);
-  ExpectNear(X_WC.R.column(2), {0, 1, 0});   // +Z forward: north
-  ExpectNear(X_WC.R.column(1), {0, 0, -1});  // +Y down
-  ExpectNear(X_WC.R.column(0), {1, 0, 0});   // +X right: east
-  ExpectNear(X_WC.p, {1, 2, 3});
+  ExpectSamePlace(X_WC.R.column(2), {0, 1, 0});   // +Z forward: north
+  ExpectSamePlace(X_WC.R.column(1), {0, 0, -1});  // +Y down
+  ExpectSamePlace(X_WC.R.column(0), {1, 0, 0});   // +X right: east
+  ExpectSamePlace(X_WC.p, {1, 2, 3});
 }
 
 TEST(CameraPose, LevelFrameKeepsOnlyTheHeading) {
@@ -30,7 +29,7 @@ TEST(CameraPose, LevelFrameKeepsOnlyTheHeading) {
   const RigidTransform flat = BodyPose({1, 2, 3}, 0.7, 0, 0);
   const RigidTransform X_WC = CameraPose(rig, tilted);
   const RigidTransform expected = CameraPose(PanoramicRig{}, flat);
-  for (int j = 0; j < 3; ++j) ExpectNear(X_WC.R.column(j), expected.R.column(j));
+  for (int j = 0; j < 3; ++j) ExpectSamePlace(X_WC.R.column(j), expected.R.column(j));
 }
 
 TEST(CameraPose, LevelAndBodyAgreeForALevelBody) {
@@ -38,7 +37,7 @@ TEST(CameraPose, LevelAndBodyAgreeForALevelBody) {
   level.pano_frame = PanoFrame::kLevel;
   const RigidTransform X_WB = BodyPose({0, 0, 5}, -2.1, 0, 0);
   for (int j = 0; j < 3; ++j) {
-    ExpectNear(CameraPose(level, X_WB).R.column(j), CameraPose(PanoramicRig{}, X_WB).R.column(j));
+    ExpectSamePlace(CameraPose(level, X_WB).R.column(j), CameraPose(PanoramicRig{}, X_WB).R.column(j));
   }
 }
 
@@ -46,17 +45,17 @@ TEST(CameraPose, LevelFrameHasAHeadingWhenTheBodyPointsStraightUp) {
   PanoramicRig rig;
   rig.pano_frame = PanoFrame::kLevel;
   const RigidTransform X_WC = CameraPose(rig, BodyPose({0, 0, 5}, 0.9, 90 * kDegree, 0));
-  ExpectNear(X_WC.R.column(2), {std::cos(0.9), std::sin(0.9), 0}, 1e-6);
+  ExpectSamePlace(X_WC.R.column(2), {std::cos(0.9), std::sin(0.9), 0}, 1e-6);
 }
 
 TEST(Extrapolate, FliesOnAndKeepsTurningAboutTheBodysAxes) {
   // Half a radian a second to the left while flying east.
   const Kinematics body{BodyPose({1, 2, 3}, 0.4, 0, 0), {5, 0, 0}, {0, 0, 0.5}};
   const RigidTransform X = Extrapolate(body, 0.6), expected = BodyPose({4, 2, 3}, 0.7, 0, 0);
-  ExpectNear(X.p, expected.p);
-  for (int j = 0; j < 3; ++j) ExpectNear(X.R.column(j), expected.R.column(j));
+  ExpectSamePlace(X.p, expected.p);
+  for (int j = 0; j < 3; ++j) ExpectSamePlace(X.R.column(j), expected.R.column(j));
   const Kinematics still{BodyPose({1, 2, 3}, 0.4, 0.1, 0.2), {}, {}};
-  for (int j = 0; j < 3; ++j) ExpectNear(Extrapolate(still, 1).R.column(j), still.X_WB.R.column(j));
+  for (int j = 0; j < 3; ++j) ExpectSamePlace(Extrapolate(still, 1).R.column(j), still.X_WB.R.column(j));
 }
 
 TEST(CaptureRig, CarriesTimeAndExactPoseOfTheTrigger) {
@@ -69,8 +68,8 @@ TEST(CaptureRig, CarriesTimeAndExactPoseOfTheTrigger) {
   Capture capture;
   CaptureRig(rig, body, 123'000'000, *renderer, capture);
   EXPECT_EQ(capture.t_ns, 123'000'000);
-  ExpectNear(capture.X_WC.p, {4, 5, 6});
-  ExpectNear(capture.body.w_WB_B, {0, 0, 0.5});
+  ExpectSamePlace(capture.X_WC.p, {4, 5, 6});
+  ExpectSamePlace(capture.body.w_WB_B, {0, 0, 0.5});
   EXPECT_EQ(capture.frame.entity.width(), 16);
   EXPECT_EQ(capture.frame.entity.height(), 8);
 }

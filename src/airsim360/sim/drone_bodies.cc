@@ -44,7 +44,7 @@ DroneBodyRef AddBody(const DroneBodySpec& body, MeshId mesh, Scene& scene) {
   return {static_cast<uint32_t>(scene.instances.size() - 1), entity};
 }
 
-// What has moved at `state`; people have the meshes for how far they were from vehicle `self` at `seen`.
+// What has moved at `state`; people have the meshes for how far they were from vehicle `self` at `seen`, lamps burn as then.
 std::shared_ptr<const SceneState> SceneStateAt(const SimModel& model, const SimState& state, size_t self, const SimState& seen) {
   auto scene_state = std::make_shared<SceneState>();
   scene_state->t_ns = state.t_ns;
@@ -59,7 +59,10 @@ std::shared_ptr<const SceneState> SceneStateAt(const SimModel& model, const SimS
       poses.levels = LevelsFor(*model.people, seen.people->crowd.people, seen.vehicles[self].motion.X_WB.p);
     ShowPeople(*model.people, poses, *scene_state);
   }
-  if (model.traffic && state.traffic) ShowTraffic(*model.traffic, *state.traffic, state.t_ns + model.traffic->epoch_ns, *scene_state);
+  if (model.traffic && state.traffic) {
+    const int64_t epoch_ns = model.traffic->epoch_ns;
+    ShowTraffic(*model.traffic, *state.traffic, state.t_ns + epoch_ns, *scene_state, {seen.traffic.get(), seen.t_ns + epoch_ns});
+  }
   std::ranges::sort(scene_state->moved, {}, &MovedInstance::instance);
   return scene_state;
 }

@@ -49,7 +49,10 @@ Flight FlyRoute(const SimModel& model, std::shared_ptr<const Route> route, std::
     if (state.t_ns % kRecordPeriodNs == 0 || landed) flight.trajectory.push_back({state.t_ns, vehicle.motion, vehicle.a_WB});
     if (landed) return flight;
 
-    Step(model, state.step == 0 ? std::span(commands) : std::span<const SimCommand>(), state);
+    std::vector<SimEvent> events;
+    Step(model, state.step == 0 ? std::span(commands) : std::span<const SimCommand>(), state, &events);
+    for (const SimEvent& event : events)
+      if (event.kind == SimEvent::Kind::kNearMiss) flight.near_misses.push_back(event.near_miss);
     flight.least_clearance = std::min(flight.least_clearance, static_cast<double>(state.vehicles[0].clearance));
   }
 }

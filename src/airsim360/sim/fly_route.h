@@ -29,7 +29,8 @@ struct TrajectorySample {
 struct Flight {
   std::vector<Shot> shots;
   std::vector<TrajectorySample> trajectory;
-  double least_clearance = 0;  ///< metres, over all steps, at most SimModel::contact_range
+  double least_clearance = 0;              ///< metres, over all steps, at most SimModel::contact_range
+  std::vector<NearMiss> near_misses = {};  ///< that were over before its end; times are those of the shots
 };
 
 /// `n` times spread evenly over the route, the first at its start and the last at its end; one: at its start.

@@ -1,6 +1,7 @@
 // What lives in a world without being told: people and traffic.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "airsim360/sim/step.h"
@@ -12,8 +13,13 @@ namespace airsim360 {
 void StartLife(const SimModel& model, SimState& state);
 
 /// Brings both to the last of their ticks that is not after the end of the step that begins at state.t_ns. Near passes of
-/// drones and people are added to `events`, if given.
+/// drones and people, and near misses on the roads, are added to `events`, if given.
 void StepLife(const SimModel& model, SimState& state, std::vector<SimEvent>* events);
+
+/// "traffic/012", "person/007", or the name of a drone.
+const std::string& NameOfRoadUser(const SimModel& model, const RoadUser& user);
+/// "traffic/012 and person/007 0.84 s before a crash".
+std::string TextOfNearMiss(const SimModel& model, const NearMiss& miss);
 
 /// The people as vehicles see them.
 std::vector<TrafficObstacle> ObstaclesOf(const PeopleState& people);

@@ -16,6 +16,7 @@
 #include "airsim360/sim/sim_drone.h"
 #include "airsim360/sim/world_wind.h"
 #include "airsim360/trace/ray_tracer.h"
+#include "airsim360/traffic/near_miss.h"
 
 namespace airsim360 {
 
@@ -140,6 +141,8 @@ struct SimCommand {
       action;
 };
 
+inline constexpr size_t kNoDrone = SIZE_MAX;
+
 /// Something that happened in a step.
 struct SimEvent {
   enum class Kind {
@@ -154,16 +157,19 @@ struct SimEvent {
     kBatteryEmpty,
     kWorldEdge,
     kNearPerson,
+    kNearMiss,
   };
   Kind kind;
-  size_t vehicle = 0;
+  size_t vehicle = 0;  ///< kNoDrone: of kNearMiss without one
   int64_t t_ns = 0;
   CollisionInfo collision = {};    ///< of kCollision and kCrash
-  std::string text = {};           ///< of kCommandRefused: why; of kNearPerson: who, and how near
+  std::string text = {};           ///< of kCommandRefused: why; of kNearPerson and kNearMiss: who, and how near
   PersonIndex person = kNoPerson;  ///< of kNearPerson
+  NearMiss near_miss = {};         ///< of kNearMiss; its time is the simulation's
 };
-inline constexpr const char* kSimEventNames[] = {"collision",    "crash",       "command refused", "command lost", "command done", "fence",
-                                                 "rotor failed", "battery low", "battery empty",   "world edge",   "near person"};
+inline constexpr const char* kSimEventNames[] = {"collision",     "crash",      "command refused", "command lost",
+                                                 "command done",  "fence",      "rotor failed",    "battery low",
+                                                 "battery empty", "world edge", "near person",     "near miss"};
 
 /// A vehicle at rest that only follows routes.
 Vehicle VehicleAt(const SimModel& model, const RigidTransform& X_WB);

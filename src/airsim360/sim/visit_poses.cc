@@ -27,7 +27,8 @@ Flight VisitPoses(const SimModel& model, std::span<const TimedPose> poses) {
     for (; ticked_ns + kCrowdTickNs <= pose.t_ns && (people || traffic); ticked_ns += kCrowdTickNs) {
       const CrowdDrone drone{eye, {}};
       if (people) TickPeople(*model.people, {&drone, 1}, *people);
-      if (driven) TickTraffic(model.traffic->model, people ? ObstaclesOf(*people) : std::vector<TrafficObstacle>{}, *driven);
+      if (driven)
+        TickTraffic(model.traffic->model, people ? ObstaclesOf(*people) : std::vector<TrafficObstacle>{}, *driven, &flight.near_misses);
       moved = true;
     }
     if (moved && people) shown = std::make_shared<const PeopleState>(*people);
@@ -38,6 +39,7 @@ Flight VisitPoses(const SimModel& model, std::span<const TimedPose> poses) {
     const double clearance = model.tracer->Clearance(VecCast<float>(eye), model.contact_range);
     flight.least_clearance = std::min(flight.least_clearance, clearance);
   }
+  for (NearMiss& miss : flight.near_misses) miss.t_ns -= model.traffic->epoch_ns;
   return flight;
 }
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
@@ -40,12 +41,11 @@ WorldWind ReadWindFile(const std::string& file) {
 double ShelterFactor(const RayTracer& tracer, Vec3d p_W, Vec3d wind_W) {
   const double speed = std::hypot(wind_W.x, wind_W.y);
   if (!(speed > 0)) return 1;
-  constexpr double kRadians = std::numbers::pi / 180;
   const double into = std::atan2(-wind_W.y, -wind_W.x);
   double deficit = 0;
   for (const double elevation : kElevationsDeg) {
     for (const double turn : kTurnsDeg) {
-      const double e = elevation * kRadians, a = into + turn * kRadians;
+      const double e = elevation * kDegree, a = into + turn * kDegree;
       const Vec3d d{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
       const auto hit = tracer.Intersect(VecCast<float>(p_W), VecCast<float>(d), static_cast<float>(kFarthest));
       if (hit) deficit += std::exp(-static_cast<double>(hit->distance) / kRecovery);

@@ -11,11 +11,11 @@
 namespace airsim360 {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kEndless = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 // Of every size that a float can have, with both signs in use.
-constexpr float kHostile[] = {1.1e12f, 1e15f,   1e17f,  1.8e18f,  2e18f,     9.3e18f,    1e20f, 1e30f,
-                              1e38f,   3.4e38f, -1e38f, -3.4e38f, kInfinity, -kInfinity, kNan};
+constexpr float kHostile[] = {1.1e12f, 1e15f,   1e17f,  1.8e18f,  2e18f,    9.3e18f,   1e20f, 1e30f,
+                              1e38f,   3.4e38f, -1e38f, -3.4e38f, kEndless, -kEndless, kNan};
 
 AffineTransform Scaled(float factor, Vec3f p) {
   AffineTransform X;
@@ -42,13 +42,13 @@ RayHit16 Down() {
     rays.origin_x[i] = 0.01f * static_cast<float>(i);
     rays.origin_z[i] = 5;
     rays.direction_z[i] = -1;
-    rays.t_far[i] = kInfinity;
+    rays.t_far[i] = kEndless;
     rays.mask[i] = kMaskAll;
   }
   return rays;
 }
 
-struct alignas(64) Lanes {
+struct alignas(64) HostileLanes {
   int active[16];
 };
 
@@ -58,7 +58,7 @@ constexpr Field kFields[] = {&RayHit16::origin_x,    &RayHit16::origin_y,    &Ra
 
 // A number of the rays, made hostile in lanes 3 and 9: the others meet the pyramid as ever.
 void CheckPackets(const RayTracer& tracer, Field field, float value, bool is_hit) {
-  Lanes valid;
+  HostileLanes valid;
   std::fill(std::begin(valid.active), std::end(valid.active), -1);
   for (const bool coherent : {false, true}) {
     RayHit16 rays = Down();
@@ -88,7 +88,7 @@ void CheckAll(const RayTracer& tracer) {
       EXPECT_FALSE(tracer.Occluded(place, {0, 0, -5})) << value;
       EXPECT_FALSE(tracer.Occluded({0, 0, 5}, place)) << value;
       EXPECT_EQ(tracer.Clearance(place, 10), 10) << value;
-      EXPECT_FALSE(tracer.Nearest(place, kInfinity)) << value;
+      EXPECT_FALSE(tracer.Nearest(place, kEndless)) << value;
     }
   }
   EXPECT_FALSE(tracer.Intersect({0, 0, 5}, {0, 0, -1}, kNan));
@@ -100,7 +100,7 @@ void CheckAll(const RayTracer& tracer) {
   // The limit itself is no wall: far rays are answered.
   EXPECT_TRUE(tracer.Intersect({0, 0, 2e7f}, {0, 0, -1}));
   EXPECT_TRUE(tracer.Occluded({0, 0, 2e7f}, {0, 0, -2e7f}));
-  EXPECT_NEAR(tracer.Clearance({0, 0, 2e7f}, kInfinity), 2e7f, 4);
+  EXPECT_NEAR(tracer.Clearance({0, 0, 2e7f}, kEndless), 2e7f, 4);
 }
 
 TEST(HostileRays, MissASceneOfBakedMeshes) { CheckAll(RayTracer(Pyramids({AffineTransform()}))); }

@@ -58,11 +58,12 @@ const Occupant* Occupancy::Behind(LaneId lane, double s, uint32_t self) const {
 
 InFront FindInFront(const TrafficModel& model, const TrafficState& state, const Occupancy& occupancy, uint32_t vehicle) {
   const DrivingVehicle& self = state.vehicles[vehicle];
-  if (const Occupant* o = occupancy.Ahead(self.lane, self.s, vehicle)) return {o->rear - self.s, state.vehicles[o->vehicle].v};
+  if (const Occupant* o = occupancy.Ahead(self.lane, self.s, vehicle)) return {o->rear - self.s, state.vehicles[o->vehicle].v, o->vehicle};
   double distance = model.lanes.length(self.lane) - self.s;
   for (const LaneId lane : self.ahead) {
     if (lane == kNoLane || distance > kSight) break;
-    if (const Occupant* o = occupancy.Ahead(lane, -INFINITY, vehicle)) return {distance + o->rear, state.vehicles[o->vehicle].v};
+    if (const Occupant* o = occupancy.Ahead(lane, -INFINITY, vehicle))
+      return {distance + o->rear, state.vehicles[o->vehicle].v, o->vehicle};
     distance += model.lanes.length(lane);
   }
   return {};

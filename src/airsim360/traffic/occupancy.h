@@ -30,10 +30,11 @@ class Occupancy {
   std::vector<Occupant> list_;
 };
 
-/// What is in front of a vehicle on its way: `gap` metres from its front, at speed `v`. Infinite: nothing.
+/// What is in front of a vehicle on its way: `gap` metres from its front, at speed `v`, and who. Infinite: nothing.
 struct InFront {
   double gap = INFINITY;
   double v = 0;
+  uint32_t vehicle = 0;
 };
 InFront FindInFront(const TrafficModel& model, const TrafficState& state, const Occupancy& occupancy, uint32_t vehicle);
 

@@ -9,6 +9,7 @@
 #include "airsim360/base/state_hash.h"
 #include "airsim360/traffic/bus_stops.h"
 #include "airsim360/traffic/lane_changes.h"
+#include "airsim360/traffic/near_misses.h"
 #include "airsim360/traffic/obstacles.h"
 #include "airsim360/traffic/right_of_way.h"
 #include "airsim360/traffic/turns.h"
@@ -28,7 +29,8 @@ constexpr double kStopGap = 1.5;     // metres before somebody in the way
 constexpr double kHaltBefore = 0.3;  // metres before a bus stop
 constexpr double kStands = 0.1;      // m/s
 constexpr double kTick = static_cast<double>(kTrafficTickNs) * 1e-9;
-constexpr double kSlot = 14;  // metres of lane for each vehicle at the start: a bus of 12
+constexpr int64_t kLookForMisses = 2;  // ticks between looks at them
+constexpr double kSlot = 14;           // metres of lane for each vehicle at the start: a bus of 12
 
 // The speed that a driver wants here: slower before bends that come.
 double WantedSpeed(const TrafficModel& model, uint32_t vehicle, const DrivingVehicle& own) {
@@ -177,7 +179,7 @@ TrafficState StartTraffic(const TrafficModel& model) {
   return state;
 }
 
-void TickTraffic(const TrafficModel& model, std::span<const TrafficObstacle> obstacles, TrafficState& state) {
+void TickTraffic(const TrafficModel& model, std::span<const TrafficObstacle> obstacles, TrafficState& state, std::vector<NearMiss>* over) {
   // All look at the beginning of the tick; grants and lane changes go one after the other.
   const TrafficState before = state;
   const Occupancy occupancy(model, before);
@@ -186,6 +188,8 @@ void TickTraffic(const TrafficModel& model, std::span<const TrafficObstacle> obs
   LaneChanges lane_changes(model, before, occupancy);
   const Look look{model, before, occupancy, grid, right_of_way};
   const int64_t t_ns = state.t_ns + kTrafficTickNs;
+  if (before.t_ns % (kTrafficTickNs * kLookForMisses) == 0)
+    internal::UpdateEncounters(internal::CriticalPairs(model, before, occupancy, obstacles), before.t_ns, state.encounters, over);
   for (uint32_t i = 0; i < state.vehicles.size(); ++i) {
     DrivingVehicle& own = state.vehicles[i];
     own.a = Accelerate(look, i, own);
@@ -218,6 +222,12 @@ uint64_t HashTraffic(const TrafficState& state) {
     for (const int64_t value : {v.changed_ns, v.stopped_ns, v.halts_until_ns, int64_t{v.indicator}}) hasher.Add(value);
     for (const bool value : {v.granted, v.braking}) hasher.Add(value);
     hasher.Add(v.choices);
+  }
+  for (const Encounter& e : state.encounters) {
+    for (const RoadUser& who : {e.worst.a, e.worst.b}) hasher.Add(uint64_t{static_cast<uint8_t>(who.kind)} << 32 | who.index);
+    for (const int64_t value : {e.worst.t_ns, e.seen_ns}) hasher.Add(value);
+    for (const double value : {e.worst.seconds, e.worst.braking}) hasher.Add(value);
+    hasher.Add(e.worst.p);
   }
   return hasher.hash();
 }

@@ -10,6 +10,7 @@
 #include "airsim360/math/transform.h"
 #include "airsim360/traffic/car_following.h"
 #include "airsim360/traffic/lane_map.h"
+#include "airsim360/traffic/near_miss.h"
 
 namespace airsim360 {
 
@@ -68,6 +69,7 @@ struct DrivingVehicle {
 struct TrafficState {
   int64_t t_ns = 0;
   std::vector<DrivingVehicle> vehicles;
+  std::vector<Encounter> encounters = {};  ///< near misses under way, by a and b
 };
 
 /// Somebody or something in the street that vehicles stop for.
@@ -75,6 +77,7 @@ struct TrafficObstacle {
   Vec3d p;  ///< in W, at the height of the ground below it
   Vec3d v;
   double radius = 0.3;
+  RoadUser who = {.kind = RoadUser::Kind::kPerson, .index = 0};
 };
 
 /// Vehicles at their starts: spread over all lanes outside of junctions, at rest apart from each other. InputError for more
@@ -83,8 +86,10 @@ TrafficState StartTraffic(const TrafficModel& model);
 /// How many vehicles of 5 m fit.
 size_t TrafficCapacity(const LaneMap& lanes);
 
-/// One tick. The same bytes for the same model, state and obstacles.
-void TickTraffic(const TrafficModel& model, std::span<const TrafficObstacle> obstacles, TrafficState& state);
+/// One tick. The same bytes for the same model, state and obstacles. Near misses that are over by now are added to `over`, if
+/// given.
+void TickTraffic(const TrafficModel& model, std::span<const TrafficObstacle> obstacles, TrafficState& state,
+                 std::vector<NearMiss>* over = nullptr);
 
 /// Body of a vehicle at t_ns, at most a tick after the state: origin on the ground below the middle, +X forward, +Z away
 /// from the ground, as both axles stand on their lanes.

@@ -138,7 +138,7 @@ void WriteFaces(const ExportJob& job, const NativeFrame& frame, const View& view
   }
 }
 
-void CopyPicture(const ExportJob& job, const NativeFrame& frame, const View& view) {
+void CopyPictures(const ExportJob& job, const NativeFrame& frame, const View& view) {
   for (const auto& [product, folder] : {std::pair("rgb", "images/"), std::pair("range", "range/"), std::pair("normal", "normal/")}) {
     if (!job.data.Has(product)) continue;
     job.out.Write(folder + job.data.FileName(frame, view, product), job.data.Read(frame, view, product));
@@ -197,7 +197,7 @@ void ExportColmap(ExportJob& job) {
       [&](const NativeFrame& frame) {
         std::vector<std::vector<RangePoint>> points;
         for (const View& view : views) {
-          CopyPicture(job, frame, view);
+          CopyPictures(job, frame, view);
           points.push_back(PointsOf(job, frame, view, count));
         }
         if (faces) WriteFaces(job, frame, views[0], *maps);

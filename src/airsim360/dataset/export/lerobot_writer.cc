@@ -10,7 +10,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr char kVideoKey[] = "observation.images.pano";
-constexpr int64_t kChunk = 1000;  // episodes of a folder
+constexpr int64_t kEpisodesOfFolder = 1000;  // episodes of a folder
 
 // Of the values of one feature, by component.
 struct Stats {
@@ -57,7 +57,7 @@ std::vector<ParquetFile::Value> Values(const std::vector<float>& floats) { retur
 // "data/chunk-000/episode_000000.parquet".
 std::string Place(const std::string& room, int64_t episode, const std::string& below, const char* suffix) {
   char text[96];
-  std::snprintf(text, sizeof(text), "/chunk-%03lld/%sepisode_%06lld%s", static_cast<long long>(episode / kChunk), below.c_str(),
+  std::snprintf(text, sizeof(text), "/chunk-%03lld/%sepisode_%06lld%s", static_cast<long long>(episode / kEpisodesOfFolder), below.c_str(),
                 static_cast<long long>(episode), suffix);
   return room + text;
 }
@@ -107,8 +107,8 @@ struct LeRobotWriter::Impl {
             {"total_frames", frames},
             {"total_tasks", tasks.size()},
             {"total_videos", episodes},
-            {"total_chunks", (episodes + kChunk - 1) / kChunk},
-            {"chunks_size", kChunk},
+            {"total_chunks", (episodes + kEpisodesOfFolder - 1) / kEpisodesOfFolder},
+            {"chunks_size", kEpisodesOfFolder},
             {"fps", shape.rate},
             {"splits", {{"train", "0:" + std::to_string(episodes)}}},
             {"data_path", "data/chunk-{episode_chunk:03d}/episode_{episode_index:06d}.parquet"},

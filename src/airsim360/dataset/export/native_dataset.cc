@@ -16,6 +16,7 @@
 #include "airsim360/dataset/record/intrinsics.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/image/palette_png.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 
@@ -34,13 +35,12 @@ RigidTransform Pose(const Json& X) {
 }
 
 GimbalMount GimbalOf(const Json& json) {
-  constexpr double kRadians = std::numbers::pi / 180;
   GimbalMount gimbal{.spec = {.p_BG = {json.at("x"), json.at("y"), json.at("z")},
                               .stabilise_yaw = json.at("stabilise_yaw"),
                               .stabilise_pitch = json.at("stabilise_pitch"),
                               .stabilise_roll = json.at("stabilise_roll")},
-                     .command = {json.at("yaw_deg").get<double>() * kRadians, json.at("pitch_deg").get<double>() * kRadians,
-                                 json.at("roll_deg").get<double>() * kRadians}};
+                     .command = {json.at("yaw_deg").get<double>() * kDegree, json.at("pitch_deg").get<double>() * kDegree,
+                                 json.at("roll_deg").get<double>() * kDegree}};
   gimbal.spec.yaw_limit_deg = json.at("yaw_limit_deg");
   gimbal.spec.pitch_low_deg = json.at("pitch_low_deg");
   gimbal.spec.pitch_high_deg = json.at("pitch_high_deg");

@@ -1,12 +1,12 @@
 // The layout of the AirSim360 release: panorama/, depth/, semantic/, instance/, class lists and records of poses.
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/error.h"
 #include "airsim360/dataset/export/export_job.h"
 #include "airsim360/dataset/export/hdf5.h"
 #include "airsim360/dataset/export/paper_classes.h"
 #include "airsim360/image/codecs.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
@@ -15,11 +15,10 @@ constexpr float kFarthest = 1000;  // metres; what is farther, and the sky, is t
 
 // Unreal's world: left-handed, X as ours, Y to the south, Z up, centimetres; a rotator in degrees whose yaw grows from X to Y.
 std::string RecordLine(const RigidTransform& X_WC) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   const Mat3d R = X_WC.R * CameraInBody().R.transpose();
   const double yaw = std::atan2(R.m[1][0], R.m[0][0]), pitch = std::asin(std::clamp(R.m[2][0], -1.0, 1.0)),
                roll = std::atan2(R.m[2][1], R.m[2][2]);
-  const auto angle = [&](double radians) { return Number(std::round(radians * kDegrees * 1e6) / 1e6); };
+  const auto angle = [&](double radians) { return Number(std::round(radians * kRadian * 1e6) / 1e6); };
   const auto length = [](double metres) { return Number(std::round(metres * 1e6) / 1e4); };
   return length(X_WC.p.x) + "," + length(-X_WC.p.y) + "," + length(X_WC.p.z) + "," + angle(roll) + "," + angle(pitch) + "," + angle(-yaw) +
          "\n";

@@ -2,15 +2,14 @@
 // rotated box, a bounding field of view and a rotated one; masks across the seam. Longitude grows to the right, latitude up.
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "airsim360/dataset/export/export_job.h"
 #include "airsim360/image/codecs.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr int64_t kLeastPixels = 16;  // of a thing in a frame that counts
 
 bool IsTracked(const std::string& path) {
@@ -67,17 +66,17 @@ Bfov Centred(const std::vector<Vec3d>& rays, double lon, double lat, double rota
   }
   // What is left of the difference is covered.
   extent = ExtentIn(rays, AxesAt(lon, lat, rotation));
-  return {lon * kDegrees, lat * kDegrees, 2 * std::max(-extent.x0, extent.x1) * kDegrees, 2 * std::max(-extent.y0, extent.y1) * kDegrees,
-          rotation * kDegrees};
+  return {lon * kRadian, lat * kRadian, 2 * std::max(-extent.x0, extent.x1) * kRadian, 2 * std::max(-extent.y0, extent.y1) * kRadian,
+          rotation * kRadian};
 }
 
 Bfov RotatedBfov(const std::vector<Vec3d>& rays, const Bfov& upright) {
   Bfov best = upright;
   for (int degrees = -44; degrees <= 45; ++degrees) {
     if (degrees == 0) continue;
-    const Extent extent = ExtentIn(rays, AxesAt(upright.lon / kDegrees, upright.lat / kDegrees, degrees / kDegrees));
-    if (extent.area() * kDegrees * kDegrees >= best.width * best.height) continue;
-    const Bfov candidate = Centred(rays, upright.lon / kDegrees, upright.lat / kDegrees, degrees / kDegrees);
+    const Extent extent = ExtentIn(rays, AxesAt(upright.lon / kRadian, upright.lat / kRadian, degrees / kRadian));
+    if (extent.area() * kRadian * kRadian >= best.width * best.height) continue;
+    const Bfov candidate = Centred(rays, upright.lon / kRadian, upright.lat / kRadian, degrees / kRadian);
     if (candidate.width * candidate.height < best.width * best.height) best = candidate;
   }
   return best;
@@ -92,7 +91,7 @@ Json RotatedBoxJson(const std::vector<Vec2d>& corners, int width) {
   double best = std::numeric_limits<double>::max();
   Json json;
   for (int degrees = 0; degrees < 90; ++degrees) {
-    const double c = std::cos(degrees / kDegrees), s = std::sin(degrees / kDegrees);
+    const double c = std::cos(degrees / kRadian), s = std::sin(degrees / kRadian);
     Extent extent;
     for (const Vec2d& p : corners) extent.Add(c * p.x + s * p.y, -s * p.x + c * p.y);
     if (extent.area() >= best) continue;

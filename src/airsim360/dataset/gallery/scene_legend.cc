@@ -10,7 +10,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr int kWidest = 1024, kGap = 4, kTitle = 24, kLeastWidth = 320;  // pixels
+constexpr int kWidestLegend = 1024, kGap = 4, kTitle = 24, kLeastWidth = 320;  // pixels
 
 // Every n-th pixel: categories are never mixed.
 Image<Rgb8> DrawSemantic(const NativeDataset& data, const NativeFrame& frame, int step) {
@@ -43,7 +43,7 @@ Image<Rgb8> DrawSceneLegend(const NativeDataset& data, const DatasetStatistics& 
   const WorldCount& count = statistics.worlds.at(world);
   const NativeFrame frame = data.Frame(count.richest);
   const int full = Width(data.views().front().camera);
-  const Image<Rgb8> semantic = DrawSemantic(data, frame, std::max(1, (full + kWidest - 1) / kWidest));
+  const Image<Rgb8> semantic = DrawSemantic(data, frame, std::max(1, (full + kWidestLegend - 1) / kWidestLegend));
   std::vector<Image<Rgb8>> pictures;
   if (data.Has("rgb")) pictures.push_back(ResizeBox(data.Rgb(frame, data.views().front()), semantic.width(), semantic.height()));
   pictures.push_back(semantic);

@@ -2,11 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 
-#include "airsim360/base/file.h"
-#include "airsim360/base/hash.h"
 #include "airsim360/dataset/people/json_lines.h"
+#include "airsim360/dataset/people/nuscenes_tables.h"
 #include "airsim360/dataset/people/people_export.h"
 #include "airsim360/dataset/people/person_record.h"
 
@@ -21,7 +19,7 @@ Mat3d ToRotation(const Json& q) { return ToMatrix({q[0], q[1], q[2], q[3]}); }
 
 bool Sits(const Json& person) { return person["locomotion"] == "sit"; }
 
-std::string KittiLine(const Json& person) {
+std::string LineOf(const Json& person) {
   const double fraction = person["visible_fraction"];
   const Json &box = person["box2d_amodal"], &box3d = person["box3d_cam"], &p = box3d["bottom"], &lwh = box3d["lwh"];
   const int x = box[0], y = box[1], w = box[2], h = box[3];
@@ -35,126 +33,6 @@ std::string KittiLine(const Json& person) {
                 p[0].get<double>(), p[1].get<double>(), p[2].get<double>(), box3d["rotation_y"].get<double>());
   return line;
 }
-
-// 32 hex digits that stand for a thing.
-std::string Token(const std::string& of) { return Sha256Hex(AsBytes("airsim360 " + of)).substr(0, 32); }
-
-/// Collects the tables of nuScenes.
-class Tables {
- public:
-  explicit Tables(const DatasetSpec& spec) : spec_(spec) {
-    for (const char* name : {"human.pedestrian.adult", "human.pedestrian.child"})
-      Add("category", {{"token", Token(name)}, {"name", name}, {"description", ""}});
-    for (const char* name : {"pedestrian.moving", "pedestrian.standing", "pedestrian.sitting_lying_down"})
-      Add("attribute", {{"token", Token(name)}, {"name", name}, {"description", ""}});
-    const char* levels[] = {"v0-40", "v40-60", "v60-80", "v80-100"};
-    for (int i = 0; i < 4; ++i) {
-      Add("visibility", {{"token", std::to_string(i + 1)}, {"level", levels[i]}, {"description", ""}});
-    }
-    Add("sensor", {{"token", Token("sensor")}, {"channel", "CAM_PANORAMA"}, {"modality", "camera"}});
-    Add("log", {{"token", Token("log")}, {"logfile", ""}, {"vehicle", "airsim360"}, {"date_captured", ""}, {"location", spec.world}});
-    Add("map", {{"token", Token("map")}, {"log_tokens", {Token("log")}}, {"category", "none"}, {"filename", ""}});
-  }
-
-  void AddLine(const Json& line) {
-    const std::string stem = line["stem"], sample = Token("sample " + stem);
-    const int64_t micros = line["t_ns"].get<int64_t>() / 1000;
-    Add("sample", {{"token", sample}, {"timestamp", micros}, {"prev", ""}, {"next", ""}, {"scene_token", Token("scene")}});
-    const Json& camera = line["camera"];
-    Add("ego_pose", {{"token", Token("pose " + stem)},
-                     {"timestamp", micros},
-                     {"rotation", camera["X_WC"]["q_wxyz"]},
-                     {"translation", camera["X_WC"]["p"]}});
-    Add("calibrated_sensor", {{"token", Token("calibrated " + stem)},
-                              {"sensor_token", Token("sensor")},
-                              {"translation", {0, 0, 0}},
-                              {"rotation", {1, 0, 0, 0}},
-                              {"camera_intrinsic", camera.contains("K") ? camera["K"] : Json::array()}});
-    Add("sample_data", {{"token", Token("data " + stem)},
-                        {"sample_token", sample},
-                        {"ego_pose_token", Token("pose " + stem)},
-                        {"calibrated_sensor_token", Token("calibrated " + stem)},
-                        {"timestamp", micros},
-                        {"fileformat", spec_.rgb_format == RgbFormat::kJpeg ? "jpg" : "png"},
-                        {"is_key_frame", true},
-                        {"height", spec_.height},
-                        {"width", spec_.width},
-                        {"filename", "rgb/" + stem + (spec_.rgb_format == RgbFormat::kJpeg ? ".jpg" : ".png")},
-                        {"prev", ""},
-                        {"next", ""}});
-    for (const Json& person : line["persons"]) AddPerson(person, stem, sample);
-  }
-
-  std::vector<ExportedFile> Finish() {
-    Link("sample");
-    Link("sample_data");
-    Json& samples = tables_["sample"];
-    const bool any = !samples.empty();
-    Add("scene", {{"token", Token("scene")},
-                  {"log_token", Token("log")},
-                  {"nbr_samples", samples.size()},
-                  {"first_sample_token", any ? samples.front()["token"] : Json("")},
-                  {"last_sample_token", any ? samples.back()["token"] : Json("")},
-                  {"name", "scene-0001"},
-                  {"description", spec_.world}});
-    for (auto& [track, rows] : of_instance_) FinishInstance(track, rows);
-    std::vector<ExportedFile> files;
-    for (const char* name : {"category", "attribute", "visibility", "instance", "sensor", "calibrated_sensor", "ego_pose", "log", "scene",
-                             "sample", "sample_data", "sample_annotation", "map"}) {
-      Json& table = tables_[name];
-      files.push_back({std::string("nuscenes/v1.0-airsim360/") + name + ".json", Text(table.is_null() ? Json::array() : table)});
-    }
-    return files;
-  }
-
- private:
-  void Add(const std::string& table, Json row) { tables_[table].push_back(std::move(row)); }
-  void Link(const std::string& table) {
-    Json& rows = tables_[table];
-    for (size_t i = 0; i + 1 < rows.size(); ++i) {
-      rows[i]["next"] = rows[i + 1]["token"];
-      rows[i + 1]["prev"] = rows[i]["token"];
-    }
-  }
-  void AddPerson(const Json& person, const std::string& stem, const std::string& sample) {
-    const Json& box = person["box3d_world"];
-    const double half = box["yaw"].get<double>() / 2;
-    const bool moves = Norm(ToVec(person["velocity_world"])) > 0.2;
-    const char* attribute = Sits(person) ? "pedestrian.sitting_lying_down" : moves ? "pedestrian.moving" : "pedestrian.standing";
-    const int64_t track = person["track_id"];
-    of_instance_[track].push_back(tables_["sample_annotation"].size());
-    child_[track] = person["age"].get<double>() < 16;
-    Add("sample_annotation", {{"token", Token("annotation " + stem + " " + std::to_string(track))},
-                              {"sample_token", sample},
-                              {"instance_token", Token("instance " + std::to_string(track))},
-                              {"visibility_token", std::to_string(person["visibility_token"].get<int>())},
-                              {"attribute_tokens", {Token(attribute)}},
-                              {"translation", box["center"]},
-                              {"size", {box["lwh"][1], box["lwh"][0], box["lwh"][2]}},
-                              {"rotation", {std::cos(half), 0, 0, std::sin(half)}},
-                              {"num_lidar_pts", 0},
-                              {"num_radar_pts", 0},
-                              {"prev", ""},
-                              {"next", ""}});
-  }
-  void FinishInstance(int64_t track, const std::vector<size_t>& rows) {
-    Json& annotations = tables_["sample_annotation"];
-    for (size_t i = 0; i + 1 < rows.size(); ++i) {
-      annotations[rows[i]]["next"] = annotations[rows[i + 1]]["token"];
-      annotations[rows[i + 1]]["prev"] = annotations[rows[i]]["token"];
-    }
-    Add("instance", {{"token", Token("instance " + std::to_string(track))},
-                     {"category_token", Token(child_[track] ? "human.pedestrian.child" : "human.pedestrian.adult")},
-                     {"nbr_annotations", rows.size()},
-                     {"first_annotation_token", annotations[rows.front()]["token"]},
-                     {"last_annotation_token", annotations[rows.back()]["token"]}});
-  }
-
-  const DatasetSpec& spec_;
-  std::map<std::string, Json> tables_;
-  std::map<int64_t, std::vector<size_t>> of_instance_;  // rows of sample_annotation
-  std::map<int64_t, bool> child_;
-};
 
 /// One split of MonoLoco's file.
 struct Split {
@@ -197,22 +75,44 @@ void AddMonoLoco(const Json& line, const Json& person, Split& split) {
 
 }  // namespace
 
+std::string internal::KittiLine(const Json& person) {
+  return person["box2d_amodal"].is_null() ? std::string() : LineOf(person);
+}
+
 std::vector<ExportedFile> internal::KittiLabels(const std::string& people_jsonl) {
   std::vector<ExportedFile> files;
   ForEachLine(people_jsonl, [&](const Json& line) {
     std::string text;
-    for (const Json& person : line["persons"]) {
-      if (!person["box2d_amodal"].is_null()) text += KittiLine(person);
-    }
+    for (const Json& person : line["persons"]) text += KittiLine(person);
     files.push_back({"kitti/label_2/" + line["stem"].get<std::string>() + ".txt", std::move(text)});
   });
   return files;
 }
 
-std::vector<ExportedFile> internal::NuScenesTables(const std::string& people_jsonl, const DatasetSpec& spec) {
-  Tables tables(spec);
-  ForEachLine(people_jsonl, [&](const Json& line) { tables.AddLine(line); });
-  return tables.Finish();
+internal::NuScenesBox internal::NuScenesBoxOf(const Json& person) {
+  const Json& box = person["box3d_world"];
+  const double half = box["yaw"].get<double>() / 2;
+  const bool moves = Norm(ToVec(person["velocity_world"])) > 0.2;
+  return {.kind = "",
+          .track = person["track_id"],
+          .category = person["age"].get<double>() < 16 ? "human.pedestrian.child" : "human.pedestrian.adult",
+          .attribute = Sits(person) ? "pedestrian.sitting_lying_down"
+                       : moves      ? "pedestrian.moving"
+                                    : "pedestrian.standing",
+          .visibility = std::to_string(person["visibility_token"].get<int>()),
+          .translation = box["center"],
+          .size = {box["lwh"][1], box["lwh"][0], box["lwh"][2]},
+          .rotation = {std::cos(half), 0, 0, std::sin(half)}};
+}
+
+std::vector<ExportedFile> internal::NuScenesOfPeople(const std::string& people_jsonl, const DatasetSpec& spec) {
+  NuScenesTables tables(spec, PedestrianCategories(), PedestrianAttributes());
+  ForEachLine(people_jsonl, [&](const Json& line) {
+    const std::string stem = line["stem"];
+    tables.AddFrame(stem, line["t_ns"], line["camera"], "rgb/" + stem + (spec.rgb_format == RgbFormat::kJpeg ? ".jpg" : ".png"));
+    for (const Json& person : line["persons"]) tables.AddBox(NuScenesBoxOf(person));
+  });
+  return tables.Finish("nuscenes/v1.0-airsim360");
 }
 
 ExportedFile internal::MonoLocoJoints(const std::string& people_jsonl) {

@@ -13,12 +13,11 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
 #include "airsim360/dataset/people/human_splits.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/sim/people_survey.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180;
 
 double PitchOf(const std::string& text, const std::string& file) {
   double value = 0;
@@ -220,7 +219,7 @@ RigidTransform PickView(const HumanRecipe& recipe, const HumanSubset& subset, co
     ++rated;
     if (*seen <= most) continue;
     most = *seen;
-    best = BodyPose(p, yaw, -subset.pitch_deg * kRadians, 0);
+    best = BodyPose(p, yaw, -subset.pitch_deg * kDegree, 0);
   }
   if (best) return *best;
   throw InputError("subset " + subset.name + ": no free place for the camera around its area");

@@ -15,7 +15,7 @@ namespace airsim360 {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
 constexpr const char* kNoSplit = "none";
 
@@ -28,13 +28,13 @@ struct ListedSubset {
 std::vector<ListedSubset> ReadList(const fs::path& file) {
   std::vector<ListedSubset> list;
   try {
-    for (const Json& entry : Json::parse(ReadTextFile(file, uint64_t{16} << 20))) {
+    for (const ParsedJson& entry : ParsedJson::parse(ReadTextFile(file, uint64_t{16} << 20))) {
       if (!entry.contains("area")) continue;  // not made yet
       list.push_back({entry.at("subset"), entry.at("world"), entry.at("split"), entry.at("area").get<std::array<double, 4>>()});
       if (list.back().name.find("..") != std::string::npos)
         throw InputError(file.string() + ": subset '" + list.back().name + "' is no name");
     }
-  } catch (const Json::exception& error) {
+  } catch (const ParsedJson::exception& error) {
     throw InputError(file.string() + ": is no list of `collect --recipe`: " + error.what());
   }
   return list;
@@ -46,7 +46,7 @@ bool AreNear(const ListedSubset& a, const ListedSubset& b) {
 }
 
 // Who a person is, whatever the world: the name in a pack, the figures of a body of our own.
-std::string CharacterOf(const Json& person) {
+std::string CharacterOf(const ParsedJson& person) {
   const std::string name = person.at("character");
   if (name != "procedural") return name;
   return person.at("stature_m").dump() + " " + person.at("age").dump() + " " + person.at("sex").dump() + " " + person.at("outfit").dump();
@@ -66,14 +66,14 @@ Contents ReadContents(const fs::path& file) {
   std::string text;
   for (int64_t number = 1; std::getline(stream, text); ++number) {
     try {
-      const Json line = Json::parse(text);
+      const ParsedJson line = ParsedJson::parse(text);
       ++contents.pictures;
       contents.seconds.insert(line.at("t_ns").get<int64_t>() / 1'000'000'000);
-      for (const Json& person : line.at("persons")) {
+      for (const ParsedJson& person : line.at("persons")) {
         contents.characters.insert(CharacterOf(person));
         contents.tracks.insert(person.at("track_id").get<int64_t>());
       }
-    } catch (const Json::exception& error) {
+    } catch (const ParsedJson::exception& error) {
       throw InputError(file.string() + ":" + std::to_string(number) + ": " + error.what());
     }
   }

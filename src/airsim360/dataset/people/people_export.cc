@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string Text(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string JsonText(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 // Where the keypoints of other orders are in the lists of people.jsonl.
 ExportedFile OrdersFile() {
@@ -32,7 +32,7 @@ ExportedFile OrdersFile() {
     joints.push_back(std::string(JointName(static_cast<Joint>(i))));
     parents.push_back(static_cast<int>(ParentOf(static_cast<Joint>(i))));
   }
-  return {"keypoint_orders.json", Text({{"keypoints", names}, {"joints", joints}, {"joint_parents", parents}, {"orders", orders}})};
+  return {"keypoint_orders.json", JsonText({{"keypoints", names}, {"joints", joints}, {"joint_parents", parents}, {"orders", orders}})};
 }
 
 // COCO's own skeleton, one-based.
@@ -94,7 +94,7 @@ ExportedFile internal::CocoKeypoints(const std::string& people_jsonl, const Data
   Json names = Json::array();
   for (int i = 0; i < kCocoSocketCount; ++i) names.push_back(std::string(kSocketNames[i]));
   const Json category = {{"id", 1}, {"name", "person"}, {"supercategory", "person"}, {"keypoints", names}, {"skeleton", CocoSkeleton()}};
-  return {"person_keypoints.json", Text({{"images", images}, {"annotations", annotations}, {"categories", Json::array({category})}})};
+  return {"person_keypoints.json", JsonText({{"images", images}, {"annotations", annotations}, {"categories", Json::array({category})}})};
 }
 
 std::vector<ExportedFile> ExportPeople(const std::string& people_jsonl, const DatasetSpec& spec) {
@@ -103,7 +103,7 @@ std::vector<ExportedFile> ExportPeople(const std::string& people_jsonl, const Da
   for (const std::string& format : spec.people_formats) {
     if (format == "coco_keypoints") add({internal::CocoKeypoints(people_jsonl, spec)});
     if (format == "kitti") add(internal::KittiLabels(people_jsonl));
-    if (format == "nuscenes") add(internal::NuScenesTables(people_jsonl, spec));
+    if (format == "nuscenes") add(internal::NuScenesOfPeople(people_jsonl, spec));
     if (format == "monoloco") add({internal::MonoLocoJoints(people_jsonl)});
   }
   return files;

@@ -35,7 +35,7 @@ ExportedFile CocoKeypoints(const std::string& people_jsonl, const DatasetSpec& s
 /// kitti/label_2/STEM.txt of every picture.
 std::vector<ExportedFile> KittiLabels(const std::string& people_jsonl);
 /// nuscenes/v1.0-airsim360/*.json: the thirteen tables.
-std::vector<ExportedFile> NuScenesTables(const std::string& people_jsonl, const DatasetSpec& spec);
+std::vector<ExportedFile> NuScenesOfPeople(const std::string& people_jsonl, const DatasetSpec& spec);
 /// monoloco.json: joints of the crops with their targets, split by frame 8 : 1 : 1.
 ExportedFile MonoLocoJoints(const std::string& people_jsonl);
 }  // namespace internal

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
+
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
@@ -183,7 +184,6 @@ std::vector<PersonRow> PersonRows(const LabelledPicture& picture, std::span<cons
 }
 
 std::string PeopleLine(const std::string& frame_line, const DatasetSpec& spec, const View& view, std::span<const std::string> persons) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   const Json frame = Json::parse(frame_line);
   const Json& X_WC = spec.cameras.empty() ? frame["X_WC"] : frame["cameras"][view.name]["X_WC"];
   Json camera = {{"X_WC", X_WC}};
@@ -193,7 +193,7 @@ std::string PeopleLine(const std::string& frame_line, const DatasetSpec& spec, c
   const Mat3d R_WB = R_WC * CameraInBody().R.transpose();
   const double yaw = std::atan2(R_WB.m[1][0], R_WB.m[0][0]), pitch = std::asin(std::clamp(R_WB.m[2][0], -1.0, 1.0)),
                roll = std::atan2(R_WB.m[2][1], R_WB.m[2][2]);
-  camera["yaw_pitch_roll_deg"] = {Angle(yaw * kDegrees), Angle(pitch * kDegrees), Angle(roll * kDegrees)};
+  camera["yaw_pitch_roll_deg"] = {Angle(yaw * kRadian), Angle(pitch * kRadian), Angle(roll * kRadian)};
   camera["width"] = Width(view.camera);
   camera["height"] = Height(view.camera);
   camera["projection"] = kProjectionNames[static_cast<int>(view.projection)];

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <span>
@@ -14,6 +13,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/dataset/record/camera_choice.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/projection/calibration_file.h"
 
 namespace airsim360 {
@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr const char* kDefaultSizes[] = {"2048x1024", "512x512", "1024x768", "1024x1024"};
 // Projections that a name alone makes; a calibrated lens needs numbers.
 constexpr size_t kNamedProjections = std::size(kDefaultSizes);
@@ -191,7 +190,7 @@ std::optional<GimbalMount> FindGimbal(const std::string& name, const std::vector
   const GimbalEntry& found = gimbals[ParseChoice("gimbal", name, names, "gimbal")];
   GimbalMount mount{.spec = found.spec, .command = {}};
   mount.spec.p_BG = {found.mount.x, found.mount.y, found.mount.z};
-  mount.command = {found.mount.yaw_deg * kRadians, found.mount.pitch_deg * kRadians, found.mount.roll_deg * kRadians};
+  mount.command = {found.mount.yaw_deg * kDegree, found.mount.pitch_deg * kDegree, found.mount.roll_deg * kDegree};
   return mount;
 }
 

@@ -3,21 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
+
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
-namespace {
-
-constexpr double kRadians = std::numbers::pi / 180;
-
-}  // namespace
+namespace {}  // namespace
 
 namespace {
 
 // The views of one camera; its name and place are the caller's.
 std::vector<View> ViewsOf(const RigCamera& spec) {
   const int w = spec.width, h = spec.height;
-  const double fov = spec.fov_deg * kRadians;
+  const double fov = spec.fov_deg * kDegree;
   if (spec.lens) return {{"", *spec.lens, spec.projection}};
   switch (spec.projection) {
     case Projection::kErp:
@@ -49,7 +46,7 @@ std::vector<View> Views(const DatasetSpec& spec) {
   }
   std::vector<View> views;
   for (const RigCamera& camera : spec.cameras) {
-    const RigidTransform X_BM = BodyPose(camera.p_B, camera.yaw_deg * kRadians, camera.pitch_deg * kRadians, camera.roll_deg * kRadians);
+    const RigidTransform X_BM = BodyPose(camera.p_B, camera.yaw_deg * kDegree, camera.pitch_deg * kDegree, camera.roll_deg * kDegree);
     for (View& view : ViewsOf(camera)) {
       view.suffix = "_" + camera.name + view.suffix;
       view.X_BC = X_BM * camera.X_IC;

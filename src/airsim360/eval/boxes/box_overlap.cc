@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/plane.h"
 #include "airsim360/math/triangulate.h"
 
 namespace airsim360 {
 namespace {
-
-double Cross2(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
 
 std::array<Vec2d, 4> Footprint(const UprightBox& box) {
   const Vec2d along{std::cos(box.yaw) * box.length / 2, std::sin(box.yaw) * box.length / 2},
@@ -45,7 +44,7 @@ std::vector<Vec2d> ClipConvex(std::span<const Vec2d> polygon, std::span<const Ve
     std::vector<Vec2d> next;
     for (size_t k = 0; k < kept.size(); ++k) {
       const Vec2d a = kept[k], b = kept[(k + 1) % kept.size()];
-      const double da = Cross2(edge, a - from), db = Cross2(edge, b - from);
+      const double da = Cross(edge, a - from), db = Cross(edge, b - from);
       if (da >= 0) next.push_back(a);
       if ((da > 0 && db < 0) || (da < 0 && db > 0)) next.push_back(a + (b - a) * (da / (da - db)));
     }

@@ -11,6 +11,7 @@
 #include "airsim360/eval/coco/similarity.h"
 #include "airsim360/eval/sphere/pixel_view.h"
 #include "airsim360/eval/spherical_iou.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
@@ -82,7 +83,6 @@ class Overlaps {
     return RowWeights(image.height, image.width, PixelWeight::kSolidAngle);
   }
   static SphericalBox Bfov(const CocoObject& o) {
-    constexpr double kDegree = std::numbers::pi / 180;
     return {o.bfov[0] * kDegree, o.bfov[1] * kDegree, o.bfov[2] * kDegree, o.bfov[3] * kDegree, o.bfov[4] * kDegree};
   }
   static UprightBox Upright(const CocoObject& o) {

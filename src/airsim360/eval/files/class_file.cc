@@ -15,7 +15,7 @@ using internal::JsonCursor;
 using internal::JsonFile;
 
 constexpr uint32_t kMostId = 65534;
-constexpr uint64_t kMostBytes = 16 << 20;
+constexpr uint64_t kMostClassBytes = 16 << 20;
 
 bool ParseId(std::string_view word, uint32_t& id) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), id);
@@ -88,7 +88,7 @@ std::vector<LabelClass> ParseClassFile(std::string_view text, const std::string&
 }
 
 std::vector<LabelClass> ReadClassFile(const std::filesystem::path& path) {
-  return ParseClassFile(ReadTextFile(path, kMostBytes), path.string(), path.extension() == ".json");
+  return ParseClassFile(ReadTextFile(path, kMostClassBytes), path.string(), path.extension() == ".json");
 }
 
 }  // namespace airsim360

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr uint64_t kMostBytes = uint64_t{2} << 30;
+constexpr uint64_t kMostJsonBytes = uint64_t{2} << 30;
 constexpr int kDeepest = 64;
 constexpr size_t kLongestShown = 60;
 
@@ -68,7 +68,7 @@ std::string Shown(const Json& value) {
 }  // namespace
 
 JsonFile JsonFile::Read(const std::filesystem::path& path) {
-  return Parse(ReadTextFile(path, kMostBytes), path.string(), path.extension() == ".jsonl");
+  return Parse(ReadTextFile(path, kMostJsonBytes), path.string(), path.extension() == ".jsonl");
 }
 
 JsonFile JsonFile::Parse(std::string_view text, std::string name, bool lines) {

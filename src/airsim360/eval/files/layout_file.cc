@@ -10,7 +10,7 @@
 namespace airsim360 {
 namespace {
 
-constexpr uint64_t kMostBytes = 1 << 20;
+constexpr uint64_t kMostLayoutBytes = 1 << 20;
 constexpr size_t kMostCorners = 2000;
 
 std::string_view NextWord(std::string_view& line) {
@@ -68,7 +68,7 @@ RoomLayout ParseLayoutFile(std::string_view text, const std::string& name, bool 
 }
 
 RoomLayout ReadLayoutFile(const std::filesystem::path& path, int width, int height) {
-  return ParseLayoutFile(ReadTextFile(path, kMostBytes), path.string(), path.extension() == ".json", width, height);
+  return ParseLayoutFile(ReadTextFile(path, kMostLayoutBytes), path.string(), path.extension() == ".json", width, height);
 }
 
 }  // namespace airsim360

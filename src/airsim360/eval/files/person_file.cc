@@ -1,19 +1,17 @@
 #include "airsim360/eval/files/person_file.h"
 
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 
 #include "airsim360/base/error.h"
 #include "airsim360/eval/files/json_cursor.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
 
 using internal::JsonCursor;
 using internal::JsonFile;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 PersonPose Person(const JsonCursor& value) {
   PersonPose pose;
@@ -32,7 +30,7 @@ PersonPose Person(const JsonCursor& value) {
 
 JsonCursor ListOf(const JsonFile& file) { return file.top().is_object() ? file.top()["persons"] : file.top(); }
 
-PersonPairs Join(const JsonFile& prediction, const JsonFile& truth) {
+PersonPairs JoinPersons(const JsonFile& prediction, const JsonFile& truth) {
   std::unordered_map<std::string, PersonPose> predictions;
   const JsonCursor list = ListOf(prediction), truths = ListOf(truth);
   for (size_t i = 0; i < list.size(); ++i) {
@@ -64,11 +62,11 @@ PersonPairs Join(const JsonFile& prediction, const JsonFile& truth) {
 }  // namespace
 
 PersonPairs ReadPersonFiles(const std::filesystem::path& prediction, const std::filesystem::path& truth) {
-  return Join(JsonFile::Read(prediction), JsonFile::Read(truth));
+  return JoinPersons(JsonFile::Read(prediction), JsonFile::Read(truth));
 }
 
 PersonPairs ParsePersonFiles(std::string_view prediction, std::string_view truth, bool lines) {
-  return Join(JsonFile::Parse(prediction, "prediction", lines), JsonFile::Parse(truth, "truth", lines));
+  return JoinPersons(JsonFile::Parse(prediction, "prediction", lines), JsonFile::Parse(truth, "truth", lines));
 }
 
 }  // namespace airsim360

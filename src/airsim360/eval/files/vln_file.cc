@@ -49,6 +49,12 @@ std::vector<Vec3d> Points(const JsonCursor& value) {
   return points;
 }
 
+double Radius(const JsonCursor& value) {
+  const double radius = value.Number();
+  if (!(radius > 0)) value.Fail("a radius is above 0 m");
+  return radius;
+}
+
 // Whatever one entry says of its episode; the later file wins.
 void Absorb(const JsonCursor& value, VlnEpisode& episode) {
   if (const char* field = FirstField(value, {"ref", "reference_path", "reference"})) episode.reference = Points(value[field]);
@@ -56,7 +62,9 @@ void Absorb(const JsonCursor& value, VlnEpisode& episode) {
   if (value.Has("goal")) {
     const JsonCursor goal = value["goal"];
     episode.goal = Point(!goal.is_object() ? goal : goal[goal.Has("point") ? "point" : "position"]);
+    if (goal.is_object() && goal.Has("radius")) episode.radius = Radius(goal["radius"]);
   }
+  if (value.Has("radius")) episode.radius = Radius(value["radius"]);
   if (const char* field = FirstField(value, {"shortest", "geodesic_length", "geodesic_distance"})) {
     episode.shortest = value[field].Number();
     if (*episode.shortest < 0) value[field].Fail("a way is not shorter than 0 m");
@@ -65,7 +73,7 @@ void Absorb(const JsonCursor& value, VlnEpisode& episode) {
   if (const char* field = FirstField(value, {"collision", "collided"})) episode.collided = value[field].Flag();
 }
 
-std::vector<NamedVlnEpisode> Join(const JsonFile& episodes, const JsonFile& results) {
+std::vector<NamedVlnEpisode> JoinEpisodes(const JsonFile& episodes, const JsonFile& results) {
   std::vector<NamedVlnEpisode> list;
   std::unordered_map<std::string, size_t> index;
   for (const Entry& entry : Entries(episodes.top())) {
@@ -95,12 +103,12 @@ std::vector<NamedVlnEpisode> Join(const JsonFile& episodes, const JsonFile& resu
 }  // namespace
 
 std::vector<NamedVlnEpisode> ReadVlnFiles(const std::filesystem::path& episodes, const std::filesystem::path& results) {
-  return Join(JsonFile::Read(episodes), JsonFile::Read(results));
+  return JoinEpisodes(JsonFile::Read(episodes), JsonFile::Read(results));
 }
 
 std::vector<NamedVlnEpisode> ParseVlnFiles(std::string_view episodes, const std::string& name, std::string_view results,
                                            const std::string& results_name, bool lines) {
-  return Join(JsonFile::Parse(episodes, name, lines), JsonFile::Parse(results, results_name, lines));
+  return JoinEpisodes(JsonFile::Parse(episodes, name, lines), JsonFile::Parse(results, results_name, lines));
 }
 
 }  // namespace airsim360

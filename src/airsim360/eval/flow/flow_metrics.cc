@@ -2,16 +2,14 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/vector.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Vec3d Direction(double x, double y, int width, int height) {
   const double theta = 2 * kPi * (x / width - 0.5), phi = kPi * (0.5 - y / height);

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "airsim360/base/error.h"
 #include "airsim360/eval/boxes/box_overlap.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/triangulate.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kCameraHeight = 1.6;
+constexpr double kCameraHeight = 1.6;
 
 double Azimuth(double x, int width) { return ((x + 0.5) / width - 0.5) * 2 * kPi; }
 double Down(double y, int height) { return ((y + 0.5) / height - 0.5) * kPi; }

@@ -15,6 +15,7 @@ namespace airsim360 {
 struct VlnEpisode {
   std::vector<Vec3d> reference{}, flown{};  ///< at least one point each
   std::optional<Vec3d> goal{};              ///< else the last point of the reference
+  std::optional<double> radius{};           ///< of success, where the files say one; for those who score many
   std::optional<double> shortest{};         ///< shortest free way from start to goal; else the length of the reference
   bool stopped = true;                      ///< the agent said that it had arrived
   bool collided = false;

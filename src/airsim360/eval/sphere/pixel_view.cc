@@ -6,12 +6,11 @@
 #include <numbers>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/vector.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void CheckPanorama(int width, int height, const char* what) {
   if (width != 2 * height || height < 1)

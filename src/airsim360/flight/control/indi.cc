@@ -14,7 +14,7 @@ namespace {
 constexpr double kMostForce = 2 * kGravity;
 constexpr double kMostTorque = 1.5;  // of the authority
 // The ground carries a drone that does not move and whose rotors give less than this share of its weight.
-constexpr double kCarriedShare = 0.7, kStillSpeed = 0.05;
+constexpr double kCarriedWeight = 0.7, kRestSpeed = 0.05;
 
 Vec3d Clamp(Vec3d v, Vec3d most) { return Min(Max(v, -most), most); }
 
@@ -31,7 +31,7 @@ void Observe(const TrackingStep& step, AutopilotState& state) {
   const RotorWrench wrench = step.mixer.WrenchOf(thrust);
   const Vec3d force = step.R_WB.column(2) * (wrench.thrust / step.model.mass);
   const Vec3d v = step.estimate.v_WB, w = step.estimate.w_WB_B;
-  const bool carried = wrench.thrust < kCarriedShare * step.model.mass * kGravity && Norm(v) < kStillSpeed;
+  const bool carried = wrench.thrust < kCarriedWeight * step.model.mass * kGravity && Norm(v) < kRestSpeed;
   if (carried) {
     state.disturbance_a = state.disturbance_alpha = {};
   } else if (state.has_history) {

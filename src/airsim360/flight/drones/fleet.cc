@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
 #include "airsim360/flight/prompt/gate.h"
 #include "airsim360/flight/prompt/laws.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kTries = 1000;
 
 DroneModel Draw(RngStream& rng, const FleetRanges& ranges) {

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <numbers>
 #include <optional>
 
 #include "airsim360/base/error.h"
@@ -10,11 +9,11 @@
 #include "airsim360/flight/control/mixer.h"
 #include "airsim360/flight/prompt/designer.h"
 #include "airsim360/flight/prompt/laws.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace internal {
 namespace {
-constexpr double kPi = std::numbers::pi;
 // Hover disc loadings of drones that exist, N/m^2: from indoor fliers to heavy-lift racers.
 constexpr double kLeastLoading = 8, kMostLoading = 600;
 constexpr double kLeastGap = 1;  // of neighbouring hubs over the diameter: the discs touch

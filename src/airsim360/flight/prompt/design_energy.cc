@@ -14,7 +14,6 @@ namespace {
 constexpr double kMostUsable = 0.97;  // of the charge, before better motors are looked for
 constexpr double kMostEfficiency = 0.88;
 constexpr double kLoaded = 0.72;                    // speed of a motor at full power over that without load
-constexpr double kFullCell = 4.2;                   // volts
 constexpr double kPackLeast = 40, kPackMost = 320;  // W h/kg that batteries have
 }  // namespace
 

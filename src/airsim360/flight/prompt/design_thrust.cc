@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/flight/control/gains.h"
 #include "airsim360/flight/control/mixer.h"
 #include "airsim360/flight/prompt/laws.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
-constexpr double kPi = std::numbers::pi;
 constexpr double kSpeedOfSound = 340.3;                    // m/s
 constexpr double kFastestTip = 0.65 * kSpeedOfSound;       // m/s; the gate ends at Mach 0.7
 constexpr double kFastestTipAsked = 0.69 * kSpeedOfSound;  // for a thrust that was said
@@ -19,7 +18,6 @@ constexpr double kFastestIdleTip = 700;                    // m/s without load: 
 constexpr double kLeastRatio = 1.5;                        // thrust to weight that is not gone below unasked
 // Speed of a loaded motor over its speed without load, between hard and easy work.
 constexpr double kLeastLoaded = 0.5, kMostLoaded = 0.92;
-constexpr double kFullCell = 4.2;  // volts
 // Drag area over that of the law: from a smooth hull to one with legs, cameras and cables.
 constexpr double kLeastDrag = 0.3, kMostDrag = 3;
 }  // namespace

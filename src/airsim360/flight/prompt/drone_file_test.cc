@@ -55,7 +55,7 @@ TEST(DroneFile, TellsTheLawBesideEveryFigure) {
   EXPECT_NE(yaml.find("k_f = C_T rho D^4"), std::string::npos);
 }
 
-std::string ErrorOf(const std::string& yaml) {
+std::string FileError(const std::string& yaml) {
   try {
     ReadDroneYaml(yaml, "x.yaml");
   } catch (const InputError& error) {
@@ -69,16 +69,16 @@ TEST(DroneFile, MistakesAreNamedWithTheirPlace) {
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
-    return ErrorOf(text);
+    return FileError(text);
   };
-  EXPECT_EQ(ErrorOf(good), "no error");
+  EXPECT_EQ(FileError(good), "no error");
   EXPECT_NE(with("mass: 0.752", "mas: 0.752").find("unknown key 'mas'; did you mean 'mass'?"), std::string::npos);
   EXPECT_NE(with("mass: 0.752", "mass: heavy").find("expected a number"), std::string::npos);
   EXPECT_NE(with("mass: 0.752", "mass: .nan").find("mass"), std::string::npos);
   EXPECT_NE(with("count: 4", "count: 2").find("3 to 8"), std::string::npos);
   EXPECT_NE(with("count: 4", "count: 3").find("unknown key 'rotor_4'"), std::string::npos);
   EXPECT_NE(with("direction: -1", "direction: 0.5").find("direction"), std::string::npos);
-  EXPECT_NE(ErrorOf("mass: 1\n").find("rotors"), std::string::npos);
+  EXPECT_NE(FileError("mass: 1\n").find("rotors"), std::string::npos);
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
-constexpr double kPi = std::numbers::pi;
 // The propeller at which the laws are anchored: 5 inches.
 constexpr double kReferenceDiameter = 0.127;
 constexpr double kMostTorqueShare = 0.179;  // k_m / (k_f D); the gate ends at 0.18

@@ -26,6 +26,7 @@ double RotorLag(double diameter, bool brushed);
 /// Voltage that a power (W) is drawn at: 1.84 P^0.36 (Budinger et al.), as cells of 3.7 V of a pack that is sold.
 int CellsFor(double power);
 inline constexpr double kCellVoltage = 3.7;
+inline constexpr double kFullCell = 4.2;  ///< volts of a charged cell
 /// Power at the speed of least power over that of hovering (DJI's Mavic 3 hovers 40 minutes and flies 46).
 inline constexpr double kFlightPower = 0.87;
 

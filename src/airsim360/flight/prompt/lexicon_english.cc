@@ -5,7 +5,7 @@ namespace airsim360::internal {
 namespace {
 using enum WordKind;
 
-constexpr Word kWords[] = {
+constexpr Word kEnglishWords[] = {
     {kFiller, 0, "",
      "a|an|the|of|that|is|its|it|about|around|roughly|approximately|approx|abt|appx|ca|circa|some|has|have|which|can|"
      "i|we|me|"
@@ -136,6 +136,6 @@ constexpr Word kWords[] = {
 
 }  // namespace
 
-std::span<const Word> EnglishWords() { return kWords; }
+std::span<const Word> EnglishWords() { return kEnglishWords; }
 
 }  // namespace airsim360::internal

@@ -6,7 +6,7 @@ namespace airsim360::internal {
 namespace {
 using enum WordKind;
 
-constexpr Word kWords[] = {
+constexpr Word kForeignWords[] = {
     {kFiller, 0, "",
      "ein|eine|einen|einem|einer|der|die|das|den|dem|von|etwa|ungefahr|ca|circa|bis "
      "zu|maximal|maximale|maximalem|"
@@ -167,6 +167,6 @@ constexpr Word kWords[] = {
 
 }  // namespace
 
-std::span<const Word> ForeignWords() { return kWords; }
+std::span<const Word> ForeignWords() { return kForeignWords; }
 
 }  // namespace airsim360::internal

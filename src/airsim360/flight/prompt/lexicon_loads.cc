@@ -6,7 +6,7 @@ namespace {
 using enum WordKind;
 
 // Masses in kg are those of the makers' sheets, as remembered, without lenses, mounts and cables.
-constexpr Word kWords[] = {
+constexpr Word kLoadWords[] = {
     {kLoad, 0, "camera",
      "hasselblad camera|full frame camera|camera|cameras|gimbal camera|camera gimbal|cam|cams|dslr|mirrorless|mirrorless camera"},
     {kLoad, 0, "",
@@ -65,6 +65,6 @@ constexpr Word kWords[] = {
 
 }  // namespace
 
-std::span<const Word> LoadWords() { return kWords; }
+std::span<const Word> LoadWords() { return kLoadWords; }
 
 }  // namespace airsim360::internal

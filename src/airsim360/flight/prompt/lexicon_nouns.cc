@@ -5,7 +5,7 @@ namespace airsim360::internal {
 namespace {
 using enum WordKind;
 
-constexpr Word kWords[] = {
+constexpr Word kNounWords[] = {
     {kDrone, 0, "",
      "drone|drones|multirotor|multirotors|multicopter|multi rotor|uav|uavs|uas|copter|copters|aircraft|mav|"
      "camera ship|cinema ship|micro aerial vehicle|aerial vehicle|unmanned aerial vehicle|aerial "
@@ -246,6 +246,6 @@ constexpr Word kWords[] = {
 
 }  // namespace
 
-std::span<const Word> NounWords() { return kWords; }
+std::span<const Word> NounWords() { return kNounWords; }
 
 }  // namespace airsim360::internal

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <numbers>
 
+#include "airsim360/math/angles.h"
+
 namespace airsim360::internal {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 // Catmull-Rom through b at t = 0 and c at t = 1.
 double Spline(double a, double b, double c, double d, double t) {
@@ -96,12 +96,12 @@ void LoftMesh::Loft(std::span<const LoftRing> rings, const LoftStyle& style) {
     const auto start = static_cast<uint32_t>(level_.mesh.positions.size());
     if (k == 0) first = start;
     for (int i = 0; i <= n; ++i) {
-      const double theta = kTurn * (static_cast<double>(i % n) / n - 0.5);
+      const double theta = kTau * (static_cast<double>(i % n) / n - 0.5);
       const double c = SignedPower(std::cos(theta), 2 / ring.power), s = SignedPower(std::sin(theta), 2 / ring.power);
       LoftVertex vertex{ring.center + style.u * (ring.half * s) + style.v * (c > 0 ? ring.front * c : ring.back * c), theta, ring.bones};
       if (style.deform) style.deform(vertex);
       const double around = static_cast<double>(i) / n;
-      const double girth = kTurn * (rings[rings.size() / 2].half + rings[rings.size() / 2].front) / 2;
+      const double girth = kTau * (rings[rings.size() / 2].half + rings[rings.size() / 2].front) / 2;
       const Vec2f uv = style.uv_metres > 0
                            ? Vec2f{static_cast<float>(around * girth / style.uv_metres), static_cast<float>(along / style.uv_metres)}
                            : Vec2f{static_cast<float>(around), static_cast<float>(ring.v >= 0 ? ring.v : k / static_cast<double>(total))};

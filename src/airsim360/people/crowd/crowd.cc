@@ -117,7 +117,7 @@ void Interpolate(const CrowdModel& model, CrowdState& state) {
     PersonState& person = state.people[i];
     const Vec3d to = internal::FeetOf(*model.plan, in, i, end);
     person.p_WP = in.from[i] + (to - in.from[i]) * f;
-    person.yaw = std::remainder(in.from_yaw[i] + std::remainder(in.to_yaw[i] - in.from_yaw[i], 2 * internal::kPi) * f, 2 * internal::kPi);
+    person.yaw = std::remainder(in.from_yaw[i] + std::remainder(in.to_yaw[i] - in.from_yaw[i], 2 * kPi) * f, 2 * kPi);
   }
 }
 
@@ -145,7 +145,7 @@ CrowdState StartCrowd(const CrowdModel& model) {
     walker.at = model.plan->starts[i];
     walker.present = walker.at.valid();
     walker.free_speed = model.people[i].free_speed;
-    in.to_yaw[i] = in.from_yaw[i] = agent.rng.Uniform(-internal::kPi, internal::kPi);
+    in.to_yaw[i] = in.from_yaw[i] = agent.rng.Uniform(-kPi, kPi);
     in.from[i] = walker.at.p_W;
     state.people[i].p_WP = walker.at.p_W;
     state.people[i].yaw = in.to_yaw[i];

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/people/crowd/agent.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int64_t kAlone = 4 * kSecond;  // that long a founder waits for the other
 constexpr int64_t kSilence = kSecond;    // after that somebody starts to speak
 

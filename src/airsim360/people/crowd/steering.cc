@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
+#include "airsim360/math/plane.h"
 #include "airsim360/people/crowd/orca.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kHorizon = 2.0;        // seconds ahead for people
 constexpr double kThrongHorizon = 0.5;  // the same in a dense crowd
 constexpr double kWallHorizon = 0.3;    // and for walls, which do not move
@@ -34,8 +35,6 @@ constexpr int64_t kChunk = 128;                         // people a task
 constexpr double kDensityFactor = 0.92;
 constexpr double kSelfShare = 0.55;
 
-double Dot2(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
-double Norm2(Vec2d a) { return std::sqrt(Dot2(a, a)); }
 Vec2d BodyOf(const Walker& w) { return Vec2d{w.at.p_W.x, w.at.p_W.y} + w.aside; }
 
 /// How much of the avoiding is ours: who has the other more in front of them does more of it, and who is
@@ -43,18 +42,18 @@ Vec2d BodyOf(const Walker& w) { return Vec2d{w.at.p_W.x, w.at.p_W.y} + w.aside; 
 /// make 1, as ORCA wants; two head on, or side by side, do half each.
 double ShareOf(Vec2d to_other, Vec2d forward, Vec2d other_forward, bool other_still) {
   if (other_still) return 1;
-  const double n = Norm2(to_other);
+  const double n = Norm(to_other);
   const bool one_is_idle = (forward.x == 0 && forward.y == 0) || (other_forward.x == 0 && other_forward.y == 0);
   if (n < 1e-9 || one_is_idle) return 0.5;
-  return std::clamp(0.5 + kShareSlope * (Dot2(to_other, forward) + Dot2(to_other, other_forward)) / n, 0.0, 1.0);
+  return std::clamp(0.5 + kShareSlope * (Dot(to_other, forward) + Dot(to_other, other_forward)) / n, 0.0, 1.0);
 }
 
 /// Around somebody who stands in the way: past the nearer side of them, or the other if a wall is there.
 Vec2d Sidestep(Vec2d forward, Vec2d to_other, std::span<const HalfPlane> walls) {
   Vec2d side = Vec2d{-forward.y, forward.x} * kYieldSpeed;
-  if (Dot2(side, to_other) > 0) side = side * -1;
+  if (Dot(side, to_other) > 0) side = side * -1;
   for (const HalfPlane& wall : walls)
-    if (Dot2(side - wall.point, wall.normal) < 0) return side * -1;
+    if (Dot(side - wall.point, wall.normal) < 0) return side * -1;
   return side;
 }
 
@@ -121,7 +120,7 @@ void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<co
   // Where everybody wants to go is known only now.
   for (Seen& seen : seen_) {
     const Walker& walker = walkers[seen.index];
-    const double speed = Norm2(walker.wanted);
+    const double speed = Norm(walker.wanted);
     seen.still = walker.still;
     seen.rest = walker.rest;
     seen.blocked = walker.blocked;
@@ -145,7 +144,7 @@ void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<co
     Walker& walker = walkers[i];
     if (!walker.present) continue;
     Advance(mesh, walkers, i, dt);
-    const bool stands = Dot2(walker.v, walker.v) < 0.05 * 0.05 && Dot2(walker.wanted, walker.wanted) > 0.01;
+    const bool stands = Dot(walker.v, walker.v) < 0.05 * 0.05 && Dot(walker.wanted, walker.wanted) > 0.01;
     walker.blocked = stands ? walker.blocked + dt : std::max(0.0, walker.blocked - 2 * dt);
     if (walker.blocked > kLoosenUntil) walker.blocked = kSidestepAfter;
   }
@@ -209,16 +208,16 @@ Steering::Company Steering::LookAround(uint32_t k, bool only_close, Plan& plan) 
     for (uint32_t i = from; i < to; ++i) {
       const Seen& other = seen_[i];
       const Vec2d d = other.p - self.p;
-      const double d2 = Dot2(d, d);
+      const double d2 = Dot(d, d);
       if (d2 > kSight * kSight || i == k || std::abs(other.z - self.z) > kLevel) continue;
       // Only who is ahead counts, the more the straighter, on average once: the first of a queue see the way free.
       if (d2 < kDensityRadius * kDensityRadius) {
         ++company.in_disc;
-        company.ahead += std::max(0.0, kPi * Dot2(d, self.forward) / std::sqrt(d2 + 1e-12));
+        company.ahead += std::max(0.0, kPi * Dot(d, self.forward) / std::sqrt(d2 + 1e-12));
       }
       if (d2 < kCloseRange * kCloseRange && plan.close_count < kMaxClose) plan.close[static_cast<size_t>(plan.close_count++)] = other.index;
       // Those behind matter less.
-      company.Add(Dot2(d, self.v) < 0 ? 4 * d2 : d2, &other);
+      company.Add(Dot(d, self.v) < 0 ? 4 * d2 : d2, &other);
     }
   };
   for (int r = row - 1; r <= row + 1; ++r) look(r, column - 1, column + 1);
@@ -238,12 +237,12 @@ void Steering::Limits::AddWalls(const NavMesh& mesh, Vec2d p, double z, double r
     const NavWall& wall = walls[w];
     const Vec2d edge = wall.b - wall.a, from_a = p - wall.a;
     if (edge.x * from_a.y - edge.y * from_a.x < -1e-4) continue;
-    const double t = std::clamp(Dot2(from_a, edge) / Dot2(edge, edge), 0.0, 1.0);
+    const double t = std::clamp(Dot(from_a, edge) / Dot(edge, edge), 0.0, 1.0);
     const Vec2d off = from_a - edge * t;
-    const double d2 = Dot2(off, off);
+    const double d2 = Dot(off, off);
     if (d2 > range * range || std::abs(wall.za + t * (wall.zb - wall.za) - z) > kLevel) continue;
     // At the very end of a wall nothing is said about what is beyond it: a corner is turned there.
-    const double d = std::sqrt(d2), length = Norm2(edge);
+    const double d = std::sqrt(d2), length = Norm(edge);
     if (d < kCorner && std::min(t, 1 - t) * length < kCorner) continue;
     const Vec2d normal = d > 1e-4 ? off * (1 / d) : Vec2d{-edge.y / length, edge.x / length};
     if (hard < kMaxWalls) planes[hard++] = {normal * (-d / kWallHorizon), normal};
@@ -259,19 +258,19 @@ void Steering::Limits::AddPeople(const Seen& self, const Company& company, Vec2d
     const Vec2d d = other.p - self.p;
     const double share = ShareOf(d, self.forward, other.forward, other.still);
     if (share < kNoShare) continue;
-    yields |= share < 1 && YieldsTo(self, other, Dot2(d, d));
-    if (other.still && self.blocked > kSidestepAfter && Dot2(d, d) < kArm * kArm && Dot2(d, self.forward) > 0) in_the_way = d;
+    yields |= share < 1 && YieldsTo(self, other, Dot(d, d));
+    if (other.still && self.blocked > kSidestepAfter && Dot(d, d) < kArm * kArm && Dot(d, self.forward) > 0) in_the_way = d;
     planes[used++] = AvoidDisc(d, self.v, other.v, 2 * space, horizon, dt, share);
     // Towards someone who comes straight at them, walkers keep to the right.
-    const double ahead = Dot2(d, wanted), closing = Dot2(other.v, wanted);
-    if (closing < 0 && ahead > 0 && ahead * ahead > 0.85 * Dot2(d, d) * Dot2(wanted, wanted)) right = 0.12;
+    const double ahead = Dot(d, wanted), closing = Dot(other.v, wanted);
+    if (closing < 0 && ahead > 0 && ahead * ahead > 0.85 * Dot(d, d) * Dot(wanted, wanted)) right = 0.12;
   }
 }
 
 void Steering::Limits::AddObstacles(const Seen& self, std::span<const SteeringObstacle> obstacles, double dt) {
   for (const SteeringObstacle& obstacle : obstacles) {
     const Vec2d d = obstacle.p - self.p;
-    if (used < planes.size() && Dot2(d, d) < 25 && std::abs(obstacle.z - self.z) < 2.2)
+    if (used < planes.size() && Dot(d, d) < 25 && std::abs(obstacle.z - self.z) < 2.2)
       planes[used++] = AvoidDisc(d, self.v, obstacle.v, kSpaceRadius + obstacle.radius, kHorizon, dt, 1);
   }
 }
@@ -287,7 +286,7 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers, std:
   if (walker.still) return;
 
   // Walkers slow down in a crowd, all by the same law.
-  const double wanted_speed = Norm2(walker.wanted);
+  const double wanted_speed = Norm(walker.wanted);
   const double disc = kPi * kDensityRadius * kDensityRadius * mesh.OpenShare(self.p);
   const double density = kDensityFactor * (company.ahead + kSelfShare) / disc;
   double cap = kSpeed(density) / 1.34 * std::max(walker.free_speed, wanted_speed);
@@ -314,7 +313,7 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers, std:
 
   // Nobody starts or stops in no time.
   const Vec2d change = v - self.v;
-  const double most = kAcceleration * dt, n = Norm2(change);
+  const double most = kAcceleration * dt, n = Norm(change);
   if (n > most) v = self.v + change * (most / n);
   plan.v = v;
 }
@@ -333,15 +332,15 @@ void Steering::Advance(const NavMesh& mesh, std::span<Walker> walkers, uint32_t 
     walker.v = {};
     walker.at.p_W.z = step_to(mesh.GroundHeight(p.x, p.y, walker.at.p_W.z), 0);
   };
-  if (Dot2(move, move) < 1e-12) return stay();
+  if (Dot(move, move) < 1e-12) return stay();
 
   // Into nobody: what leads into a body is taken away, and who cannot go stays.
   const auto blocked = [&](Vec2d q) -> const Walker* {
     for (int i = 0; i < plan.close_count; ++i) {
       const Walker& other = walkers[plan.close[static_cast<size_t>(i)]];
       const Vec2d o = BodyOf(other);
-      const double d2 = Dot2(q - o, q - o);
-      if (d2 < 4 * kBodyRadius * kBodyRadius && d2 < Dot2(p - o, p - o)) return &other;
+      const double d2 = Dot(q - o, q - o);
+      if (d2 < 4 * kBodyRadius * kBodyRadius && d2 < Dot(p - o, p - o)) return &other;
     }
     return nullptr;
   };
@@ -355,14 +354,14 @@ void Steering::Advance(const NavMesh& mesh, std::span<Walker> walkers, uint32_t 
       break;
     }
     const Vec2d away = p - BodyOf(*other);
-    const double n = Norm2(away);
+    const double n = Norm(away);
     if (n < 1e-9) break;
-    const double into = Dot2(move, away) / n;
+    const double into = Dot(move, away) / n;
     if (into < 0) move = move - away * (into / n * 1.0001);
   }
   if (!moved) return stay();
   walker.v = (Vec2d{next.p_W.x, next.p_W.y} - p) * (1 / dt);
-  next.p_W.z = step_to(next.p_W.z, Norm2(walker.v));
+  next.p_W.z = step_to(next.p_W.z, Norm(walker.v));
   walker.at = next;
 }
 

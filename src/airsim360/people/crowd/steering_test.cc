@@ -7,13 +7,12 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
 #include "airsim360/base/state_hash.h"
+#include "airsim360/math/plane.h"
 #include "airsim360/people/crowd/orca.h"
 #include "airsim360/people/crowd/test_ring.h"
 
 namespace airsim360::internal {
 namespace {
-
-double Dot2(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
 
 TEST(Orca, TheSolvedVelocityIsTheNearestOfAFineRasterOfAllAllowedOnes) {
   RngStream rng(5, "orca");
@@ -27,22 +26,22 @@ TEST(Orca, TheSolvedVelocityIsTheNearestOfAFineRasterOfAllAllowedOnes) {
     }
     const Vec2d wanted{rng.Uniform(-1.2, 1.2), rng.Uniform(-1.2, 1.2)};
     const Vec2d v = SolveVelocity(planes, 0, wanted, 1.4);
-    ASSERT_LE(Dot2(v, v), 1.4 * 1.4 + 1e-9);
+    ASSERT_LE(Dot(v, v), 1.4 * 1.4 + 1e-9);
     double best = 1e9, least = 1e9;
     for (double x = -1.4; x <= 1.4; x += 0.02)
       for (double y = -1.4; y <= 1.4; y += 0.02) {
         if (x * x + y * y > 1.4 * 1.4) continue;
         double violation = 0;
-        for (const HalfPlane& plane : planes) violation = std::max(violation, -Dot2(Vec2d{x, y} - plane.point, plane.normal));
+        for (const HalfPlane& plane : planes) violation = std::max(violation, -Dot(Vec2d{x, y} - plane.point, plane.normal));
         least = std::min(least, violation);
-        if (violation <= 0) best = std::min(best, Dot2(Vec2d{x, y} - wanted, Vec2d{x, y} - wanted));
+        if (violation <= 0) best = std::min(best, Dot(Vec2d{x, y} - wanted, Vec2d{x, y} - wanted));
       }
     double violation = 0;
-    for (const HalfPlane& plane : planes) violation = std::max(violation, -Dot2(v - plane.point, plane.normal));
+    for (const HalfPlane& plane : planes) violation = std::max(violation, -Dot(v - plane.point, plane.normal));
     if (best < 1e9) {
       ++feasible;
       EXPECT_LT(violation, 1e-6);
-      EXPECT_LE(std::sqrt(Dot2(v - wanted, v - wanted)), std::sqrt(best) + 1e-6);
+      EXPECT_LE(std::sqrt(Dot(v - wanted, v - wanted)), std::sqrt(best) + 1e-6);
     } else {
       EXPECT_LE(violation, least + 0.03);  // nothing is allowed: the least bad
     }
@@ -60,14 +59,14 @@ TEST(Orca, TwoWhoFollowTheirHalfPlanesNeverTouch) {
       for (int i = 0; i < 2; ++i) {
         const HalfPlane plane = AvoidDisc(p[1 - i] - p[i], v[i], v[1 - i], 0.5, 2, 0.05, 0.5);
         const Vec2d to = goal[i] - p[i];
-        const double n = std::sqrt(Dot2(to, to));
+        const double n = std::sqrt(Dot(to, to));
         next[i] = SolveVelocity({&plane, 1}, 0, n > 0.1 ? to * (1.3 / n) : Vec2d{}, 1.5);
       }
       for (int i = 0; i < 2; ++i) {
         v[i] = next[i];
         p[i] = p[i] + v[i] * 0.05;
       }
-      ASSERT_GT(std::sqrt(Dot2(p[0] - p[1], p[0] - p[1])), 0.5 - 1e-3) << trial << " " << step;
+      ASSERT_GT(std::sqrt(Dot(p[0] - p[1], p[0] - p[1])), 0.5 - 1e-3) << trial << " " << step;
     }
   }
 }
@@ -98,7 +97,7 @@ TEST(Steering, NobodyOverlapsAndThreadsDoNotMatter) {
       for (size_t i = 0; i < walkers.size(); ++i) {
         const Vec2d goal{29.0 - 0.9 * static_cast<double>(i % 30), i < 150 ? 28.0 : 2.0};
         const Vec2d to = goal - Vec2d{walkers[i].at.p_W.x, walkers[i].at.p_W.y};
-        const double n = std::sqrt(Dot2(to, to));
+        const double n = std::sqrt(Dot(to, to));
         walkers[i].wanted = n > 0.3 ? to * (1.34 / n) : Vec2d{};
       }
       steering.Sort(walkers);

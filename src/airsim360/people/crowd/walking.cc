@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/plane.h"
 #include "airsim360/people/crowd/agent.h"
+#include "airsim360/people/crowd/mind.h"
 
 namespace airsim360::internal {
 namespace {
@@ -12,15 +14,12 @@ constexpr int64_t kCycle = 44 * kSecond;          // of traffic lights
 constexpr int64_t kShift = 800'000'000;           // of feet from the mesh to a seat beside it and back
 constexpr int64_t kNoProgress = 4 * kSecond, kStuck = 30 * kSecond;
 
-double Length(Vec2d a) { return std::sqrt(a.x * a.x + a.y * a.y); }
-Vec2d Flat(Vec3d p) { return {p.x, p.y}; }
-
 /// The crossing that the way enters within kAheadOfRoad; -1 = none.
 int CrossingAhead(const NavMesh& mesh, const Agent& agent, Vec2d p) {
   double left = kAheadOfRoad;
   for (size_t k = agent.gate; k < agent.gates.size() && left > 0; ++k) {
     const Vec2d target = NearestInGate(agent.gates[k], p), to = target - p;
-    const double distance = Length(to), most = std::min(distance, left);
+    const double distance = Norm(to), most = std::min(distance, left);
     for (double s = 0.35; s < most + 0.35 && distance > 1e-6; s += 0.35) {
       const int crossing = mesh.CrossingAt(p + to * (std::min(s, most) / distance));
       if (crossing >= 0) return crossing;
@@ -35,7 +34,7 @@ int CrossingAhead(const NavMesh& mesh, const Agent& agent, Vec2d p) {
 bool ShortCut(const NavMesh& mesh, const NavPoint& at, Vec2d target) {
   if (!mesh.Straight(at, target)) return false;
   const Vec2d p = Flat(at.p_W), to = target - p;
-  const double distance = Length(to), here = GroundCost(mesh.Kind(at));
+  const double distance = Norm(to), here = GroundCost(mesh.Kind(at));
   for (double s = 0.7; s < std::min(distance, 4.0); s += 0.8)
     if (GroundCost(mesh.Kind(mesh.Move(at, p + to * (s / distance)))) > 2 * here) return false;
   return true;
@@ -44,7 +43,7 @@ bool ShortCut(const NavMesh& mesh, const NavPoint& at, Vec2d target) {
 /// What stairs and slopes leave of the speed on the plain, over the ground. Stairs: 0.610 m/s up and 0.694 m/s
 /// down of 1.34 (U. Weidmann, 1993). Slopes: exp(-3.5 |slope + 0.05|) (W. Tobler, 1993).
 double PaceOn(const NavMesh& mesh, const NavPoint& at, Vec2d ahead) {
-  const double n = Length(ahead), look = 0.6;
+  const double n = Norm(ahead), look = 0.6;
   if (n < 1e-6) return 1;
   // Over the next two paces, so that a kerb is no slope.
   double z = mesh.GroundHeight(at.p_W.x, at.p_W.y, at.p_W.z), rise[2];
@@ -76,7 +75,7 @@ double PressedBy(const Agent& agent, int64_t t_ns) {
 bool SomebodyWantsThrough(const CrowdTick& tick, Vec2d p) {
   bool found = false;
   tick.in.steering.Near(
-      p, 1, [&](PersonIndex other, Vec2d q, double) { found |= Length(q - p) < 1 && PressedBy(tick.in.agents[other], tick.t_ns) >= 1; });
+      p, 1, [&](PersonIndex other, Vec2d q, double) { found |= Norm(q - p) < 1 && PressedBy(tick.in.agents[other], tick.t_ns) >= 1; });
   return found;
 }
 
@@ -152,7 +151,7 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
   if (agent.walk != Walk::kOnTheWay) return;
   const NavMesh& mesh = *tick.model.navmesh;
   const Vec2d p = Flat(walker.at.p_W), to = NearestInGate(agent.gates[agent.gate], p) - p;
-  const double distance = Length(to);
+  const double distance = Norm(to);
   agent.pace = PaceOn(mesh, walker.at, to);
 
   // At the kerb of a crossing whose light is red.
@@ -232,7 +231,7 @@ void WantVelocities(CrowdTick& tick) {
       const Group* group = FindGroup(tick.in, agent.group);
       if (!group) continue;
       const Vec2d to = SlotOf(*group, i) - p;
-      const double d = Length(to);
+      const double d = Norm(to);
       const bool stands = d < 0.12 || tick.t_ns - group->changed_ns > 6 * kSecond;
       walker.still = stands && !SomebodyWantsThrough(tick, p);
       if (!stands || (!walker.still && d > 0.12)) walker.wanted = to * (std::min(0.9, 2 * d) / d);
@@ -249,7 +248,7 @@ void WantVelocities(CrowdTick& tick) {
     // Gate by gate; slower before the end.
     while (agent.gate + 1 < agent.gates.size() && HasPassed(agent.gates[agent.gate], p)) ++agent.gate;
     Vec2d to = NearestInGate(agent.gates[agent.gate], p) - p;
-    if (agent.gate + 1 < agent.gates.size() && Length(to) < kNearGate) {
+    if (agent.gate + 1 < agent.gates.size() && Norm(to) < kNearGate) {
       // Not before the next one is seen: the corner of a wall may be between.
       const Vec2d next = NearestInGate(agent.gates[agent.gate + 1], p);
       if (tick.model.navmesh->Straight(walker.at, next)) {
@@ -257,7 +256,7 @@ void WantVelocities(CrowdTick& tick) {
         to = next - p;
       }
     }
-    const double d = Length(to);
+    const double d = Norm(to);
     const bool last = agent.gate + 1 == agent.gates.size();
     walker.rest = d + agent.gates[agent.gate].onward;
     if (last && d < agent.goal_reach) {
@@ -268,7 +267,7 @@ void WantVelocities(CrowdTick& tick) {
     if (last) speed = std::min(speed, 0.4 + 1.2 * d);
     // Turning around comes before walking away.
     const double yaw = tick.in.to_yaw[i];
-    if (Length(walker.v) < 0.3 && to.x * std::cos(yaw) + to.y * std::sin(yaw) < 0.3 * d) speed *= 0.3;
+    if (Norm(walker.v) < 0.3 && to.x * std::cos(yaw) + to.y * std::sin(yaw) < 0.3 * d) speed *= 0.3;
     if (d > 1e-6) walker.wanted = to * (speed / d);
   }
 }

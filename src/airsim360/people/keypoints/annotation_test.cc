@@ -2,17 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/people/keypoints/keypoint_orders.h"
 #include "airsim360/people/keypoints/sphere_box.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 std::string NameAt(const KeypointOrder& order, size_t i) {
   return order.sockets[i] < 0 ? "" : std::string(kSocketNames[static_cast<size_t>(order.sockets[i])]);

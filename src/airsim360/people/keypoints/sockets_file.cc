@@ -13,13 +13,13 @@ constexpr size_t kMostSockets = 256;
 constexpr double kFarthest = 3;  // metres from the joint: something held, not something elsewhere
 constexpr uint64_t kLargestFile = uint64_t{1} << 20;
 
-struct Entry {
+struct SocketEntry {
   std::string name, joint;
   Vec3d offset;
   double radius = 0.05;
 };
 
-Socket MakeSocket(const Entry& entry, std::string_view file, std::span<const Socket> before) {
+Socket MakeSocket(const SocketEntry& entry, std::string_view file, std::span<const Socket> before) {
   const std::string where = std::string(file) + ": socket '" + entry.name.substr(0, 100) + "': ";
   if (entry.name.empty() || entry.name.size() > 64) throw InputError(where + "a name has 1 to 64 letters");
   const auto same = [&](const Socket& socket) { return socket.name == entry.name; };
@@ -36,9 +36,9 @@ Socket MakeSocket(const Entry& entry, std::string_view file, std::span<const Soc
 }  // namespace
 
 std::vector<Socket> ParseSockets(std::string_view text, std::string_view name) {
-  std::vector<Entry> entries;
+  std::vector<SocketEntry> entries;
   ReadYaml(text, name, [&](ConfigVisitor& v) {
-    v.List("sockets", "points fixed to joints", entries, [](ConfigVisitor& entry, Entry& e) {
+    v.List("sockets", "points fixed to joints", entries, [](ConfigVisitor& entry, SocketEntry& e) {
       entry.Field("name", "of the keypoint", e.name);
       entry.Field("joint", "that it is fixed to, as left_wrist", e.joint);
       entry.Group("offset", "from the joint, in its frame: x forward, y left, z up in the rest pose", [&](ConfigVisitor& offset) {
@@ -53,7 +53,7 @@ std::vector<Socket> ParseSockets(std::string_view text, std::string_view name) {
     throw InputError(std::string(name) + ": " + std::to_string(entries.size()) + " sockets, at most " + std::to_string(kMostSockets));
   }
   std::vector<Socket> sockets;
-  for (const Entry& entry : entries) sockets.push_back(MakeSocket(entry, name, sockets));
+  for (const SocketEntry& entry : entries) sockets.push_back(MakeSocket(entry, name, sockets));
   return sockets;
 }
 

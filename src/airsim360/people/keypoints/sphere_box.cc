@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
+
+#include "airsim360/math/angles.h"
+#include "airsim360/math/plane.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLargest = 175 * kPi / 180;
 constexpr int kCentering = 16;  // each pass cuts what is left of the asymmetry about tenfold, less near the poles
 
@@ -54,8 +55,6 @@ FieldOfView MiddleOf(std::span<const Vec3d> directions) {
   return {.lon = place.x, .lat = place.y};
 }
 
-double Cross2(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
-
 // Convex hull (Andrew's monotone chain), counter-clockwise.
 std::vector<Vec2d> Hull(std::vector<Vec2d> points) {
   std::ranges::sort(points, [](Vec2d a, Vec2d b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
@@ -63,7 +62,7 @@ std::vector<Vec2d> Hull(std::vector<Vec2d> points) {
   for (int side = 0; side < 2; ++side) {
     const size_t begin = hull.size();
     for (const Vec2d& p : points) {
-      while (hull.size() >= begin + 2 && Cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
+      while (hull.size() >= begin + 2 && Cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
       hull.push_back(p);
     }
     hull.pop_back();

@@ -1,15 +1,13 @@
 // Arms: swinging in a gait, hanging, and the gestures of the upper layer (table 2.3 of the people reference).
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/people/body/anatomy.h"
 #include "airsim360/people/motion/posture.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180, kTurn = 2 * std::numbers::pi;
 
 // Angles of one arm in degrees; abduction is away from the trunk, turn of the hand thumb outwards.
 struct ArmAngles {
@@ -58,7 +56,7 @@ void SwingArms(const PostureInput& in, double share, Posture& posture) {
   const uint64_t seed = in.motion.seed;
   for (const bool left : {true, false}) {
     // The arm is forward when the other leg is.
-    const double c = -std::cos(kTurn * (in.phase + (left ? 0.0 : 0.5)) - 0.2);
+    const double c = -std::cos(kTau * (in.phase + (left ? 0.0 : 0.5)) - 0.2);
     const double personal = (0.85 + 0.3 * Draw(seed, 30, left)) * g * share;
     ArmAngles a;
     a.flex = personal * (swing * c - 5 + 6 * run) + 2 * (1 - g) + 0.8 * Sway(seed, 31 + left, 0.2, in.t);
@@ -108,7 +106,7 @@ void Reach(const PostureInput& in, Posture& posture) {
 }
 
 void Stretch(const PostureInput& in, Posture& posture) {
-  const double down = 0.5 - 0.5 * std::cos(kTurn * in.t_lower / 5);
+  const double down = 0.5 - 0.5 * std::cos(kTau * in.t_lower / 5);
   // Up: arms overhead and a little apart; down: hanging towards the toes.
   for (const bool left : {true, false}) {
     const double flex = 172 + (95 - 172) * down;
@@ -137,7 +135,7 @@ void PhoneCall(const PostureInput& in, Posture& posture) {
 
 // Forearm 25 degrees to either side, 1.5 times a second.
 void Wave(const PostureInput& in, Posture& posture) {
-  const double side = 0.14 * std::sin(kTurn * 1.5 * in.t_upper);
+  const double side = 0.14 * std::sin(kTau * 1.5 * in.t_upper);
   Place(in, false, {0.22, 0.52 + side, 0.56 - 0.3 * side * side}, posture, {-0.3, 1, -0.45});
   TurnHand(false, -75, 0, posture);
   posture.curl[1] = 0.05;
@@ -152,7 +150,7 @@ void RestOnThighs(const PostureInput& in, Posture& posture) {
 
 // The loaded arm hangs nearly still.
 void Carry(const PostureInput& in, Posture& posture) {
-  const double swing = 3.5 * in.motion.gait * std::cos(kTurn * in.phase);
+  const double swing = 3.5 * in.motion.gait * std::cos(kTau * in.phase);
   Hang(false, {.flex = swing, .abduct = 9, .rotate = 5, .elbow = 10, .supinate = 0, .raise = -3}, posture);
   posture.curl[1] = 0.9;
   Show(Prop::kBag, posture);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/people/body/anatomy.h"
 
 namespace airsim360 {
@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kMaxJoints = 256, kMaxDepth = 64;
 constexpr int64_t kMaxNumbers = 20'000'000;
-constexpr double kDegree = std::numbers::pi / 180;
 
 // Words with the line that they are on.
 class Words {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 
@@ -15,8 +16,6 @@ const double kBoysKnee[20] = {13.0, 18.5, 22.2, 21.2, 17.9, 14.3, 12.1, 10.9, 10
 const double kBoysKneeDeviation[20] = {4.8, 5.6, 6.3, 6.2, 6.2, 5.3, 4.7, 4.7, 4.5, 4.7, 5.7, 7.6, 7.5, 5.5, 4.4, 4.7, 7.3, 9.5, 8.4, 4.9};
 
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi, kDegree = std::numbers::pi / 180;
 
 // The mean of the hip takes 11.5 degrees of pelvic tilt off the recorded one, which matches step lengths best.
 // Mean, then cosine and sine coefficients of the harmonics, degrees.
@@ -55,7 +54,7 @@ Gait GaitAt(double speed, double leg, double weight, double run) {
 
 LegAngles LegCurves(const Gait& gait, double phase) {
   // All harmonics from one sine and cosine.
-  const double c1 = std::cos(kTurn * phase), s1 = std::sin(kTurn * phase);
+  const double c1 = std::cos(kTau * phase), s1 = std::sin(kTau * phase);
   const double w = gait.run;
   const auto mean = [w](const auto& walk, const auto& run) { return walk[0] + (run[0] - walk[0]) * w; };
   double hip = 0, knee = mean(kWalkKnee, kRunKnee);

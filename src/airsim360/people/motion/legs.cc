@@ -4,12 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/people/body/anatomy.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct LegJoints {
   Joint hip, ankle, toes;

@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/people/motion/gait_curves.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int64_t kStep = 10'000'000;  // 100 Hz
 
 std::shared_ptr<const Body> Adult(Sex sex = Sex::kMale, double stature = 1.75) {

@@ -1,8 +1,8 @@
 // What has memory: phase, planted feet, switches.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/people/body/anatomy.h"
 #include "airsim360/people/motion/blend.h"
 
@@ -27,9 +27,8 @@ namespace internal {
 namespace {
 
 using Mode = FootMotion::Mode;
-constexpr double kTurn = 2 * std::numbers::pi;
 
-double WrapTurn(double a) { return a - kTurn * std::round(a / kTurn); }
+double WrapTurn(double a) { return a - kTau * std::round(a / kTau); }
 
 GroundPoint GroundAt(const Ground* ground, Vec3d p) { return ground == nullptr ? GroundPoint{p.z, {0, 0, 1}} : ground->At(p); }
 

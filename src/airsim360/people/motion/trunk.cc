@@ -3,13 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/people/body/anatomy.h"
 #include "airsim360/people/motion/posture.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180, kTurn = 2 * std::numbers::pi;
 
 // Trunk angles in degrees, spread over the spine at the end.
 struct Trunk {
@@ -20,7 +19,7 @@ struct Trunk {
 
 // Pelvis and counter-rotation of a stride (Perry; Whittle): list and rotation of 4 to 5 degrees once per stride.
 void AddGait(const PostureInput& in, Trunk& trunk, Posture& posture) {
-  const double g = in.motion.gait, run = in.motion.run, p = kTurn * in.phase;
+  const double g = in.motion.gait, run = in.motion.run, p = kTau * in.phase;
   const double scale = g * std::clamp(in.motion.speed / 1.3, 0.3, 1.3);
   trunk.pelvis_list += scale * 3.5 * std::sin(p - 0.12);
   trunk.pelvis_yaw -= scale * (4.5 + 3 * run) * std::cos(p);
@@ -39,7 +38,7 @@ void AddIdle(const PostureInput& in, Trunk& trunk, Posture& posture) {
   posture.pelvis.y += 0.028 * shift;
   trunk.pelvis_list += 2.5 * shift;
   trunk.side -= 2.5 * shift;
-  trunk.lean += still * 0.6 * Sway(seed, 2, 0.3, in.t) + 0.5 * std::sin(kTurn * (0.25 * in.t + Draw(seed, 3, 0)));
+  trunk.lean += still * 0.6 * Sway(seed, 2, 0.3, in.t) + 0.5 * std::sin(kTau * (0.25 * in.t + Draw(seed, 3, 0)));
   trunk.look += (6 + 14 * still) * std::clamp(1.5 * Sway(seed, 4, 0.11, in.t), -1.0, 1.0);
   trunk.nod += 3 * Sway(seed, 5, 0.15, in.t);
   if (in.body.spec.age > 62) {
@@ -70,7 +69,7 @@ void AddLower(const PostureInput& in, Trunk& trunk, Posture& posture) {
       break;
     case Behaviour::kStretch: {
       // Toe touches of 5 s: up with the arms overhead, down.
-      const double down = 0.5 - 0.5 * std::cos(kTurn * in.t_lower / 5);
+      const double down = 0.5 - 0.5 * std::cos(kTau * in.t_lower / 5);
       posture.pelvis.x -= 0.11 * H * down;
       trunk.pelvis_lean += 45 * down;
       trunk.lean += 50 * down - 6 * (1 - down);
@@ -95,7 +94,7 @@ void AddUpper(const PostureInput& in, Trunk& trunk) {
       // Nods, every three seconds or so.
       trunk.look *= 0.4;
       const double beat = std::fmod(t + 3 * Draw(seed, 22, 0), 3.2);
-      if (!in.state.speaking && beat < 1.0) trunk.nod += 6 * std::sin(std::numbers::pi * beat) * std::sin(kTurn * beat);
+      if (!in.state.speaking && beat < 1.0) trunk.nod += 6 * std::sin(std::numbers::pi * beat) * std::sin(kTau * beat);
       break;
     }
     case Behaviour::kPhoneCall:

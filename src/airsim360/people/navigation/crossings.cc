@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/people/navigation/polygon2d.h"
 
 namespace airsim360::internal {
@@ -25,7 +26,6 @@ double LongAxis(const std::vector<Vec2d>& hull) {
     longest = n;
     angle = std::atan2(d.y, d.x);
   }
-  constexpr double kPi = 3.14159265358979323846;
   return angle < 0 ? angle + kPi : angle >= kPi ? angle - kPi : angle;
 }
 

@@ -5,11 +5,10 @@
 #include <limits>
 #include <numeric>
 
+#include "airsim360/math/plane.h"
+
 namespace airsim360::internal {
 namespace {
-
-double Cross2(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
-double Dot2(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
 
 // A gap of an edge narrower than that is rounding of the openings, not a wall.
 constexpr double kSliver = 0.06;
@@ -23,8 +22,8 @@ uint32_t Root(std::vector<uint32_t>& parent, uint32_t i) {
 
 Vec2d NearestOnSegment(Vec2d a, Vec2d b, Vec2d p) {
   const Vec2d d = b - a;
-  const double n = Dot2(d, d);
-  const double t = n > 0 ? std::clamp(Dot2(p - a, d) / n, 0.0, 1.0) : 0;
+  const double n = Dot(d, d);
+  const double t = n > 0 ? std::clamp(Dot(p - a, d) / n, 0.0, 1.0) : 0;
   return a + d * t;
 }
 
@@ -84,7 +83,7 @@ void NavGraph::Measure() {
     polygon.area = 0;
     for (int i = 0; i < polygon.corners; ++i) {
       const Vec2d a = polygon.corner[i], b = polygon.corner[(i + 1) % polygon.corners];
-      polygon.area += Cross2(a - polygon.corner[0], b - polygon.corner[0]) / 2;
+      polygon.area += Cross(a - polygon.corner[0], b - polygon.corner[0]) / 2;
       polygon.min = {std::min(polygon.min.x, a.x), std::min(polygon.min.y, a.y)};
       polygon.max = {std::max(polygon.max.x, a.x), std::max(polygon.max.y, a.y)};
     }
@@ -114,7 +113,7 @@ void NavGraph::FindWalls() {
     for (int i = 0; i < polygon.corners; ++i) {
       const int j = (i + 1) % polygon.corners;
       const Vec2d a = polygon.corner[i], d = polygon.corner[j] - a;
-      const double length = std::sqrt(Dot2(d, d)), dz = polygon.z[j] - polygon.z[i];
+      const double length = std::sqrt(Dot(d, d)), dz = polygon.z[j] - polygon.z[i];
       double closed_from = 0;
       const auto wall = [&](double t0, double t1) {
         if ((t1 - t0) * length < kSliver && t1 - t0 < 0.999) return;
@@ -133,7 +132,7 @@ bool NavGraph::Inside(uint32_t index, Vec2d p) const {
   const NavPolygon& polygon = polygons[index];
   for (int i = 0; i < polygon.corners; ++i) {
     const Vec2d a = polygon.corner[i], b = polygon.corner[(i + 1) % polygon.corners];
-    if (Cross2(b - a, p - a) < -1e-9) return false;
+    if (Cross(b - a, p - a) < -1e-9) return false;
   }
   return true;
 }
@@ -144,9 +143,9 @@ double NavGraph::HeightIn(uint32_t index, Vec2d p) const {
   const Vec2d o = polygon.corner[0];
   for (int i = 1; i + 1 < polygon.corners; ++i) {
     const Vec2d u = polygon.corner[i] - o, v = polygon.corner[i + 1] - o;
-    const double area = Cross2(u, v);
+    const double area = Cross(u, v);
     if (area <= 0) continue;
-    const double b = Cross2(p - o, v) / area, c = Cross2(u, p - o) / area;
+    const double b = Cross(p - o, v) / area, c = Cross(u, p - o) / area;
     if ((c <= 1e-9 - b + 1 && c >= -1e-6 && b >= -1e-6) || i + 2 == polygon.corners)
       return polygon.z[0] + std::clamp(b, 0.0, 1.0) * (polygon.z[i] - polygon.z[0]) +
              std::clamp(c, 0.0, 1.0) * (polygon.z[i + 1] - polygon.z[0]);
@@ -166,7 +165,7 @@ NavPoint NavGraph::Nearest(Vec3d p, double reach) const {
       d2 = std::numeric_limits<double>::max();
       for (int k = 0; k < polygon.corners; ++k) {
         const Vec2d on = NearestOnSegment(polygon.corner[k], polygon.corner[(k + 1) % polygon.corners], q);
-        const double on2 = Dot2(on - q, on - q);
+        const double on2 = Dot(on - q, on - q);
         if (on2 < d2) {
           d2 = on2;
           at = on;
@@ -187,9 +186,9 @@ NavPoint NavGraph::Nearest(Vec3d p, double reach) const {
 
 const NavPortal* NavGraph::OpeningAt(const NavPolygon& polygon, int i, Vec2d p, double tolerance) const {
   const Vec2d a = polygon.corner[i], edge = polygon.corner[(i + 1) % polygon.corners] - a;
-  const double n2 = Dot2(edge, edge);
+  const double n2 = Dot(edge, edge);
   if (n2 <= 0) return nullptr;
-  const double n = std::sqrt(n2), s = Dot2(p - a, edge) / n2, beside = std::abs(Cross2(edge, p - a)) / n;
+  const double n = std::sqrt(n2), s = Dot(p - a, edge) / n2, beside = std::abs(Cross(edge, p - a)) / n;
   if (beside > tolerance) return nullptr;
   const NavPortal* opening = nullptr;
   double miss = tolerance / n;
@@ -214,9 +213,9 @@ NavPoint NavGraph::Walk(uint32_t index, Vec2d p, Vec2d target, bool slide, bool*
     double exit_t = 1;
     for (int i = 0; i < polygon.corners; ++i) {
       const Vec2d a = polygon.corner[i], edge = polygon.corner[(i + 1) % polygon.corners] - a;
-      const double to = Cross2(edge, target - a);
+      const double to = Cross(edge, target - a);
       if (to >= -1e-12) continue;
-      const double from = std::max(0.0, Cross2(edge, p - a));
+      const double from = std::max(0.0, Cross(edge, p - a));
       const double d = from - to, t = from / d;
       if (exit < 0 || t < exit_t) {
         exit = i;
@@ -228,7 +227,7 @@ NavPoint NavGraph::Walk(uint32_t index, Vec2d p, Vec2d target, bool slide, bool*
 
     // Through an opening, if there is one here; at a corner another edge may have it.
     const Vec2d a = polygon.corner[exit], edge = polygon.corner[(exit + 1) % polygon.corners] - a;
-    const double n2 = Dot2(edge, edge);
+    const double n2 = Dot(edge, edge);
     if (const NavPortal* through = OpeningAt(polygon, exit, p, kSliver)) {
       before = index;
       index = through->neighbour;
@@ -251,7 +250,7 @@ NavPoint NavGraph::Walk(uint32_t index, Vec2d p, Vec2d target, bool slide, bool*
     if (stopped) *stopped = true;
     const Vec2d inward = Vec2d{-edge.y, edge.x} * (1e-6 / std::sqrt(n2));
     if (!slide || ++slides > 3) return {index, {p.x, p.y, 0}};
-    target = p + edge * (Dot2(target - p, edge) / n2) + inward;
+    target = p + edge * (Dot(target - p, edge) / n2) + inward;
     p = p + inward;
   }
   return {index, {p.x, p.y, 0}};

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/plane.h"
+
 namespace airsim360::internal {
-namespace {
-double Cross2(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
-}  // namespace
+namespace {}  // namespace
 
 // Sutherland and Hodgman 1974, with the convex polygon as the window.
 double ClippedArea(std::span<const Vec2d> polygon, std::span<const Vec2d> convex) {
@@ -16,7 +16,7 @@ double ClippedArea(std::span<const Vec2d> polygon, std::span<const Vec2d> convex
     next.clear();
     for (size_t k = 0; k < rest.size(); ++k) {
       const Vec2d p = rest[k], q = rest[(k + 1) % rest.size()];
-      const double dp = Cross2(edge, p - a), dq = Cross2(edge, q - a);
+      const double dp = Cross(edge, p - a), dq = Cross(edge, q - a);
       if (dp >= 0) next.push_back(p);
       if ((dp >= 0) != (dq >= 0)) next.push_back(p + (q - p) * (dp / (dp - dq)));
     }
@@ -27,11 +27,11 @@ double ClippedArea(std::span<const Vec2d> polygon, std::span<const Vec2d> convex
 
 Vec2d PointInFan(std::span<const Vec2d> convex, RngStream& rng) {
   double total = 0;
-  for (size_t i = 1; i + 1 < convex.size(); ++i) total += Cross2(convex[i] - convex[0], convex[i + 1] - convex[0]);
+  for (size_t i = 1; i + 1 < convex.size(); ++i) total += Cross(convex[i] - convex[0], convex[i + 1] - convex[0]);
   double u = rng.Uniform() * total;
   size_t i = 1;
   for (; i + 2 < convex.size(); ++i) {
-    const double area = Cross2(convex[i] - convex[0], convex[i + 1] - convex[0]);
+    const double area = Cross(convex[i] - convex[0], convex[i + 1] - convex[0]);
     if (u < area) break;
     u -= area;
   }
@@ -50,7 +50,7 @@ std::vector<Vec2d> ConvexHull(std::vector<Vec2d> points) {
   for (int side = 0; side < 2; ++side) {
     const size_t first = hull.size();
     for (const Vec2d p : points) {
-      while (hull.size() >= first + 2 && Cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
+      while (hull.size() >= first + 2 && Cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
       hull.push_back(p);
     }
     if (!hull.empty()) hull.pop_back();

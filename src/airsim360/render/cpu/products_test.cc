@@ -27,7 +27,7 @@ constexpr Products kAll{.rgb = false,
                         .coverage = true,
                         .flow = true};
 
-std::unique_ptr<Renderer> RendererOf(std::shared_ptr<const Scene> scene) {
+std::unique_ptr<Renderer> CpuRendererOf(std::shared_ptr<const Scene> scene) {
   return MakeCpuRenderer(std::make_shared<const RayTracer>(std::move(scene)));
 }
 
@@ -57,7 +57,7 @@ bool OffEdge(const Image<EntityId>& entity, int x, int y) {
 }
 
 TEST(Products, PositionIsTheEndOfTheRayAndLiesOnTheSurface) {
-  const auto renderer = RendererOf(MakeRoom());
+  const auto renderer = CpuRendererOf(MakeRoom());
   RngStream rng(1, "products");
   const Equirectangular camera{128, 64};
   for (int i = 0; i < 5; ++i) {
@@ -80,7 +80,7 @@ TEST(Products, PositionIsTheEndOfTheRayAndLiesOnTheSurface) {
 
 TEST(Products, AlbedoAndMaterialAreThoseOfTheSurfaceInEveryTier) {
   const auto scene = MakeRoom();
-  const auto renderer = RendererOf(scene);
+  const auto renderer = CpuRendererOf(scene);
   RenderRequest request = Request(Equirectangular{128, 64}, Pose({0, 0, 2}, 0.3), Pose({0, 0, 2}, 0.3));
   const Frame labels = Rendered(*renderer, request);
   for (size_t i = 0; i < labels.entity.size(); ++i) {
@@ -103,7 +103,7 @@ TEST(Products, AlbedoAndMaterialAreThoseOfTheSurfaceInEveryTier) {
 
 TEST(Products, TheSkyHasNoSurface) {
   const auto scene = MakeOpenSquare();
-  const auto renderer = RendererOf(scene);
+  const auto renderer = CpuRendererOf(scene);
   const RigidTransform X = Pose({0, 0, 1.5}, 0.3);
   const Frame frame = Rendered(*renderer, Request(Equirectangular{128, 64}, X, X));
   int sky = 0;
@@ -120,7 +120,7 @@ TEST(Products, TheSkyHasNoSurface) {
 
 TEST(Coverage, IsWhatAFinerPictureOfTheSamePlaceCounts) {
   const auto scene = MakeOpenSquare();
-  const auto renderer = RendererOf(scene);
+  const auto renderer = CpuRendererOf(scene);
   const RigidTransform X = Pose({0.2, 0.1, 1.5}, 0.3, 0.2, -0.1);
   constexpr int kFine = 8, kWidth = 128, kHeight = 64;
   RenderRequest request = Request(Equirectangular{kWidth, kHeight}, X, X);
@@ -160,7 +160,7 @@ TEST(Coverage, IsWhatAFinerPictureOfTheSamePlaceCounts) {
 }
 
 TEST(Flow, OfACameraThatStaysIsNothing) {
-  const auto renderer = RendererOf(MakeOpenSquare());
+  const auto renderer = CpuRendererOf(MakeOpenSquare());
   const RigidTransform X = Pose({0.2, 0.1, 1.5}, 0.3, 0.2, -0.1);
   for (const Camera& camera :
        {Camera(Equirectangular{128, 64}), Camera(Pinhole{80, 60, 50, 50, 40, 30}), Camera(Fisheye::Equidistant(80, 80, 3.2))}) {
@@ -180,7 +180,7 @@ TEST(Flow, OfACameraThatStaysIsNothing) {
 }
 
 TEST(Flow, TurningThePanoramaShiftsEveryPixelTheShortWay) {
-  const auto renderer = RendererOf(MakeOpenSquare());
+  const auto renderer = CpuRendererOf(MakeOpenSquare());
   constexpr int kWidth = 128;
   for (int k : {-40, -3, 5, 63}) {
     const double angle = 2 * std::numbers::pi * k / kWidth;
@@ -195,7 +195,7 @@ TEST(Flow, TurningThePanoramaShiftsEveryPixelTheShortWay) {
 }
 
 TEST(Flow, OcclusionIsThatOfTheRoomInClosedForm) {
-  const auto renderer = RendererOf(MakeRoom());
+  const auto renderer = CpuRendererOf(MakeRoom());
   RngStream rng(2, "flow");
   int64_t checked = 0, hidden = 0;
   for (int i = 0; i < 6; ++i) {
@@ -220,7 +220,7 @@ TEST(Flow, OcclusionIsThatOfTheRoomInClosedForm) {
 }
 
 TEST(Flow, LeavingThePictureCountsAsHidden) {
-  const auto renderer = RendererOf(MakeRoom());
+  const auto renderer = CpuRendererOf(MakeRoom());
   const RigidTransform X = Pose({0, 0, 2}, 0), next = Pose({0, 0, 2}, 0.5);
   const Pinhole camera{80, 60, 60, 60, 40, 30};
   const Frame frame = Rendered(*renderer, Request(camera, X, next));
@@ -254,7 +254,7 @@ std::shared_ptr<const SceneState> MovedSquare(const Scene& scene, double t, bool
 
 TEST(Flow, LeadsToTheSameEntityAndRangeInTheNextFrame) {
   const auto scene = MakeOpenSquare();
-  const auto renderer = RendererOf(scene);
+  const auto renderer = CpuRendererOf(scene);
   constexpr int kWidth = 1024, kHeight = 512;
   RenderRequest now = Request(Equirectangular{kWidth, kHeight}, Pose({0, 0, 1.5}, 0.3), Pose({0.3, -0.2, 1.6}, 0.45, 0.1, 0.05));
   now.state = MovedSquare(*scene, 0);
@@ -289,7 +289,7 @@ TEST(Flow, LeadsToTheSameEntityAndRangeInTheNextFrame) {
 
 TEST(Flow, SceneFlowIsTheDifferenceOfThePlacesOfASurfacePoint) {
   const auto scene = MakeOpenSquare();
-  const auto renderer = RendererOf(scene);
+  const auto renderer = CpuRendererOf(scene);
   RenderRequest request = Request(Equirectangular{256, 128}, Pose({0, 0, 1.5}, 0.3), Pose({0, 0, 1.5}, 0.3));
   request.state = MovedSquare(*scene, 0.4);
   request.next_state = MovedSquare(*scene, 1);
@@ -317,7 +317,7 @@ TEST(Flow, SceneFlowIsTheDifferenceOfThePlacesOfASurfacePoint) {
 
 TEST(SceneStates, GiveTheProductsOfASceneBuiltThatWay) {
   const auto scene = MakeOpenSquare();
-  const auto renderer = RendererOf(scene);
+  const auto renderer = CpuRendererOf(scene);
   const RigidTransform X = Pose({0, 0, 1.5}, 0.3);
   RenderRequest request = Request(Equirectangular{256, 128}, X, X);
   request.products.coverage = false;
@@ -338,7 +338,7 @@ TEST(SceneStates, GiveTheProductsOfASceneBuiltThatWay) {
   }
   builder.AddSky();
   request.state = nullptr;
-  const Frame built = Rendered(*RendererOf(builder.Build()), request);
+  const Frame built = Rendered(*CpuRendererOf(builder.Build()), request);
   EXPECT_EQ(moved.entity, built.entity);
   EXPECT_EQ(moved.semantic, built.semantic);
   EXPECT_EQ(moved.material, built.material);
@@ -349,7 +349,7 @@ TEST(SceneStates, GiveTheProductsOfASceneBuiltThatWay) {
   }
 
   // And the renderer goes back to the scene as it was.
-  const Frame back = Rendered(*renderer, request), fresh = Rendered(*RendererOf(scene), request);
+  const Frame back = Rendered(*renderer, request), fresh = Rendered(*CpuRendererOf(scene), request);
   EXPECT_EQ(back.entity, fresh.entity);
   EXPECT_EQ(back.range, fresh.range);
   EXPECT_EQ(back.normal, fresh.normal);
@@ -358,7 +358,7 @@ TEST(SceneStates, GiveTheProductsOfASceneBuiltThatWay) {
 
 TEST(SceneStates, DeformedMeshesMoveTheirSurfaceAndItsNormals) {
   const auto scene = MakeOpenSquare();
-  const auto renderer = RendererOf(scene);
+  const auto renderer = CpuRendererOf(scene);
   const RigidTransform X = Pose({0, 0, 1.5}, 0.3);
   RenderRequest request = Request(Equirectangular{256, 128}, X, X);
   // All cubes (mesh 1) grow to twice their height from now to then.
@@ -389,7 +389,7 @@ TEST(SceneStates, DeformedMeshesMoveTheirSurfaceAndItsNormals) {
 
 TEST(Products, RollWithThePanoramaByteForByteAndDoNotDependOnThreads) {
   const auto scene = MakeOpenSquare();
-  const auto renderer = RendererOf(scene);
+  const auto renderer = CpuRendererOf(scene);
   constexpr int kWidth = 200;
   const auto request = [&](int k) {
     const RigidTransform turn{RotationY(2 * std::numbers::pi * k / kWidth), {}};
@@ -422,7 +422,7 @@ TEST(Products, RollWithThePanoramaByteForByteAndDoNotDependOnThreads) {
 }
 
 TEST(Flow, WithoutTheNextPoseIsAnInputError) {
-  const auto renderer = RendererOf(MakeRoom());
+  const auto renderer = CpuRendererOf(MakeRoom());
   RenderRequest request = Request(Equirectangular{64, 32}, Pose({0, 0, 2}, 0), {});
   request.X_WC_next.reset();
   Frame frame;

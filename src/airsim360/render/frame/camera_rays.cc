@@ -7,11 +7,11 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kTau = 2 * std::numbers::pi;
 constexpr double kAxisStep = 0x1p-32;
 constexpr size_t kMostTablePixels = size_t{1} << 24;
 constexpr int64_t kStepsPerColumn = int64_t{1} << 24;

@@ -3,9 +3,11 @@
 #include <cmath>
 #include <span>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/render/high/high_rays.h"
 #include "airsim360/render/shading/sampling.h"
 #include "airsim360/render/shading/shared_rays_kernel.h"
+#include "airsim360/render/shared/shading_scalar.h"
 
 namespace airsim360::internal {
 namespace {
@@ -65,8 +67,7 @@ class AmbientTile {
         AddLight(way_[k - begin], samples == 1 ? 2.0f : static_cast<float>(samples) / static_cast<float>(alike));
       }
     }
-    constexpr float kPi = 3.14159265f;
-    const float scale = kPi / static_cast<float>(samples);
+    const float scale = kPiF / static_cast<float>(samples);
     for (int i = 0; i < count; ++i) {
       const uint32_t slot = rays_.slot[index_[i]];
       tile_.light_samples[slot] = static_cast<uint8_t>(std::min(samples, 255));
@@ -186,6 +187,20 @@ class AmbientTile {
   std::span<const uint32_t> first_slots_;
 };
 
+// By night probes, which know all windows around, count as some rays more.
+void CountProbes(const Shader::Impl& shader, const RaySet& rays, const SurfaceSet& s, int i, HighTile& tile) {
+  const float known = scalar::probe_rays(shader.view.open_sky);
+  const uint32_t slot = rays.slot[i];
+  const float samples = tile.light_samples[slot];
+  if (samples == 0 || (s.kind[i] == kFoliage && s.transmission[i] > 0)) return;
+  const Vec3f p{s.px[i], s.py[i], s.pz[i]}, n{s.nx[i], s.ny[i], s.nz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
+  const Vec3f light = shader.probes->Irradiance(p + g * (0.45f / shader.view.probes.cells_per_metre), n);
+  const float share = known / (known + samples);
+  tile.light_r[slot] += share * (light.x - tile.light_r[slot]);
+  tile.light_g[slot] += share * (light.y - tile.light_g[slot]);
+  tile.light_b[slot] += share * (light.z - tile.light_b[slot]);
+}
+
 }  // namespace
 
 void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling, const RaySet& rays,
@@ -212,6 +227,10 @@ void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const 
       if (of_slot[slot] >= 0) surfaces[count++] = of_slot[slot];
     }
     if (count > 0) ambient.GatherPhase(phase, surfaces, count);
+  }
+  if (shader.probes && shader.sky && scalar::probe_rays(shader.view.open_sky) > 0) {
+    for (int i = 0; i < rays.count; ++i)
+      if (of_slot[rays.slot[i]] >= 0) CountProbes(shader, rays, s, i, tile);
   }
   for (int i = 0; room != nullptr && i < rays.count; ++i) {
     const float share = room->share[i];

@@ -9,6 +9,7 @@
 #include "airsim360/render/lights/clear_panes.h"
 #include "airsim360/render/shading/sampling.h"
 #include "airsim360/render/shading/secondary_rays.h"
+#include "airsim360/render/shared/roofs_scalar.h"
 #include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
@@ -177,8 +178,11 @@ void FindGloss(const Shader::Impl& shader, const RaySet& rays, const IndoorLight
     gloss.share[i] = std::clamp((Luminance(gloss.skin[i]) - kLeastSkin) / (kWholeSkin - kLeastSkin), 0.0f, 1.0f);
     if (gloss.share[i] <= 0) continue;
     gloss.any = gloss.is[i] = true;
-    if (shader.view.has_sky > 0.5f)
-      gloss.skin[i] = gloss.skin[i] * scalar::air_to_surface(shader.view.air, rays.oz[i], d, rays.distance[i]).kept;
+    if (shader.view.has_sky > 0.5f) {
+      const Vec3f eye{rays.ox[i], rays.oy[i], rays.oz[i]};
+      const float free = shader.view.air.weather > 0 ? scalar::roofed_way(shader.view.roofs, eye, d, rays.distance[i]) : 0.0f;
+      gloss.skin[i] = gloss.skin[i] * scalar::air_to_surface(shader.view.air, eye.z, d, rays.distance[i], free).kept;
+    }
     // As if a ray had brought nothing: GatherGloss adds what the skin mirrors.
     s.mirror[i] = 0, s.traced[i] = 1;
     s.reflected_r[i] = s.reflected_g[i] = s.reflected_b[i] = 0;

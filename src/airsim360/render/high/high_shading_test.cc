@@ -6,14 +6,13 @@
 #include <functional>
 #include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/render/shading/sampling.h"
 #include "airsim360/render/shading/shader_impl.h"
 #include "airsim360/render/shading/sun_map.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 // Rows of 16 pixels, phases as in the renderer.
 TileLayout Layout() {
@@ -90,7 +89,7 @@ struct World {
         if (open(d)) sum += shader->impl().sky->blurred(0).At(d).y;
       }
     }
-    return static_cast<float>(sum * kPi / (kRows * kColumns));
+    return static_cast<float>(sum * kPiF / (kRows * kColumns));
   }
 };
 

@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/render/indoor/test_rooms.h"
 
 namespace airsim360 {
@@ -13,7 +13,6 @@ namespace {
 
 using internal::Surfel;
 using test::RoomScene, test::SolvedRoom;
-constexpr double kPi = std::numbers::pi;
 constexpr int kFaces = 6, kSide = 16, kPatches = kSide * kSide;
 
 // The Cornell box without its blocks and with its front closed, in tenths of its size: 5.528 wide, 5.592 deep, 5.488 high, with the

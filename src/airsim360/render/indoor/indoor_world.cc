@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/indoor/plain_lamps.h"
 #include "airsim360/render/lights/clear_panes.h"
 #include "airsim360/render/shared/shading_scalar.h"
@@ -13,7 +14,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPi = 3.14159265f, kLift = 1.5e-3f;
+constexpr float kLift = 1.5e-3f;
 constexpr float kMirrorMetal = 0.9f, kMirrorRoughness = 0.12f;
 
 // Mean over all views of what a material gives back in even light.
@@ -78,7 +79,7 @@ void AddSun(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, in
   if (!(Dot(n, sun.direction) > -radius) || sun.irradiance == Vec3f{}) return;
   for (int k = 0; k < rays; ++k) {
     const Vec2f u = EvenPoint(static_cast<uint32_t>(k), shift);
-    const float r = radius * std::sqrt(u.x), angle = 2 * kPi * u.y;
+    const float r = radius * std::sqrt(u.x), angle = 2 * kPiF * u.y;
     const Vec3f d = Normalized(sun.direction + t * (r * std::cos(angle)) + b * (r * std::sin(angle)));
     const float cosine = Dot(n, d);
     if (!(cosine > 0)) continue;
@@ -109,7 +110,7 @@ void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, 
     const bool held = world.lamps != nullptr && world.lamps->Holds(sample.lamp);
     const float shape = here * there / (distance * distance);
     const bool shared = mix.plain != nullptr && mix.plain->Holds(sample.lamp);
-    const float weight = shape / (sample.pdf * static_cast<float>(rays)) * (shared ? mix.OfLampRays(sample.pdf, shape / kPi) : 1);
+    const float weight = shape / (sample.pdf * static_cast<float>(rays)) * (shared ? mix.OfLampRays(sample.pdf, shape / kPiF) : 1);
     queue.Add(p + n * kLift, d, distance * 0.999f - 2 * kLift, sample.radiance * weight, held ? &DirectLight::held : &DirectLight::others);
   }
 }

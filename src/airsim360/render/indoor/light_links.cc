@@ -10,7 +10,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kLift = 1.5e-3f;
+constexpr float kLinkLift = 1.5e-3f;
 constexpr int kMostMirrors = 6;
 constexpr float kSectors = 8;    // of directions about the normal
 constexpr float kGuided = 0.8f;  // of the density that follows the light
@@ -42,7 +42,7 @@ bool Land(const IndoorWorld& world, const Reflectance& reflectance, const Surfel
     out.target = LightLink::kNothing;
     if (last) return false;
     const Vec3f d = out.direction - met.normal * (2 * Dot(out.direction, met.normal));
-    packet.Set(i, met.point + met.normal * kLift, d, INFINITY);
+    packet.Set(i, met.point + met.normal * kLinkLift, d, INFINITY);
     return true;
   }
   out.target = coarse.Nearest(met.point, met.normal);
@@ -76,7 +76,7 @@ void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const Su
       const Vec2f point = points[order[first + static_cast<size_t>(i)].second];
       // As far as the link will remember.
       const auto kept = [](float x) { return (std::floor(std::min(x, 0.99999f) * 256) + 0.5f) / 256; };
-      packet.Set(i, from.p + from.n * kLift, PointToDirection(from, kept(point.x), kept(point.y)), INFINITY);
+      packet.Set(i, from.p + from.n * kLinkLift, PointToDirection(from, kept(point.x), kept(point.y)), INFINITY);
     }
     bool mirrored = false;
     for (int bounce = 0; bounce == 0 || mirrored; ++bounce) {

@@ -5,12 +5,12 @@
 #include <unordered_map>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 constexpr int64_t kChunk = 128;
 constexpr float kHomeCell = 0.12f;     // m
 constexpr double kMostCoarse = 70000;  // cells of surface, about
@@ -74,7 +74,7 @@ void ForNeighbours(const SurfelSet& set, const Surfel& s, int step, const Each& 
 // Irradiance of what the first `even` rays met.
 void AddGlow(std::span<const Landing> landings, int even, Vec3f& held, Vec3f& others) {
   for (const Landing& landing : landings.first(static_cast<size_t>(even)))
-    (landing.glow.held ? held : others) += landing.glow.radiance * (kPi / static_cast<float>(even));
+    (landing.glow.held ? held : others) += landing.glow.radiance * (kPiF / static_cast<float>(even));
 }
 
 // Of the luminance of held lamps, by what each ray to them brought.
@@ -206,7 +206,7 @@ void LightSolver::FindDirect() {
     coarse_light_.lamps[i] += d.held;
     coarse_light_.lamp_variance[i] = VarianceOf(d, options_.lamp_rays);
     direct_[i] = d.sun + coarse_light_.lamps[i] + others_[i];
-    radiance_[i] = s.albedo * direct_[i] * (1 / kPi);
+    radiance_[i] = s.albedo * direct_[i] * (1 / kPiF);
   });
 }
 
@@ -214,7 +214,7 @@ void LightSolver::FindDirect() {
 void LightSolver::Bounce(int most) {
   const auto& surfels = coarse_.surfels();
   const auto rays = static_cast<size_t>(2 * options_.rays);
-  const float unit = kPi / (static_cast<float>(options_.rays) * 65535);
+  const float unit = kPiF / (static_cast<float>(options_.rays) * 65535);
   std::vector<Vec3f> sky(surfels.size()), next(surfels.size());
   std::vector<float> scale(surfels.size());
   ForSurfels(surfels.size(), [&](size_t i, size_t) {
@@ -234,7 +234,7 @@ void LightSolver::Bounce(int most) {
         const LightLink& link = links_[k];
         if (link.target < LightLink::kNothing) light += radiance_[link.target] * (static_cast<float>(link.weight) * unit);
       }
-      next[i] = surfels[i].albedo * (direct_[i] + light * scale[i]) * (1 / kPi);
+      next[i] = surfels[i].albedo * (direct_[i] + light * scale[i]) * (1 / kPiF);
     });
     double all = 0, new_light = 0;
     for (size_t i = 0; i < surfels.size(); ++i) {
@@ -329,10 +329,10 @@ void LightSolver::Finish() {
     Sum sum;
     for (size_t k = i * rays; k < (i + 1) * rays; ++k) {
       const LightLink& link = links_[k];
-      const float weight = static_cast<float>(link.weight) * (kPi / (static_cast<float>(options_.rays) * 65535));
+      const float weight = static_cast<float>(link.weight) * (kPiF / (static_cast<float>(options_.rays) * 65535));
       sum.whole += weight;
       if (link.target != LightLink::kNothing) sum.found += weight;
-      if (link.target == LightLink::kSky) sum.open += weight / kPi;
+      if (link.target == LightLink::kSky) sum.open += weight / kPiF;
       sum.Add(Seen(link.target, surfels[i], link), DirectionOf(surfels[i], link), Table().up[link.u], weight);
     }
     sum.Put(i, others_[i], coarse_light_);
@@ -402,11 +402,11 @@ void LightSolver::LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& 
   Sum sum;
   for (size_t k = 0; k < landings.size(); ++k) {
     const Landing& landing = landings[k];
-    const float weight = kPi * landing.share / (static_cast<float>(options_.fine_rays) * (1 + guide.Density(points[k])));
+    const float weight = kPiF * landing.share / (static_cast<float>(options_.fine_rays) * (1 + guide.Density(points[k])));
     sum.whole += weight;
     if (landing.target == LightLink::kNothing) continue;
     sum.found += weight;
-    if (landing.target == LightLink::kSky) sum.open += weight / kPi;
+    if (landing.target == LightLink::kSky) sum.open += weight / kPiF;
     const Vec3f light = landing.target == LightLink::kSky     ? SkyAlong(landing.direction)
                         : landing.target == Landing::kOutside ? RadianceOutside(landing.outside, i)
                                                               : radiance_[landing.target];
@@ -461,7 +461,7 @@ Vec3f LightSolver::RadianceOutside(const OutsidePlace& place, size_t seed) const
   if (place.n == Vec3f{}) return place.radiance;
   Vec3f irradiance = LightFromAbove(world_, {&place.p, 1}, place.n, {}, static_cast<uint32_t>(seed), 1).sun;
   if (world_.around) irradiance += world_.around(place.p, place.n);
-  return place.radiance + place.albedo * irradiance * (1 / kPi);
+  return place.radiance + place.albedo * irradiance * (1 / kPiF);
 }
 
 }  // namespace airsim360::internal

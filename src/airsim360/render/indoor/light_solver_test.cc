@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/archive.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/indoor/indoor_kernels.h"
 #include "airsim360/render/indoor/test_rooms.h"
 #include "airsim360/render/lights/lamp_grid.h"
@@ -18,7 +18,6 @@ namespace {
 
 using internal::IndoorCache, internal::IndoorOptions, internal::LightLink, internal::LightSolver, internal::Surfel;
 using test::RoomScene, test::SolvedRoom;
-constexpr double kPi = std::numbers::pi;
 
 // Which face of a box a surfel lies on, as RoomScene numbers them.
 int FaceOf(const Surfel& s) {

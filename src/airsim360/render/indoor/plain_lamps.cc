@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "airsim360/math/angles.h"
+
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 uint32_t MaterialOf(const IndoorWorld& world, uint32_t instance, uint32_t triangle) {
   return world.tables.triangles[world.tables.instances[instance].first_triangle + triangle].material & ~kMirroredUv;
@@ -34,7 +34,7 @@ MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket
   if (lamp == LightTable::kNoLamp || !rays.plain->Holds(lamp)) return {};
   const Vec3f from = packet.Origin(lane), d = packet.Direction(lane);
   const float distance = std::max(packet.rays.t_far[lane], 1e-4f);
-  const float even = std::max(0.0f, Dot(d, normal)) * -Dot(d, met.normal) / (kPi * distance * distance);
+  const float even = std::max(0.0f, Dot(d, normal)) * -Dot(d, met.normal) / (kPiF * distance * distance);
   const float left = rays.OfLampRays(world.lights->Pdf(from, normal, ref.instance, ref.triangle), even);
   return {material.emission * world.tables.GlowOf(ref.instance) * (1 - left), world.lamps != nullptr && world.lamps->Holds(lamp)};
 }

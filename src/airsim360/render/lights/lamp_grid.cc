@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/lights/lit_places.h"
 #include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/scene/luminance.h"
@@ -12,7 +13,6 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 // Lamps of one instance closer than this are one (the globes of a post, the two head lights of a car).
 constexpr float kMergeDistance = 1.5f;
 constexpr size_t kMergeAmong = 64;  // of the last ones
@@ -52,12 +52,12 @@ LampRecord Record(const Lamp& lamp) {
   for (int k = 0; k < 3; ++k) {
     record.center[k] = lamp.center[k];
     record.facing[k] = lamp.facing[k];
-    record.color[k] = lamp.power[k] / (kPi * lamp.area);
+    record.color[k] = lamp.power[k] / (kPiF * lamp.area);
     record.beam[k] = lamp.beam[k];
   }
   record.radius = lamp.radius;
   record.body = std::max(0.0f, body);
-  record.soft = facing / kPi;
+  record.soft = facing / kPiF;
   return record;
 }
 
@@ -119,7 +119,7 @@ void LampGrid::Merge(const LightTable& table, float daylight) {
     const Lamp& lamp = lamps[i];
     if (i == 0 || lamps[i - 1].instance != lamp.instance) first_of_instance = merged.size();
     const bool beam = Norm(lamp.beam) >= 1;  // head and tail lamps, however dim
-    if (lamps.size() > kFewLamps && !beam && Luminance(lamp.power) / (kPi * lamp.area) < kBrightLamp) continue;
+    if (lamps.size() > kFewLamps && !beam && Luminance(lamp.power) / (kPiF * lamp.area) < kBrightLamp) continue;
     size_t at = std::max(first_of_instance, merged.size() - std::min(merged.size(), kMergeAmong));
     while (at < merged.size() && !(Norm(merged[at].center - lamp.center) <= kMergeDistance && merged[at].beam == lamp.beam)) ++at;
     if (at == merged.size()) {

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/lights/lamp_grid.h"
 #include "airsim360/render/shading/light_probes.h"
 #include "airsim360/render/shading/secondary_rays.h"
@@ -12,8 +13,6 @@
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 Mesh Quad(Vec3f a, Vec3f b, Vec3f c, Vec3f d) {
   Mesh mesh;
@@ -38,7 +37,7 @@ Mesh Ball(Vec3f center, float radius) {
   constexpr int kRings = 24, kSides = 48;
   for (int i = 0; i <= kRings; ++i) {
     for (int j = 0; j < kSides; ++j) {
-      const float a = kPi * static_cast<float>(i) / kRings, b = 2 * kPi * static_cast<float>(j) / kSides;
+      const float a = kPiF * static_cast<float>(i) / kRings, b = 2 * kPiF * static_cast<float>(j) / kSides;
       mesh.positions.push_back(center + Vec3f{std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)} * radius);
     }
   }
@@ -148,7 +147,7 @@ TEST(LampLight, LampsAreColouredAndSwitchedOffByInstanceAndTurnWithIt) {
   const HeadLamp off(4, {});
   EXPECT_EQ(off.world.lights->size(), 0u);
   EXPECT_EQ(off.world.Light(ahead, 2, {0, 1, 0})[0], 0);
-  EXPECT_LT(HeadLamp(4, {1, 1, 1}, kPi / 3).world.Light(ahead, 2, {0, 1, 0})[0], 0.05f * white);
+  EXPECT_LT(HeadLamp(4, {1, 1, 1}, kPiF / 3).world.Light(ahead, 2, {0, 1, 0})[0], 0.05f * white);
 }
 
 TEST(LampLight, ABallOverAPlaneFollowsTheInverseSquareLaw) {
@@ -162,7 +161,7 @@ TEST(LampLight, ABallOverAPlaneFollowsTheInverseSquareLaw) {
     const std::vector<float> light = world.Light(points, rays);
     for (size_t i = 0; i < points.size(); ++i) {
       const float d2 = Dot(points[i], points[i]) + height * height;
-      const float exact = kPi * radius * radius * radiance * height / (d2 * std::sqrt(d2));
+      const float exact = kPiF * radius * radius * radiance * height / (d2 * std::sqrt(d2));
       EXPECT_NEAR(light[i] / exact, 1, 0.02f) << points[i].x << " with rays " << rays;
     }
   }
@@ -211,7 +210,7 @@ TEST(LampLight, AClearPaneDimsAndASolidOneHides) {
     world.Build();
     EXPECT_EQ(world.tracer->has_clear_panes(), clear);
     // Two faces of 4 % each at right angles.
-    const float exact = kPi * 0.01f / 9 * 0.5f * (1 - 0.04f) / (1 + 0.04f);
+    const float exact = kPiF * 0.01f / 9 * 0.5f * (1 - 0.04f) / (1 + 0.04f);
     EXPECT_NEAR(world.Light({{0, 0, 0}})[0], clear ? exact : 0, 0.02f * exact);
     // Camera rays meet the pane all the same.
     const auto hit = world.tracer->Intersect({0.3f, 0.2f, 2}, {0, 0, -1});
@@ -247,7 +246,7 @@ TEST(LampLight, ProbesInAClosedBoxHaveTheSeriesOfAllBounces) {
         ++count;
       }
     }
-    const double power = kPi * 6 * 4 * half * half, area = 6 * side * side;
+    const double power = kPiF * 6 * 4 * half * half, area = 6 * side * side;
     EXPECT_NEAR(direct / count / (power / area), 1, 0.03) << albedo;
     EXPECT_NEAR((direct + bounced) / count / (power / area / (1 - albedo)), 1, 0.06) << albedo;
   }

@@ -7,10 +7,10 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "airsim360/math/angles.h"
+
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 // Corners that lie in the same place are the same corner, whatever their index.
 struct PlaceHash {
@@ -122,7 +122,7 @@ PlacedLamp PlaceLamp(const Scene& scene, const SurfaceTables& tables, uint32_t i
     lamp.area += t.area;
     lamp.center += (t.corner[0] + t.corner[1] + t.corner[2]) * (t.area / 3);
     lamp.facing += t.normal * t.area;
-    lamp.power += tables.mean_emissions[material] * tables.GlowOf(instance) * (kPi * t.area);
+    lamp.power += tables.mean_emissions[material] * tables.GlowOf(instance) * (kPiF * t.area);
     lamp.beam = tables.BeamOf(tables.instances[instance], tables.materials[material]);
     normals.push_back(t.normal);
     for (Vec3f p : t.corner) out.box.Add(p);
@@ -136,7 +136,7 @@ PlacedLamp PlaceLamp(const Scene& scene, const SurfaceTables& tables, uint32_t i
   lamp.axis = Normalized(lamp.facing);
   if (Norm(lamp.facing) < 0.01f * lamp.area) {
     lamp.axis = {0, 0, 1};
-    lamp.spread = kPi;
+    lamp.spread = kPiF;
   } else {
     for (Vec3f n : normals) lamp.spread = std::max(lamp.spread, std::acos(std::clamp(Dot(n, lamp.axis), -1.0f, 1.0f)));
   }

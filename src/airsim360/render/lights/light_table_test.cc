@@ -7,11 +7,10 @@
 #include <map>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 // Rectangle a, a + e, a + e + f, a + f; faces along e x f.
 Mesh Rectangle(Vec3f a, Vec3f e, Vec3f f) {
@@ -21,7 +20,7 @@ Mesh Rectangle(Vec3f a, Vec3f e, Vec3f f) {
   return mesh;
 }
 
-struct World {
+struct TableWorld {
   SceneBuilder builder{"lamps"};
   EntityId entity = builder.AddEntity("all", builder.tree().At("construction/building"));
   std::shared_ptr<const Scene> scene;
@@ -49,7 +48,7 @@ struct World {
 
 Vec3f Random(RngStream& r) { return {static_cast<float>(r.Uniform()), static_cast<float>(r.Uniform()), static_cast<float>(r.Uniform())}; }
 Vec3f Direction(RngStream& r) {
-  const double z = r.Uniform(-1, 1), a = r.Uniform(0, 2 * kPi), s = std::sqrt(1 - z * z);
+  const double z = r.Uniform(-1, 1), a = r.Uniform(0, 2 * kPiF), s = std::sqrt(1 - z * z);
   return {static_cast<float>(s * std::cos(a)), static_cast<float>(s * std::sin(a)), static_cast<float>(z)};
 }
 
@@ -62,7 +61,7 @@ float Contribution(const LightSample& s, Vec3f p, Vec3f n) {
 }
 
 // Rectangles of random place, direction, size and light.
-void AddRandomLamps(World& world, int count, uint64_t seed) {
+void AddRandomLamps(TableWorld& world, int count, uint64_t seed) {
   RngStream r(seed, "lamps");
   for (int i = 0; i < count; ++i) {
     const Vec3f n = Direction(r), e = Normalized(Cross(n, Direction(r)));
@@ -73,7 +72,7 @@ void AddRandomLamps(World& world, int count, uint64_t seed) {
 }
 
 TEST(LightTable, ConnectedTrianglesAreOneLampWithItsPowerAndFacing) {
-  World world;
+  TableWorld world;
   Mesh two = Rectangle({0, 0, 3}, {0, 1, 0}, {2, 0, 0});  // faces down
   const Mesh other = Rectangle({5, 0, 3}, {1, 0, 0}, {0, 1, 0});
   for (Vec3f p : other.positions) two.positions.push_back(p);
@@ -84,7 +83,7 @@ TEST(LightTable, ConnectedTrianglesAreOneLampWithItsPowerAndFacing) {
   ASSERT_EQ(world.lights->size(), 2u);
   const Lamp& down = world.lights->lamps()[0];
   EXPECT_NEAR(down.area, 8, 1e-4);
-  EXPECT_NEAR(down.power.z, kPi * 3 * 8, 1e-3);
+  EXPECT_NEAR(down.power.z, kPiF * 3 * 8, 1e-3);
   EXPECT_NEAR(down.facing.z, -8, 1e-4);
   EXPECT_NEAR(down.spread, 0, 1e-3);
   EXPECT_NEAR(Norm(down.center - Vec3f{12, 1, 6}), 0, 1e-4);
@@ -95,7 +94,7 @@ TEST(LightTable, ConnectedTrianglesAreOneLampWithItsPowerAndFacing) {
 
 TEST(LightTable, LampMaterialsShineOnlyWhileLampsAreOn) {
   for (const Lamps lamps : {Lamps::kOn, Lamps::kOff, Lamps::kAuto}) {
-    World world;
+    TableWorld world;
     world.Add(Rectangle({0, 0, 3}, {1, 0, 0}, {0, 1, 0}), world.Emitter({1, 1, 1}, true));
     world.Add(Rectangle({0, 5, 3}, {1, 0, 0}, {0, 1, 0}), world.Emitter({1, 1, 1}, false));
     world.Add(Rectangle({0, 9, 3}, {1, 0, 0}, {0, 1, 0}), world.Emitter({0, 0, 0}, false));
@@ -105,7 +104,7 @@ TEST(LightTable, LampMaterialsShineOnlyWhileLampsAreOn) {
 }
 
 TEST(LightTable, WithoutLampsNothingIsChosen) {
-  World world;
+  TableWorld world;
   world.Add(Rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), world.Emitter({0, 0, 0}));
   world.Build();
   EXPECT_TRUE(world.lights->empty());
@@ -115,24 +114,24 @@ TEST(LightTable, WithoutLampsNothingIsChosen) {
 
 TEST(LightTable, ARectangleGivesItsAnalyticFormFactor) {
   // Parallel, centred over the point: four corners of the classic configuration factor.
-  World world;
+  TableWorld world;
   const float a = 1.5f, b = 1.0f, h = 2.0f;
   world.Add(Rectangle({-a, -b, h}, {0, 2 * b, 0}, {2 * a, 0, 0}), world.Emitter({1, 1, 1}));
   world.Build();
   const float x = a / h, y = b / h;
   const float corner =
       (x / std::sqrt(1 + x * x) * std::atan(y / std::sqrt(1 + x * x)) + y / std::sqrt(1 + y * y) * std::atan(x / std::sqrt(1 + y * y))) /
-      (2 * kPi);
+      (2 * kPiF);
   RngStream r(1, "rectangle");
   double sum = 0;
   constexpr int kSamples = 200000;
   for (int i = 0; i < kSamples; ++i) sum += Contribution(world.lights->Sample({0, 0, 0}, {0, 0, 1}, Random(r)), {0, 0, 0}, {0, 0, 1});
-  EXPECT_NEAR(sum / kSamples / (kPi * 4 * corner), 1, 0.005);
+  EXPECT_NEAR(sum / kSamples / (kPiF * 4 * corner), 1, 0.005);
 }
 
 TEST(LightTable, LightShinesToTheFrontOnlyAlsoWhereTheInstanceMirrors) {
   for (const float side : {1.0f, -1.0f}) {
-    World world;
+    TableWorld world;
     world.Add(Rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), world.Emitter({1, 1, 1}),
               {Mat3f::FromColumns({side, 0, 0}, {0, 1, 0}, {0, 0, 1}), {}});
     world.Build();
@@ -143,7 +142,7 @@ TEST(LightTable, LightShinesToTheFrontOnlyAlsoWhereTheInstanceMirrors) {
 }
 
 TEST(LightTable, SampledAndQueriedDensitiesAgreeAndFrequenciesMatchThem) {
-  World world;
+  TableWorld world;
   AddRandomLamps(world, 60, 5);
   world.Build();
   RngStream r(2, "points");
@@ -191,7 +190,7 @@ TEST(LightTable, SampledAndQueriedDensitiesAgreeAndFrequenciesMatchThem) {
 }
 
 TEST(LightTable, TheEstimateEqualsTheSumOverAllLamps) {
-  World world;
+  TableWorld world;
   AddRandomLamps(world, 10000, 7);
   world.Build();
   ASSERT_EQ(world.lights->size(), 10000u);
@@ -227,7 +226,7 @@ TEST(LightTable, TheEstimateEqualsTheSumOverAllLamps) {
 }
 
 TEST(LightTable, EmissionTexturesAreSeenInSamplesAndInPower) {
-  World world;
+  TableWorld world;
   Image<Rgba8> picture(2, 1);
   picture(0, 0) = {255, 255, 255, 255};
   picture(1, 0) = {0, 0, 0, 255};
@@ -252,7 +251,7 @@ TEST(LightTable, EmissionTexturesAreSeenInSamplesAndInPower) {
     sum += s.radiance.x / kSamples;
   }
   EXPECT_NEAR(sum, 1, 0.02);
-  EXPECT_NEAR(world.lights->lamps()[0].power.x, kPi, 0.02);
+  EXPECT_NEAR(world.lights->lamps()[0].power.x, kPiF, 0.02);
 }
 
 }  // namespace

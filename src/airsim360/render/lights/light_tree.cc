@@ -6,10 +6,11 @@
 #include <limits>
 #include <numeric>
 
+#include "airsim360/math/angles.h"
+
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 constexpr int kBins = 12;
 // Light just below the horizon still counts a little, so that rounding never hides a lamp that can be seen.
 constexpr float kAngleMargin = 0.01f, kLeastCosine = 0.005f;
@@ -19,7 +20,7 @@ float AngleBetween(Vec3f a, Vec3f b) { return std::acos(std::clamp(Dot(a, b), -1
 // Cosine of an angle after a cone has been taken off it; 0 beyond a right angle.
 float CosineWithin(float angle, float cone) {
   const float left = std::max(0.0f, angle - cone);
-  return left > kPi / 2 + kAngleMargin ? 0 : std::max(std::cos(left), kLeastCosine);
+  return left > kPiF / 2 + kAngleMargin ? 0 : std::max(std::cos(left), kLeastCosine);
 }
 
 // Rotates `a` by `angle` towards `b`.
@@ -30,9 +31,9 @@ Vec3f TurnTowards(Vec3f a, Vec3f b, float angle) {
 
 // Solid angle measure of the directions that a cone of normals can shine to (Conty Estevez & Kulla, eq. 1).
 float Spread(float cone) {
-  const float w = std::min(cone + kPi / 2, kPi);
-  return 2 * kPi * (1 - std::cos(cone)) +
-         kPi / 2 * (2 * w * std::sin(cone) - std::cos(cone - 2 * w) - 2 * cone * std::sin(cone) + std::cos(cone));
+  const float w = std::min(cone + kPiF / 2, kPiF);
+  return 2 * kPiF * (1 - std::cos(cone)) +
+         kPiF / 2 * (2 * w * std::sin(cone) - std::cos(cone - 2 * w) - 2 * cone * std::sin(cone) + std::cos(cone));
 }
 
 float Area(const Box3f& box) {
@@ -54,18 +55,18 @@ LightBounds LightBounds::Join(const LightBounds& other) const {
   out.power = power + other.power;
   const LightBounds &a = spread >= other.spread ? *this : other, &b = spread >= other.spread ? other : *this;
   const float between = AngleBetween(a.axis, b.axis);
-  if (std::min(between + b.spread, kPi) <= a.spread) {
+  if (std::min(between + b.spread, kPiF) <= a.spread) {
     out.axis = a.axis, out.spread = a.spread;
     return out;
   }
   const float cone = (a.spread + between + b.spread) / 2;
   // Opposite axes have no way between them that is better than another.
-  if (cone >= kPi || between > kPi - 1e-3f) {
-    out.axis = a.axis, out.spread = kPi;
+  if (cone >= kPiF || between > kPiF - 1e-3f) {
+    out.axis = a.axis, out.spread = kPiF;
     return out;
   }
   out.axis = between > 1e-4f ? TurnTowards(a.axis, b.axis, cone - a.spread) : a.axis;
-  out.spread = std::min(kPi, cone + 1e-3f);
+  out.spread = std::min(kPiF, cone + 1e-3f);
   return out;
 }
 

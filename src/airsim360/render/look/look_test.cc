@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
 #include "airsim360/image/color.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/look/develop_kernels.h"
 #include "airsim360/render/look/photo.h"
 #include "airsim360/render/look/scatter.h"
@@ -18,7 +18,6 @@ namespace airsim360 {
 namespace {
 
 using namespace internal;
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
 
 // ---- the point-spread function
 

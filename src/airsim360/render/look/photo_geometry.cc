@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/frame/camera_rays.h"
 #include "airsim360/render/look/scatter_kernels.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSunRadius = 0.2666 * kPi / 180;
 
 // Radians of a pixel in the middle of the picture.

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/look/scatter_kernels.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Share of the mixture with ln(t / a^2) below s, of which the density is sin(pi g) / (2 pi (cosh(g s) + cos(pi g))).
 double MixtureBelow(double s) {

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/render/reference/path_rays.h"
 #include "airsim360/render/shading/secondary_rays.h"
-#include "airsim360/render/shared/shading_scalar.h"
+#include "airsim360/render/shared/roofs_scalar.h"
 #include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
@@ -19,7 +20,6 @@ constexpr int kFirstRoulette = 3;
 constexpr float kLobeWidth = 0.25f, kWidestSpread = 0.2f;
 // In a closed room the light of a mirror is what is seen in it.
 constexpr float kMirrorPdf = 50;
-constexpr float kPi = 3.14159265f;
 
 // The normal that lamps are chosen for: leaves take light from both sides.
 Vec3f LampNormal(const SurfaceSet& s, int i) {
@@ -104,7 +104,9 @@ void PathBatch::Arrive(RaySet& hits, uint32_t step) {
     const float t = hits.distance[i];
     // The air on the way here.
     if (view.has_sky > 0.5f) {
-      const scalar::AirEffect air = scalar::air_to_surface(view.air, hits.oz[i], DirectionAt(hits, i), t);
+      const Vec3f d = DirectionAt(hits, i);
+      const float free = view.air.weather > 0 ? scalar::roofed_way(view.roofs, {hits.ox[i], hits.oy[i], hits.oz[i]}, d, t) : 0.0f;
+      const scalar::AirEffect air = scalar::air_to_surface(view.air, hits.oz[i], d, t, free);
       path.radiance += path.throughput * air.added;
       path.throughput = path.throughput * air.kept;
     }
@@ -239,7 +241,7 @@ void PathBatch::Scatter(uint32_t step) {
       path.pdf = scatter_.pdf[i];
       path.from = {surfaces_.px[i], surfaces_.py[i], surfaces_.pz[i]};
       path.from_normal = LampNormal(surfaces_, i);
-      path.spread = std::clamp(kLobeWidth / std::sqrt(kPi * path.pdf), path.spread, kWidestSpread);
+      path.spread = std::clamp(kLobeWidth / std::sqrt(kPiF * path.pdf), path.spread, kWidestSpread);
       ++path.bounces;
     }
     if (path.bounces >= kFirstRoulette) {

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
+
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 6.28318531f;
 constexpr float kSunRadius = 0.004625f;  // radians; as in light_kernel.cc
 
 }  // namespace
@@ -25,7 +26,7 @@ PathLights::PathLights(const Shader::Impl& parts) : sky_(parts.sky ? &*parts.sky
 
 LightRay PathLights::SampleSun(Vec3f p, Vec2f u) const {
   // The chord to the disc's centre squared is even over solid angle.
-  const float chord = kSunRadius * std::sqrt(u.x), turn = kTau * u.y;
+  const float chord = kSunRadius * std::sqrt(u.x), turn = kTauF * u.y;
   const float side = chord * std::sqrt(1 - 0.25f * chord * chord);
   const Vec3f d =
       Normalized(to_sun_ * (1 - 0.5f * chord * chord) + sun_right_ * (side * std::cos(turn)) + sun_up_ * (side * std::sin(turn)));
@@ -34,7 +35,7 @@ LightRay PathLights::SampleSun(Vec3f p, Vec2f u) const {
 
 float PathLights::SunPdf(Vec3f d) const {
   const Vec3f off = d - to_sun_;
-  return has_sun_ && Dot(off, off) < kSunRadius * kSunRadius ? 2 / (kTau * kSunRadius * kSunRadius) : 0.0f;
+  return has_sun_ && Dot(off, off) < kSunRadius * kSunRadius ? 2 / (kTauF * kSunRadius * kSunRadius) : 0.0f;
 }
 
 Vec3f PathLights::SunRadiance(Vec3f p, Vec3f d) const {

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/frame/test_room.h"
 #include "airsim360/render/reference/path_lights.h"
 #include "airsim360/render/reference/statistics.h"
@@ -20,8 +21,6 @@ using internal::CameraRays;
 using internal::PathTracerOptions;
 using internal::TracePaths;
 namespace scalar = internal::scalar;
-
-constexpr double kPi = 3.141592653589793;
 
 struct Traced {
   Image<Rgb32f> mean, variance;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "airsim360/image/image.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/vector.h"
 
 namespace airsim360::test {
@@ -36,7 +37,6 @@ struct SphereGrid {
 inline double ChiSquareOfDirections(const std::function<bool(Vec3f&)>& sample, const std::function<double(Vec3f)>& pdf, int64_t count,
                                     const SphereGrid& grid = {}) {
   const int cells = grid.across * grid.up;
-  constexpr double kTau = 6.283185307179586;
   std::vector<double> seen(cells + 1), expected(cells + 1);
   for (int64_t i = 0; i < count; ++i) {
     Vec3f d;

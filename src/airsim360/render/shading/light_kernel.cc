@@ -1,5 +1,6 @@
 // Kernel: from surfaces and their visibility of the sun to radiance; the sky itself; display colours.
 #include "airsim360/render/indoor/indoor_kernels.h"
+#include "airsim360/render/shared/roofs_simd.h"
 #include "airsim360/render/shared/shading_ambient.h"
 #include "airsim360/render/shared/shading_kernels.h"
 
@@ -108,9 +109,16 @@ KERNEL real3 OwnAndLamps(const ShadeView& view, const SurfaceSet& s, int i, cons
   return light + load3(s.lamp_shine_r + i, s.lamp_shine_g + i, s.lamp_shine_b + i);
 }
 
+/// Metres of the way that are free of fog.
+KERNEL real FreeOfFog(const ShadeView& view, const RaySet& rays, int i, real3 d, real distance) {
+  if (!(view.air.weather > 0.0f) || view.roofs.heights == nullptr) return real(0.0f);
+  return roofed_way(view.roofs, load3(rays.ox + i, rays.oy + i, rays.oz + i), d, distance);
+}
+
 /// Share of light left after the way, and what the air adds.
 KERNEL void Air(const ShadeView& view, const RaySet& rays, int i, real3 d, real3& kept, real3& added) {
-  const AirEffect air = air_to_surface(view.air, load(rays.oz + i), d, load(rays.distance + i));
+  const real distance = load(rays.distance + i);
+  const AirEffect air = air_to_surface(view.air, load(rays.oz + i), d, distance, FreeOfFog(view, rays, i, d, distance));
   kept = air.kept;
   added = air.added;
 }
@@ -252,13 +260,13 @@ void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSe
         if (view.sky_below.texels) {
           below = SampleSky(view.sky_below, up, false);
         } else {
-          const AirEffect air = air_to_surface(view.air, z, d, distance);
+          const AirEffect air = air_to_surface(view.air, z, d, distance, FreeOfFog(view, rays, i, d, distance));
           below = Uniform(view.ground) * air.kept + air.added;
         }
         c = sel3(down, below, c);
       }
       if (view.air.weather > 0.0f) {
-        const AirEffect air = air_to_sky(view.air, z, up, real(kFarAir));
+        const AirEffect air = air_to_sky(view.air, z, up, real(kFarAir), FreeOfFog(view, rays, i, d, real(kFarAir)));
         c = sel3(down, c, c * air.kept + air.added);
       }
       // The sun's radiance is what the weather leaves of it.

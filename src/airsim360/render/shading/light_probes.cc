@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/lights/lit_places.h"
 #include "airsim360/render/shading/probe_rays.h"
 #include "airsim360/render/shared/shading_scalar.h"
@@ -14,7 +15,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr int kDirections = 64;
-constexpr float kPi = 3.14159265f, kInvalidWeight = 1e-4f;
+constexpr float kInvalidWeight = 1e-4f;
 constexpr int kFloats = 16;
 constexpr int kPasses = 2, kPassesOfSmall = 6;
 constexpr size_t kSmall = 4000;  // probes of a coarse pass
@@ -42,7 +43,7 @@ std::array<std::array<float, 6>, kDirections> CubeWeights(const std::array<Vec3f
   for (int k = 0; k < 6; ++k) {
     float sum = 0;
     for (const Vec3f d : directions) sum += std::max(0.0f, Dot(d, kAxes[k]));
-    for (int i = 0; i < kDirections; ++i) weights[i][k] = std::max(0.0f, Dot(directions[i], kAxes[k])) * kPi / sum;
+    for (int i = 0; i < kDirections; ++i) weights[i][k] = std::max(0.0f, Dot(directions[i], kAxes[k])) * kPiF / sum;
   }
   return weights;
 }

@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 void AddQuad(Mesh& mesh, Vec3f a, Vec3f b, Vec3f c, Vec3f d) {
   const auto i = static_cast<uint32_t>(mesh.positions.size());
@@ -37,13 +36,13 @@ void AddBox(Mesh& mesh, Vec3f lo, Vec3f hi, bool inwards = false) {
   }
 }
 
-struct World {
+struct ProbeWorld {
   std::shared_ptr<const RayTracer> tracer;
   std::unique_ptr<SurfaceTables> tables;
   std::unique_ptr<Sky> sky;
   std::unique_ptr<LightProbes> probes;
 
-  explicit World(Mesh mesh, float albedo = 0.2f, bool open = true, Vec3f interior = {}) {
+  explicit ProbeWorld(Mesh mesh, float albedo = 0.2f, bool open = true, Vec3f interior = {}) {
     SceneBuilder builder("test");
     Material material;
     material.base_color = {albedo, albedo, albedo};
@@ -67,7 +66,7 @@ Mesh Ground(float half = 30) {
 }
 
 TEST(LightProbes, OverAnEmptyPlaneTheyShowTheSky) {
-  const World world(Ground(), 0.0f);
+  const ProbeWorld world(Ground(), 0.0f);
   const Vec3f above = world.probes->Irradiance({1, 2, 1}, {0, 0, 1}), sky = world.sky->Irradiance({0, 0, 1});
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(above[c] / sky[c], 1, 0.06) << c;
   // A black plane sends nothing up.
@@ -75,7 +74,7 @@ TEST(LightProbes, OverAnEmptyPlaneTheyShowTheSky) {
 }
 
 TEST(LightProbes, SunlitGroundLightsFromBelow) {
-  const World world(Ground(), 0.5f);
+  const ProbeWorld world(Ground(), 0.5f);
   const Vec3f below = world.probes->Irradiance({1, 2, 1.5f}, {0, 0, -1});
   const float full = 0.5f * (world.sky->sun_irradiance().y * world.sky->to_sun().z + 0.5f * world.sky->Irradiance({0, 0, 1}).y);
   EXPECT_NEAR(below.y / full, 1, 0.25f);
@@ -85,7 +84,7 @@ TEST(LightProbes, InAClosedBoxItIsDarkAndUnderARoofHalfDark) {
   Mesh mesh = Ground();
   AddBox(mesh, {8, 8, 0.01f}, {20, 20, 9}, true);  // a room closed on all sides
   AddBox(mesh, {-20, -10, 4}, {-4, 10, 4.5f});     // a roof without walls
-  const World world(mesh, 0.3f);
+  const ProbeWorld world(mesh, 0.3f);
   const float open = world.probes->Irradiance({5, -15, 1}, {0, 0, 1}).y;
   const float closed = world.probes->Irradiance({14, 14, 4}, {0, 0, 1}).y;
   const float roofed = world.probes->Irradiance({-12, 0, 1}, {0, 0, 1}).y;
@@ -97,7 +96,7 @@ TEST(LightProbes, InAClosedBoxItIsDarkAndUnderARoofHalfDark) {
 TEST(LightProbes, LightDoesNotLeakFromInsideSolids) {
   Mesh mesh = Ground();
   AddBox(mesh, {-6, -6, 0}, {6, 6, 12});
-  const World world(mesh, 0.3f);
+  const ProbeWorld world(mesh, 0.3f);
   // Close to the wall the probes inside count for nothing: about half the sky is seen, wherever the lattice
   // falls.
   const float open = world.probes->Irradiance({25, 0, 3}, {1, 0, 0}).y;
@@ -111,7 +110,7 @@ TEST(LightProbes, LightDoesNotLeakFromInsideSolids) {
 TEST(LightProbes, ClosedRoomsAreLitEvenlyAndDarkerInCorners) {
   Mesh mesh;
   AddBox(mesh, {-5, -5, 0}, {5, 5, 6}, true);
-  const World world(mesh, 0.5f, false, {2, 2, 2});
+  const ProbeWorld world(mesh, 0.5f, false, {2, 2, 2});
   const auto mean = [&](Vec3f p) {
     float sum = 0;
     for (int k = 0; k < 6; ++k) {
@@ -122,17 +121,17 @@ TEST(LightProbes, ClosedRoomsAreLitEvenlyAndDarkerInCorners) {
     return sum;
   };
   const float middle = mean({0, 0, 3}), corner = mean({4.8f, 4.8f, 0.4f});
-  EXPECT_GT(middle, 0.7f * 2 * kPi);
-  EXPECT_LE(middle, 1.01f * 2 * kPi);
+  EXPECT_GT(middle, 0.7f * 2 * kPiF);
+  EXPECT_LE(middle, 1.01f * 2 * kPiF);
   EXPECT_LT(corner, middle);
 }
 
 TEST(LightProbes, AreTheSameWithAnyNumberOfThreads) {
   Mesh mesh = Ground(10);
   AddBox(mesh, {-3, -3, 0}, {3, 3, 5});
-  const World many(mesh);
+  const ProbeWorld many(mesh);
   const ThreadLimit one(1);
-  const World single(mesh);
+  const ProbeWorld single(mesh);
   ASSERT_EQ(many.probes->size(), single.probes->size());
   for (float x = -9; x < 9; x += 0.7f) {
     EXPECT_EQ(many.probes->Irradiance({x, 0.3f * x, 2}, {0, 0.6f, 0.8f}), single.probes->Irradiance({x, 0.3f * x, 2}, {0, 0.6f, 0.8f}));

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <vector>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/render/lights/clear_panes.h"
 #include "airsim360/render/lights/lamp_grid.h"
 #include "airsim360/render/shading/light_probes.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 float Percentile(std::vector<float>& values, double share) {
   const auto k = static_cast<size_t>(share * static_cast<double>(values.size() - 1));
@@ -65,7 +64,7 @@ Met ResolveMet(const ProbeLight& world, const SurfaceRef& ref, Vec3f point, Vec3
 
 // Light of the sky on a surface in a street, half of it hidden; and of ground like that of the scene.
 Vec3f AmbientGuess(const Sky& sky, Vec3f n) {
-  return sky.Irradiance(n) * 0.5f + sky.ground_radiance() * (kPi * 0.5f * (0.5f - 0.5f * n.z));
+  return sky.Irradiance(n) * 0.5f + sky.ground_radiance() * (kPiF * 0.5f * (0.5f - 0.5f * n.z));
 }
 
 }  // namespace
@@ -121,7 +120,7 @@ void AddLightOf(const ProbeLight& world, const PacketView& v, size_t i, Seen& se
   const Sky* sky = world.sky;
   const Vec3f interior = world.tracer.scene().interior_light;
   const Met& m = v.met[i];
-  const Vec3f reflectance = m.albedo * ((seen.behind[i] ? 0.1f : 1.0f) / kPi);
+  const Vec3f reflectance = m.albedo * ((seen.behind[i] ? 0.1f : 1.0f) / kPiF);
   Vec3f irradiance;
   if (v.shadow.valid[i] && !v.occluded[i])
     irradiance = sky->sun_irradiance() * v.sun_tint[i] * (Dot(m.normal, sky->to_sun()) * sky->CloudShadow(m.point));

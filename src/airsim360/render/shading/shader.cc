@@ -7,10 +7,12 @@
 #include <utility>
 
 #include "airsim360/base/log.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/shading/light_cache.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shading/shade_view.h"
 #include "airsim360/render/shading/shader_impl.h"
+#include "airsim360/render/shading/town_light.h"
 #include "airsim360/render/shared/dimmest_white.h"
 #include "airsim360/scene/luminance.h"
 
@@ -24,7 +26,6 @@ using internal::RaySet;
 using internal::SurfaceSet;
 static_assert(HitBatch::kCapacity == kBatch);
 
-constexpr float kPi = 3.14159265f;
 // Input of the tone curve for sunlit ground of reflectance 0.18.
 constexpr float kGreyLevel = 0.38f;
 // Irradiance to which pictures get brighter: far below a moonless night.
@@ -72,8 +73,8 @@ void Shader::Impl::SetLight(const Environment& environment) {
     if (scene.sky_entity != kNoEntity) {
       const auto like = std::ranges::find(last_lights, table_key, &Light::table_key);
       const Sky* table = like == last_lights.end() ? nullptr : like->sky.get();
-      light.sky =
-          std::make_shared<const Sky>(cache.Get<Sky>("sky", [&] { return Sky(environment, scene.spawn.value_or(Vec3f{}), table); }));
+      const auto make = [&] { return Sky(environment, scene.spawn.value_or(Vec3f{}), table, internal::TownLight(scene, lights)); };
+      light.sky = std::make_shared<const Sky>(cache.Get<Sky>("sky", make));
     }
     light.lamps = std::make_shared<const LampGrid>(*tracer, lights, light.sky ? light.sky->GroundIlluminance() : 0.0f);
     if (!scene.instances.empty()) {
@@ -88,9 +89,16 @@ void Shader::Impl::SetLight(const Environment& environment) {
   sky = last_lights.back().sky, lamps = last_lights.back().lamps, probes = last_lights.back().probes;
   view = internal::MakeShadeView(scene, tables, sky.get(), probes.get(), &environment);
   view.lamps = lamps->view();
+  FindRoofs();
   exposure = ChooseExposure(scene, environment.lamps_on());
   indoor = last_lights.back().indoor;
   if (wants_indoor && !indoor) FindIndoors();
+}
+
+void Shader::Impl::FindRoofs() {
+  if (!sky || view.air.weather <= 0 || built->scene().instances.empty()) return;
+  if (!roofs) roofs = std::make_shared<const internal::RoofMap>(*internal::StaticTracer(built), tables);
+  view.roofs = roofs->view();
 }
 
 void Shader::Impl::FindIndoors() {
@@ -102,7 +110,7 @@ void Shader::Impl::FindIndoors() {
   const auto still = internal::StaticTracer(built);
   const auto around = [this](Vec3f p, Vec3f n) {
     if (probes && probes->Covers(p)) return probes->Irradiance(p, n);
-    return sky ? sky->Irradiance(n) * 0.5f + sky->ground_radiance() * (kPi * (0.25f - 0.25f * n.z)) : Vec3f{};
+    return sky ? sky->Irradiance(n) * 0.5f + sky->ground_radiance() * (kPiF * (0.25f - 0.25f * n.z)) : Vec3f{};
   };
   const internal::IndoorWorld world{*still, tables, sky.get(), &lights, lamps.get(), around};
   const auto make = [&] {
@@ -135,7 +143,7 @@ float Shader::Impl::Daylight() const {
 float Shader::Impl::ChooseExposure(const Scene& scene, bool lamps_on) const {
   float of_lamps = lamps->TypicalLight();
   if (!sky) {
-    const float light = Luminance(scene.interior_light) + of_lamps / kPi;
+    const float light = Luminance(scene.interior_light) + of_lamps / kPiF;
     return light > 0 ? kGreyLevel / (0.30f * light) : 1.0f;
   }
   // Signs and windows light streets too, which the probes alone have gathered.
@@ -147,7 +155,7 @@ float Shader::Impl::ChooseExposure(const Scene& scene, bool lamps_on) const {
   constexpr float kClearShare = 0.15f, kWeight = 0.6f;
   const float diffuse = Luminance(sky->Irradiance({0, 0, 1})) / std::max(light, kDarkest);
   const float metered = 1 / (1 + kWeight * std::max(0.0f, diffuse - kClearShare));
-  return metered * kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.85f);
+  return metered * kGreyLevel * kPiF / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.85f);
 }
 
 Shader::Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment)

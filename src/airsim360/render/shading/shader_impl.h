@@ -10,6 +10,7 @@
 #include "airsim360/render/lights/lamp_grid.h"
 #include "airsim360/render/lights/light_table.h"
 #include "airsim360/render/shading/light_probes.h"
+#include "airsim360/render/shading/roof_map.h"
 #include "airsim360/render/shading/shader.h"
 #include "airsim360/render/shared/shading_kernels.h"
 #include "airsim360/render/sky/sky.h"
@@ -43,6 +44,8 @@ struct Shader::Impl {
   float ChooseExposure(const Scene& scene, bool lamps_on) const;
   /// Irradiance of sun and sky on level ground.
   float Daylight() const;
+  /// What keeps off what falls, and fog, where there is any.
+  void FindRoofs();
   /// Finds or computes the light of rooms, where the scene has any.
   void FindIndoors();
   /// The light of rooms on surfaces; false: none of them is in a room. Things that move have no part in it.
@@ -70,6 +73,7 @@ struct Shader::Impl {
   std::shared_ptr<const internal::IndoorCache> indoor;   ///< nullptr: no rooms, or not wanted (yet)
   std::shared_ptr<const RayTracer> built;                ///< of the scene as built
   std::shared_ptr<const internal::Enclosure> enclosure;  ///< made when first wanted
+  std::shared_ptr<const internal::RoofMap> roofs;        ///< made when first wanted
   std::vector<uint8_t> moving;                           ///< with `indoor`: by instance
   Environment environment;
   bool wants_indoor = false;

@@ -7,13 +7,12 @@
 #include <cstring>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/shading/shade_view.h"
 #include "airsim360/render/shared/shading_kernels.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 // A horizontal plane z = 0, 2 half wide, facing up, with uv in metres.
 Mesh Plane(float half, float z = 0) {
@@ -87,8 +86,8 @@ TEST(Shader, SunlitGroundIsBrighterThanGroundInShadowByTheSunsShare) {
   const Vec3f s = sky.to_sun();
   const Vec3f shadow = Vec3f{-s.x, -s.y, 0} * (8 / s.z);
   const Vec3f sunlit = world.SeeOne({20, 20, 6}, {20, 22, 0}), shaded = world.SeeOne(shadow + Vec3f{0, -6, 5}, shadow);
-  EXPECT_NEAR((sunlit.y - shaded.y) * kPi / 0.2f, sky.sun_irradiance().y * s.z, 0.12f * sky.sun_irradiance().y);
-  EXPECT_GT(shaded.y, 0.2f / kPi * 0.5f * sky.Irradiance({0, 0, 1}).y);
+  EXPECT_NEAR((sunlit.y - shaded.y) * kPiF / 0.2f, sky.sun_irradiance().y * s.z, 0.12f * sky.sun_irradiance().y);
+  EXPECT_GT(shaded.y, 0.2f / kPiF * 0.5f * sky.Irradiance({0, 0, 1}).y);
   // A sunlit grey of 0.18 sits in the middle of the tone curve.
   const Vec3f grey = sunlit * (0.18f / 0.2f);
   Rgb8 shown;
@@ -111,7 +110,7 @@ TEST(Shader, AFlatLitPlaneShowsNoSelfShadowing) {
     }
     float least = 1e9f;
     for (Vec3f c : world.See(origin, rays)) least = std::min(least, c.y);
-    const float shade = 0.2f / kPi * 3.5f;  // what ambient light alone gives
+    const float shade = 0.2f / kPiF * 3.5f;  // what ambient light alone gives
     EXPECT_GT(least, 1.5f * shade);
   }
 }

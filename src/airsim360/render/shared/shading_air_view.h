@@ -22,8 +22,8 @@ SHARED real3 weather_source(const AirView& air, real mu) {
   return ufloat3_of(air.weather_glow) * forward_phase(kFogAsymmetry, mu) + ufloat3_of(air.weather_light);
 }
 
-/// The way to a surface: from height z of W along d.
-SHARED AirEffect air_to_surface(const AirView& air, real z, real3 d, real distance) {
+/// The way to a surface: from height z of W along d; fog begins after `free` metres.
+SHARED AirEffect air_to_surface(const AirView& air, real z, real3 d, real distance, real free = real(0.0f)) {
   real height = z - air.base_z;
   real3 depth = ufloat3_of(air.rayleigh) * layer_path(height, d.z, distance, air.rayleigh_height) +
                 ufloat3_of(air.aerosol) * layer_path(height, d.z, distance, air.aerosol_height);
@@ -35,7 +35,7 @@ SHARED AirEffect air_to_surface(const AirView& air, real z, real3 d, real distan
   source = source * make3(glow.x + 1.0f, glow.y + 1.0f, glow.z + 1.0f);
   if (air.weather > 0.0f) {
     // Both media are taken as evenly mixed along the way.
-    real fog = air.weather * layer_path(height, d.z, distance, air.weather_height);
+    real fog = air.weather * layer_path(height + d.z * free, d.z, distance - free, air.weather_height);
     real share = fog / rmax(fog + depth.y, real(1e-9f));
     source = lerp3(source, weather_source(air, mu), share);
     depth = make3(depth.x + fog, depth.y + fog, depth.z + fog);
@@ -44,7 +44,7 @@ SHARED AirEffect air_to_surface(const AirView& air, real z, real3 d, real distan
 }
 
 /// The way to the sky, whose table holds the clear air already, over `distance` (kFarAir, or to far ground).
-SHARED AirEffect air_to_sky(const AirView& air, real z, real3 d, real distance) {
-  real fog = air.weather * layer_path(z - air.base_z, d.z, distance, air.weather_height);
+SHARED AirEffect air_to_sky(const AirView& air, real z, real3 d, real distance, real free = real(0.0f)) {
+  real fog = air.weather * layer_path(z - air.base_z + d.z * free, d.z, distance - free, air.weather_height);
   return air_effect(make3(fog, fog, fog), weather_source(air, dot3(d, ufloat3_of(air.to_sun))));
 }

@@ -144,6 +144,8 @@ struct AirView {
   float drop_light[3];  ///< radiance of a drop or flake
 };
 inline constexpr float kAirAsymmetry = 0.76f, kFogAsymmetry = 0.80f;
+/// Rain leans with the wind: metres east for each metre of height.
+inline constexpr float kRainLean = 0.12f;
 /// Length of a way through the whole air.
 inline constexpr float kFarAir = 2e5f;
 
@@ -152,6 +154,14 @@ struct CloudShadowView {
   const float* texels;  ///< nullptr = no shadows
   int32_t size;
   float slant_x, slant_y, origin_x, origin_y, cells_per_metre, plane_z;
+};
+
+/// See RoofMap: the height up to which no rain gets, by where what falls there would meet z = 0.
+struct RoofView {
+  const float* heights;  ///< nullptr = no roof anywhere; [row * size + column]
+  int32_t size;
+  float origin_x, origin_y, cells_per_metre;
+  float lean;  ///< metres that rain moves along x for each metre that it falls
 };
 
 /// The constant part of a scene for the kernels.
@@ -186,6 +196,7 @@ struct ShadeView {
   float moon_gain;               ///< the disc at to_sun is the moon's: moon_face times this has the mean 1; 0 = the sun's
   float sun_seen;                ///< share of the sun's disc that clouds leave to the eye
   float open_sky;                ///< luminance of the irradiance of the whole sky on level ground; 0 = no sky
+  RoofView roofs;                ///< known where something falls or fog lies
 };
 
 inline constexpr int kBatch = 256;

@@ -10,8 +10,8 @@
 
 #define AIRSIM360_ISA isa_test
 #include "airsim360/base/random.h"
-#include "airsim360/render/shared/shading_scalar.h"
-#include "airsim360/render/shared/shading_simd.h"
+#include "airsim360/render/shared/roofs_scalar.h"
+#include "airsim360/render/shared/roofs_simd.h"
 
 #define SHARED static inline __attribute__((unused))
 #define INOUT(T) T&
@@ -225,7 +225,13 @@ TEST(ShadingShared, ScalarAndSimdAgree) {
   SAME(-1, 1, leaf_diffuse(make3(a, b, c), b, c).x);
   SAME(-1, 1, dot3(octahedral_decode(a, b), make3(a, b, c)));
   SAME(-1, 1, layer_path(a * 100.0f, b, c * 1000.0f, 160.0f) + forward_phase(0.76f, a));
-  SAME(-1, 1, drops_cover(a * 9.0f, b, c, make3(a, b, c), 6.0f, 0.003f, 0.4f, 0.5f, 0.2f, 0.01f, 0.9f, 5.0f, 3.0f));
+  // A roof of 2 m over half of the lattice.
+  std::vector<float> heights(16 * 16);
+  for (size_t i = 0; i < heights.size(); ++i) heights[i] = i % 16 < 8 ? 2.0f : -1e30f;
+  static internal::RoofView roofs;
+  roofs = {heights.data(), 16, -1.6f, -1.6f, 5.0f, 0.12f};
+  SAME(-1, 1, roofed_way(roofs, make3(a, b, c), make3(b, c, a), 7.0f));
+  SAME(-1, 1, drops_cover(roofs, 0.12f, a * 9.0f, b, c, make3(a, b, c), 6.0f, 0.003f, 0.4f, 0.5f, 0.2f, 0.01f, 0.9f, 5.0f, 3.0f));
   SAME(0, 2, water_normal(a * 100.0f, b * 100.0f, c, a).x + a);
   SAME(0, 1, hash_cell(a * 1000.0f, b * 1000.0f) + wet_albedo(c));
   SAME(-1, 1, snow_cover(a, b, c, a) + puddle_cover(b, c));
@@ -302,7 +308,8 @@ TEST(ShadingShared, CompilesAsGlsl) {
   {
     std::ofstream out(stem + ".comp");
     out << "#version 450\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer Values { float v[]; };\n"
-        << read("shading_glsl.h") << shared << read("shading_tone.h") << read("shading_interior.h") << read("shading_weather.h")
+        << read("shading_glsl.h") << shared << "#define ROOFS\n#define ROOFS_ARGUMENT\nbool roof_hides(vec3 p) { return p.z < 2.0; }\n"
+        << read("shading_roofs.h") << read("shading_tone.h") << read("shading_interior.h") << read("shading_weather.h")
         << read("shading_moon.h") << read("shading_ground.h") << read("shading_marks.h")
         << "void main() { float lost = 0.0; vec3 n = water_normal(v[0], v[1], v[2], lost);\n"
            "  vec3 c = specular_brdf(n, v[1], v[2], v[3], v[4], v[5]) + environment_brdf(n, v[0], v[1]) + "
@@ -311,7 +318,7 @@ TEST(ShadingShared, CompilesAsGlsl) {
            "fresnel_dielectric(1.5, v[4]) + lost +\n"
            "  layer_path(v[0], v[1], v[2], 160.0) + around_horizon(n, n, n, n, n, n, n, c).x + "
            "shadow_column(v[0], v[1], "
-           "0.5, 3.0, 0.1, 64.0) +\n  drops_cover(v[0], v[1], v[2], c, v[3], 0.1, 0.4, 0.5, 0.2, 0.01, 0.5, "
+           "0.5, 3.0, 0.1, 64.0) +\n  roofed_way(n, c, v[2]) + drops_cover(0.1, v[0], v[1], v[2], c, v[3], 0.1, 0.4, 0.5, 0.2, 0.01, 0.5, "
            "5.0, 1.0) + forward_phase(0.7, v[1]);\n"
            "  vec3 day, lamp; float front, a, b;\n"
            "  interior_room(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7],\n"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/shared/shading_scalar.h"
 
 namespace airsim360::internal {
@@ -19,17 +20,16 @@ constexpr Vec3f kOzone{2.10e-6f, 1.90e-6f, 0.18e-6f};
 constexpr Vec3f kAngstrom{0.78f, 1.0f, 1.30f};
 constexpr float kAerosolAlbedo = 0.94f, kAsymmetry = 0.76f;
 constexpr Vec3f kGroundAlbedo{0.22f, 0.22f, 0.20f};
-constexpr float kPi = 3.14159265f;
 
 Vec3f Exp(Vec3f a) { return {scalar::exp_approx(a.x), scalar::exp_approx(a.y), scalar::exp_approx(a.z)}; }
 
-float RayleighPhase(float mu) { return 3.0f / (16.0f * kPi) * (1.0f + mu * mu); }
+float RayleighPhase(float mu) { return 3.0f / (16.0f * kPiF) * (1.0f + mu * mu); }
 
 // Cornette-Shanks.
 float AerosolPhase(float mu) {
   constexpr float g = kAsymmetry, g2 = g * g;
   const float d = 1.0f + g2 - 2.0f * g * mu;
-  return 3.0f / (8.0f * kPi) * (1.0f - g2) * (1.0f + mu * mu) / ((2.0f + g2) * d * std::sqrt(d));
+  return 3.0f / (8.0f * kPiF) * (1.0f - g2) * (1.0f + mu * mu) / ((2.0f + g2) * d * std::sqrt(d));
 }
 
 // Distance along a ray from p (planet frame) to the sphere of radius r: the far crossing, or the near one; <
@@ -124,7 +124,7 @@ void Atmosphere::TabulateMultiple() {
       Vec3f second{}, factor{};
       for (int k = 0; k < kPolar * kAround; ++k) {
         const float z = (static_cast<float>(k / kAround) + 0.5f) / kPolar * 2.0f - 1.0f;
-        const float angle = (static_cast<float>(k % kAround) + 0.5f) / kAround * 2.0f * kPi;
+        const float angle = (static_cast<float>(k % kAround) + 0.5f) / kAround * 2.0f * kPiF;
         const float s = std::sqrt(1.0f - z * z);
         Vec3f f{};
         second += Scattered(p, {s * std::cos(angle), s * std::sin(angle), z}, to_sun, true, &f);
@@ -179,7 +179,7 @@ Vec3f Atmosphere::Scattered(Vec3f p, Vec3f direction, Vec3f to_sun, bool isotrop
   const float ground = SphereDistance(p, direction, kGroundRadius, false);
   const float length = ground > 0 ? ground : SphereDistance(p, direction, kTopRadius, true);
   const float mu = Dot(direction, to_sun);
-  const float phase_r = isotropic ? 0.25f / kPi : RayleighPhase(mu), phase_a = isotropic ? 0.25f / kPi : AerosolPhase(mu);
+  const float phase_r = isotropic ? 0.25f / kPiF : RayleighPhase(mu), phase_a = isotropic ? 0.25f / kPiF : AerosolPhase(mu);
   const int steps = isotropic ? 20 : 48;
   Vec3f light{}, through{1, 1, 1}, factor{};
   for (int i = 0; i < steps; ++i) {
@@ -203,7 +203,7 @@ Vec3f Atmosphere::Scattered(Vec3f p, Vec3f direction, Vec3f to_sun, bool isotrop
   if (isotropic && ground > 0) {
     const Vec3f q = p + direction * ground;
     const float sun = Dot(q, to_sun) / Norm(q);
-    light += through * kGroundAlbedo * SunTransmittance(0, sun) * kSolarIrradiance * (std::max(0.0f, sun) / kPi);
+    light += through * kGroundAlbedo * SunTransmittance(0, sun) * kSolarIrradiance * (std::max(0.0f, sun) / kPiF);
   }
   if (multiple_factor) *multiple_factor = factor;
   return light;

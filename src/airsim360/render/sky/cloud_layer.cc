@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/render/sky/noise.h"
+
 namespace airsim360::internal {
 namespace {
 
 constexpr int kCells = CloudLayer::kCells, kMask = kCells - 1;
 
 float Clamp01(float x) { return x < 0 ? 0.0f : x > 1 ? 1.0f : x; }
-float Mix(float a, float b, float t) { return a + (b - a) * t; }
 
 }  // namespace
 

@@ -5,20 +5,19 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/shared/shading_scalar.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr int kCells = CloudLayer::kCells, kMask = kCells - 1;
-constexpr float kTwoPi = 6.28318531f;
+constexpr int kShapeCells = CloudLayer::kCells, kShapeMask = kShapeCells - 1;
 
 using Columns = std::vector<CloudLayer::Column>;
 
 float Pow(float x, float y) { return scalar::pow_approx(x, y); }
-float Exp(float x) { return scalar::exp_approx(x); }
 float Sin(float x) { return scalar::sin_approx(x); }
-float Cos(float x) { return scalar::sin_approx(x + kTwoPi / 4); }
+float Cos(float x) { return scalar::sin_approx(x + kTauF / 4); }
 
 // Nearly normal with deviation 1, within ±3.5 and without a library's logarithm.
 float Normal(RngStream& random) {
@@ -37,12 +36,12 @@ class CumulusField {
         cell_(cell),
         seed_(static_cast<int>(seed & 0xffffff)),
         random_(seed, "cumulus"),
-        columns_(kCells * kCells) {
+        columns_(kShapeCells * kShapeCells) {
     street_[0] = std::round(-wind.y * 9), street_[1] = std::round(wind.x * 9);
     strength_ = Between(random_, 0.1f, 0.5f);
     cluster_ = Between(random_, 0.7f, 1.1f) * (1 - 0.8f * cover);
     // Wear takes more than a third of what the domes cover.
-    const auto wanted = static_cast<int64_t>((1 - Pow(1 - std::min(cover, 0.9f), 1.7f)) * kCells * kCells);
+    const auto wanted = static_cast<int64_t>((1 - Pow(1 - std::min(cover, 0.9f), 1.7f)) * kShapeCells * kShapeCells);
     for (int k = 0; covered_ < wanted && k < 60000; ++k) Throw();
     LiftBases();
   }
@@ -52,22 +51,23 @@ class CumulusField {
   // How well clouds grow over a place, coordinates in tiles.
   float Grows(float x, float y) const {
     return cluster_ * GradientNoise(x * 3, y * 3, 3, seed_) + 0.55f * FractalNoise(x * 8, y * 8, 8, 2, seed_ + 9) +
-           0.5f * strength_ * Sin(kTwoPi * (x * street_[0] + y * street_[1]) + 3 * FractalNoise(x * 4, y * 4, 4, 2, seed_ + 31));
+           0.5f * strength_ * Sin(kTauF * (x * street_[0] + y * street_[1]) + 3 * FractalNoise(x * 4, y * 4, 4, 2, seed_ + 31));
   }
 
   void Throw() {
     const float x = Between(random_, 0, 1), y = Between(random_, 0, 1), grows = Grows(x, y);
     if (random_.Uniform() > SmoothStep(-0.05f - 0.6f * cover_, 0.5f - 0.4f * cover_, grows)) return;
     const float vigour = SmoothStep(0, 0.6f, grows);
-    const float size = std::min(form_.size * Exp(0.62f * Normal(random_)) * (0.6f + 0.9f * vigour), 3.6f * form_.size);
-    Grow(x * kCells * cell_, y * kCells * cell_, size);
+    const float size = std::min(form_.size * scalar::exp_approx(0.62f * Normal(random_)) * (0.6f + 0.9f * vigour), 3.6f * form_.size);
+    Grow(x * kShapeCells * cell_, y * kShapeCells * cell_, size);
   }
 
   // One cloud: domes within an ellipse, the higher the nearer to its middle; large clouds have more and relatively smaller ones.
   void Grow(float x, float y, float size) {
-    const float shape = Between(random_, 0.45f, 1), angle = Between(random_, 0, kTwoPi);
+    const float shape = Between(random_, 0.45f, 1), angle = Between(random_, 0, kTauF);
     const float c = Cos(angle), s = Sin(angle);
-    const float height = 0.42f * size * form_.growth * Exp(0.35f * Normal(random_)) * (0.5f + 0.7f * std::min(size / form_.size, 1.6f));
+    const float height =
+        0.42f * size * form_.growth * scalar::exp_approx(0.35f * Normal(random_)) * (0.5f + 0.7f * std::min(size / form_.size, 1.6f));
     const int domes = std::min(8 + static_cast<int>(size / 60), 220);
     for (int k = 0; k < domes; ++k) {
       const float a = Normal(random_) * 0.24f * size, b = Normal(random_) * 0.24f * size * shape;
@@ -89,7 +89,7 @@ class CumulusField {
         const float dx = static_cast<float>(i) * cell_ - x, dy = static_cast<float>(j) * cell_ - y;
         const float q = (dx * dx + dy * dy) / (radius * radius);
         if (q >= 1) continue;
-        float& top = columns_[static_cast<size_t>(j & kMask) * kCells + (i & kMask)].top;
+        float& top = columns_[static_cast<size_t>(j & kShapeMask) * kShapeCells + (i & kShapeMask)].top;
         const float here = height * Pow(1 - q, power);
         covered_ += top <= 60 && here > 60;
         top = std::max(top, here);
@@ -99,10 +99,10 @@ class CumulusField {
 
   // Air rises to clouds from other heights: bases vary slowly by a tenth and from cloud to cloud by some tens of metres.
   void LiftBases() {
-    ParallelFor(kCells, [&](int64_t j) {
-      for (int i = 0; i < kCells; ++i) {
-        const float x = static_cast<float>(i) / kCells, y = static_cast<float>(j) / kCells;
-        columns_[static_cast<size_t>(j) * kCells + i].base =
+    ParallelFor(kShapeCells, [&](int64_t j) {
+      for (int i = 0; i < kShapeCells; ++i) {
+        const float x = static_cast<float>(i) / kShapeCells, y = static_cast<float>(j) / kShapeCells;
+        columns_[static_cast<size_t>(j) * kShapeCells + i].base =
             0.14f * form_.base * FractalNoise(x * 5, y * 5, 5, 2, seed_ + 3) + 110 * FractalNoise(x * 26, y * 26, 26, 2, seed_ + 5);
       }
     });
@@ -132,19 +132,19 @@ CloudLayer CumulusLayer(const CumulusForm& form, float cover, Vec2f wind, uint32
 
 CloudLayer SheetLayer(const SheetForm& form, float cover, Vec2f wind, uint32_t seed) {
   const int s = static_cast<int>(seed & 0xffffff);
-  const float extent = form.cell * kCells;
+  const float extent = form.cell * kShapeCells;
   const int elements = std::max(4, static_cast<int>(extent / form.element));
-  Columns columns(kCells * kCells);
+  Columns columns(kShapeCells * kShapeCells);
   std::vector<float> field(columns.size());
-  ParallelFor(kCells, [&](int64_t j) {
-    for (int i = 0; i < kCells; ++i) {
-      const float x = static_cast<float>(i) / kCells, y = static_cast<float>(j) / kCells;
+  ParallelFor(kShapeCells, [&](int64_t j) {
+    for (int i = 0; i < kShapeCells; ++i) {
+      const float x = static_cast<float>(i) / kShapeCells, y = static_cast<float>(j) / kShapeCells;
       const float wx = x + 0.035f * FractalNoise(x * 9, y * 9, 9, 3, s + 40), wy = y + 0.035f * FractalNoise(x * 9, y * 9, 9, 3, s + 50);
       const auto count = static_cast<float>(elements), twice = static_cast<float>(2 * elements + 1);
       const float heaps = 1 - PointDistance(wx * count, wy * count, elements, s),
                   small = 1 - PointDistance(wx * twice, wy * twice, 2 * elements + 1, s + 1);
       const float fields = FractalNoise(x * 5, y * 5, 5, 4, s + 60), groups = FractalNoise(wx * 14, wy * 14, 14, 3, s + 70);
-      const size_t k = static_cast<size_t>(j) * kCells + i;
+      const size_t k = static_cast<size_t>(j) * kShapeCells + i;
       field[k] = 0.55f * heaps + 0.2f * small + 0.7f * fields + 0.5f * groups;
       columns[k].base = 0.25f * form.thickness * FractalNoise(x * 20, y * 20, 20, 2, s + 80);
     }

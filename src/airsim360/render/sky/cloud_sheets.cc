@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/render/sky/cloud_geometry.h"
 #include "airsim360/render/sky/noise.h"
@@ -12,10 +13,8 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 constexpr Vec3f kDeckColor{0.955f, 1.0f, 1.06f};  // daylight through water, a little bluer than sun and sky together
 
-float Exp(float x) { return scalar::exp_approx(x); }
 float Fractal(float x, float y, int octaves, int seed) { return FractalNoise(x, y, 0, octaves, seed); }
 int ShortSeed(uint32_t seed) { return static_cast<int>(seed & 0xffffff); }
 float Gradation(float z) { return (1 + 2 * std::max(z, 0.0f)) / 3; }
@@ -53,12 +52,12 @@ StratusDeck::StratusDeck(float base, float illuminance, Vec3f to_sun, Vec2f wind
   float level = 0;
   for (int k = 0; k < kUp * kAround; ++k) {
     const float z = std::sqrt((static_cast<float>(k / kAround) + 0.5f) / kUp);
-    const Vec3f d = DirectionOf((static_cast<float>(k % kAround) + 0.5f) * 2 * kPi / kAround, std::asin(z));
-    level += Light(d) * (kPi / (kUp * kAround));
+    const Vec3f d = DirectionOf((static_cast<float>(k % kAround) + 0.5f) * 2 * kPiF / kAround, std::asin(z));
+    level += Light(d) * (kPiF / (kUp * kAround));
     reflectance_ += Reflectance(d) / (kUp * kAround);
   }
   zenith_ = illuminance / level;
-  mean_ = level / (7 * kPi / 9);  // level ground under the bare gradation
+  mean_ = level / (7 * kPiF / 9);  // level ground under the bare gradation
 }
 
 // Optical depth of the water there.
@@ -70,14 +69,15 @@ float StratusDeck::Depth(Vec3f d) const {
   const float rolls = 0.35f - std::fabs(Fractal(u * 1.9f + bend_x, v * 1.9f, 4, seed_ + 441));
   const float lumps = 0.8f * Fractal(u, v, 6, seed_ + 421) + 0.45f * rolls;
   const float banks = Fractal(u * 0.22f, v * 0.22f, 3, seed_ + 431);
-  const float far = Exp(-t / 14000);
-  return depth_ * Exp((-1.15f * lumps * (0.25f + 0.75f * far) - 1.1f * banks * (0.3f + 0.7f * far)) * contrast_);
+  const float far = scalar::exp_approx(-t / 14000);
+  return depth_ * scalar::exp_approx((-1.15f * lumps * (0.25f + 0.75f * far) - 1.1f * banks * (0.3f + 0.7f * far)) * contrast_);
 }
 
 // What passes of the light above, and the sun's glow through it.
 float StratusDeck::Light(Vec3f d) const {
   const float depth = Depth(d), through = Through(depth), off = 1 - Dot(d, to_sun_);
-  const float glow = 1 + glow_ * (1.2f * Exp(-off / 0.10f) * through / 0.35f + 4.0f * Exp(-off / 0.006f) * Exp(-depth / 9));
+  const float glow = 1 + glow_ * (1.2f * scalar::exp_approx(-off / 0.10f) * through / 0.35f +
+                                  4.0f * scalar::exp_approx(-off / 0.006f) * scalar::exp_approx(-depth / 9));
   return Gradation(d.z) * through * glow;
 }
 

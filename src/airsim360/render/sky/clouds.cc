@@ -5,15 +5,16 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/render/sky/cloud_geometry.h"
 #include "airsim360/render/sky/cloud_shapes.h"
+#include "airsim360/render/sky/noise.h"
 #include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 constexpr float kFarthest = 85e3f, kFading = 45e3f;  // metres: where clouds end, and begin to fade
 constexpr float kClosed = 0.97f;                     // cover from which the deck is closed
 constexpr float kLowestRay = 0.0015f;                // sine; flatter rays see the same
@@ -36,18 +37,15 @@ static_assert(WayToSun() > kSunReach - 1 && WayToSun() < kSunReach + 1);
 constexpr int kOctaves = 8;
 constexpr float kOctaveWeight = 0.77f, kOctaveAsymmetry = 0.55f;
 
-float Exp(float x) { return scalar::exp_approx(x); }
-Vec3f Mix(Vec3f a, Vec3f b, float t) { return a + (b - a) * t; }
-
 // Henyey-Greenstein.
 float Phase(float g, float mu) {
   const float d = 1 + g * g - 2 * g * mu;
-  return (1 - g * g) / (4 * kPi * d * std::sqrt(d));
+  return (1 - g * g) / (4 * kPiF * d * std::sqrt(d));
 }
 
 Vec2f WindOf(uint32_t seed) {
-  const float angle = static_cast<float>(RngStream(seed, "wind").Uniform(0, 2 * kPi));
-  return {scalar::sin_approx(angle + 0.5f * kPi), scalar::sin_approx(angle)};
+  const float angle = static_cast<float>(RngStream(seed, "wind").Uniform(0, 2 * kPiF));
+  return {scalar::sin_approx(angle + 0.5f * kPiF), scalar::sin_approx(angle)};
 }
 
 // The type of the low clouds, where nobody named one.
@@ -143,7 +141,7 @@ void Clouds::PlaceTheSun(float cover, uint32_t seed) {
     }
     float sun = SunThrough(light_.to_sun), around = 0;
     for (int k = 0; k < 6 && !hidden && !veiled; ++k) {
-      const float angle = static_cast<float>(k) * kPi / 3;
+      const float angle = static_cast<float>(k) * kPiF / 3;
       const Vec3f side = Normalized(Vec3f{-light_.to_sun.y, light_.to_sun.x, 1e-6f}), up = Cross(light_.to_sun, side);
       around += (1 - SunThrough(Normalized(light_.to_sun + side * (kRing * std::cos(angle)) + up * (kRing * std::sin(angle))))) / 6;
     }
@@ -166,7 +164,7 @@ float Clouds::SunThrough(Vec3f d) const {
       if (layer.MayBeCloud(p.x, p.y)) depth += layer.Density(p.x, p.y, AltitudeOf(p), true) * (last - first) / kSteps;
     }
   }
-  return Exp(-0.5f * depth);
+  return scalar::exp_approx(-0.5f * depth);
 }
 
 // What sunlight meets before a point of a cloud, up to kSunReach.
@@ -189,7 +187,7 @@ float Clouds::DepthToSun(const CloudLayer& layer, Vec3f p, float altitude, float
 float Clouds::SunScattered(const CloudLayer& layer, const Ray& ray, Vec3f p, float altitude, float dither) const {
   // The extinctions halve from octave to octave: from the last to the first each power is the square of the one before.
   float pass[kOctaves];
-  pass[kOctaves - 1] = Exp(-DepthToSun(layer, p, altitude, dither) * (1.0f / (1 << (kOctaves - 1))));
+  pass[kOctaves - 1] = scalar::exp_approx(-DepthToSun(layer, p, altitude, dither) * (1.0f / (1 << (kOctaves - 1))));
   for (int k = kOctaves - 1; k > 0; --k) pass[k - 1] = pass[k] * pass[k];
   float sum = 0, weight = 1;
   for (int k = 0; k < kOctaves; ++k) sum += weight * ray.phase[k] * pass[k], weight *= kOctaveWeight;
@@ -200,7 +198,7 @@ float Clouds::SunScattered(const CloudLayer& layer, const Ray& ray, Vec3f p, flo
 Vec3f Clouds::AmbientScattered(const CloudLayer& layer, const LayerLight& light, float altitude) const {
   const float z = altitude - layer.form().base, thickness = layer.highest() - layer.form().base;
   const float over = layer.form().extinction * std::max(0.0f, 0.8f * thickness - z) * (0.4f + 0.6f * layer.cover());
-  const float above = 1 / (1 + 0.1f * over), below = Exp(-0.0025f * std::max(0.0f, z));
+  const float above = 1 / (1 + 0.1f * over), below = scalar::exp_approx(-0.0025f * std::max(0.0f, z));
   return light.sky * (0.22f + 0.55f * above) + light.ground * (0.12f + 0.38f * below);
 }
 
@@ -234,7 +232,7 @@ void Clouds::March(const CloudLayer& layer, const LayerLight& light, Ray& ray) c
       dither -= dither >= 1 ? 1.0f : 0.0f;
       sun = SunScattered(layer, ray, p, altitude, dither) * light.shade.At(altitude);
     }
-    const float kept = Exp(-density * step), share = through * (1 - kept);
+    const float kept = scalar::exp_approx(-density * step), share = through * (1 - kept);
     sum += (light.sun * sun + AmbientScattered(layer, light, altitude)) * share;
     distance += t * share, weight += share;
     through *= kept;
@@ -251,10 +249,11 @@ void Clouds::AddCirrus(Ray& ray) const {
   if (!cirrus_.any() || ray.through < 0.01f) return;
   const float t = DistanceToAltitude(ray.direction.z, cirrus_.height());
   const float depth = 0.6f * cirrus_.Depth(ray.direction.x * t, ray.direction.y * t) / std::max(0.12f, ray.direction.z);
-  const float share = 1 - Exp(-depth);
+  const float share = 1 - scalar::exp_approx(-depth);
   if (share < 1e-4f) return;
   const float mu = ray.cosine;
-  const float scattered = 0.70f * Phase(0.80f, mu) + 0.30f * Phase(0, mu) + 0.02f * Phase(0.985f, mu) + 0.10f * (1 - Exp(-2 * depth)) / kPi;
+  const float scattered =
+      0.70f * Phase(0.80f, mu) + 0.30f * Phase(0, mu) + 0.02f * Phase(0.985f, mu) + 0.10f * (1 - scalar::exp_approx(-2 * depth)) / kPiF;
   Put(ray, (cirrus_sun_ * scattered + light_.sky * 0.6f) * share, share, t);
 }
 
@@ -264,7 +263,7 @@ void Clouds::Put(Ray& ray, Vec3f light, float share, float distance) const {
   const auto kept = [&](float reach) {
     const float r = scalar::layer_path(0, slope, reach, kRayleighHeight), a = scalar::layer_path(0, slope, reach, kAerosolHeight);
     const Vec3f depth = light_.air.rayleigh * r + light_.air.aerosol * a;
-    return Vec3f{Exp(-depth.x), Exp(-depth.y), Exp(-depth.z)};
+    return Vec3f{scalar::exp_approx(-depth.x), scalar::exp_approx(-depth.y), scalar::exp_approx(-depth.z)};
   };
   const Vec3f here = kept(distance), all = kept(4e5f);
   const float dim = deck_ ? 1 : 1 - 0.35f * cover_;  // by the shade of clouds
@@ -316,7 +315,7 @@ float Clouds::SunAt(float x, float y, float step) const {
   for (const CloudLayer& layer : layers_) depth += DepthAlongSun(layer, x, y, step);
   const float z = std::max(light_.to_sun.z, 0.17f), t = cirrus_.height() / z;
   depth += 0.6f * cirrus_.Depth(x + light_.to_sun.x * t, y + light_.to_sun.y * t) / z;
-  return Exp(-0.5f * depth);
+  return scalar::exp_approx(-0.5f * depth);
 }
 
 }  // namespace airsim360::internal

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/sky/cloud_geometry.h"
 #include "airsim360/render/sky/cloud_shapes.h"
 #include "airsim360/render/sky/sky.h"
@@ -15,9 +16,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kPi = 3.14159265358979;
-
-double Luminance(Vec3f c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+double CloudLuminance(Vec3f c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 // A clear atmosphere with the sun at 48 degrees or another elevation, its light for clouds, and what it gives level ground.
 struct ClearDay {
@@ -48,7 +47,7 @@ struct ClearDay {
     }
     return sum;
   }
-  double Diffuse(const Clouds& clouds) const { return Luminance(DiffuseLight(clouds)); }
+  double Diffuse(const Clouds& clouds) const { return CloudLuminance(DiffuseLight(clouds)); }
   static constexpr int kUp = 12, kAround = 48;
   Vec3f to_sun;
   Atmosphere atmosphere{to_sun, 2.5};
@@ -137,7 +136,7 @@ TEST(CloudLayer, BasesAndTopsVary) {
 // counted as the sun's rays meet it, over 40 km; the mean of several skies.
 TEST(CloudLight, BrokenSkiesGiveTheIlluminanceThatIsMeasured) {
   const ClearDay& day = Day();
-  const double clear = Luminance(day.diffuse + day.direct);
+  const double clear = CloudLuminance(day.diffuse + day.direct);
   double global = 0, diffuse = 0, cover = 0;
   constexpr int kSkies = 6, kPoints = 2000;
   for (int seed = 1; seed <= kSkies; ++seed) {
@@ -146,7 +145,7 @@ TEST(CloudLight, BrokenSkiesGiveTheIlluminanceThatIsMeasured) {
     for (int k = 0; k < kPoints; ++k) sun += clouds.SunAt(HashUnit(k, 3, seed) * 4e4f, HashUnit(k, 4, seed) * 4e4f) / kPoints;
     const double sky = day.Diffuse(clouds);
     cover += (1 - sun) / kSkies, diffuse += sky / kSkies;
-    global += (sky + sun * Luminance(day.direct)) / kSkies;
+    global += (sky + sun * CloudLuminance(day.direct)) / kSkies;
   }
   const double expected = 1 - 0.75 * std::pow(cover, 3.4);
   RecordProperty("cover", std::to_string(cover));
@@ -165,7 +164,7 @@ TEST(CloudLight, ATownLightsItsCloudsTheMoreTheMoreOfThemThereAre) {
     double sum = 0;
     for (int k = 0; k < ClearDay::kUp * ClearDay::kAround; ++k) {
       const Vec3f d = ClearDay::At(k);
-      sum += Luminance(clouds.Over(d, {}, {}, HashUnit(k, 0, 1))) / (ClearDay::kUp * ClearDay::kAround);
+      sum += CloudLuminance(clouds.Over(d, {}, {}, HashUnit(k, 0, 1))) / (ClearDay::kUp * ClearDay::kAround);
     }
     return sum;
   };
@@ -202,7 +201,7 @@ std::vector<double> Picture(const Clouds& clouds) {
   for (int k = 0; k < 32 * 8; ++k) {
     const Vec3f d = DirectionOf(static_cast<float>(k % 32) * 0.19635f, 0.09f + 0.17f * static_cast<float>(k / 32));
     const Vec3f air{0.3f, 0.5f, 1.0f};
-    picture.push_back(std::log(Luminance(clouds.Over(d, air, air, 0.5f))));
+    picture.push_back(std::log(CloudLuminance(clouds.Over(d, air, air, 0.5f))));
   }
   return picture;
 }
@@ -220,10 +219,10 @@ TEST(Clouds, OfAFieldUnderALowSunStandInEachOthersShade) {
   for (int seed = 1; seed <= kSeeds; ++seed) {
     field.sky_seed = seed;
     const Vec3f diffuse = low.DiffuseLight(Clouds(field, low.Light()));
-    light += Luminance(diffuse) / kSeeds;
+    light += CloudLuminance(diffuse) / kSeeds;
     EXPECT_LT(diffuse.x, 1.3f * diffuse.z) << seed;
   }
-  const double clear = Luminance(low.diffuse + low.direct);
+  const double clear = CloudLuminance(low.diffuse + low.direct);
   EXPECT_LT(light / clear, 1.05);
   EXPECT_GT(light / clear, 0.4);
 }

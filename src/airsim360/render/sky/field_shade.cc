@@ -8,7 +8,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kFarthest = 60e3f;  // metres; a ray grazing the ground has left every layer before
+constexpr float kFarthestShade = 60e3f;  // metres; a ray grazing the ground has left every layer before
 constexpr int kPoints = 48, kMostSteps = 320;
 
 // Optical depth of the way from a point in the direction of the sun, over the curved ground.
@@ -18,7 +18,7 @@ float DepthBeyond(const CloudLayer& layer, Vec3f p, Vec3f to_sun, float first) {
   const auto altitude = [&](float t) { return p.z + t * (to_sun.z + t * flat); };
   if (altitude(first) > layer.highest()) return 0;
   float last = first;
-  while (last < kFarthest && altitude(last) < layer.highest()) last += 500;
+  while (last < kFarthestShade && altitude(last) < layer.highest()) last += 500;
   const float step = std::max(kShortest, (last - first) / kMostSteps);
   float depth = 0;
   for (float t = first + 0.5f * step; t < last; t += step) {

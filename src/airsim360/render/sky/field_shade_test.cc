@@ -7,13 +7,12 @@
 #include <cmath>
 #include <vector>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/render/sky/cloud_geometry.h"
 #include "airsim360/render/sky/cloud_shapes.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr double kDegree = 3.14159265358979 / 180;
 
 Vec3f SunAt(double elevation_deg) {
   return {static_cast<float>(std::cos(elevation_deg * kDegree)), 0, static_cast<float>(std::sin(elevation_deg * kDegree))};

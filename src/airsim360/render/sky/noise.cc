@@ -8,7 +8,6 @@
 namespace airsim360::internal {
 namespace {
 
-float Mix(float a, float b, float t) { return a + (b - a) * t; }
 float Quintic(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 int Wrap(int i, int period) { return period > 0 ? ((i % period) + period) % period : i; }
 

@@ -23,6 +23,11 @@ inline uint32_t HashLattice(int32_t x, int32_t y, int32_t z) {
 /// The same as a number in [0, 1).
 inline float HashUnit(int32_t x, int32_t y, int32_t z) { return static_cast<float>(HashLattice(x, y, z) >> 8) * 0x1p-24f; }
 
+template <class T>
+T Mix(T a, T b, float t) {
+  return a + (b - a) * t;
+}
+
 inline float SmoothStep(float a, float b, float x) {
   const float t = x <= a ? 0.0f : x >= b ? 1.0f : (x - a) / (b - a);
   return t * t * (3.0f - 2.0f * t);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/render/sky/atmosphere.h"
 #include "airsim360/render/sky/clouds.h"
@@ -16,7 +17,6 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 constexpr float kSunSolidAngle = 6.72e-5f;  // disc of 0.53 degrees
 constexpr float kSunRadius = 0.004625f;
 
@@ -59,7 +59,8 @@ Vec3f LightOnMoon(Vec3f to_moon, Vec3f to_sun, double phase) {
 
 }  // namespace
 
-Sky::Sky(const Environment& environment, Vec3f place, const Sky* like) : place_(place), sun_radius_(kSunRadius) {
+Sky::Sky(const Environment& environment, Vec3f place, const Sky* like, float town)
+    : place_(place), sun_radius_(kSunRadius), town_(environment.lamps_on() ? town : 0) {
   if (like != nullptr) {
     TakeTable(*like);
   } else {
@@ -123,7 +124,7 @@ void Sky::BakeSky(const Environment& environment) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < clear.width; ++x) {
       const Vec3f d = DirectionOfTexel(clear, x, y);
-      Vec3f light = atmosphere.Radiance(d) + NightGlow(d, environment.lamps_on());
+      Vec3f light = atmosphere.Radiance(d) + NightGlow(d, town_);
       if (moon.share > 0) light += moonlit.Radiance(d) * moon.share;
       clear.SetTexel(x, y, light);
     }
@@ -134,8 +135,8 @@ void Sky::BakeSky(const Environment& environment) {
   constexpr float kGroundAlbedo = 0.16f;
   // A large city sends up some 0.3 lm from a square metre; clouds over it are then some ten times brighter than its clear sky
   // (Kyba et al. 2011).
-  const Vec3f town = environment.lamps_on() ? kTownLight * (0.1f / kLuxPerUnit) : Vec3f{};
-  const Clouds clouds(environment, {to_sun_, light_at, level * (1 / kPi), open * (kGroundAlbedo / kPi), town,
+  const Vec3f town = kTownLight * (town_ * 0.1f / kLuxPerUnit);
+  const Clouds clouds(environment, {to_sun_, light_at, level * (1 / kPiF), open * (kGroundAlbedo / kPiF), town,
                                     ClearAir(environment.turbidity), OvercastIlluminance(sun.z, Luminance(open))});
   table_ = MakeTable(2048, 512, false);
   if (sun.z < 0) AddStars(table_);
@@ -191,7 +192,7 @@ void Sky::BakeIrradiance() {
 
 void Sky::BakeGround() {
   const Vec3f up = Irradiance({0, 0, 1}) + sun_irradiance_ * (std::max(0.0f, to_sun_.z) * cloud_shadow_.mean());
-  ground_radiance_ = up * Vec3f{0.21f, 0.20f, 0.17f} * (1 / kPi);
+  ground_radiance_ = up * Vec3f{0.21f, 0.20f, 0.17f} * (1 / kPiF);
 }
 
 Vec3f Sky::Irradiance(Vec3f n) const {

@@ -34,7 +34,8 @@ class Sky {
   Sky() = default;
   /// `place` (in W) stands in the sun between the clouds, and fog lies on its height. `like`, if not null: a sky over the same
   /// place whose environment differs in haze, visibility, rain, falling and lying snow and wetness alone; its table is taken.
-  explicit Sky(const Environment& environment, Vec3f place = {}, const Sky* like = nullptr);
+  /// `town`: how much light the lamps around send up while they burn, 1 = as in a large city (TownLight).
+  explicit Sky(const Environment& environment, Vec3f place = {}, const Sky* like = nullptr, float town = 1);
 
   // ---- the directional light
   Vec3f to_sun() const { return to_sun_; }
@@ -111,6 +112,7 @@ class Sky {
   Vec3f clear_sun_;  // irradiance before weather
   Vec3f moon_light_;
   float sun_radius_ = 0;
+  float town_ = 0;  // while baking: what the lamps send up, 0 while they are off
   SkyTable table_, below_;
   std::array<SkyTable, kBlurLevels> blurred_;
   std::array<Vec3f, 9> sh_{}, clear_sh_{};  // with and before weather

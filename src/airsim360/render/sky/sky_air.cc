@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/render/sky/atmosphere.h"
 #include "airsim360/render/sky/sky.h"
@@ -10,7 +11,6 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 // Koschmieder: a black object keeps a contrast of 0.05 at the visibility (WMO's meteorological optical
 // range).
 constexpr float kKoschmieder = 2.996f;
@@ -29,7 +29,7 @@ void Put(float (&to)[3], Vec3f from) {
 // Directions around the horizon.
 constexpr int kAround = 96, kHarmonics = 7;
 using Ring = std::array<Vec3f, kAround>;
-float AzimuthOf(int k) { return (static_cast<float>(k) + 0.5f) * 2 * kPi / kAround; }
+float AzimuthOf(int k) { return (static_cast<float>(k) + 0.5f) * 2 * kPiF / kAround; }
 
 struct HorizonFit {
   float glow = 0, error = INFINITY;
@@ -109,7 +109,7 @@ void Sky::BakeAir(const Environment& environment) {
   std::array<float, kAround> phase{};
   for (int k = 0; k < kAround; ++k) phase[k] = scalar::forward_phase(kAirAsymmetry, Dot(DirectionOf(AzimuthOf(k), 0), to_sun_));
   for (int c = 0; c < 3; ++c) {
-    const float scattered = clear.aerosol[c] / extinction_[c] * sun_irradiance_[c] / (4 * kPi);
+    const float scattered = clear.aerosol[c] / extinction_[c] * sun_irradiance_[c] / (4 * kPiF);
     const HorizonFit fit = FitHorizon(ring, phase, c, environment.hdri ? 0.0f : scattered, to_sun_.z < 0.2f);
     air_.glow[c] = fit.glow;
     for (int i = 0; i < kHarmonics; ++i) air_.horizon[i][c] = fit.harmonics[i];
@@ -128,14 +128,14 @@ void Sky::BakeWeather(const Environment& environment) {
   air_.weather = fog + falling;
   air_.weather_height = (fog * kFogHeight + falling * kPrecipitationHeight) / std::max(air_.weather, 1e-9f);
   const Vec3f level = Irradiance({0, 0, 1}) + sun_irradiance_ * (std::max(0.0f, to_sun_.z) * cloud_shadow_.mean()) +
-                      (environment.lamps_on() ? kRoofLight + (kStreetLight - kRoofLight) * (fog / std::max(air_.weather, 1e-9f)) : Vec3f{});
+                      (kRoofLight + (kStreetLight - kRoofLight) * (fog / std::max(air_.weather, 1e-9f))) * town_;
   const float depth = air_.weather * air_.weather_height / std::max(to_sun_.z, 0.05f);
   sun_irradiance_ *= std::exp(-depth);
-  Put(air_.weather_light, level * (kFogShare / kPi));
+  Put(air_.weather_light, level * (kFogShare / kPiF));
   // A forward peak passes several times the direct light.
-  Put(air_.weather_glow, sun_irradiance_ * (std::exp(0.35f * std::min(depth, 10.0f)) / (4 * kPi)));
+  Put(air_.weather_glow, sun_irradiance_ * (std::exp(0.35f * std::min(depth, 10.0f)) / (4 * kPiF)));
   air_.rain = static_cast<float>(environment.rain_mm_h), air_.snow = static_cast<float>(environment.snowfall_mm_h);
-  Put(air_.drop_light, level * (0.75f / kPi));
+  Put(air_.drop_light, level * (0.75f / kPiF));
 }
 
 }  // namespace airsim360::internal

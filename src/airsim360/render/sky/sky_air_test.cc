@@ -9,7 +9,7 @@
 namespace airsim360::internal {
 namespace {
 
-double Luminance(Vec3f c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+double AirLuminance(Vec3f c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 TEST(Air, PathThroughALayerIsTheIntegralOfItsDensity) {
   for (const float height : {0.0f, 30.0f, 300.0f}) {
@@ -35,9 +35,9 @@ TEST(Air, FogLeavesAContrastOfATwentiethAtTheVisibility) {
   const Vec3f black = sky.ThroughAir({0, 0, 0}, d, 400, {}), white = sky.ThroughAir({0, 0, 0}, d, 400, {1, 1, 1});
   EXPECT_NEAR(white.y - black.y, 0.05, 0.002);
   const Vec3f far = sky.ThroughAir({0, 0, 0}, d, 40000, {});
-  EXPECT_NEAR((Luminance(far) - Luminance(black)) / Luminance(far), 0.05, 0.003);
+  EXPECT_NEAR((AirLuminance(far) - AirLuminance(black)) / AirLuminance(far), 0.05, 0.003);
   // It hides the sky at the horizon but less overhead.
-  EXPECT_NEAR(Luminance(sky.Radiance(Vec3f{0.6f, 0.8f, 0.0f})) / Luminance(far), 1, 0.03);
+  EXPECT_NEAR(AirLuminance(sky.Radiance(Vec3f{0.6f, 0.8f, 0.0f})) / AirLuminance(far), 1, 0.03);
 }
 
 TEST(Air, HazeScalesTheClearAirBeforeSurfacesAlone) {
@@ -55,7 +55,7 @@ TEST(Air, HazeScalesTheClearAirBeforeSurfacesAlone) {
   EXPECT_EQ(three.Radiance(up), one.Radiance(up));
   EXPECT_EQ(three.Irradiance({0, 0, 1}), one.Irradiance({0, 0, 1}));
   // Far things still take the colour of the horizon, only sooner.
-  EXPECT_NEAR(Luminance(three.ThroughAir({0, 0, 2}, d, 1e6f, {})) / Luminance(one.ThroughAir({0, 0, 2}, d, 2e6f, {})), 1, 0.02);
+  EXPECT_NEAR(AirLuminance(three.ThroughAir({0, 0, 2}, d, 1e6f, {})) / AirLuminance(one.ThroughAir({0, 0, 2}, d, 2e6f, {})), 1, 0.02);
 }
 
 TEST(Air, FarThingsMeltIntoTheHorizonAllAround) {
@@ -68,7 +68,7 @@ TEST(Air, FarThingsMeltIntoTheHorizonAllAround) {
     for (int k = 0; k < 32; ++k) {
       const Vec3f d = DirectionOf(static_cast<float>(k) * 0.19635f, 0.0f);
       const Vec3f far = sky.ThroughAir({0, 0, 2}, d, 2e6f, {});
-      error += std::fabs(Luminance(far) / Luminance(sky.table().At({d.x, d.y, 0.012f})) - 1) / 32;
+      error += std::fabs(AirLuminance(far) / AirLuminance(sky.table().At({d.x, d.y, 0.012f})) - 1) / 32;
     }
     EXPECT_LT(error, 0.06) << elevation;
   }
@@ -80,7 +80,7 @@ TEST(Air, HazeGlowsTowardsTheSun) {
   const Sky sky(environment);
   const Vec3f towards = sky.ThroughAir({0, 0, 2}, Normalized(Vec3f{1, 0, 0.1f}), 800, {}),
               away = sky.ThroughAir({0, 0, 2}, Normalized(Vec3f{-1, 0, 0.1f}), 800, {});
-  EXPECT_GT(Luminance(towards), 2 * Luminance(away));
+  EXPECT_GT(AirLuminance(towards), 2 * AirLuminance(away));
 }
 
 TEST(Air, IsThinnerAbove) {

@@ -3,13 +3,12 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/render/sky/sky.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 // One direction of a coarse sky with its radiance and solid angle.
 struct CoarseSample {
@@ -26,10 +25,10 @@ std::vector<CoarseSample> CoarseSky(const Sky& sky, int width, int height) {
       CoarseSample& sample = samples[static_cast<size_t>(y) * width + x];
       sample = {DirectionOfTexel(grid, x, y), {}, std::max(RowSolidAngle(grid, y), 1e-7f)};
       for (int k = 0; k < 16; ++k) {
-        const float azimuth = (static_cast<float>(x) + (static_cast<float>(k % 4) + 0.5f) / 4) * 2 * kPi / static_cast<float>(width);
+        const float azimuth = (static_cast<float>(x) + (static_cast<float>(k % 4) + 0.5f) / 4) * 2 * kPiF / static_cast<float>(width);
         const float elevation =
-            grid.ElevationOfRow(y) + ((static_cast<float>(k / 4) + 0.5f) / 4 - 0.5f) * kPi / static_cast<float>(height - 1);
-        sample.radiance += sky.Radiance(DirectionOf(azimuth, std::clamp(elevation, -kPi / 2, kPi / 2))) * (1 / 16.0f);
+            grid.ElevationOfRow(y) + ((static_cast<float>(k / 4) + 0.5f) / 4 - 0.5f) * kPiF / static_cast<float>(height - 1);
+        sample.radiance += sky.Radiance(DirectionOf(azimuth, std::clamp(elevation, -kPiF / 2, kPiF / 2))) * (1 / 16.0f);
       }
     }
   });

@@ -11,9 +11,9 @@ namespace airsim360::internal {
 float MoonShare(double phase);
 
 /// Radiance of the moonless night sky: airglow, zodiacal light and faint stars (22 mag/arcsec^2 at the
-/// zenith, 1.7e-4 cd/m^2, brighter towards the horizon after van Rhijn), and with `lamps` the glow of a town
-/// (18 mag/arcsec^2, 6.8e-3 cd/m^2, at the zenith as over the middle of large cities; six times that at the horizon).
-Vec3f NightGlow(Vec3f direction, bool lamps);
+/// zenith, 1.7e-4 cd/m^2, brighter towards the horizon after van Rhijn), and the glow of a town whose lamps burn:
+/// `town` of that of large cities (18 mag/arcsec^2, 6.8e-3 cd/m^2, at the zenith over the middle; six times that at the horizon).
+Vec3f NightGlow(Vec3f direction, float town);
 
 /// Colour of the light of a town's lamps, of about the luminance one.
 inline constexpr Vec3f kTownLight{1.30f, 0.98f, 0.72f};

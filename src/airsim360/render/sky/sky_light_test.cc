@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/sky/atmosphere.h"
 #include "airsim360/render/sky/cloud_sheets.h"
 #include "airsim360/render/sky/sky.h"
@@ -13,11 +14,9 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kPi = 3.14159265358979;
+double LightLuminance(Vec3f c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
-double Luminance(Vec3f c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
-
-Vec3f Direction(double azimuth, double elevation) { return DirectionOf(static_cast<float>(azimuth), static_cast<float>(elevation)); }
+Vec3f DirectionAt(double azimuth, double elevation) { return DirectionOf(static_cast<float>(azimuth), static_cast<float>(elevation)); }
 
 // Horizontal illuminance of the clear sky without the sun, units.
 double ClearDiffuse(const Atmosphere& atmosphere) {
@@ -25,7 +24,7 @@ double ClearDiffuse(const Atmosphere& atmosphere) {
   double sum = 0;
   for (int k = 0; k < kUp * kAround; ++k) {
     const double z = std::sqrt((k / kAround + 0.5) / kUp);
-    sum += Luminance(atmosphere.Radiance(Direction((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)))) * kPi / (kUp * kAround);
+    sum += LightLuminance(atmosphere.Radiance(DirectionAt((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)))) * kPi / (kUp * kAround);
   }
   return sum;
 }
@@ -35,8 +34,8 @@ double ClearDiffuse(const Atmosphere& atmosphere) {
 TEST(SkyLight, ClearSkyIlluminanceIsWithinFifteenPerCentOfTheIesModel) {
   for (const double degrees : {20.0, 30.0, 40.0, 50.0, 60.0, 70.0}) {
     const double s = std::sin(degrees * kPi / 180);
-    const Atmosphere atmosphere(Direction(0, degrees * kPi / 180), 2.5);
-    const double direct = Luminance(atmosphere.SunIrradiance()) * s * kLuxPerUnit / 1000,
+    const Atmosphere atmosphere(DirectionAt(0, degrees * kPi / 180), 2.5);
+    const double direct = LightLuminance(atmosphere.SunIrradiance()) * s * kLuxPerUnit / 1000,
                  diffuse = ClearDiffuse(atmosphere) * kLuxPerUnit / 1000;
     const double direct_ies = 127.5 * std::exp(-0.21 / s) * s, diffuse_ies = 0.8 + 15.5 * std::sqrt(s);
     EXPECT_NEAR((direct + diffuse) / (direct_ies + diffuse_ies), 1, 0.15) << degrees;
@@ -49,7 +48,7 @@ TEST(SkyLight, ClearSkyIlluminanceIsWithinFifteenPerCentOfTheIesModel) {
 // Illuminance of level ground, Explanatory Supplement to the Astronomical Almanac (Seidelmann 1992): about
 // 760 lx with the sun on the horizon, 3.4 lx at -6 degrees. Air and refraction make a factor of two.
 TEST(SkyLight, TwilightFallsAsTheAlmanacSays) {
-  const auto lux = [](double degrees) { return ClearDiffuse(Atmosphere(Direction(0, degrees * kPi / 180), 2.5)) * kLuxPerUnit; };
+  const auto lux = [](double degrees) { return ClearDiffuse(Atmosphere(DirectionAt(0, degrees * kPi / 180), 2.5)) * kLuxPerUnit; };
   EXPECT_GT(lux(-0.3), 300);
   EXPECT_LT(lux(-0.3), 1100);
   EXPECT_GT(lux(-6), 1.2);
@@ -63,13 +62,13 @@ TEST(SkyLight, TwilightFallsAsTheAlmanacSays) {
 }
 
 TEST(SkyLight, DuskIsRedOverTheSunAndBlueAtTheZenith) {
-  const Atmosphere dusk(Direction(0, -3 * kPi / 180), 2.5);
-  const Vec3f low = dusk.Radiance(Direction(0, 0.03)), zenith = dusk.Radiance({0, 0, 1}), behind = dusk.Radiance(Direction(kPi, 0.3));
+  const Atmosphere dusk(DirectionAt(0, -3 * kPi / 180), 2.5);
+  const Vec3f low = dusk.Radiance(DirectionAt(0, 0.03)), zenith = dusk.Radiance({0, 0, 1}), behind = dusk.Radiance(DirectionAt(kPi, 0.3));
   EXPECT_GT(low.x, 1.5f * low.z);
   EXPECT_GT(zenith.z, 1.3f * zenith.x);
   // The glow is brightest some degrees up, where less air hides it.
-  EXPECT_GT(Luminance(dusk.Radiance(Direction(0, 0.1))), 5 * Luminance(zenith));
-  EXPECT_GT(Luminance(low), 2 * Luminance(behind));
+  EXPECT_GT(LightLuminance(dusk.Radiance(DirectionAt(0, 0.1))), 5 * LightLuminance(zenith));
+  EXPECT_GT(LightLuminance(low), 2 * LightLuminance(behind));
 }
 
 // CIE S 011:2003, overcast: (1 + 2 sin h) / 3 of the zenith, on the mean over skies and azimuths.
@@ -77,17 +76,17 @@ TEST(SkyLight, OvercastHasTheGradationOfTheCieSkyAndGivesTheIlluminanceAsked) {
   constexpr int kSeeds = 8, kUp = 60, kAround = 60;
   double raised = 0, horizon = 0;
   for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
-    const StratusDeck deck(800, 2.0f, Direction(0.4, 0.8), {1, 0}, seed);
+    const StratusDeck deck(800, 2.0f, DirectionAt(0.4, 0.8), {1, 0}, seed);
     double level = 0;
     for (int k = 0; k < kUp * kAround; ++k) {
       const double z = std::sqrt((k / kAround + 0.5) / kUp);
-      level += Luminance(deck.Radiance(Direction((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)))) * kPi / (kUp * kAround);
+      level += LightLuminance(deck.Radiance(DirectionAt((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)))) * kPi / (kUp * kAround);
     }
     EXPECT_NEAR(level / 2.0, 1, 0.03) << seed;
     // Around the sky at 30 degrees, where the gradation is twice the horizon's.
     for (int k = 0; k < 400; ++k) {
-      raised += Luminance(deck.Radiance(Direction(k * 2.39996, kPi / 6)));
-      horizon += Luminance(deck.Radiance(Direction(k * 2.39996, 0.02)));
+      raised += LightLuminance(deck.Radiance(DirectionAt(k * 2.39996, kPi / 6)));
+      horizon += LightLuminance(deck.Radiance(DirectionAt(k * 2.39996, 0.02)));
     }
   }
   EXPECT_NEAR(raised / horizon * (1 + 2 * std::sin(0.02)), 2, 0.3);
@@ -101,7 +100,7 @@ TEST(SkyLight, ClosedCloudsGiveTheIlluminanceOfAnOvercastDay) {
     const Sky sky(environment);
     const double lux = sky.GroundIlluminance() * kLuxPerUnit;
     EXPECT_NEAR(lux / (300 + 21000 * std::sin(48 * kPi / 180)), 1, 0.15);
-    EXPECT_EQ(Luminance(sky.sun_irradiance()), 0);
+    EXPECT_EQ(LightLuminance(sky.sun_irradiance()), 0);
   }
 }
 
@@ -112,7 +111,7 @@ TEST(SkyLight, NightIsDarkButNotBlackAndTheFullMoonGivesAFractionOfALux) {
   const double lux = moonlit.GroundIlluminance() * kLuxPerUnit;
   EXPECT_GT(lux, 0.05);  // under a full moon: 0.05 to 0.3 lx (Kyba, Mohar, Posch 2017)
   EXPECT_LT(lux, 0.3);
-  EXPECT_GT(Dot(moonlit.to_sun(), Direction((90 - 130) * kPi / 180, 38 * kPi / 180)), 0.9999f);
+  EXPECT_GT(Dot(moonlit.to_sun(), DirectionAt((90 - 130) * kPi / 180, 38 * kPi / 180)), 0.9999f);
   night.moon_phase = 0;
   const double dark = Sky(night).GroundIlluminance() * kLuxPerUnit;
   EXPECT_GT(dark, 3e-4);  // starlight and airglow: about 1 mlx
@@ -145,7 +144,7 @@ TEST(SkyLight, StarsBringTheirOwnIlluminance) {
   int bright = 0;
   for (int y = 0; y < table.height; ++y) {
     for (int x = 0; x < table.width; ++x) {
-      const double l = Luminance(table.Texel(x, y));
+      const double l = LightLuminance(table.Texel(x, y));
       light += l * RowSolidAngle(table, y);
       bright += l > 0;
     }
@@ -168,7 +167,7 @@ TEST(SkyLight, SamplesFollowTheirDensity) {
     const int x = k % (kAcross * kFine), y = k / (kAcross * kFine);
     const double z = -1 + 2 * (y + 0.5) / (kUp * kFine);
     expected[y / kFine * kAcross + x / kFine] +=
-        sky.Pdf(Direction((x + 0.5) / (kAcross * kFine) * 2 * kPi, std::asin(z))) * 4 * kPi / (kAcross * kUp * kFine * kFine);
+        sky.Pdf(DirectionAt((x + 0.5) / (kAcross * kFine) * 2 * kPi, std::asin(z))) * 4 * kPi / (kAcross * kUp * kFine * kFine);
   }
   double all = 0;
   for (const double share : expected) all += share;
@@ -184,7 +183,7 @@ TEST(SkyLight, SamplesFollowTheirDensity) {
     const int x = std::min(static_cast<int>(azimuth / (2 * kPi) * kAcross), kAcross - 1),
               y = std::min(static_cast<int>((s.direction.z + 1) / 2 * kUp), kUp - 1);
     seen[y * kAcross + x] += 1;
-    weighted += std::max(0.0f, s.direction.z) * Luminance(s.radiance) / s.pdf / kSamples;
+    weighted += std::max(0.0f, s.direction.z) * LightLuminance(s.radiance) / s.pdf / kSamples;
   }
   double chi2 = 0;
   for (size_t i = 0; i < seen.size(); ++i) {
@@ -194,7 +193,7 @@ TEST(SkyLight, SamplesFollowTheirDensity) {
   // 255 degrees of freedom: 99.9 per cent stay below 330.
   EXPECT_LT(chi2, 330);
   // The estimator of irradiance agrees with the coefficients.
-  EXPECT_NEAR(weighted / Luminance(sky.Irradiance({0, 0, 1})), 1, 0.02);
+  EXPECT_NEAR(weighted / LightLuminance(sky.Irradiance({0, 0, 1})), 1, 0.02);
 }
 
 }  // namespace

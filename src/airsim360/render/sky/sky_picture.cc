@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPi = 3.14159265f, kDegrees = kPi / 180, kBrightest = 65504;
+constexpr float kDegrees = kPiF / 180, kBrightest = 65504;
 
 // The picture with its orientation.
 class Picture {
@@ -30,19 +31,19 @@ class Picture {
   }
   void Set(int x, int y, Vec3f c) { pixels_(x, y) = {c.x, c.y, c.z}; }
   Vec3f Direction(int x, int y) const {
-    const float compass = 2 * kPi * ((static_cast<float>(x) + 0.5f) / static_cast<float>(width()) - 0.5f) + turn_;
-    return DirectionOf(kPi / 2 - compass, kPi * (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(height())));
+    const float compass = 2 * kPiF * ((static_cast<float>(x) + 0.5f) / static_cast<float>(width()) - 0.5f) + turn_;
+    return DirectionOf(kPiF / 2 - compass, kPiF * (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(height())));
   }
   float SolidAngle(int y) const {
-    const float step = kPi / static_cast<float>(height()), top = kPi / 2 - static_cast<float>(y) * step;
-    return (std::sin(top) - std::sin(top - step)) * 2 * kPi / static_cast<float>(width());
+    const float step = kPiF / static_cast<float>(height()), top = kPiF / 2 - static_cast<float>(y) * step;
+    return (std::sin(top) - std::sin(top - step)) * 2 * kPiF / static_cast<float>(width());
   }
   // Bilinear.
   Vec3f Look(float azimuth, float elevation) const {
-    const float compass = kPi / 2 - azimuth - turn_;
-    float x = (compass / (2 * kPi) + 0.5f) * static_cast<float>(width()) - 0.5f;
+    const float compass = kPiF / 2 - azimuth - turn_;
+    float x = (compass / (2 * kPiF) + 0.5f) * static_cast<float>(width()) - 0.5f;
     x -= std::floor(x / static_cast<float>(width())) * static_cast<float>(width());
-    const float y = std::clamp((0.5f - elevation / kPi) * static_cast<float>(height()) - 0.5f, 0.0f, static_cast<float>(height() - 1));
+    const float y = std::clamp((0.5f - elevation / kPiF) * static_cast<float>(height()) - 0.5f, 0.0f, static_cast<float>(height() - 1));
     const int x0 = std::min(static_cast<int>(x), width() - 1), x1 = (x0 + 1) % width();
     const int y0 = static_cast<int>(y), y1 = std::min(y0 + 1, height() - 1);
     const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
@@ -59,7 +60,7 @@ template <class Visit>
 void Around(const Picture& picture, Vec3f center, float radius, const Visit& visit) {
   const float least = std::cos(radius);
   for (int y = 0; y < picture.height(); ++y) {
-    const float elevation = kPi * (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(picture.height()));
+    const float elevation = kPiF * (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(picture.height()));
     if (std::fabs(elevation - std::asin(std::clamp(center.z, -1.0f, 1.0f))) > radius) continue;
     for (int x = 0; x < picture.width(); ++x) {
       const Vec3f d = picture.Direction(x, y);
@@ -84,7 +85,7 @@ Overview Survey(const Picture& picture) {
       if (light > view.brightest) view.brightest = light, view.peak = picture.Direction(x, y);
     }
   }
-  view.mean = view.all / (2 * kPi);
+  view.mean = view.all / (2 * kPiF);
   return view;
 }
 
@@ -141,7 +142,7 @@ SkyTable Resample(const Picture& picture, float side) {
       for (int k = 0; k < fine * fine; ++k) {
         const float u = (static_cast<float>(k % fine) + 0.5f) / static_cast<float>(fine),
                     v = (static_cast<float>(k / fine) + 0.5f) / static_cast<float>(fine);
-        sum += picture.Look((static_cast<float>(x) + u) * 2 * kPi / static_cast<float>(table.width),
+        sum += picture.Look((static_cast<float>(x) + u) * 2 * kPiF / static_cast<float>(table.width),
                             side * (low + (high - low) * (0.25f + 0.5f * v)));
       }
       table.SetTexel(x, y, sum * (1 / static_cast<float>(fine * fine)));

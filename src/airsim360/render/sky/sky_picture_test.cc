@@ -5,14 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/render/sky/sky.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kPi = 3.14159265358979;
-
-double Luminance(Vec3f c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+double PictureLuminance(Vec3f c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 // An even sky of radiance 0.5 over ground of 0.1, with a disc of `light` about a compass direction.
 Environment PictureWith(double azimuth_deg, double elevation_deg, double radius_deg, float light) {
@@ -36,7 +35,7 @@ Environment PictureWith(double azimuth_deg, double elevation_deg, double radius_
 double LightOf(const SkyTable& table) {
   double sum = 0;
   for (int y = 0; y < table.height; ++y)
-    for (int x = 0; x < table.width; ++x) sum += Luminance(table.Texel(x, y)) * RowSolidAngle(table, y);
+    for (int x = 0; x < table.width; ++x) sum += PictureLuminance(table.Texel(x, y)) * RowSolidAngle(table, y);
   return sum;
 }
 
@@ -51,7 +50,7 @@ TEST(SkyPicture, TheSunIsTakenOutAndNoLightIsLost) {
     const double weight = (std::sin(kPi / 2 - y * kPi / 512) - std::sin(kPi / 2 - (y + 1) * kPi / 512)) * 2 * kPi / 1024;
     for (int x = 0; x < 1024; ++x) in_picture += environment.hdri->pixels(x, y).g * weight;
   }
-  EXPECT_NEAR((LightOf(split.above) + Luminance(split.sun.irradiance)) / in_picture, 1, 0.005);
+  EXPECT_NEAR((LightOf(split.above) + PictureLuminance(split.sun.irradiance)) / in_picture, 1, 0.005);
   EXPECT_NEAR(LightOf(split.above), 0.5 * 2 * kPi, 0.02);
 }
 
@@ -73,13 +72,13 @@ TEST(SkyPicture, NoDiscShowsWhereTheSunWas) {
     }
   }
   const SplitPicture split = SplitSkyPicture(environment);
-  ASSERT_GT(Luminance(split.sun.irradiance), 0);
+  ASSERT_GT(PictureLuminance(split.sun.irradiance), 0);
   double outside = 0, count = 0, darkest = 1e9, brightest = 0;
   for (int y = 0; y < split.above.height; ++y) {
     for (int x = 0; x < split.above.width; ++x) {
       const float off = degrees_off((static_cast<float>(x) + 0.5f) * static_cast<float>(2 * kPi) / static_cast<float>(split.above.width),
                                     split.above.ElevationOfRow(y));
-      const double light = Luminance(split.above.Texel(x, y));
+      const double light = PictureLuminance(split.above.Texel(x, y));
       if (off > 3 && off < 3.6f) outside += light, ++count;
       if (off < 2.8f) darkest = std::min(darkest, light), brightest = std::max(brightest, light);
     }
@@ -89,9 +88,9 @@ TEST(SkyPicture, NoDiscShowsWhereTheSunWas) {
 }
 
 TEST(SkyPicture, ALampOrAWideGlowIsNoSun) {
-  EXPECT_EQ(Luminance(SplitSkyPicture(PictureWith(0, 40, 0.8, 5)).sun.irradiance), 0);       // too weak
-  EXPECT_EQ(Luminance(SplitSkyPicture(PictureWith(0, 40, 25, 100)).sun.irradiance), 0);      // a window
-  EXPECT_EQ(Luminance(SplitSkyPicture(PictureWith(0, -20, 0.8, 20000)).sun.irradiance), 0);  // below
+  EXPECT_EQ(PictureLuminance(SplitSkyPicture(PictureWith(0, 40, 0.8, 5)).sun.irradiance), 0);       // too weak
+  EXPECT_EQ(PictureLuminance(SplitSkyPicture(PictureWith(0, 40, 25, 100)).sun.irradiance), 0);      // a window
+  EXPECT_EQ(PictureLuminance(SplitSkyPicture(PictureWith(0, -20, 0.8, 20000)).sun.irradiance), 0);  // below
 }
 
 TEST(SkyPicture, YawTurnsClockwiseAndScaleMultiplies) {

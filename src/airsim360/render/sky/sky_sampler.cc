@@ -4,17 +4,17 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr int kAcross = SkySampler::kAcross, kUp = SkySampler::kUp;
-constexpr float kTwoPi = 6.28318531f;
-constexpr float kCellSolidAngle = 2 * kTwoPi / (kAcross * kUp);
+constexpr float kCellSolidAngle = 2 * kTauF / (kAcross * kUp);
 
 // Direction of grid coordinates in [0, kAcross] x [0, kUp].
 Vec3f DirectionAt(float column, float row) {
-  const float z = std::clamp(row * (2.0f / kUp) - 1, -1.0f, 1.0f), azimuth = column * (kTwoPi / kAcross);
+  const float z = std::clamp(row * (2.0f / kUp) - 1, -1.0f, 1.0f), azimuth = column * (kTauF / kAcross);
   const float s = std::sqrt(std::max(0.0f, 1 - z * z));
   return {s * std::cos(azimuth), s * std::sin(azimuth), z};
 }
@@ -77,8 +77,8 @@ Vec3f SkySampler::Direction(Vec2f u) const {
 
 float SkySampler::Pdf(Vec3f d) const {
   float azimuth = std::atan2(d.y, d.x);
-  if (azimuth < 0) azimuth += kTwoPi;
-  const int x = std::clamp(static_cast<int>(azimuth * (kAcross / kTwoPi)), 0, kAcross - 1);
+  if (azimuth < 0) azimuth += kTauF;
+  const int x = std::clamp(static_cast<int>(azimuth * (kAcross / kTauF)), 0, kAcross - 1);
   const int y = std::clamp(static_cast<int>((d.z + 1) * (0.5f * kUp)), 0, kUp - 1);
   return density_[static_cast<size_t>(y) * kAcross + x];
 }

@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/render/sky/atmosphere.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr double kPi = 3.14159265358979;
 
 double Luminance(Vec3f c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 

@@ -90,6 +90,14 @@ void PutAir(const AirView& air, GpuShade& out) {
   Copy(air.drop_light, out.drop_light);
 }
 
+void PutRoofs(GpuArena& arena, const RoofView& map, GpuShade& out) {
+  if (map.heights == nullptr) return;
+  out.roof_heights = PutArray(arena, map.heights, static_cast<size_t>(map.size) * static_cast<size_t>(map.size));
+  out.roof_size = map.size;
+  out.roof_origin[0] = map.origin_x, out.roof_origin[1] = map.origin_y;
+  out.roof_cells_per_metre = map.cells_per_metre, out.roof_lean = map.lean;
+}
+
 void PutClouds(GpuArena& arena, const CloudShadowView& map, GpuShade& out) {
   if (map.texels == nullptr) return;
   out.has_clouds = 1;
@@ -125,6 +133,7 @@ GpuShadeTables::GpuShadeTables(GpuDevice& device, const Shader& shader, const Sc
   PutLamps(arena_, v.lamps, s);
   PutAir(v.air, s);
   PutClouds(arena_, v.cloud_shadow, s);
+  PutRoofs(arena_, v.roofs, s);
   s.has_panes = impl.tracer->has_clear_panes() ? 1 : 0;
   Copy(v.to_sun, s.to_sun), Copy(v.sun_irradiance, s.sun_irradiance), Copy(v.sun_radiance, s.sun_radiance);
   Copy(v.ground, s.ground), Copy(v.sky_irradiance, s.sky_irradiance), Copy(v.mean_ambient, s.mean_ambient);

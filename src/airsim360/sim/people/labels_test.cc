@@ -23,7 +23,7 @@ std::vector<internal::Stand> Crowd() {
 }
 constexpr Vec3d kEye{-0.2, 0, 1.5};
 
-const PeopledRoom& Room() {
+const PeopledRoom& LabelledRoom() {
   static const PeopledRoom room(Crowd());
   return room;
 }
@@ -63,7 +63,7 @@ std::pair<EntityId, double> FirstOnTheWay(const PeopledRoom& room, Vec3d from, V
 }
 
 TEST(PeopleLabels, VisibilityAgreesWithIndependentRays) {
-  const PeopledRoom& room = Room();
+  const PeopledRoom& room = LabelledRoom();
   const Camera camera = Equirectangular{512, 256};
   const auto labels = LabelPeople(room.Picture(camera, LevelCamera(kEye)), {.boxes = false});
   ASSERT_EQ(labels.size(), Crowd().size());
@@ -122,7 +122,7 @@ Landing CountLandings(const PeopledRoom& room, const Camera& camera, const Rigid
 
 TEST(PeopleLabels, VisibleKeypointsLandOnTheirOwnPerson) {
   for (const int width : {2048, 256}) {
-    const Landing count = CountLandings(Room(), Equirectangular{width, width / 2}, LevelCamera(kEye));
+    const Landing count = CountLandings(LabelledRoom(), Equirectangular{width, width / 2}, LevelCamera(kEye));
     EXPECT_GT(count.visible, 80);
     EXPECT_EQ(count.on, count.visible) << width;
   }
@@ -169,7 +169,7 @@ TEST(PeopleLabels, KeypointsFollowTheSkin) {
 }
 
 TEST(PeopleLabels, PositionsAreConsistentInAllFrames) {
-  const PeopledRoom& room = Room();
+  const PeopledRoom& room = LabelledRoom();
   const Camera camera = Equirectangular{1024, 512};
   const RigidTransform X_WC = BodyPose(kEye, 0.7, -0.35, 0.1) * CameraInBody();
   for (const PersonLabel& label : LabelPeople(room.Picture(camera, X_WC))) {
@@ -233,7 +233,7 @@ TEST(PeopleLabels, SomeoneAcrossTheSeamHasOneNarrowBox) {
 }
 
 TEST(PeopleLabels, TheFieldOfViewAndTheBoxContainTheSkin) {
-  const PeopledRoom& room = Room();
+  const PeopledRoom& room = LabelledRoom();
   const RigidTransform X_WC = LevelCamera(kEye);
   for (const PersonLabel& label : LabelPeople(room.Picture(Equirectangular{512, 256}, X_WC))) {
     const PersonRef& ref = room.people->refs[label.person];
@@ -266,7 +266,7 @@ TEST(PeopleLabels, AlphaIsTheHeadingAsSeenFromTheCamera) {
 }
 
 TEST(PeopleLabels, DoNotDependOnThreads) {
-  const PeopledRoom& room = Room();
+  const PeopledRoom& room = LabelledRoom();
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
     std::vector<double> numbers;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Pixels that may see a triangle. Columns of panoramas count from the column of a reference direction, so that
 // they may be negative or exceed the width.

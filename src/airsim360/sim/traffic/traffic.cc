@@ -9,6 +9,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
 #include "airsim360/scene/scene_additions.h"
+#include "airsim360/sim/traffic/vehicle_lamps.h"
 #include "airsim360/traffic/bus_stops.h"
 #include "airsim360/traffic/disc_grid.h"
 
@@ -115,7 +116,7 @@ AffineTransform PlaceOf(const TrafficBody& body, const RigidTransform& X_WB) {
   return {A, VecCast<float>(X_WB.p) - A * body.offset_M};
 }
 
-TrafficVehicle VehicleOf(const Scene& scene, const Pattern& pattern, RngStream& rng) {
+TrafficVehicle MakeVehicle(const Scene& scene, const Pattern& pattern, RngStream& rng) {
   const Vec3f size = (pattern.box.max - pattern.box.min) * pattern.scale;
   TrafficVehicle vehicle;
   vehicle.shape = {size.y, size.x, size.z, scene.tree[pattern.category].path.starts_with("vehicle/bus")};
@@ -123,7 +124,11 @@ TrafficVehicle VehicleOf(const Scene& scene, const Pattern& pattern, RngStream& 
   return vehicle;
 }
 
-void AddBody(const Pattern& pattern, size_t index, const TrafficModel& model, const TrafficState& state, Scene& scene, TrafficBody& body) {
+// Lit glasses of the models, made once for each.
+using LampsOfMeshes = std::map<MeshId, internal::LampMeshes>;
+
+void AddBody(const Pattern& pattern, size_t index, const TrafficModel& model, const TrafficState& state, LampsOfMeshes& lamps, Scene& scene,
+             TrafficBody& body) {
   body.name = NameOf(index);
   body.kind = scene.tree[pattern.category].path;
   body.scale = pattern.scale;
@@ -132,6 +137,9 @@ void AddBody(const Pattern& pattern, size_t index, const TrafficModel& model, co
   body.instance = static_cast<uint32_t>(scene.instances.size());
   const AffineTransform X_WM = PlaceOf(body, PoseOf(model, state, index, state.t_ns));
   body.entity = AddInstanceEntity(scene, body.name, pattern.category, {pattern.mesh, X_WM, kNoEntity, pattern.tint, pattern.glow});
+  const auto [of_mesh, fresh] = lamps.try_emplace(pattern.mesh);
+  if (fresh) of_mesh->second = internal::AddLampMeshes(pattern.mesh, scene);
+  body.lamps = internal::AddLamps(of_mesh->second, body.entity, scene);
 }
 
 }  // namespace
@@ -151,7 +159,7 @@ TrafficScene AddTraffic(std::shared_ptr<const Scene> scene, const TrafficRequest
   for (size_t i = 0; i < request.count; ++i) {
     RngStream rng(request.seed, "traffic vehicle", i);
     chosen.push_back(&patterns[rng.Index(static_cast<uint32_t>(patterns.size()))]);
-    traffic->model.vehicles.push_back(VehicleOf(*scene, *chosen.back(), rng));
+    traffic->model.vehicles.push_back(MakeVehicle(*scene, *chosen.back(), rng));
   }
   traffic->model.bus_stops = BusStopsBeside(traffic->model.lanes, BusStopPlaces(*scene));
   traffic->epoch_ns = std::llround(request.warm_up * 1e9) / kTrafficTickNs * kTrafficTickNs;
@@ -162,16 +170,28 @@ TrafficScene AddTraffic(std::shared_ptr<const Scene> scene, const TrafficRequest
   const std::shared_ptr<Scene> own = OwnScene(std::move(scene));
   own->cache_key.clear();  // what is kept on disk is of the scene without them
   traffic->bodies.resize(request.count);
-  for (size_t i = 0; i < request.count; ++i) AddBody(*chosen[i], i, traffic->model, *start, *own, traffic->bodies[i]);
+  LampsOfMeshes lamps;
+  for (size_t i = 0; i < request.count; ++i) AddBody(*chosen[i], i, traffic->model, *start, lamps, *own, traffic->bodies[i]);
   traffic->start = std::move(start);
   return {own, std::move(traffic)};
 }
 
-void ShowTraffic(const SimTraffic& traffic, const TrafficState& state, int64_t t_ns, SceneState& scene_state) {
+void ShowTraffic(const SimTraffic& traffic, const TrafficState& state, int64_t t_ns, SceneState& scene_state, const LampsAt& lamps) {
+  const TrafficState& lit = lamps.state != nullptr ? *lamps.state : state;
+  const int64_t lit_ns = lamps.state != nullptr ? lamps.t_ns : t_ns;
   for (const uint32_t instance : traffic.standing) scene_state.moved.push_back({instance, {}, true});
   for (size_t i = 0; i < traffic.bodies.size(); ++i) {
     const TrafficBody& body = traffic.bodies[i];
-    scene_state.moved.push_back({body.instance, PlaceOf(body, PoseOf(traffic.model, state, i, t_ns)), false});
+    const AffineTransform X_WM = PlaceOf(body, PoseOf(traffic.model, state, i, t_ns));
+    scene_state.moved.push_back({body.instance, X_WM, false});
+    const auto show = [&](uint32_t lamp, bool burns) {
+      if (lamp != kNoLamp) scene_state.moved.push_back({lamp, X_WM, !burns});
+    };
+    const DrivingVehicle& vehicle = lit.vehicles[i];
+    const bool blinks = vehicle.indicator != 0 && internal::BlinksAt(i, lit_ns);
+    show(body.lamps.brake, vehicle.braking);
+    show(body.lamps.left, blinks && vehicle.indicator > 0);
+    show(body.lamps.right, blinks && vehicle.indicator < 0);
   }
 }
 
@@ -184,7 +204,19 @@ std::shared_ptr<const TrafficState> TrafficLater(const SimTraffic& traffic, std:
 
 void HideTraffic(const SimTraffic& traffic, SceneState& scene_state) {
   for (const uint32_t instance : traffic.standing) scene_state.moved.push_back({instance, {}, true});
-  for (const TrafficBody& body : traffic.bodies) scene_state.moved.push_back({body.instance, {}, true});
+  for (const TrafficBody& body : traffic.bodies)
+    for (const uint32_t instance : {body.instance, body.lamps.brake, body.lamps.left, body.lamps.right})
+      if (instance != kNoLamp) scene_state.moved.push_back({instance, {}, true});
+}
+
+std::optional<size_t> VehicleOf(const SimTraffic& traffic, EntityId entity) {
+  const auto found = std::ranges::lower_bound(traffic.bodies, entity, {}, &TrafficBody::entity);
+  if (found == traffic.bodies.end() || found->entity != entity) return std::nullopt;
+  return static_cast<size_t>(found - traffic.bodies.begin());
+}
+
+const char* IndicatorName(const DrivingVehicle& vehicle) {
+  return vehicle.indicator > 0 ? "left" : vehicle.indicator < 0 ? "right" : "off";
 }
 
 std::vector<VehicleBox> VehiclesNear(const SimTraffic& traffic, const TrafficState& state, int64_t t_ns, Vec3d p_W, double reach) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,12 @@
 
 namespace airsim360 {
 
+/// Lamps of a vehicle that burn now and then: instances of its entity, which are hidden meanwhile. kNoLamp: it has none.
+inline constexpr uint32_t kNoLamp = UINT32_MAX;
+struct VehicleLamps {
+  uint32_t brake = kNoLamp, left = kNoLamp, right = kNoLamp;
+};
+
 /// A vehicle in the scene.
 struct TrafficBody {
   std::string name;  ///< of its entity: traffic/000
@@ -21,6 +28,7 @@ struct TrafficBody {
   uint32_t instance = 0;
   EntityId entity = kNoEntity;
   float scale = 1;
+  VehicleLamps lamps = {};
   Vec3f offset_M;  ///< from the origin of its mesh to the ground below the middle of its box, metres, unscaled
 };
 
@@ -45,13 +53,24 @@ struct TrafficScene {
 /// InputError for scenes without roads or vehicles, for more than the roads hold, and for a warm-up outside of 0 ... 3600 s.
 TrafficScene AddTraffic(std::shared_ptr<const Scene> scene, const TrafficRequest& request, int64_t people_epoch_ns = 0);
 
+/// An instant whose lamps burn: for optical flow, which carries what is seen now to where it will be.
+struct LampsAt {
+  const TrafficState* state = nullptr;
+  int64_t t_ns = 0;
+};
+
 /// Adds the vehicles at t_ns of traffic time, at most a tick after the state, to a scene state; hides what stands in their
-/// way.
-void ShowTraffic(const SimTraffic& traffic, const TrafficState& state, int64_t t_ns, SceneState& scene_state);
+/// way. Their lamps burn as they do then, or as `lamps` says.
+void ShowTraffic(const SimTraffic& traffic, const TrafficState& state, int64_t t_ns, SceneState& scene_state, const LampsAt& lamps = {});
 /// The traffic at t_ns or at most a tick before, as it goes on without people and drones.
 std::shared_ptr<const TrafficState> TrafficLater(const SimTraffic& traffic, std::shared_ptr<const TrafficState> state, int64_t t_ns);
 /// The scene without any vehicles of the traffic.
 void HideTraffic(const SimTraffic& traffic, SceneState& scene_state);
+
+/// Index of the vehicle of an entity; nullopt: it is none of the traffic.
+std::optional<size_t> VehicleOf(const SimTraffic& traffic, EntityId entity);
+/// "left", "right" or "off".
+const char* IndicatorName(const DrivingVehicle& vehicle);
 
 /// A vehicle as a drone meets it.
 struct VehicleBox {

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "airsim360/base/error.h"
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/sim/living_world.h"
@@ -70,6 +73,98 @@ TEST(TrafficScene, MeshesStandOnTheRoadWithTheirFrontAhead) {
   }
 }
 
+// The ring with cars that have glasses: tail lamps at y = 2.2 and head lamps at y = -2.2 of the mesh, one each at x = -0.7 and 0.7.
+std::shared_ptr<const Scene> RingWithLamps() {
+  SceneBuilder builder("lit ring");
+  builder.AddSky();
+  builder.AddMaterial({});
+  Material head{.name = "head"}, tail{.name = "tail"};
+  head.lamp = tail.lamp = true;
+  head.emission = tail.emission = {1, 1, 1};
+  head.beam = 30, tail.beam = -3;
+  builder.AddMaterial(head);
+  builder.AddMaterial(tail);
+  Mesh car;
+  const auto plate = [&](float x, float y, float half, float low, float high) {
+    const auto first = static_cast<uint32_t>(car.positions.size());
+    for (const Vec2f c : {Vec2f{-1, low}, Vec2f{1, low}, Vec2f{1, high}, Vec2f{-1, high}})
+      car.positions.push_back({x + half * c.x * (y > 0 ? -1.0f : 1.0f), y, c.y});
+    car.triangles.push_back({first, first + 1, first + 2});
+    car.triangles.push_back({first, first + 2, first + 3});
+  };
+  plate(0, -2.1f, 0.9f, 0, 1.5f), plate(0, 2.1f, 0.9f, 0, 1.5f);
+  plate(-0.7f, -2.2f, 0.1f, 0.6f, 0.8f), plate(0.7f, -2.2f, 0.1f, 0.6f, 0.8f);
+  plate(-0.7f, 2.2f, 0.1f, 0.6f, 0.8f), plate(0.7f, 2.2f, 0.1f, 0.6f, 0.8f);
+  car.parts = {{0, 4, 0, kNoEntity}, {4, 4, 1, kNoEntity}, {8, 4, 2, kNoEntity}};
+  builder.AddInstance({builder.AddMesh(car), PlaceUpright({300, 300, 0}), builder.AddEntity("car", builder.tree().At("vehicle/car"))});
+  builder.SetRoads(RingRoad(600, 10));
+  return builder.Build();
+}
+
+// Where lamps of vehicle 0 are seen that burn: {tail left, tail right, nose left, nose right}.
+std::array<bool, 4> Burning(const TrafficScene& scene, const TrafficState& state, int64_t t_ns) {
+  auto shown = std::make_shared<SceneState>();
+  ShowTraffic(*scene.traffic, state, t_ns, *shown);
+  DynamicTracer dynamic(std::make_shared<const RayTracer>(scene.scene));
+  const auto tracer = dynamic.At(shown);
+  const RigidTransform X_WB = PoseOf(scene.traffic->model, state, 0, t_ns);
+  std::array<bool, 4> burning{};
+  for (size_t k = 0; k < 4; ++k) {
+    const double end = k < 2 ? -1 : 1, left = k % 2 == 0 ? 0.7 : -0.7;
+    const Vec3f from = VecCast<float>(X_WB * Vec3d{end * 4, left, 0.7}), ahead = VecCast<float>(X_WB.R * Vec3d{-end, 0, 0});
+    const auto hit = tracer->Intersect(from, ahead);
+    if (!hit) {
+      ADD_FAILURE() << "lamp " << k << " is not where it should be";
+      continue;
+    }
+    EXPECT_EQ(scene.scene->instances[hit->surface.instance].entity, scene.traffic->bodies[0].entity);
+    burning[k] = hit->distance < 1.8f - 0.004f;
+  }
+  return burning;
+}
+
+TEST(TrafficScene, BrakeLampsAndIndicatorsAreSeenWhenTheyBurn) {
+  const TrafficScene scene = AddTraffic(RingWithLamps(), {.count = 2, .seed = 1, .warm_up = 0});
+  TrafficState state = *scene.traffic->start;
+  using Four = std::array<bool, 4>;
+  EXPECT_EQ(Burning(scene, state, state.t_ns), (Four{}));
+  state.vehicles[0].braking = true;
+  EXPECT_EQ(Burning(scene, state, state.t_ns), (Four{true, true, false, false}));
+  state.vehicles[0].braking = false;
+  for (const int8_t side : {int8_t{1}, int8_t{-1}}) {
+    state.vehicles[0].indicator = side;
+    int lit = 0;
+    for (int k = 0; k < 40; ++k) {
+      // A vehicle that stands: the same place at all times.
+      const Four burning = Burning(scene, state, state.t_ns + k * 50'000'000);
+      EXPECT_TRUE(burning == (Four{}) || burning == (Four{side > 0, side<0, side> 0, side < 0}));
+      lit += burning != Four{};
+    }
+    EXPECT_NEAR(lit, 20, 2);  // half of the time
+  }
+  // Of vehicle 1 nothing burns meanwhile: its lamps are its own.
+  SceneState shown;
+  ShowTraffic(*scene.traffic, state, state.t_ns, shown);
+  const VehicleLamps& other = scene.traffic->bodies[1].lamps;
+  for (const MovedInstance& m : shown.moved) {
+    const bool is_other = m.instance == other.brake || m.instance == other.left || m.instance == other.right;
+    EXPECT_TRUE(!is_other || m.hidden);
+  }
+  EXPECT_TRUE(std::ranges::is_sorted(shown.moved, {}, &MovedInstance::instance));
+}
+
+TEST(TrafficScene, FlowSeesTheLampsOfNowLaterToo) {
+  const TrafficScene scene = AddTraffic(RingWithLamps(), {.count = 1, .seed = 1, .warm_up = 0});
+  const TrafficState dark = *scene.traffic->start;
+  TrafficState lit = dark;
+  lit.vehicles[0].braking = true;
+  SceneState later;
+  ShowTraffic(*scene.traffic, dark, dark.t_ns, later, {&lit, lit.t_ns});
+  const auto lamp = std::ranges::find(later.moved, scene.traffic->bodies[0].lamps.brake, &MovedInstance::instance);
+  ASSERT_NE(lamp, later.moved.end());
+  EXPECT_FALSE(lamp->hidden);
+}
+
 TEST(TrafficScene, StepsMoveThemAndASnapshotGoesOnWithTheSameBytes) {
   const SimModel model = ModelOf(AddTraffic(RingScene(), {.count = 12, .seed = 2}));
   SimState state = StartState(model);
@@ -96,6 +191,61 @@ TEST(TrafficScene, VehiclesStopForADroneThatHoversOverTheRoad) {
     for (const DrivingVehicle& vehicle : state.traffic->vehicles) standing += vehicle.stopped_ns >= 0;
     EXPECT_EQ(standing, height < 2 ? 3 : 0);
   }
+}
+
+// A drone that has set down on the road: who comes stops before it, and goes on when it has flown away.
+TEST(TrafficScene, VehiclesWaitForADroneThatHasLandedOnTheRoadAndGoOnWhenItHasLeft) {
+  SimModel model = ModelOf(AddTraffic(RingScene(), {.count = 3, .seed = 2}));
+  const double radius = 600 / (2 * M_PI);
+  const Vec3d landed{0, radius, 0.1};
+  SimState state = StartState(model);
+  state.vehicles.push_back(VehicleAt(model, {{}, landed}));
+  std::vector<SimEvent> events;
+  double nearest = INFINITY;
+  for (int i = 0; i < 9000; ++i) {
+    Step(model, {}, state, &events);
+    for (size_t k = 0; k < 3; ++k)
+      nearest = std::min(nearest, Norm(PoseOf(model.traffic->model, *state.traffic, k, state.traffic->t_ns).p - landed));
+  }
+  for (const DrivingVehicle& vehicle : state.traffic->vehicles) EXPECT_GE(vehicle.stopped_ns, 0);
+  EXPECT_GT(nearest, 2.2 + 0.5);  // from the middle of a car of 4.4 m, and the drone's radius
+  EXPECT_LT(nearest, 2.2 + 0.5 + 2.5);
+  EXPECT_TRUE(std::ranges::none_of(events, [](const SimEvent& event) { return event.kind == SimEvent::Kind::kNearMiss; }));
+  state.vehicles[0] = VehicleAt(model, {{}, {0, radius, 12}});
+  for (int i = 0; i < 1000; ++i) Step(model, {}, state);
+  for (const DrivingVehicle& vehicle : state.traffic->vehicles) EXPECT_GT(vehicle.v, 3);
+}
+
+// A drone is put down right in front of somebody who drives: told as an event with both their names.
+TEST(TrafficScene, ADroneThatDropsBeforeAVehicleIsANearMissOnceItIsOver) {
+  const SimModel model = ModelOf(AddTraffic(RingScene(), {.count = 1, .seed = 2}));
+  SimState state = StartState(model);
+  state.vehicles.push_back(VehicleAt(model, {{}, {0, 0, 50}}));
+  const RigidTransform X_WB = PoseOf(model.traffic->model, *state.traffic, 0, state.traffic->t_ns);
+  ASSERT_GT(state.traffic->vehicles[0].v, 6);
+  const auto run = [&](Vec3d p, int steps, std::vector<SimEvent>& events) {
+    state.vehicles[0] = VehicleAt(model, {{}, p});
+    for (int i = 0; i < steps; ++i) Step(model, {}, state, &events);
+  };
+  std::vector<SimEvent> events;
+  run(X_WB * Vec3d{2.2 + 6, 0, 0.5}, 30, events);
+  EXPECT_TRUE(events.empty());
+  SimState snapshot = state;
+  run({0, 0, 50}, 300, events);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, SimEvent::Kind::kNearMiss);
+  EXPECT_EQ(events[0].vehicle, 0u);
+  EXPECT_LT(events[0].near_miss.seconds, 0.9);
+  EXPECT_LE(events[0].t_ns, 300'000'000);
+  EXPECT_TRUE(events[0].text.starts_with("traffic/000 and a drone 0.")) << events[0].text;
+  // The same from the snapshot.
+  const uint64_t hash = HashState(state);
+  state = snapshot;
+  std::vector<SimEvent> again;
+  run({0, 0, 50}, 300, again);
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(again[0].text, events[0].text);
+  EXPECT_EQ(HashState(state), hash);
 }
 
 TEST(TrafficScene, WithoutRoadsOrVehiclesOrWithTooManyTheWorldIsNamed) {

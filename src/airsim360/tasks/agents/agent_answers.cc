@@ -4,11 +4,11 @@
 
 #include "airsim360/base/base64.h"
 #include "airsim360/image/codecs.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr float kClearanceReach = 20;  // metres up to which it is measured
 
 // Direction to a place in the level frame of a heading, degrees.
@@ -16,7 +16,7 @@ Answer DirectionTo(Vec3d p_W, const RigidTransform& X_WB) {
   const Vec3d way = p_W - X_WB.p;
   const double level = std::hypot(way.x, way.y);
   const double azimuth = std::remainder(HeadingOfBody(X_WB) - std::atan2(way.y, way.x), 2 * std::numbers::pi);
-  return {{"azimuth_deg", level > 0 ? azimuth * kDegrees : 0}, {"elevation_deg", std::atan2(way.z, level) * kDegrees}};
+  return {{"azimuth_deg", level > 0 ? azimuth * kRadian : 0}, {"elevation_deg", std::atan2(way.z, level) * kRadian}};
 }
 
 Answer CollisionOf(Episode& episode) {
@@ -70,8 +70,8 @@ Answer ScoreOf(const Episode& episode) {
 Answer SpecOf(const Episode& episode) {
   const EpisodeSpec& spec = episode.spec();
   return {{"instruction", spec.instruction},
-          {"start", {{"p", VectorOf(episode.start())}, {"yaw_deg", spec.start_yaw * kDegrees}}},
-          {"goal", VectorOf(episode.goal())},
+          {"start", {{"p", VectorOf(episode.start())}, {"yaw_deg", spec.start_yaw * kRadian}}},
+          {"goal", spec.tells_goal ? VectorOf(episode.goal()) : Answer(nullptr)},
           {"seed", spec.seed},
           {"drone", spec.drone},
           {"success", {{"rule", kSuccessRuleNames[static_cast<int>(spec.success)]}, {"radius", episode.success_radius()}}},
@@ -87,12 +87,16 @@ Answer ObservationOf(Episode& episode, const ObserveRequest& request) {
                    {"t", episode.seconds()},
                    {"done", episode.end() != EpisodeEnd::kRunning},
                    {"end", kEpisodeEndNames[static_cast<int>(episode.end())]},
-                   {"pose", {{"p", VectorOf(X_WB.p)}, {"q_wxyz", {q.w, q.x, q.y, q.z}}, {"yaw_deg", HeadingOfBody(X_WB) * kDegrees}}},
+                   {"pose", {{"p", VectorOf(X_WB.p)}, {"q_wxyz", {q.w, q.x, q.y, q.z}}, {"yaw_deg", HeadingOfBody(X_WB) * kRadian}}},
                    {"velocity", {{"v", VectorOf(motion.v_WB)}, {"w", VectorOf(motion.w_WB_B)}}},
                    {"collision", CollisionOf(episode)},
                    {"clearance", episode.world().stage().solid()->Clearance(VecCast<float>(X_WB.p), kClearanceReach)},
-                   {"distance_to_goal", episode.distance_to_goal()},
-                   {"goal_direction", DirectionTo(episode.goal(), X_WB)}};
+                   {"distance_to_goal", nullptr},
+                   {"goal_direction", nullptr}};
+  if (episode.spec().tells_goal) {
+    answer["distance_to_goal"] = episode.distance_to_goal();
+    answer["goal_direction"] = DirectionTo(episode.goal(), X_WB);
+  }
   if (request.grid) answer["range_grid"] = GridOf(episode.world().Grid(X_WB, request.grid->rows, request.grid->columns, episode.moved()));
   if (const auto& panorama = request.panorama) {
     answer["panorama"] = PictureOf(episode.world().Panorama(X_WB, panorama->width, panorama->frame, episode.moved()), panorama->quality);
@@ -101,9 +105,9 @@ Answer ObservationOf(Episode& episode, const ObserveRequest& request) {
     Answer views = Answer::array();
     for (const ViewRequest& v : request.views) {
       views.push_back(PictureOf(episode.world().View(X_WB, v.azimuth, v.elevation, v.fov, v.width, v.height, episode.moved()), v.quality));
-      views.back()["azimuth_deg"] = v.azimuth * kDegrees;
-      views.back()["elevation_deg"] = v.elevation * kDegrees;
-      views.back()["fov_deg"] = v.fov * kDegrees;
+      views.back()["azimuth_deg"] = v.azimuth * kRadian;
+      views.back()["elevation_deg"] = v.elevation * kRadian;
+      views.back()["fov_deg"] = v.fov * kRadian;
     }
     answer["views"] = std::move(views);
   }

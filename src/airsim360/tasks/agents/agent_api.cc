@@ -26,16 +26,16 @@ AgentResponse Refusal(const std::string& what) {
 
 AgentApi::AgentApi(AgentApiOptions options) : options_(std::move(options)) {
   if (std::ranges::find(options_.worlds, options_.world) == options_.worlds.end()) options_.worlds.push_back(options_.world);
-  WorldOf(options_.world, options_.world_seed);
+  // With tasks, the world of the first of them.
+  WorldOf(options_.tasks.empty() ? AgentWorldKey{options_.world, options_.world_seed} : options_.tasks.front().world);
 }
 
 AgentApi::~AgentApi() = default;
 
-std::shared_ptr<AgentWorld> AgentApi::WorldOf(const std::string& name, uint64_t seed) {
+std::shared_ptr<AgentWorld> AgentApi::WorldOf(const AgentWorldKey& key) {
   const auto find = [&]() -> std::shared_ptr<AgentWorld> {
     const std::lock_guard lock(mutex_);
-    const auto found =
-        std::ranges::find_if(worlds_, [&](const auto& entry) { return entry.first.first == name && entry.first.second == seed; });
+    const auto found = std::ranges::find(worlds_, key, [](const auto& entry) { return entry.first; });
     return found == worlds_.end() ? nullptr : found->second;
   };
   if (auto world = find()) return world;
@@ -52,9 +52,9 @@ std::shared_ptr<AgentWorld> AgentApi::WorldOf(const std::string& name, uint64_t 
       worlds_.erase(unused);
     }
   }
-  auto world = options_.open(name, seed);
+  auto world = options_.open(key);
   const std::lock_guard lock(mutex_);
-  worlds_.push_back({{name, seed}, world});
+  worlds_.push_back({key, world});
   return world;
 }
 
@@ -79,14 +79,38 @@ void AgentApi::MakeRoom() {
   episodes_.erase(oldest);
 }
 
+const AgentTask& AgentApi::TaskOf(const std::string& id) const {
+  const auto found = std::ranges::find(options_.tasks, id, &AgentTask::id);
+  if (found != options_.tasks.end()) return *found;
+  if (options_.tasks.empty()) throw RequestError("task", "the server has no tasks: start it with --tasks EPISODES.jsonl");
+  std::vector<std::string> ids;
+  for (const AgentTask& task : options_.tasks) ids.push_back(task.id);
+  const std::string nearest = NearestChoice(id.substr(0, 256), ids);
+  throw RequestError("task", "there is no task '" + id.substr(0, 256) + "'; GET /v1/tasks lists them",
+                     nearest.empty() ? ids.front() : nearest);
+}
+
+AgentResponse AgentApi::Tasks() const {
+  Answer list = Answer::array();
+  for (const AgentTask& task : options_.tasks)
+    list.push_back(
+        {{"task", task.id}, {"world", task.world.name}, {"world_seed", task.world.seed}, {"instruction", task.spec.instruction}});
+  return JsonResponse({{"tasks", list}});
+}
+
 AgentResponse AgentApi::Create(const std::string& body) {
-  const CreateRequest request = DecodeCreate(body);
-  const std::string name = request.world.empty() ? options_.world : request.world;
-  if (std::ranges::find(options_.worlds, name) == options_.worlds.end()) {
-    throw RequestError("world", UnknownChoiceMessage("world", name, options_.worlds), NearestChoice(name, options_.worlds));
+  CreateRequest request = DecodeCreate(body);
+  AgentWorldKey key{request.world.empty() ? options_.world : request.world, request.world_seed.value_or(options_.world_seed)};
+  if (!request.task.empty()) {
+    const AgentTask& task = TaskOf(request.task);
+    key = task.world;
+    request.spec = task.spec;
+  } else if (std::ranges::find(options_.worlds, key.name) == options_.worlds.end()) {
+    throw RequestError("world", UnknownChoiceMessage("world", key.name, options_.worlds), NearestChoice(key.name, options_.worlds));
   }
   const auto slot = std::make_shared<Slot>();
-  slot->world = name;
+  slot->world = key.name;
+  slot->task = request.task;
   // Others see it at once, and find it busy.
   const Turn turn(*this, *slot, Turn::Creates::kYes);
   {
@@ -96,9 +120,9 @@ AgentResponse AgentApi::Create(const std::string& body) {
     episodes_[slot->id] = slot;
   }
   try {
-    slot->episode = std::make_unique<Episode>(WorldOf(name, request.world_seed.value_or(options_.world_seed)), request.spec);
+    slot->episode = std::make_unique<Episode>(WorldOf(key), request.spec);
     return JsonResponse({{"episode", slot->id},
-                         {"world", name},
+                         {"world", key.name},
                          {"task", internal::SpecOf(*slot->episode)},
                          {"observation", internal::ObservationOf(*slot->episode, request.observe)}},
                         201);
@@ -112,7 +136,10 @@ AgentResponse AgentApi::Create(const std::string& body) {
 AgentResponse AgentApi::List() {
   const std::lock_guard lock(mutex_);
   Answer list = Answer::array();
-  for (const auto& [id, slot] : episodes_) list.push_back({{"episode", id}, {"world", slot->world}});
+  for (const auto& [id, slot] : episodes_) {
+    list.push_back({{"episode", id}, {"world", slot->world}});
+    if (!slot->task.empty()) list.back()["task"] = slot->task;
+  }
   return JsonResponse({{"episodes", list}, {"most", options_.max_episodes}});
 }
 
@@ -128,11 +155,16 @@ AgentResponse AgentApi::Route(const AgentRequest& request) {
                          {"realtime", options_.realtime},
                          {"openapi", "/openapi.json"},
                          {"episodes", "/v1/episodes"},
+                         {"tasks", "/v1/tasks"},
                          {"websocket", "/v1/ws"}});
   }
   if (path == "/openapi.json") {
     RequireMethod(request, "GET");
     return {200, "application/json", std::string(AgentOpenApi())};
+  }
+  if (path == "/v1/tasks") {
+    RequireMethod(request, "GET");
+    return Tasks();
   }
   constexpr std::string_view kEpisodes = "/v1/episodes";
   if (path == kEpisodes) {
@@ -148,7 +180,7 @@ AgentResponse AgentApi::Route(const AgentRequest& request) {
   }
   if (path == "/v1/ws")
     throw StatusError(426, "/v1/ws is the WebSocket itself: connect to it with an upgrade, and send it requests for other paths");
-  const std::vector<std::string> paths = {"/", "/openapi.json", "/v1/episodes", "/v1/ws"};
+  const std::vector<std::string> paths = {"/", "/openapi.json", "/v1/episodes", "/v1/tasks", "/v1/ws"};
   throw StatusError(404, UnknownChoiceMessage("path", path.substr(0, 128), paths));
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,12 +26,29 @@ struct AgentResponse {
   std::string body;
 };
 
+/// A world as an episode wants it.
+struct AgentWorldKey {
+  std::string name;
+  uint64_t seed = 0;
+  std::optional<int64_t> people = {};  ///< none: as the server has it
+  std::string weather = {};            ///< "": as the server has it
+  friend bool operator==(const AgentWorldKey&, const AgentWorldKey&) = default;
+};
+
+/// An episode that was made before: whoever asks for it needs to know its name alone.
+struct AgentTask {
+  std::string id;
+  AgentWorldKey world;
+  EpisodeSpec spec;
+};
+
 struct AgentApiOptions {
   std::string world = {};  ///< of episodes that name none
   uint64_t world_seed = 0;
   std::vector<std::string> worlds = {};  ///< names that episodes may ask for
+  std::vector<AgentTask> tasks = {};     ///< that episodes may ask for
   /// Builds a world; slow.
-  std::function<std::shared_ptr<AgentWorld>(const std::string& name, uint64_t seed)> open = {};
+  std::function<std::shared_ptr<AgentWorld>(const AgentWorldKey& key)> open = {};
   bool realtime = false;               ///< what an agent takes to think passes in its episode
   std::function<double()> clock = {};  ///< seconds, for idle episodes and `realtime`; none: stands still
   size_t max_episodes = 64;
@@ -57,6 +75,8 @@ class AgentApi {
   AgentResponse Route(const AgentRequest& request);
   AgentResponse Create(const std::string& body);
   AgentResponse List();
+  AgentResponse Tasks() const;
+  const AgentTask& TaskOf(const std::string& id) const;
   AgentResponse Delete(const std::string& id);
   AgentResponse OnEpisode(const std::string& id, const std::string& call, std::string_view query, const AgentRequest& request);
   AgentResponse Describe(Slot& slot);
@@ -68,7 +88,7 @@ class AgentApi {
   AgentResponse Path(Slot& slot);
   AgentResponse Watch(Slot& slot, std::string_view query);
   AgentResponse Entities(Slot& slot);
-  std::shared_ptr<AgentWorld> WorldOf(const std::string& name, uint64_t seed);
+  std::shared_ptr<AgentWorld> WorldOf(const AgentWorldKey& key);
   std::shared_ptr<Slot> Find(const std::string& id);
   void MakeRoom();
   double Now() const { return options_.clock ? options_.clock() : 0; }
@@ -76,7 +96,7 @@ class AgentApi {
   AgentApiOptions options_;
   std::mutex open_mutex_;  // worlds are built one at a time
   std::mutex mutex_;       // of what follows
-  std::vector<std::pair<std::pair<std::string, uint64_t>, std::shared_ptr<AgentWorld>>> worlds_;
+  std::vector<std::pair<AgentWorldKey, std::shared_ptr<AgentWorld>>> worlds_;
   std::map<std::string, std::shared_ptr<Slot>> episodes_;
   uint64_t made_ = 0;
 };

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 
 // One room for all tests.
-std::shared_ptr<AgentWorld> Open(const std::string&, uint64_t) {
+std::shared_ptr<AgentWorld> Open(const AgentWorldKey&) {
   static const auto room = std::make_shared<AgentWorld>(std::make_shared<Stage>(StageOptions{.world = {.world = "box_room"}}));
   return room;
 }
@@ -70,6 +70,57 @@ TEST(AgentApi, AnEpisodeIsFlownAndScored) {
   EXPECT_EQ(agent.Call("POST", at + "/reset", {{"seed", 5}})["observation"]["step"], 0);
   agent.Call("DELETE", at);
   agent.Call("GET", at, {}, 404);
+}
+
+AgentTask MiddleOfTheRoom(bool tells_goal) {
+  AgentTask task{.id = "box_room/0/middle/0", .world = {"box_room", 0}, .spec = {}};
+  task.spec.instruction = "Fly to the middle and stop.";
+  task.spec.start = Vec3d{-3, 0, 2};
+  task.spec.goal = Vec3d{4, 4, 5};
+  task.spec.more_goals = {{0, 0, 2}, {0, 3, 2}};
+  task.spec.success_radius = 0.5;
+  task.spec.reference_path = {{-3, 0, 2}, {0, 0, 2}};
+  task.spec.tells_goal = tells_goal;
+  return task;
+}
+
+TEST(AgentApi, ATaskIsFlownWithoutBeingToldWhereItsGoalIs) {
+  Agent agent({.tasks = {MiddleOfTheRoom(false)}});
+  EXPECT_EQ(agent.Call("GET", "/v1/tasks")["tasks"][0]["instruction"], "Fly to the middle and stop.");
+  const Json made = agent.Call("POST", "/v1/episodes", {{"task", "box_room/0/middle/0"}}, 201);
+  const std::string at = "/v1/episodes/" + made["episode"].get<std::string>();
+  EXPECT_EQ(made["task"]["instruction"], "Fly to the middle and stop.");
+  const auto tells = [](const Json& answer) {
+    return !answer["task"]["goal"].is_null() || !answer["observation"]["distance_to_goal"].is_null() ||
+           !answer["observation"]["goal_direction"].is_null() || answer.contains("score");
+  };
+  EXPECT_FALSE(tells(made));
+  EXPECT_FALSE(tells(agent.Call("GET", at)));
+  EXPECT_FALSE(tells(agent.Call("POST", at + "/reset")));
+  EXPECT_FALSE(tells(agent.Call("GET", at + "/watch")));
+  agent.Call("POST", at + "/step", {{"action", {{"type", "waypoints"}, {"points", {{0, 0, 2}}}}}});
+  // Any place of the goal will do.
+  const Json over = agent.Call("POST", at + "/step", {{"action", "stop"}});
+  EXPECT_TRUE(over["score"]["success"].get<bool>());
+  EXPECT_LT(over["score"]["navigation_error"].get<double>(), 0.5);
+  EXPECT_TRUE(over["observation"]["distance_to_goal"].is_null());
+}
+
+TEST(AgentApi, AGoalIsToldWhereTheServerSaysSo) {
+  Agent agent({.tasks = {MiddleOfTheRoom(true)}});
+  const Json made = agent.Call("POST", "/v1/episodes", {{"task", "box_room/0/middle/0"}}, 201);
+  EXPECT_NEAR(made["observation"]["distance_to_goal"].get<double>(), 3, 0.05);  // of the nearest of its places
+  EXPECT_EQ(made["task"]["goal"][0], 4);
+}
+
+TEST(AgentApi, ATaskThatIsNotThereOrIsChangedIsRefused) {
+  Agent agent({.tasks = {MiddleOfTheRoom(false)}});
+  const Json unknown = agent.Call("POST", "/v1/episodes", {{"task", "box_room/0/midle/0"}}, 422)["error"];
+  EXPECT_EQ(unknown["field"], "task");
+  EXPECT_EQ(unknown["nearest"], "box_room/0/middle/0");
+  EXPECT_EQ(agent.Call("POST", "/v1/episodes", {{"task", "box_room/0/middle/0"}, {"goal", {0, 0, 2}}}, 422)["error"]["field"], "goal");
+  Agent without;
+  EXPECT_EQ(without.Call("POST", "/v1/episodes", {{"task", "x"}}, 422)["error"]["field"], "task");
 }
 
 TEST(AgentApi, ObservationsHoldThePicturesAskedFor) {

@@ -149,11 +149,13 @@ AgentResponse AgentApi::Picture(Slot& slot, const std::string& name, std::string
 
 AgentResponse AgentApi::Describe(Slot& slot) {
   const Turn turn(*this, slot);
-  return JsonResponse({{"episode", slot.id},
-                       {"world", slot.world},
-                       {"task", internal::SpecOf(*slot.episode)},
-                       {"observation", internal::ObservationOf(*slot.episode, {})},
-                       {"score", internal::ScoreOf(*slot.episode)}});
+  Answer answer = {{"episode", slot.id},
+                   {"world", slot.world},
+                   {"task", internal::SpecOf(*slot.episode)},
+                   {"observation", internal::ObservationOf(*slot.episode, {})}};
+  // How far it is to the goal would show in the score.
+  if (slot.episode->spec().tells_goal || slot.episode->end() != EpisodeEnd::kRunning) answer["score"] = internal::ScoreOf(*slot.episode);
+  return JsonResponse(answer);
 }
 
 AgentResponse AgentApi::Path(Slot& slot) {

@@ -11,6 +11,7 @@ std::string_view AgentOpenApi() {
 "paths": {
   "/": {"get": {"summary": "What this server is", "responses": {"default": {"$ref": "#/components/responses/Error"}, "200": {"description": "name, world, worlds, realtime"}}}},
   "/openapi.json": {"get": {"summary": "This description", "responses": {"default": {"$ref": "#/components/responses/Error"}, "200": {"description": "OpenAPI 3.0"}}}},
+  "/v1/tasks": {"get": {"summary": "Episodes that can be asked for by name", "responses": {"default": {"$ref": "#/components/responses/Error"}, "200": {"description": "{tasks: [{task, world, world_seed, instruction}]}"}}}},
   "/v1/episodes": {
     "get": {"summary": "Open episodes", "responses": {"default": {"$ref": "#/components/responses/Error"}, "200": {"description": "{episodes: [{episode, world}], most}"}}},
     "post": {"summary": "Create an episode", "requestBody": {"content": {"application/json": {"schema": {"$ref": "#/components/schemas/Create"}}}},
@@ -65,6 +66,7 @@ std::string_view AgentOpenApi() {
   "schemas": {
     "Vector": {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3},
     "Create": {"type": "object", "additionalProperties": false, "properties": {
+      "task": {"type": "string", "description": "name of a task of the server; then nothing else but observe is given, and goal, distance_to_goal and goal_direction are null, unless the server tells them"},
       "world": {"type": "string"}, "world_seed": {"type": "integer", "minimum": 0},
       "instruction": {"type": "string", "maxLength": 4096}, "goal": {"$ref": "#/components/schemas/Vector"},
       "start": {"type": "object", "additionalProperties": false, "properties": {"p": {"$ref": "#/components/schemas/Vector"}, "yaw_deg": {"type": "number"}}},

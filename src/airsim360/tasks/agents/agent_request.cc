@@ -5,6 +5,7 @@
 #include <map>
 
 #include "airsim360/flight/drones/catalog.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/tasks/agents/json_fields.h"
 
 namespace airsim360 {
@@ -13,7 +14,6 @@ namespace {
 using internal::Json;
 using internal::JsonFields;
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kFarthest = 1e5;      // metres
 constexpr double kFastest = 100;       // m/s
 constexpr size_t kLongestText = 4096;  // bytes of an instruction
@@ -44,9 +44,9 @@ PanoramaRequest ReadPanorama(JsonFields fields) {
 
 ViewRequest ReadView(JsonFields fields) {
   ViewRequest request;
-  fields.Number("azimuth_deg", request.azimuth, -360, 360, kRadians);
-  fields.Number("elevation_deg", request.elevation, -90, 90, kRadians);
-  fields.Number("fov_deg", request.fov, 1, 170, kRadians);
+  fields.Number("azimuth_deg", request.azimuth, -360, 360, kDegree);
+  fields.Number("elevation_deg", request.elevation, -90, 90, kDegree);
+  fields.Number("fov_deg", request.fov, 1, 170, kDegree);
   fields.Integer("width", request.width, 16, kWidestView);
   fields.Integer("height", request.height, 16, kWidestView);
   fields.Integer("quality", request.quality, 1, 100);
@@ -101,8 +101,8 @@ void Require(bool given, const JsonFields& fields, const char* name, const char*
 
 AgentAction ReadRelativeGoal(JsonFields& fields) {
   RelativeGoalAction action;
-  fields.Number("azimuth_deg", action.azimuth, -360, 360, kRadians);
-  fields.Number("elevation_deg", action.elevation, -90, 90, kRadians);
+  fields.Number("azimuth_deg", action.azimuth, -360, 360, kDegree);
+  fields.Number("elevation_deg", action.elevation, -90, 90, kDegree);
   Require(fields.Find("distance") != nullptr, fields, "distance", "5");
   fields.Number("distance", action.distance, 0, 1000);
   fields.Number("speed", action.speed, 0, kFastest);
@@ -126,7 +126,7 @@ AgentAction ReadVelocity(JsonFields& fields) {
   size_t frame = 0;
   Require(fields.Vector("v", action.v, kFastest), fields, "v", "[1, 0, 0]");
   fields.Choice("frame", frame, {"body", "world"});
-  fields.Number("yaw_rate_deg", action.yaw_rate, -720, 720, kRadians);
+  fields.Number("yaw_rate_deg", action.yaw_rate, -720, 720, kDegree);
   fields.Number("duration", action.duration, 0.001, kLongestAction);
   action.world_frame = frame == 1;
   return action;
@@ -174,7 +174,7 @@ AgentAction ReadAction(const Json* value, const std::string& path) {
 void ReadStart(JsonFields fields, EpisodeSpec& spec) {
   Vec3d p;
   if (fields.Vector("p", p, kFarthest)) spec.start = p;
-  fields.Number("yaw_deg", spec.start_yaw, -360, 360, kRadians);
+  fields.Number("yaw_deg", spec.start_yaw, -360, 360, kDegree);
   fields.Finish();
 }
 
@@ -190,7 +190,7 @@ void ReadPresets(JsonFields fields, PresetSizes& sizes) {
   fields.Number("forward", sizes.forward, 0.05, 100);
   fields.Number("lateral", sizes.lateral, 0.05, 100);
   fields.Number("vertical", sizes.vertical, 0.05, 100);
-  fields.Number("turn_deg", sizes.turn, 0.5, 180, kRadians);
+  fields.Number("turn_deg", sizes.turn, 0.5, 180, kDegree);
   fields.Number("hover", sizes.hover, 0.01, kLongestAction);
   fields.Finish();
 }
@@ -257,6 +257,10 @@ CreateRequest DecodeCreate(std::string_view text) {
   if (const Json* presets = fields.Find("presets")) ReadPresets({*presets, "presets"}, spec.presets);
   if (const Json* limits = fields.Find("limits")) ReadLimits({*limits, "limits"}, spec);
   request.observe = TakeObserve(fields);
+  if (fields.Text("task", request.task, 1024); !request.task.empty()) {
+    for (const auto& [key, value] : json.items())
+      if (key != "task" && key != "observe") throw RequestError(key, "is that of the task; leave it out, or the task");
+  }
   fields.Finish();
   return request;
 }

@@ -43,7 +43,8 @@ struct ObserveRequest {
 };
 
 struct CreateRequest {
-  std::string world;  ///< "" = the server's
+  std::string world;      ///< "" = the server's
+  std::string task = {};  ///< AgentTask; everything but `observe` is the task's
   std::optional<uint64_t> world_seed;
   EpisodeSpec spec;
   ObserveRequest observe;

@@ -5,7 +5,7 @@
 namespace airsim360 {
 namespace {
 
-HttpResponse Answer(AgentApi& api, const HttpRequest& request) {
+HttpResponse Respond(AgentApi& api, const HttpRequest& request) {
   AgentResponse response = api.Handle({request.method, request.target, request.body});
   return {.status = response.status, .content_type = std::move(response.content_type), .body = std::move(response.body)};
 }
@@ -14,7 +14,7 @@ HttpResponse Answer(AgentApi& api, const HttpRequest& request) {
 
 AgentServer::AgentServer(AgentApi& api, const AgentServerOptions& options)
     : server_(std::make_unique<HttpServer>(
-          HttpHandlers{.request = [&api](const HttpRequest& request) { return Answer(api, request); },
+          HttpHandlers{.request = [&api](const HttpRequest& request) { return Respond(api, request); },
                        .message = [&api](const std::string& text) -> SocketMessage { return {api.HandleMessage(text)}; }},
           HttpServerOptions{.address = options.address,
                             .port = options.port,

@@ -44,7 +44,7 @@ struct WatchedMoment {
 
 /// One episode and who may touch it.
 struct AgentApi::Slot {
-  std::string id, world;
+  std::string id, world, task;       // task: "" = of the request itself
   std::mutex mutex;                  // of the episode
   std::unique_ptr<Episode> episode;  // none: it is being made, or could not be
   double answered = 0;               // when its agent got the last answer

@@ -56,6 +56,16 @@ void Episode::Check() const {
   if (spec_.reference_path.size() > kMostReferencePoints)
     throw InputError("reference_path: " + std::to_string(spec_.reference_path.size()) + " points are more than " +
                      std::to_string(kMostReferencePoints));
+  if (spec_.more_goals.size() > kMostReferencePoints)
+    throw InputError("more_goals: " + std::to_string(spec_.more_goals.size()) + " places are more than " +
+                     std::to_string(kMostReferencePoints));
+}
+
+double Episode::distance_to_goal() const {
+  const Vec3d p = vehicle().motion.X_WB.p;
+  double nearest = Norm(goal_W_ - p);
+  for (const Vec3d& place : spec_.more_goals) nearest = std::min(nearest, Norm(place - p));
+  return nearest;
 }
 
 void Episode::ChoosePlaces() {

@@ -22,13 +22,14 @@ enum class SuccessRule { kStop, kReach };
 inline constexpr const char* kSuccessRuleNames[] = {"stop", "reach"};
 
 struct EpisodeSpec {
-  std::string instruction;            ///< what the agent is asked to do, in words; may be empty
-  std::optional<Vec3d> goal;          ///< in W; none: a free place by the seed
-  std::optional<Vec3d> start;         ///< in W; none: the world's first free place
-  double start_yaw = 0;               ///< rad
-  std::vector<Vec3d> reference_path;  ///< of a demonstration; empty: FindShortestWay of the drone
-  uint64_t seed = 0;                  ///< of the goal, gusts and sensors
-  std::string drone = "hummingbird";  ///< DroneCatalog
+  std::string instruction;             ///< what the agent is asked to do, in words; may be empty
+  std::optional<Vec3d> goal;           ///< in W; none: a free place by the seed
+  std::vector<Vec3d> more_goals = {};  ///< other places that count as the goal too; at most 4096
+  std::optional<Vec3d> start;          ///< in W; none: the world's first free place
+  double start_yaw = 0;                ///< rad
+  std::vector<Vec3d> reference_path;   ///< of a demonstration; empty: FindShortestWay of the drone
+  uint64_t seed = 0;                   ///< of the goal, gusts and sensors
+  std::string drone = "hummingbird";   ///< DroneCatalog
   SuccessRule success = SuccessRule::kStop;
   double success_radius = 0;  ///< metres; 0 = 20 in the open (AerialVLN), 1 in rooms
   double speed = 3;           ///< m/s of actions that say none
@@ -36,6 +37,7 @@ struct EpisodeSpec {
   int64_t max_steps = 500;   ///< actions
   double max_seconds = 600;  ///< simulated
   bool end_on_collision = true;
+  bool tells_goal = true;  ///< its agent is told where the goal is, and how it scores before it is over
 };
 
 enum class EpisodeEnd { kRunning, kStopped, kReached, kCollision, kMaxSteps, kMaxSeconds };
@@ -80,7 +82,8 @@ class Episode {
   Vec3d start() const { return start_W_; }
   Vec3d goal() const { return goal_W_; }
   double success_radius() const { return radius_; }
-  double distance_to_goal() const { return Norm(goal_W_ - vehicle().motion.X_WB.p); }
+  /// Metres to the nearest place of the goal.
+  double distance_to_goal() const;
   int64_t steps() const { return steps_; }
   double seconds() const { return 1e-9 * static_cast<double>(state().t_ns); }
   EpisodeEnd end() const { return end_; }

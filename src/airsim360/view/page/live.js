@@ -184,7 +184,7 @@ export class Live {
   }
   tellFollowed({t, episode, instruction, step, end, distance, goal, score}, ms, rate) {
     this.figures = {ms, rate};
-    const task = episode ? ` · episode ${episode}, ${step} actions, ${distance.toFixed(1)} m from the goal${end === "running" ? "" : ` · ${end}, ${score?.success ? "success" : "failure"}`}` : "";
+    const task = episode ? ` · episode ${episode}, ${step} actions, ${distance == null ? "goal not told" : `${distance.toFixed(1)} m from the goal`}${end === "running" ? "" : ` · ${end}, ${score?.success ? "success" : "failure"}`}` : "";
     this.state.textContent = `${this.flies ? "flying" : "looking on"} · ${this.figures.rate.toFixed(1)} pictures/s · ${(t - (this.began ??= episode ? 0 : t)).toFixed(1)} s${task}`;
     this.task.textContent = instruction ?? "";
     this.goal = goal;

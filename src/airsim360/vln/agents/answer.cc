@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/vln/predicates/query_json.h"
 
 namespace airsim360 {
@@ -12,8 +12,6 @@ namespace {
 
 using internal::VlnFields;
 using internal::VlnJson;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // A required number that is one: JSON has no NaN, but 1e999 and strings have to be refused too.
 double NumberAt(VlnFields& fields, const char* name, double low, double high) {

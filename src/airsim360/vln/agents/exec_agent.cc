@@ -24,7 +24,7 @@ namespace {
 using internal::Tame;
 using Clock = std::chrono::steady_clock;
 
-constexpr size_t kLongestQuoted = 200;
+constexpr size_t kLongestQuotedLine = 200;
 
 // A child with pipes to its input and from its output, ended with all that it started.
 class Child {
@@ -145,8 +145,8 @@ class ExecAgent : public VlnAgent {
         in_a_row_ = 0;
         return decision;
       } catch (const InputError& error) {
-        decision.faults.push_back(Tame(error.what(), kLongestQuoted) + " in '" + Tame(text, kLongestQuoted) + "'");
-        asked["told"] = "your last answer could not be read: " + Tame(error.what(), kLongestQuoted);
+        decision.faults.push_back(Tame(error.what(), kLongestQuotedLine) + " in '" + Tame(text, kLongestQuotedLine) + "'");
+        asked["told"] = "your last answer could not be read: " + Tame(error.what(), kLongestQuotedLine);
       }
     }
     decision.answer = {PresetAction{Preset::kHover}};

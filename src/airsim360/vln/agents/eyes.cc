@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/image/codecs.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/tasks/agents/agent_action.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
 constexpr int kRecogniserWidth = 512;  // of its panorama: as SeenAtStart
 constexpr int kQuality = 85;
 

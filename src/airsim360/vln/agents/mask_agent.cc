@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/routes/roadmap.h"
 #include "airsim360/vln/agents/vln_agent.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int64_t kEnough = 6;   // pixels that it recognises a thing by
 constexpr double kStandOff = 4;  // metres that it stops before a thing, where the radius of success is no smaller
 constexpr double kArrived = 7;   // metres to a thing at which a flight by steps stops

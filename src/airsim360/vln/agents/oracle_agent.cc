@@ -2,9 +2,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <queue>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/planning/search.h"
 #include "airsim360/routes/roadmap.h"
 #include "airsim360/vln/agents/vln_agent.h"
@@ -22,7 +22,6 @@ constexpr int kMostExpanded = 3000, kMostInNeed = 60000;  // places looked at fo
 constexpr double kLeastRoom = 0.25;                       // metres free around a step where nothing else helps
 constexpr double kSurely = 0.9;                           // of the radius: near enough where no steps lead nearer
 constexpr double kSpacing = 1;                            // metres between points of the way that progress is measured on
-constexpr double kPi = std::numbers::pi;
 
 std::vector<Vec3d> Dense(const std::vector<Vec3d>& way) {
   std::vector<Vec3d> points = {way.front()};

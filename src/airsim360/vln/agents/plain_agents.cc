@@ -1,14 +1,13 @@
 // Agents that look at nothing.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/vln/agents/vln_agent.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kStraight = 40;  // metres that forward and heuristic fly
 constexpr double kMargin = 3;     // metres kept from what is ahead
 

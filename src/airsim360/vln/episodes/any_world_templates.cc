@@ -4,8 +4,10 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 
 #include "airsim360/base/error.h"
+#include "airsim360/vln/episodes/language_episode.h"
 
 namespace airsim360 {
 namespace {
@@ -19,7 +21,7 @@ std::string WordOf(const std::string& path) {
       {"wood", "wooden bench"}, {"generic", "broadleaf tree"}, {"narrowleaf", "narrow-leaved tree"}, {"pine", "pine tree"},
       {"usa", "American flag"}, {"maple", "maple tree"},       {"amur_cork", "cork tree"},           {"modular", "pavement"},
       {"barrier", "barrier"},   {"car_pillar", "bollard"},     {"road_column", "bollard"},           {"type_a", "lamp post"},
-      {"type_b", "lamp post"},  {"pot", "plant pot"},          {"green_pot", "green plant pot"}};
+      {"type_b", "lamp post"},  {"pot", "plant pot"},          {"green_pot", "green plant pot"},     {"machine", "vending machine"}};
   std::string word = path.substr(path.rfind('/') + 1);
   if (const auto found = kWords.find(word); found != kWords.end()) return found->second;
   std::ranges::replace(word, '_', ' ');
@@ -53,7 +55,7 @@ const char* Said(const std::string& sector) {
 }
 
 // What an instruction speaks of. `floors`: some of these things stand over each other, so that only those on this floor are meant.
-struct Named {
+struct SpokenOf {
   Noun noun;
   bool floors = false;
 
@@ -65,7 +67,7 @@ struct Named {
 };
 
 // Five lengths of the same task, from three words to two sentences.
-std::vector<InstructionTemplate> OfNoun(const Named& named) {
+std::vector<InstructionTemplate> OfNoun(const SpokenOf& named) {
   const std::string word = named.text();
   std::vector<InstructionTemplate> made;
   const auto add = [&](const std::string& kind, std::string text, std::vector<Predicate> predicates,
@@ -78,7 +80,7 @@ std::vector<InstructionTemplate> OfNoun(const Named& named) {
   add("1", "Nearest " + word + ".", {Nearest()}, "any");
   add("2", "Fly to the nearest " + word + " and stop.", {Nearest()}, "any");
   int turn = 0;
-  for (const Sector& sector : kSectors) {
+  for (const Sector& sector : std::span(kSectors).first(kPlainSectors)) {
     add("3/" + std::string(sector.name), "Fly to the nearest " + word + " " + Said(sector.name) + " and stop when you are close to it.",
         {Bearing(sector.name), Nearest()}, sector.name);
     // The longest words for every second direction: as many as all other lengths together would be too alike.
@@ -90,14 +92,17 @@ std::vector<InstructionTemplate> OfNoun(const Named& named) {
   }
   add("4", "Turn until you find the " + word + " that is nearest to you, fly to it, keep a few metres away, and stop there.", {Nearest()},
       "any");
-  InstructionTemplate& second = add("3/second", "Fly straight ahead and stop when you reach the second " + word + ".",
-                                    {{.kind = PredicateKind::kAlong, .width = 10}, {.kind = PredicateKind::kOrdinal, .k = 2}}, "ahead");
+  // Counted is what stands in the way, so to speak; what is farther aside than that one person counts and another does not.
+  InstructionTemplate& second =
+      add("3/second", "Fly straight ahead and stop when you reach the second " + word + ".",
+          {{.kind = PredicateKind::kAlong, .width = 1.5, .clear = 6}, {.kind = PredicateKind::kOrdinal, .k = 2}}, "ahead");
   second.farthest = 90;
+  second.in_sight = kInSight;
   return made;
 }
 
 // Two things one after the other, the second seen in the direction of the flight to the first.
-InstructionTemplate OneThenTheOther(const Named& first, const Named& second, const char* sector) {
+InstructionTemplate OneThenTheOther(const SpokenOf& first, const SpokenOf& second, const char* sector) {
   std::string id = "any/" + first.noun.word + "/then/" + second.noun.word + "/" + sector;
   std::ranges::replace(id, ' ', '_');
   return {.id = std::move(id),
@@ -126,6 +131,11 @@ void FitRoom(InstructionTemplate& made) {
   made.lowest = 1;
   made.highest = 2;
   made.distance = 1;
+  for (Predicate& predicate : made.query.predicates) {
+    if (predicate.kind != PredicateKind::kAlong) continue;
+    predicate.width = 1;
+    predicate.clear = 2.5;
+  }
   for (NextPart& part : made.then) part.distance = 1;
 }
 
@@ -149,11 +159,11 @@ std::vector<InstructionTemplate> AnyWorldTemplates(const Scene& scene, bool room
   for (const auto& [word, categories] : by_word) words.push_back(word);
   std::ranges::stable_sort(words, {}, [&](const std::string& word) { return boxes[word].size(); });
   words.resize(std::min(words.size(), kMostNouns));
-  std::vector<Named> nouns;
+  std::vector<SpokenOf> nouns;
   for (const std::string& word : words)
     nouns.push_back({{.word = word, .categories = {by_word[word].begin(), by_word[word].end()}}, rooms && StandOverEachOther(boxes[word])});
   std::vector<InstructionTemplate> templates;
-  for (const Named& named : nouns)
+  for (const SpokenOf& named : nouns)
     for (InstructionTemplate& made : OfNoun(named)) templates.push_back(std::move(made));
   // Each thing leads on to three others.
   for (size_t i = 0; i < nouns.size(); ++i)

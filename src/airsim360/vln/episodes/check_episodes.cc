@@ -8,13 +8,16 @@
 #include "airsim360/planning/search.h"
 #include "airsim360/routes/roadmap.h"
 #include "airsim360/vln/episodes/make_episodes.h"
+#include "airsim360/vln/episodes/places.h"
 #include "airsim360/vln/predicates/brute_force.h"
 
 namespace airsim360 {
 namespace {
 
 constexpr double kFree = 0.45;   // metres around the way
+constexpr double kTight = 0.02;  // metres less than was planned with, in rooms
 constexpr double kSame = 2e-3;   // metres: points of a file are rounded
+constexpr double kBeside = 3;    // metres from a thing in a room to places that count as there
 constexpr double kAtThing = 12;  // metres from a goal to the thing that it belongs to
 
 std::string NameOf(const Scene& scene, const std::vector<EntityId>& entities) {
@@ -23,7 +26,10 @@ std::string NameOf(const Scene& scene, const std::vector<EntityId>& entities) {
 
 class Checker {
  public:
-  explicit Checker(const std::shared_ptr<Stage>& stage) : stage_(stage), brute_(stage->shared_scene()) {}
+  explicit Checker(const std::shared_ptr<Stage>& stage)
+      : stage_(stage),
+        brute_(stage->shared_scene()),
+        free_(internal::VlnGround(stage->solid()).rooms() ? internal::kNarrowWay - kTight : kFree) {}
 
   /// Empty if all is well.
   std::string Problem(const LanguageEpisode& e) {
@@ -57,6 +63,7 @@ class Checker {
     std::string what = Uniqueness(e.query, {e.start, e.turn}, e.entities);
     for (size_t i = 0; i < e.before.size() && what.empty(); ++i) what = Part(e, i);
     if (what.empty()) what = Way(e);
+    if (what.empty()) what = Places(e);
     return what.empty() ? Place(e.entities, e.goal_kind, e.before.empty() ? e.start.p_W : e.before.back().goal, e.goal) : what;
   }
 
@@ -95,10 +102,21 @@ class Checker {
     if (Norm(e.ref.front() - e.start.p_W) > kSame) return "not reachable: the way does not begin at the start";
     if (Norm(e.ref.back() - e.goal) > kSame) return "not reachable: the way does not end at the goal";
     for (size_t i = 1; i < e.ref.size(); ++i)
-      if (!IsFree(*stage_->solid(), e.ref[i - 1], e.ref[i], kFree))
-        return "not reachable: leg " + std::to_string(i) + " of the way comes nearer than " + std::to_string(kFree).substr(0, 4) +
+      if (!IsFree(*stage_->solid(), e.ref[i - 1], e.ref[i], free_))
+        return "not reachable: leg " + std::to_string(i) + " of the way comes nearer than " + std::to_string(free_).substr(0, 4) +
                " m to a surface";
     if (std::abs(PolylineLength(e.ref) - e.geodesic_length) > 0.01) return "geodesic_length is not the length of the way";
+    return "";
+  }
+
+  // What counts as the goal too.
+  std::string Places(const LanguageEpisode& e) {
+    for (size_t i = 0; i < e.places.size(); ++i) {
+      const std::string which = "place " + std::to_string(i + 1) + " of the goal ";
+      if (const double off = brute_.Distance(e.entities, e.places[i]); off > kBeside)
+        return which + "is " + std::to_string(off) + " m from " + NameOf(stage_->scene(), e.entities);
+      if (!IsFree(*stage_->solid(), e.places[i], e.places[i], free_)) return which + "is not free";
+    }
     return "";
   }
 
@@ -112,6 +130,7 @@ class Checker {
 
   std::shared_ptr<Stage> stage_;
   BruteForce brute_;
+  double free_;  // metres around the way
   std::map<std::pair<size_t, std::string>, std::string> changes_;
 };
 

@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/vln/episodes/places.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLongRoad = 25;      // metres: shorter ones are stubs
 constexpr double kLineJitter = 0.05;  // rad of a heading along a line
 
@@ -30,10 +29,14 @@ std::optional<Vec3d> Lift(const VlnGround& ground, Vec3d at, const InstructionTe
   const bool open = hit && (ground.Is(hit->entity, "ground") || ground.Is(hit->entity, "water") || ground.Is(hit->entity, "nature"));
   if (!open) return std::nullopt;
   const Vec3d p{at.x, at.y, hit->z + height};
-  return ground.IsFree(p, StartRoom(ground)) ? std::optional(p) : std::nullopt;
+  return ground.IsFree(p, std::max(wanted.room, StartRoom(ground))) ? std::optional(p) : std::nullopt;
 }
 
 double HeadingOf(Vec3d d) { return std::atan2(d.y, d.x); }
+
+bool IsCounted(const Query& query) {
+  return std::ranges::any_of(query.predicates, [](const Predicate& p) { return p.kind == PredicateKind::kOrdinal; });
+}
 
 struct Draw {
   const VlnGround& ground;
@@ -62,6 +65,23 @@ struct Draw {
       if (wanted.heading == sector.name)
         yaw = azimuth + kPi + (sector.azimuth + random.Uniform(-spread, spread) * sector.half_width) * kPi / 180;
     return At(thing.center() + way * (edge + distance), yaw);
+  }
+
+  // Before two things of a kind, one behind the other: what is to be counted lies on the line ahead.
+  std::optional<Standpoint> InLine() const {
+    std::vector<const Thing*> before;
+    for (const Thing& other : graph.Find(wanted.query.noun))
+      if (&other != &thing && PlanDistance(thing.center(), other.box).least < farthest) before.push_back(&other);
+    if (before.empty()) return std::nullopt;
+    const Thing& first = *before[random.Index(static_cast<uint32_t>(before.size()))];
+    const Vec3d way{thing.center().x - first.center().x, thing.center().y - first.center().y, 0};
+    const double gap = Norm(way), most = farthest - gap, least = std::max(nearest - gap, 0.5 * nearest);
+    if (gap < 1 || most < least) return std::nullopt;
+    const Vec3d ahead = way / gap;
+    const Vec3d half = first.size() * 0.5;
+    const double edge = std::abs(ahead.x) * half.x + std::abs(ahead.y) * half.y;
+    const Vec3d place = first.center() - ahead * (edge + random.Uniform(least, most));
+    return At({place.x, place.y, thing.center().z}, HeadingOf(ahead) + random.Uniform(-0.2, 0.2) * kLineJitter);
   }
 
   std::optional<Standpoint> OnRoad() const {
@@ -135,7 +155,7 @@ std::optional<Standpoint> DrawStart(const VlnGround& ground, SceneGraph& graph, 
   const Draw draw{ground, graph, wanted, nearest, farthest, random, things[random.Index(static_cast<uint32_t>(things.size()))]};
   switch (wanted.frame) {
     case StartFrame::kAround:
-      return draw.Around();
+      return IsCounted(wanted.query) ? draw.InLine() : draw.Around();
     case StartFrame::kRoad:
       return draw.OnRoad();
     case StartFrame::kTurn:

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/planning/search.h"
 #include "airsim360/vln/predicates/query_json.h"
 
@@ -16,7 +16,6 @@ using internal::PointOf;
 using internal::Rounded;
 using internal::VlnJson;
 
-constexpr double kPi = std::numbers::pi;
 constexpr size_t kMostRecords = 1'000'000;
 
 // This module's boundary to worlds of north, east, down (AirSim's): a heading there is clockwise from north.

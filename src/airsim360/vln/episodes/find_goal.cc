@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/vln/episodes/places.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kEyeHeight = 1.6;  // metres above the ground: the lowest place beside a thing
 constexpr int kRing = 32;           // places tried around a thing
 constexpr double kBesideIt = 8;     // metres from a thing: farther is not beside it
@@ -139,6 +138,26 @@ struct Finder {
 };
 
 }  // namespace
+
+std::vector<Vec3d> FindPlaces(const VlnGround& ground, const InstructionTemplate& wanted, const Thing& thing, Vec3d goal) {
+  const Viewpoint from{goal, 0};
+  const Finder find{ground, wanted, thing, from};
+  const double distance = std::max(wanted.distance, 0.8);
+  const Vec3d grown{distance, distance, distance}, low = thing.box.min - grown, size = thing.size() + grown * 2;
+  // A lattice around the thing; wider, where that has too many places.
+  for (double apart = 1;; apart *= 1.25) {
+    std::vector<Vec3d> places;
+    const auto parts = [apart](double length) { return static_cast<int>(length / apart) + 1; };
+    const int nx = parts(size.x), ny = parts(size.y), nz = parts(size.z);
+    for (int i = 0; i < nx * ny * nz; ++i) {
+      const Vec3d p = low + Vec3d{size.x * (i % nx + 0.5) / nx, size.y * (i / nx % ny + 0.5) / ny, size.z * (i / (nx * ny) + 0.5) / nz};
+      if (ground.IsFree(p, GoalRoom(ground)) && find.Sees(p)) places.push_back(p);
+    }
+    if (places.size() > kMostPlaces) continue;
+    std::ranges::stable_sort(places, {}, [&](Vec3d p) { return Norm(p - goal); });
+    return places;
+  }
+}
 
 std::optional<Vec3d> FindGoal(const VlnGround& ground, const InstructionTemplate& wanted, const Thing& thing, const Viewpoint& start) {
   const Finder find{ground, wanted, thing, start};

@@ -7,6 +7,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/vln/episodes/any_world_templates.h"
+#include "airsim360/vln/episodes/language_episode.h"
 #include "airsim360/vln/predicates/query_json.h"
 
 namespace airsim360 {
@@ -24,6 +25,13 @@ Kind ChoiceOf(VlnFields& fields, const char* name, const char* const (&names)[kC
   const auto found = std::ranges::find(choices, text);
   if (found == choices.end()) throw InputError(fields.where() + "." + name + ": " + UnknownChoiceMessage(name, text, choices));
   return static_cast<Kind>(found - choices.begin());
+}
+
+// "in_sight": true, or how many pixels of it.
+int64_t PixelsOf(VlnFields& fields) {
+  const VlnJson* found = fields.Find("in_sight");
+  if (found != nullptr && found->is_number()) return static_cast<int64_t>(fields.Number("in_sight", 0, 0, kSeenWidth * kSeenWidth / 2.0));
+  return fields.Flag("in_sight", false) ? kInSight : 0;
 }
 
 // "distance": [24, 150]
@@ -64,7 +72,9 @@ InstructionTemplate TemplateOf(const VlnJson& value, const std::string& where) {
   ReadRange(fields, "height", made.lowest, made.highest);
   made.goal = ChoiceOf(fields, "goal", kGoalKindNames, GoalKind::kNear);
   made.distance = fields.Number("goal_distance", 4, 0, 50);
-  made.in_sight = fields.Flag("in_sight", false);
+  made.in_sight = PixelsOf(fields);
+  made.room = fields.Number("room", 0, 0, 10);
+  made.radius = fields.Number("radius", 0, 0, 100);
   if (const VlnJson* then = fields.Find("then")) {
     if (!then->is_array() || then->size() > kMostParts)
       throw InputError(where + ".then: is not a list of at most " + std::to_string(kMostParts) + " parts");

@@ -52,8 +52,12 @@ struct InstructionTemplate {
   double nearest = 24, farthest = 150;  ///< metres between start and thing, seen from above
   double lowest = 2, highest = 8;       ///< metres of the start above what is below it
   GoalKind goal = GoalKind::kNear;
-  double distance = 4;              ///< metres that the goal keeps from the thing
-  bool in_sight = false;            ///< its words take for granted that one sees it: "the lake in front of you"
+  double distance = 4;  ///< metres that the goal keeps from the thing
+  /// Pixels of SeenAtStart that starts have to show, for its words take for granted that one sees it: "the lake in front of you".
+  /// An instruction that turns is seen from there. 0: it may be hidden.
+  int64_t in_sight = 0;
+  double room = 0;                  ///< metres free around the start; 0: as places have it
+  double radius = 0;                ///< metres around the goal that count as there; 0: 20, in rooms 1
   std::vector<NextPart> then = {};  ///< in order; at most kMostParts
 };
 inline constexpr size_t kMostParts = 8;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <sstream>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/planning/search.h"
 #include "airsim360/vln/predicates/query_json.h"
 
@@ -19,7 +19,6 @@ using internal::ToJson;
 using internal::VlnFields;
 using internal::VlnJson;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr size_t kMostEpisodes = 1'000'000, kMostPoints = 4096;
 
 VlnJson ViewJson(const Viewpoint& view) { return {{"p", ToJson(view.p_W)}, {"yaw_deg", Rounded(view.yaw / kDegree)}}; }
@@ -107,6 +106,7 @@ void ReadGoal(LanguageEpisode& episode, const VlnJson& value, const std::string&
   episode.name = fields.Text("name", "");
   episode.goal_kind = RegionOf(fields);
   episode.goal = fields.Point("position");
+  if (fields.Find("places") != nullptr) episode.places = fields.Points("places", kMostPoints);
   episode.radius = fields.Number("radius", 10, 0.1, 1000);
   fields.Finish();
 }
@@ -122,7 +122,7 @@ void ReadSeen(SeenAtStart& seen, const VlnJson& value, const std::string& where)
 
 }  // namespace
 
-bool IsBound(const LanguageEpisode& e) { return !e.query.noun.names.empty() || !e.query.noun.categories.empty(); }
+bool IsBound(const LanguageEpisode& e) { return Names(e.query.noun); }
 
 std::string EpisodeLine(const LanguageEpisode& e) {
   VlnJson ref = VlnJson::array();
@@ -159,6 +159,7 @@ std::string EpisodeLine(const LanguageEpisode& e) {
       {"split", e.split},
       {"query", IsBound(e) ? ToJson(e.query) : VlnJson(nullptr)},
       {"proof", e.proof.empty() ? VlnJson(nullptr) : VlnJson::parse(e.proof)}};
+  for (const Vec3d& p : e.places) json["goal"]["places"].push_back(ToJson(p));
   if (!e.source.empty()) json["source"] = VlnJson::parse(e.source);
   return json.dump(-1, ' ', false, VlnJson::error_handler_t::replace);
 }

@@ -49,8 +49,9 @@ struct LanguageEpisode {
   std::vector<EntityId> entities;  ///< the one thing that answers the query; empty, as the query, where it was imported
   std::string name;                ///< of it
   GoalKind goal_kind = GoalKind::kNear;
-  Vec3d goal;          ///< the place to stop at
-  double radius = 20;  ///< metres around it that count as there, of protocol `ours`
+  Vec3d goal;                      ///< the place to stop at
+  std::vector<Vec3d> places = {};  ///< in rooms: other places near the thing that count as the goal too
+  double radius = 20;              ///< metres around it that count as there, of protocol `ours`
   SeenAtStart seen;
   std::vector<Vec3d> ref;  ///< from start to goal, proved clear
   double geodesic_length = 0;

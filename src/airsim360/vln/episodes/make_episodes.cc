@@ -7,6 +7,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/planning/search.h"
 #include "airsim360/vln/episodes/places.h"
 #include "airsim360/vln/predicates/query_json.h"
@@ -19,14 +20,20 @@ using internal::VlnGround;
 constexpr int kDraws = 6000, kWays = 12, kLooks = 60;  // starts drawn for an episode; ways and things in sight looked for
 constexpr double kSpacing = 2.5;                       // metres between points of the reference path, at most
 constexpr double kOpenRadius = 20, kRoomRadius = 1;    // metres around the goal that count as there
+constexpr double kNearRadius = 6, kNearGoal = 3;       // the same, and metres from the goal to the thing, where flights begin nearer
+constexpr double kNearStart[2] = {9, 24};              // metres between start and thing there
 constexpr double kLeastWay = 1.25;                     // radii between start and goal
 constexpr double kEasy = 50, kHard = 100;              // metres: shorter, longer ways
 constexpr double kStraight = 1.08;                     // length of a flight by its straight line, that one can turn from by words
-constexpr double kDegree = std::numbers::pi / 180;
 
 double Milli(double value) { return std::round(value * 1000) / 1000; }
 Vec3d Milli(Vec3d p) { return {Milli(p.x), Milli(p.y), Milli(p.z)}; }
 Viewpoint Milli(Viewpoint view) { return {Milli(view.p_W), Milli(view.yaw / kDegree) * kDegree}; }
+
+std::vector<Vec3d> MilliOf(std::vector<Vec3d> points) {
+  for (Vec3d& p : points) p = Milli(p);
+  return points;
+}
 
 // With points on its legs too, so that paths can be compared point by point (nDTW counts them).
 std::vector<Vec3d> Spaced(const std::vector<Vec3d>& way) {
@@ -93,21 +100,49 @@ class Maker {
   }
 
   void Make(VlnMade& made, ProgressBar& bar, int64_t& done) {
-    int64_t left = count();
-    for (const InstructionTemplate& wanted : templates_) {
-      for (int k = 0; k < options_.starts && left > 0; ++k, --left) {
-        std::string why;
-        if (auto episode = Bind(wanted, k, why)) {
-          made.episodes.push_back(std::move(*episode));
-        } else {
-          made.unbound.push_back({wanted.id, options_.world, world_seed_, k, std::move(why)});
-        }
-        bar.Update(++done);
+    std::map<LimitedPlace, LanguageEpisode> bound;
+    std::map<LimitedPlace, Unbound> unbound, hidden;
+    for (const LimitedPlace& place : InTurn()) {
+      if (static_cast<int64_t>(bound.size()) == count()) break;
+      const InstructionTemplate& wanted = templates_[place.first];
+      std::string why;
+      if (auto episode = Bind(wanted, place.second, why)) {
+        if (!why.empty()) hidden[place] = {wanted.id, options_.world, world_seed_, place.second, std::move(why)};
+        bound.emplace(place, std::move(*episode));
+        bar.Update(done + static_cast<int64_t>(bound.size()));
+      } else {
+        unbound[place] = {wanted.id, options_.world, world_seed_, place.second, std::move(why)};
       }
     }
+    done += count();
+    bar.Update(done);
+    for (auto& [place, episode] : bound) made.episodes.push_back(std::move(episode));
+    for (auto& [place, what] : unbound) made.unbound.push_back(std::move(what));
+    for (auto& [place, what] : hidden) made.hidden.push_back(std::move(what));
   }
 
  private:
+  using LimitedPlace = std::pair<size_t, int>;  // a template and the number of a start
+
+  // In which order episodes are made: as they are listed; with a limit one of each noun after the other, of each in a mixed order.
+  std::vector<LimitedPlace> InTurn() const {
+    std::vector<LimitedPlace> all;
+    for (size_t t = 0; t < templates_.size(); ++t)
+      for (int k = 0; k < options_.starts; ++k) all.emplace_back(t, k);
+    if (options_.limit <= 0) return all;
+    std::stable_sort(all.begin(), all.end(), [&](const LimitedPlace& a, const LimitedPlace& b) { return MixOf(a) < MixOf(b); });
+    std::map<std::string, size_t> of_noun;
+    std::vector<std::pair<size_t, LimitedPlace>> turns;
+    for (const LimitedPlace& place : all) turns.emplace_back(of_noun[templates_[place.first].query.noun.word]++, place);
+    std::ranges::stable_sort(turns, {}, [](const auto& turn) { return turn.first; });
+    std::ranges::transform(turns, all.begin(), [](const auto& turn) { return turn.second; });
+    return all;
+  }
+
+  uint64_t MixOf(const LimitedPlace& place) const {
+    return MixBits(HashName(templates_[place.first].id + "/" + std::to_string(place.second)));
+  }
+
   // A start that does not show enough of the thing.
   struct Hidden {
     Standpoint stands;
@@ -115,16 +150,71 @@ class Maker {
     int64_t pixels;
   };
 
+  // What a search for a start has come across.
+  struct Search {
+    std::map<std::string, int> whys;
+    std::vector<Hidden> hidden;
+  };
+
+  // Metres around the goal that count as there. Rooms are small.
+  double RadiusOf(const InstructionTemplate& wanted) const {
+    return wanted.radius > 0 ? wanted.radius : ground_.rooms() ? kRoomRadius : kOpenRadius;
+  }
+
+  // Pixels of the thing that a start has to show: that of words that say so, and the first of three.
+  static int64_t NeededPixels(const InstructionTemplate& wanted, int k) {
+    return wanted.in_sight > 0 ? wanted.in_sight : k % 3 == 0 ? kInSight : 0;
+  }
+
+  // A post box has eight pixels from where flights begin elsewhere, so that those to small things begin nearer and end nearer.
+  std::optional<InstructionTemplate> Nearer(const InstructionTemplate& wanted) const {
+    if (ground_.rooms() || wanted.frame != StartFrame::kAround || wanted.goal != GoalKind::kNear || wanted.radius > 0) return std::nullopt;
+    InstructionTemplate nearer = wanted;
+    nearer.nearest = kNearStart[0];
+    nearer.farthest = std::min(kNearStart[1], wanted.farthest);
+    nearer.radius = kNearRadius;
+    nearer.distance = std::min(kNearGoal, wanted.distance);
+    return nearer;
+  }
+
+  // `why`: of an episode that is there, that it shows less of the thing than it should.
   std::optional<LanguageEpisode> Bind(const InstructionTemplate& wanted, int k, std::string& why) {
     RngStream random(world_seed_, "vln " + wanted.id + " " + options_.world, static_cast<uint64_t>(k));
+    Search search, closer;
+    if (auto episode = Seek(wanted, k, random, search)) return episode;
+    const auto nearer = search.hidden.empty() ? std::nullopt : Nearer(wanted);
+    if (nearer)
+      if (auto episode = Seek(*nearer, k, random, closer)) return episode;
+    // What shows the most of a thing comes first.
+    std::ranges::stable_sort(search.hidden, std::greater(), &Hidden::pixels);
+    for (const Hidden& place : search.hidden) {
+      if (wanted.in_sight > 0) break;
+      std::string no;
+      auto episode = Finish(wanted, k, place.stands, Decide(graph_, wanted.query, place.stands), Milli(place.goal), no);
+      if (episode) why = TooLittle(place.pixels, NeededPixels(wanted, k));
+      if (episode) return episode;
+      ++search.whys[no];
+    }
+    why = "no start could be drawn: no open place of that kind around a " + wanted.query.noun.word;
+    if (graph_.Find(wanted.query.noun).empty()) why = "the world has no " + wanted.query.noun.word;
+    const auto most = std::ranges::max_element(search.whys, {}, [](const auto& entry) { return entry.second; });
+    if (most != search.whys.end()) why = most->first;
+    int64_t pixels = search.hidden.empty() ? 0 : search.hidden.front().pixels;
+    for (const Hidden& place : closer.hidden) pixels = std::max(pixels, place.pixels);
+    if (wanted.in_sight > 0 && !search.hidden.empty()) why = "no start in sight of it: " + TooLittle(pixels, wanted.in_sight);
+    return std::nullopt;
+  }
+
+  static std::string TooLittle(int64_t pixels, int64_t needed) {
+    return "a panorama of 512 x 256 shows " + std::to_string(pixels) + " pixels of it at most, " + std::to_string(needed) + " are needed";
+  }
+
+  std::optional<LanguageEpisode> Seek(const InstructionTemplate& wanted, int k, RngStream& random, Search& search) {
     // The k-th of three starts lies in the k-th third of the distances; what finds no place there may lie anywhere.
     const double ratio = std::cbrt(wanted.farthest / std::max(wanted.nearest, 1.0));
     const double least = wanted.nearest * std::pow(ratio, k % 3);
-    // The first of three starts, and all of words that say so, are in sight of the thing, where there is such a place.
-    const bool in_sight = wanted.in_sight || k % 3 == 0;
+    const int64_t needed = NeededPixels(wanted, k);
     int ways = 0, looks = 0;
-    std::map<std::string, int> whys;
-    std::vector<Hidden> hidden;
     for (int draw = 0; draw < kDraws && ways < kWays && looks < kLooks; ++draw) {
       const bool anywhere = draw > kDraws / 4 || looks > kLooks / 2;
       auto stands =
@@ -133,48 +223,37 @@ class Maker {
       stands->start = Milli(stands->start);
       if (stands->turn) stands->turn = Milli(*stands->turn);
       const Verdict verdict = Decide(graph_, wanted.query, *stands);
-      if (!verdict.decided) {
-        ++whys[verdict.why];
-        continue;
-      }
-      // What was drawn is not always what is meant.
-      if (PlanDistance(stands->start.p_W, verdict.answers[0].box).least > wanted.farthest) {
-        ++whys["'" + verdict.answers[0].name + "' is farther than the instruction allows"];
-        continue;
-      }
-      const auto goal = FindGoal(ground_, wanted, verdict.answers[0], stands->start);
-      if (!goal) {
-        ++whys["no free place to stop at '" + verdict.answers[0].name + "'"];
-        continue;
-      }
-      if (Norm(*goal - stands->start.p_W) < kLeastWay * radius()) continue;
-      const int64_t pixels = in_sight ? Look(*stage_, stands->start, verdict.answers[0].entities).pixels : kInSight;
-      if (pixels < kInSight) {
+      const auto goal = verdict.decided ? GoalOf(wanted, verdict, *stands, search) : std::nullopt;
+      if (!verdict.decided) ++search.whys[verdict.why];
+      if (!goal || Norm(*goal - stands->start.p_W) < kLeastWay * RadiusOf(wanted)) continue;
+      // Where no way was found from elsewhere, as into a bathroom whose door is shut, one begins in the same room.
+      if (ground_.rooms() && ways >= kWays / 2 && ground_.Meets(stands->start.p_W, *goal) != kNoEntity) continue;
+      const Viewpoint& view = stands->turn ? *stands->turn : stands->start;
+      const int64_t pixels = needed > 0 ? Look(*stage_, view, verdict.answers[0].entities).pixels : 0;
+      if (pixels < needed) {
         ++looks;
-        hidden.push_back({*stands, *goal, pixels});
+        search.hidden.push_back({*stands, *goal, pixels});
         continue;
       }
       if (wanted.then.empty() || draw % 4 == 0) ++ways;  // several parts fail more often
       std::string no;
       if (auto episode = Finish(wanted, k, *stands, verdict, Milli(*goal), no)) return episode;
-      ++whys[no];
+      ++search.whys[no];
     }
-    // A post box has eight pixels from where a flight begins at most: what shows the most of a thing comes first.
-    std::ranges::stable_sort(hidden, std::greater(), &Hidden::pixels);
-    for (const Hidden& place : hidden) {
-      std::string no;
-      if (auto episode = Finish(wanted, k, place.stands, Decide(graph_, wanted.query, place.stands), Milli(place.goal), no)) return episode;
-      ++whys[no];
-    }
-    why = "no start could be drawn: no open place of that kind around a " + wanted.query.noun.word;
-    if (graph_.Find(wanted.query.noun).empty()) why = "the world has no " + wanted.query.noun.word;
-    const auto most = std::ranges::max_element(whys, {}, [](const auto& entry) { return entry.second; });
-    if (most != whys.end()) why = most->first;
     return std::nullopt;
   }
 
-  // Rooms are small.
-  double radius() const { return ground_.rooms() ? kRoomRadius : kOpenRadius; }
+  std::optional<Vec3d> GoalOf(const InstructionTemplate& wanted, const Verdict& verdict, const Standpoint& stands, Search& search) const {
+    const Thing& thing = verdict.answers[0];
+    // What was drawn is not always what is meant.
+    if (PlanDistance(stands.start.p_W, thing.box).least > wanted.farthest) {
+      ++search.whys["'" + thing.name + "' is farther than the instruction allows"];
+      return std::nullopt;
+    }
+    const auto goal = FindGoal(ground_, wanted, thing, stands.start);
+    if (!goal) ++search.whys["no free place to stop at '" + thing.name + "'"];
+    return goal;
+  }
 
   // What is behind an episode so far: where it has come to and how.
   struct Progress {
@@ -208,7 +287,7 @@ class Maker {
     const auto goal = FindGoal(ground_, like, at.thing, *at.stands.turn);
     if (!goal) return "no free place to stop at '" + at.thing.name + "'";
     const double leg = Norm(*goal - at.goal);
-    if (leg < kLeastWay * radius() || leg > wanted.farthest) return "'" + at.thing.name + "' is too near or too far to go on to";
+    if (leg < kLeastWay * RadiusOf(wanted) || leg > wanted.farthest) return "'" + at.thing.name + "' is too near or too far to go on to";
     const ShortestWay way = internal::FindWay(ground_, at.goal, Milli(*goal));
     if (!way.found) return "no way was found to '" + at.thing.name + "'";
     at.goal = Milli(*goal);
@@ -235,6 +314,12 @@ class Maker {
       why = "no way was found to '" + verdict.answers[0].name + "'";
       return std::nullopt;
     }
+    const auto is_counted = [](const Predicate& p) { return p.clear > 0; };
+    if (std::ranges::any_of(wanted.query.predicates, is_counted) &&
+        PolylineLength(way.points) > kStraight * Norm(goal - stands.start.p_W)) {
+      why = "the line to '" + verdict.answers[0].name + "' is not free";
+      return std::nullopt;
+    }
     Progress at{wanted.query, stands, verdict.answers[0], wanted.goal, goal, internal::ToJson(verdict).dump(), way.points};
     for (const NextPart& part : wanted.then)
       if (why = GoOn(at, wanted, part); !why.empty()) return std::nullopt;
@@ -257,7 +342,8 @@ class Maker {
     e.name = at.thing.name;
     e.goal_kind = at.goal_kind;
     e.goal = at.goal;
-    e.radius = radius();
+    e.radius = RadiusOf(wanted);
+    if (ground_.rooms() && e.goal_kind == GoalKind::kNear) e.places = MilliOf(FindPlaces(ground_, wanted, at.thing, e.goal));
     e.ref = Spaced(at.way);
     e.geodesic_length = PolylineLength(e.ref);
     e.seen = Look(*stage_, e.start, e.entities);

@@ -20,7 +20,7 @@ struct VlnMakeOptions {
   int starts = 3, seeds = 1;
   int64_t people = 0;        ///< in episodes when they are flown
   std::string weather = {};  ///< of pictures; "mix": of every episode one of `kMixedWeathers`
-  int64_t limit = 0;         ///< episodes of a seed; 0 = all
+  int64_t limit = 0;         ///< episodes of a seed, of all nouns in turn; 0 = all
   std::string split = {};    ///< of all episodes; "" = by seeds and ids
   /// Opens the world of a seed, without people.
   std::function<std::shared_ptr<Stage>(uint64_t seed)> open = {};
@@ -37,6 +37,8 @@ struct Unbound {
 struct VlnMade {
   std::vector<LanguageEpisode> episodes;
   std::vector<Unbound> unbound;
+  /// Episodes that were to begin in sight of the thing and do not, and how much of it they show.
+  std::vector<Unbound> hidden = {};
 };
 
 /// The same options give the same episodes, whatever the number of threads. A bar of progress. InputError for options that make

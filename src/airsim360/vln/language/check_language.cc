@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <sstream>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/vln/language/second_look.h"
 #include "airsim360/vln/predicates/brute_force.h"
 
@@ -20,12 +20,11 @@ using internal::LanguageItem;
 using internal::SecondLook;
 using internal::VlnJson;
 
-constexpr double kPi = std::numbers::pi;
-constexpr int64_t kThere = 25;     // rays that show a thing
-constexpr int64_t kPlain = 85;     // rays of a thing that an item may speak of, at least
-constexpr double kOpen = 0.35;     // share of such a thing that has to be seen, at least
-constexpr double kLargest = 30.5;  // metres: larger ones are several things
-constexpr double kSame = 1.02;     // ranges nearer to each other than that are equal
+constexpr int64_t kThere = 25;          // rays that show a thing
+constexpr int64_t kPlain = 85;          // rays of a thing that an item may speak of, at least
+constexpr double kOpen = 0.35;          // share of such a thing that has to be seen, at least
+constexpr double kLargestThing = 30.5;  // metres: larger ones are several things
+constexpr double kSame = 1.02;          // ranges nearer to each other than that are equal
 
 std::string Quoted(const std::string& text) { return "'" + text + "'"; }
 
@@ -87,7 +86,7 @@ class Auditor {
     for (const auto& [entity, glimpse] : Picture(picture)) {
       if (glimpse.rays < kThere) continue;
       const Entity& of = look_.scene().entity(entity);
-      const bool named = BruteForceNames(look_.scene(), of, noun) && look_.Extent(entity) <= kLargest;
+      const bool named = BruteForceNames(look_.scene(), of, noun) && look_.Extent(entity) <= kLargestThing;
       if (named)
         found.push_back(entity);
       else if (alike != nullptr && !looks.categories.empty() && BruteForceNames(look_.scene(), of, looks))

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kShare = 1.25, kBy = 0.75;  // share and metres by which one thing is nearer to another than the next
 constexpr double kColumns = 0.03;            // share of the width between one and the next in a row
-constexpr size_t kMostChoices = 4, kLongestRow = 6;
+constexpr size_t kMostExpressionChoices = 4, kLongestRow = 6;
 constexpr const char* kOrder[] = {"", "", "second ", "third "};
 
 class Pointer {
@@ -44,7 +44,7 @@ class Pointer {
     std::vector<EntityId> used = {target.entity};
     d.answers = {Box(target)};
     for (const Seen* other : others) {
-      if (d.answers.size() == kMostChoices) break;
+      if (d.answers.size() == kMostExpressionChoices) break;
       if (other->round || std::ranges::find(used, other->entity) != used.end()) continue;
       used.push_back(other->entity);
       d.answers.push_back(Box(*other));

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kOffX = 0.31, kOffY = 0.67;  // of a ray in its pixel
 constexpr size_t kMostSeen = 8;               // pictures kept
 constexpr size_t kMostPoints = 400;           // corners of a thing that distances between things are measured from

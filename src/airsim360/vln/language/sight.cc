@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
+
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
 
 double Wrapped(double degrees) { return std::remainder(degrees, 360); }
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "airsim360/math/angles.h"
+
 namespace airsim360 {
 namespace {
 
@@ -48,7 +50,6 @@ bool IsCalled(const std::string& name, const std::vector<std::string>& patterns)
 
 // `to`: real ahead, imaginary to the left; `rise`: metres higher.
 bool IsInSector(const std::string& name, Plan to, double rise) {
-  constexpr double kDegree = std::numbers::pi / 180;
   const double elevation = std::atan2(rise, std::abs(to)) / kDegree;
   if (name == "above") return elevation > kAboveElevation;
   if (name == "below") return elevation < -kAboveElevation;
@@ -353,8 +354,37 @@ bool BruteForce::Holds(const Predicate& predicate, const Noun& noun, const Shape
   return true;
 }
 
+std::vector<const BruteForce::Shape*> BruteForce::AllWithRivals(const Query& query) {
+  std::vector<const Shape*> all = All(query.noun);
+  if (all.empty() || !Names(query.rivals)) return all;
+  const size_t own = all.size();
+  for (const Shape* rival : All(query.rivals)) {
+    const auto is_part = [&](const Shape* shape) {
+      return std::ranges::find(shape->entities, rival->entities.front()) != shape->entities.end();
+    };
+    if (std::none_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(own), is_part)) all.push_back(rival);
+  }
+  return all;
+}
+
 std::vector<std::vector<EntityId>> BruteForce::Answers(const Query& query, const Standpoint& standpoint) {
-  std::vector<const Shape*> left = All(query.noun);
+  // Whoever counts what stands farther aside has to find the same.
+  Query narrow = query, wide = query;
+  bool two = false;
+  for (size_t i = 0; i < query.predicates.size(); ++i) {
+    two = two || query.predicates[i].clear > query.predicates[i].width;
+    narrow.predicates[i].clear = wide.predicates[i].clear = 0;
+    wide.predicates[i].width = std::max(query.predicates[i].width, query.predicates[i].clear);
+  }
+  auto answers = AnswersOf(narrow, standpoint);
+  if (!two || answers.empty()) return answers;
+  for (auto& answer : AnswersOf(wide, standpoint))
+    if (std::ranges::find(answers, answer) == answers.end()) answers.push_back(std::move(answer));
+  return answers;
+}
+
+std::vector<std::vector<EntityId>> BruteForce::AnswersOf(const Query& query, const Standpoint& standpoint) {
+  std::vector<const Shape*> left = AllWithRivals(query);
   for (const Predicate& predicate : query.predicates) {
     const Viewpoint& view = predicate.at_turn ? standpoint.turn.value() : standpoint.start;
     const Plan eye = OnPlan(view.p_W);

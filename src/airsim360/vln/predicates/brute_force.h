@@ -33,6 +33,8 @@ class BruteForce {
   struct Shape;
   const Shape& ShapeOf(const std::vector<EntityId>& entities);
   std::vector<const Shape*> All(const Noun& noun);
+  std::vector<const Shape*> AllWithRivals(const Query& query);
+  std::vector<std::vector<EntityId>> AnswersOf(const Query& query, const Standpoint& standpoint);
   bool Holds(const Predicate& predicate, const Noun& noun, const Shape& shape, const Viewpoint& view);
   bool IsTall(const Shape& shape, const Noun& noun, const Predicate& predicate);
   bool StandsOn(const Shape& shape, const Noun& of);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string_view>
 
 #include "airsim360/base/error.h"
@@ -114,6 +115,18 @@ ProofStep KeepOrdinal(std::vector<Candidate>& candidates, const Viewpoint& view,
   return step;
 }
 
+bool Holds(const std::vector<Thing>& things, const Thing& thing) {
+  return std::ranges::any_of(things, [&](const Thing& other) { return other.entities == thing.entities; });
+}
+
+// What else people may call the same takes part, and is not to be the answer.
+void AddRivals(const std::vector<Thing>& rivals, std::vector<Candidate>& candidates) {
+  std::set<EntityId> own;
+  for (const Candidate& candidate : candidates) own.insert(candidate.thing->entities.begin(), candidate.thing->entities.end());
+  for (const Thing& rival : rivals)
+    if (!own.contains(rival.entities.front())) candidates.push_back({&rival, true});
+}
+
 void Conclude(Verdict& verdict, std::vector<Candidate> candidates, const Query& query) {
   for (Candidate& candidate : candidates) verdict.answers.push_back(*candidate.thing);
   if (!verdict.why.empty()) return;
@@ -150,6 +163,7 @@ Verdict Decide(SceneGraph& graph, const Query& query, const Standpoint& standpoi
   Verdict verdict;
   std::vector<Candidate> candidates;
   for (const Thing& thing : graph.Find(query.noun)) candidates.push_back({&thing, true});
+  if (!candidates.empty() && Names(query.rivals)) AddRivals(graph.Find(query.rivals), candidates);
   for (const Predicate& predicate : query.predicates) {
     if (predicate.at_turn && !standpoint.turn) throw InputError("the instruction turns nowhere, but a predicate is seen from there");
     const Viewpoint& view = predicate.at_turn ? *standpoint.turn : standpoint.start;
@@ -162,6 +176,10 @@ Verdict Decide(SceneGraph& graph, const Query& query, const Standpoint& standpoi
     }
   }
   Conclude(verdict, std::move(candidates), query);
+  if (verdict.decided && !Holds(graph.Find(query.noun), verdict.answers[0])) {
+    verdict.decided = false;
+    verdict.why = "'" + verdict.answers[0].name + "', which people may call " + query.noun.word + " too, is meant as well";
+  }
   return verdict;
 }
 

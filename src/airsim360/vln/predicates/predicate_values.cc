@@ -4,14 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kStoreyHeight = 3.2;   // metres, where a building does not say
 constexpr double kTallestStorey = 4.2;  // metres
 constexpr double kStands = 1;           // metres between a thing's foot and the roof that it stands on
@@ -144,7 +143,10 @@ ValueOf Across(const Viewpoint& view) {
 ValueOf Along(const Predicate& predicate, const Viewpoint& view) {
   return {"m", 0.5, [=](const Thing& thing) {
             const Vec2d at = InHeading(view, thing.center());
-            return std::min(predicate.width - std::abs(at.y), at.x - 1);
+            const double aside = std::abs(at.y), off = std::max(predicate.width, predicate.clear) - aside;
+            // Between the two widths one person counts it and another does not.
+            const double inside = aside <= predicate.width ? predicate.width - aside : std::min(off, 0.0);
+            return std::min(inside, at.x - 1);
           }};
 }
 

@@ -1,10 +1,9 @@
 // Which thing is meant: hand-made towns with known answers, and the two methods against each other on towns that are drawn.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/vln/predicates/brute_force.h"
 #include "airsim360/vln/predicates/query_json.h"
 #include "airsim360/vln/predicates/test_town.h"
@@ -15,7 +14,6 @@ namespace {
 constexpr const char* kBox = "furniture/mail/post_box";
 constexpr const char* kBuilding = "construction/building";
 constexpr const char* kTree = "vegetation/tree/broadleaf/generic";
-constexpr double kPi = std::numbers::pi;
 
 Noun Named(const char* name) { return {.word = name, .names = {name}}; }
 Predicate Is(PredicateKind kind) { return {.kind = kind}; }
@@ -129,6 +127,60 @@ TEST(Decide, WhatLiesOnTheEdgeOfASectorIsNotDecided) {
   TestTown town;
   town.Box("box", kBox, {20, -20, 0}, {1, 1, 1});  // 45 degrees to the right: ahead or right
   EXPECT_EQ(Meant(town.Build(), {Named("box"), {Sector("ahead")}}, {{{0, 0, 1}, 0}}), kNoEntity);
+}
+
+TEST(Decide, StraightAheadIsNarrowerThanAhead) {
+  const auto meant = [](double degrees, const char* sector) {
+    TestTown town;
+    const double azimuth = degrees * kDegree;
+    town.Box("box", kBox, {static_cast<float>(40 * std::cos(azimuth)), static_cast<float>(-40 * std::sin(azimuth)), 0}, {1, 1, 1});
+    return Meant(town.Build(), {Named("box"), {Sector(sector)}}, {{{0, 0, 1}, 0}}) != kNoEntity;
+  };
+  EXPECT_TRUE(meant(8, "straight_ahead"));
+  EXPECT_TRUE(meant(-8, "straight_ahead"));
+  EXPECT_FALSE(meant(13, "straight_ahead"));  // within 4 degrees of the limit
+  EXPECT_FALSE(meant(33, "straight_ahead"));
+  EXPECT_TRUE(meant(33, "ahead"));
+}
+
+TEST(Decide, WhatPeopleMayCallTheSameCompetes) {
+  const auto meant = [](float awning) {
+    TestTown town;
+    town.Box("sunshade", "furniture/shade/umbrella", {30, 0, 0}, {2, 2, 2});
+    town.Box("awning", "construction/awning", {-awning, 0, 0}, {2, 2, 2});
+    const auto scene = town.Build();
+    const Query plain{Named("sunshade"), {Is(PredicateKind::kNearest)}};
+    EXPECT_EQ(Meant(scene, plain, {{{0, 0, 20}, 0}}), 1u);
+    Query query = plain;
+    query.rivals = Named("awning");
+    const EntityId both = Meant(scene, query, {{{0, 0, 20}, 0}});
+    // The second method names the awning, or both.
+    const bool same = BruteForce(scene).Answers(query, {{{0, 0, 20}, 0}}) == std::vector<std::vector<EntityId>>{{1}};
+    EXPECT_EQ(same, both == 1u);
+    return both;
+  };
+  EXPECT_EQ(meant(20), kNoEntity);  // nearer
+  EXPECT_EQ(meant(31), kNoEntity);  // hardly farther
+  EXPECT_EQ(meant(40), 1u);
+}
+
+TEST(Decide, WhatStandsAsideOfANarrowWayMayBeCountedOrNotAndDecidesNothing) {
+  const auto meant = [](float aside) {
+    TestTown town;
+    town.Box("column", kBox, {10, 0.3f, 0}, {0.5f, 0.5f, 3});
+    town.Box("column", kBox, {15, aside, 0}, {0.5f, 0.5f, 3});
+    town.Box("column", kBox, {20, -0.3f, 0}, {0.5f, 0.5f, 3});
+    const Query query{Named("column"), {{.kind = PredicateKind::kAlong, .width = 1.5, .clear = 6}, {.kind = PredicateKind::kOrdinal, .k = 2}}};
+    const Standpoint at{{{0, 0, 2}, 0}};
+    const auto scene = town.Build();
+    const EntityId one = Meant(scene, query, at);
+    EXPECT_EQ(BruteForce(scene).Answers(query, at).size(), one == kNoEntity ? 2u : 1u) << aside;
+    return one;
+  };
+  EXPECT_EQ(meant(0), 2u);          // in the way
+  EXPECT_EQ(meant(3), kNoEntity);   // one counts it, another does not
+  EXPECT_EQ(meant(5), kNoEntity);
+  EXPECT_EQ(meant(9), 3u);          // nobody counts it
 }
 
 TEST(Decide, AboveAndBelowAreElevations) {
@@ -247,6 +299,8 @@ TEST(Decide, BothMethodsAgreeWhereverOneIsSure) {
                            {Named("box"), {Sector("ahead"), Is(PredicateKind::kNearest)}},
                            {Named("box"), {Sector("rear_right"), Is(PredicateKind::kNearest)}},
                            {Named("box"), {{.kind = PredicateKind::kAlong, .width = 15}, {.kind = PredicateKind::kOrdinal, .k = 2}}},
+                           {Named("box"), {{.kind = PredicateKind::kAlong, .width = 8, .clear = 12}, {.kind = PredicateKind::kOrdinal, .k = 2}}},
+                           {Named("box"), {Sector("straight_ahead"), Is(PredicateKind::kNearest)}},
                            {Named("box"), {{.kind = PredicateKind::kHeightQuantile, .share = 0.7}, Is(PredicateKind::kNearest)}},
                            {Named("box"), {{.kind = PredicateKind::kSideOf, .sector = "left"}, Is(PredicateKind::kNearest)}},
                            {Named("box"), {Is(PredicateKind::kAcross), Is(PredicateKind::kNearest)}}};
@@ -287,7 +341,10 @@ TEST(BruteForce, TheNearestIsFoundAmongThingsOfAllSizes) {
 
 TEST(QueryJson, WritesWhatItReads) {
   const Query query{{.word = "box", .categories = {"furniture"}, .names = {"box*"}, .without = {"box 1"}, .whole = true},
-                    {Sector("left"), {.kind = PredicateKind::kSurroundedBy, .share = 0.25, .within = 12, .of = Named("tree")}}};
+                    {Sector("left"),
+                     {.kind = PredicateKind::kAlong, .width = 2, .clear = 5},
+                     {.kind = PredicateKind::kSurroundedBy, .share = 0.25, .within = 12, .of = Named("tree")}},
+                    Named("crate")};
   const auto json = internal::ToJson(query);
   EXPECT_EQ(internal::ToJson(internal::QueryOf(json, "query")).dump(), json.dump());
 }

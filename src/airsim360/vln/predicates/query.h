@@ -32,8 +32,10 @@ struct Sector {
   const char* name;
   double azimuth, half_width;
 };
-inline constexpr Sector kSectors[] = {{"ahead", 0, 45},        {"right", 90, 45},       {"behind", 180, 45},     {"left", -90, 45},
-                                      {"ahead_left", -45, 40}, {"ahead_right", 45, 40}, {"rear_right", 135, 40}, {"rear_left", -135, 40}};
+inline constexpr Sector kSectors[] = {{"ahead", 0, 45},        {"right", 90, 45},       {"behind", 180, 45},
+                                      {"left", -90, 45},       {"ahead_left", -45, 40}, {"ahead_right", 45, 40},
+                                      {"rear_right", 135, 40}, {"rear_left", -135, 40}, {"straight_ahead", 0, 15}};
+inline constexpr size_t kPlainSectors = 8;    ///< the first of them divide the circle twice; those after are narrower
 inline constexpr double kAboveElevation = 8;  ///< degrees: higher is "above", lower than its negative "below"
 
 /// Metres by which a thing from `low` to `high` is on the floor over which somebody's eyes are one to two metres high; negative: it
@@ -52,6 +54,7 @@ struct Predicate {
   int k = 1;             ///< ordinal
   double share = 0.5;    ///< height_quantile, surrounded_by
   double width = 12;     ///< along, ordinal: metres of the corridor to either side
+  double clear = 0;      ///< along: what is farther aside than `width` and nearer than this may or may not count; 0: as `width`
   double within = 40;    ///< surrounded_by: metres from the thing
   bool at_turn = false;  ///< seen from where the instruction turns, not from the start
   bool side_of_axis = false;  ///< side_of
@@ -65,7 +68,12 @@ constexpr double NearestMargin(double distance) { return distance > 5 ? 0.1 * di
 struct Query {
   Noun noun;
   std::vector<Predicate> predicates = {};  ///< nearest and ordinal last
+  /// What people may call the same: the answer has to be the same with these things among those that the noun names. None: nothing.
+  Noun rivals = {};
 };
+
+/// Whether a noun names anything at all.
+inline bool Names(const Noun& noun) { return !noun.categories.empty() || !noun.names.empty(); }
 
 /// Where an instruction is read, and where it turns.
 struct Viewpoint {

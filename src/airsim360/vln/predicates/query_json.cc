@@ -23,7 +23,7 @@ Noun NounOf(const VlnJson& value, const std::string& where) {
   Noun noun{fields.Text("word", ""), fields.Texts("categories"), fields.Texts("names"), fields.Texts("without"),
             fields.Flag("whole", false)};
   fields.Finish();
-  if (noun.categories.empty() && noun.names.empty()) throw InputError(where + ": a noun needs 'categories' or 'names'");
+  if (!Names(noun)) throw InputError(where + ": a noun needs 'categories' or 'names'");
   return noun;
 }
 
@@ -47,6 +47,7 @@ Predicate PredicateOf(const VlnJson& value, const std::string& where) {
   predicate.k = static_cast<int>(fields.Number("k", 1, 1, 100));
   predicate.share = fields.Number("share", 0.5, 0, 1);
   predicate.width = fields.Number("width", 12, 0.1, 1000);
+  predicate.clear = fields.Number("clear", 0, 0, 1000);
   predicate.within = fields.Number("within", 40, 0, 1000);
   predicate.at_turn = fields.Flag("at_turn", false);
   predicate.side_of_axis = fields.Flag("side_of_axis", false);
@@ -62,10 +63,11 @@ VlnJson ToJson(const Predicate& predicate) {
   if (predicate.k != usual.k) json["k"] = predicate.k;
   if (predicate.share != usual.share) json["share"] = predicate.share;
   if (predicate.width != usual.width) json["width"] = predicate.width;
+  if (predicate.clear != usual.clear) json["clear"] = predicate.clear;
   if (predicate.within != usual.within) json["within"] = predicate.within;
   if (predicate.at_turn) json["at_turn"] = true;
   if (predicate.side_of_axis) json["side_of_axis"] = true;
-  if (!predicate.of.categories.empty() || !predicate.of.names.empty()) json["of"] = ToJson(predicate.of);
+  if (Names(predicate.of)) json["of"] = ToJson(predicate.of);
   return json;
 }
 
@@ -178,6 +180,7 @@ Query QueryOf(const VlnJson& value, const std::string& where) {
   VlnFields fields(value, where);
   Query query{NounOf(fields.At("noun"), where + ".noun")};
   const VlnJson& list = fields.At("predicates");
+  if (const VlnJson* rivals = fields.Find("rivals")) query.rivals = NounOf(*rivals, where + ".rivals");
   fields.Finish();
   if (!list.is_array() || list.size() > 16) throw InputError(where + ".predicates: " + Shown(list) + " is not a list of at most 16");
   for (size_t i = 0; i < list.size(); ++i)
@@ -188,7 +191,9 @@ Query QueryOf(const VlnJson& value, const std::string& where) {
 VlnJson ToJson(const Query& query) {
   VlnJson predicates = VlnJson::array();
   for (const Predicate& predicate : query.predicates) predicates.push_back(ToJson(predicate));
-  return {{"noun", ToJson(query.noun)}, {"predicates", predicates}};
+  VlnJson json = {{"noun", ToJson(query.noun)}, {"predicates", predicates}};
+  if (Names(query.rivals)) json["rivals"] = ToJson(query.rivals);
+  return json;
 }
 
 VlnJson ToJson(const Verdict& verdict) {

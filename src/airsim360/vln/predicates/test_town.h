@@ -35,6 +35,8 @@ class TestTown {
     builder_.AddSky();
     return builder_.Build();
   }
+  /// Without a sky.
+  std::shared_ptr<const Scene> BuildRoom() { return builder_.Build(); }
 
  private:
   SceneBuilder builder_;

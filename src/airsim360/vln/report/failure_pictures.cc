@@ -1,17 +1,16 @@
 #include "airsim360/vln/report/failure_pictures.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/image/codecs.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/transform.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kQuality = 80;
 
 // Of the last move that was one, else of the start.

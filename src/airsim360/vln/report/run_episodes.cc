@@ -15,13 +15,13 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/transform.h"
 #include "airsim360/vln/agents/observation.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSpeed = 5;                                         // m/s
 constexpr double kLongestFlight = 1800;                              // simulated seconds
 constexpr int64_t kYomoTurns = 8;                                    // decisions of a flight of one move
@@ -50,6 +50,7 @@ EpisodeSpec SpecOf(const LanguageEpisode& e, const FlightRules& protocol, double
   EpisodeSpec spec;
   spec.instruction = e.instruction;
   spec.goal = e.goal;
+  spec.more_goals = e.places;
   spec.start = e.start.p_W;
   spec.start_yaw = e.start.yaw;
   spec.reference_path = e.ref;
@@ -61,6 +62,21 @@ EpisodeSpec SpecOf(const LanguageEpisode& e, const FlightRules& protocol, double
   spec.max_seconds = kLongestFlight;
   spec.end_on_collision = protocol.collision_ends;
   return spec;
+}
+
+// The protocol's, if it has one; the episode's where that is smaller, for its flight begins within the other, and a step fits into it.
+double RadiusOf(const FlightRules& protocol, const LanguageEpisode& e) {
+  const bool nearer = e.radius < protocol.radius && e.radius >= protocol.forward;
+  return protocol.radius > 0 && !nearer ? protocol.radius : e.radius;
+}
+
+// The place of the goal that is nearest to the last one of a flight; none: there is one alone.
+std::optional<Vec3d> NearestGoal(const LanguageEpisode& e, Vec3d p) {
+  if (e.places.empty()) return std::nullopt;
+  Vec3d nearest = e.goal;
+  for (const Vec3d& place : e.places)
+    if (Norm(place - p) < Norm(nearest - p)) nearest = place;
+  return nearest;
 }
 
 // A move as a path with points on its legs. An autopilot that is sent to a point climbs and flies level as fast as it can do
@@ -104,7 +120,7 @@ class Flight {
         protocol_(protocol),
         eyes_(eyes),
         episode_(episode),
-        radius_(protocol.radius > 0 ? protocol.radius : episode.radius),
+        radius_(RadiusOf(protocol, episode)),
         decisions_(options.decisions.value_or(protocol.decisions)),
         solid_(world->stage().solid()),
         flight_(std::move(world), SpecOf(episode, protocol, radius_)) {
@@ -194,6 +210,7 @@ class Flight {
     }
     r.pred.push_back(Milli(flight_.vehicle().motion.X_WB.p));
     r.heading_deg.push_back(Degrees(HeadingOfBody(flight_.vehicle().motion.X_WB)));
+    r.goal = NearestGoal(episode_, r.pred.back());
     r.ref = episode_.ref;
     for (const EpisodePart& part : episode_.before) r.parts.push_back(Milli(part.goal));
     r.geodesic_length = std::round(episode_.geodesic_length * 1000) / 1000;
@@ -251,11 +268,12 @@ VlnResult NotFlown(const LanguageEpisode& e, const VlnRunOptions& options, const
   r.view = kViewNames[static_cast<int>(options.view)];
   r.decisions_by = kDecisionNames[static_cast<int>(options.decisions.value_or(rules.decisions))];
   r.protocol = rules.name;
-  r.radius = rules.radius > 0 ? rules.radius : e.radius;
+  r.radius = RadiusOf(rules, e);
   r.end = "not_flown";
   r.explanation = "the flight cannot begin: " + why;
   r.ref = e.ref;
   r.pred = {Milli(e.start.p_W)};
+  r.goal = NearestGoal(e, r.pred.back());
   r.distance = ScoreOf(r).error;
   return r;
 }
@@ -407,8 +425,8 @@ class Crew {
 
 VlnScore ScoreOf(const VlnResult& r) {
   // As a file holds them, so that whoever reads it finds the same.
-  return ScoreVln({.reference = r.ref, .flown = r.pred, .goal = {}, .shortest = {}, .stopped = r.stopped, .collided = r.collided}, r.radius,
-                  FindVlnProtocol(FindFlightRules(r.protocol).scores));
+  return ScoreVln({.reference = r.ref, .flown = r.pred, .goal = r.goal, .shortest = {}, .stopped = r.stopped, .collided = r.collided},
+                  r.radius, FindVlnProtocol(FindFlightRules(r.protocol).scores));
 }
 
 double ProcessFidelity(const VlnResult& r) {

@@ -53,6 +53,8 @@ struct VlnResult {
   double path_length = 0, geodesic_length = 0, straight_length = 0;
   int64_t decisions = 0, faults = 0, moves = 0;
   double yaw_turned_deg = 0, seconds = 0;
+  /// Where a thing in a room can be stopped at in many places, the one of them that is nearest to where the flight ended.
+  std::optional<Vec3d> goal = {};
   std::vector<Vec3d> parts = {};         ///< goals of the parts of the instruction before the last
   std::vector<Vec3d> ref, pred;          ///< the way that was meant; the one flown, every kPathEveryNs and the end
   std::vector<double> heading_deg = {};  ///< at each place of `pred`; empty in files of versions that did not write it

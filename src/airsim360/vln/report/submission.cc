@@ -1,5 +1,6 @@
 #include "airsim360/vln/report/submission.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -109,6 +110,9 @@ std::vector<std::string> VerifySubmission(
       continue;
     }
     if (Norm(r.ref.back() - found->second->goal) > 2e-3) problems.push_back(r.id + ": its reference does not end at the episode's goal");
+    const LanguageEpisode& e = *found->second;
+    const auto is_it = [&](Vec3d p) { return Norm(p - r.goal.value_or(e.goal)) <= 2e-3; };
+    if (!is_it(e.goal) && std::ranges::none_of(e.places, is_it)) problems.push_back(r.id + ": its goal is none of the episode's");
     Rescore(r, problems);
     flown.push_back(*found->second);
   }

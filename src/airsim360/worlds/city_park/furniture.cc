@@ -1,7 +1,7 @@
 // Furniture along the roads and paths.
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/city_park/noise.h"
 #include "airsim360/worlds/city_park/park.h"
 #include "airsim360/worlds/city_park/road_parts.h"
@@ -10,8 +10,6 @@
 
 namespace airsim360::internal::park {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 // Places beside a road, in road coordinates: s along, o outwards from the kerb's face, hand +1 left.
 class Kerbside {
@@ -136,10 +134,10 @@ void BuildCafe(Park& park, RngStream& rng) {
   for (int i = 0; i < 8; ++i) {
     const Vec2f p = middle + Vec2f{4.2f * static_cast<float>(i % 4) - 6.3f, 4.6f * static_cast<float>(i / 4) - 2.3f};
     park.placer.Reserve({p, {1.5f, 1.5f}, 0});
-    const auto turn = static_cast<float>(rng.Uniform(0, kTau));
+    const auto turn = static_cast<float>(rng.Uniform(0, kTauF));
     stand("dining_table", p, turn, "furniture/table/cafe_table", rng.Index(4));
     for (int k = 0; k < 3; ++k) {
-      const float a = turn + kTau * static_cast<float>(k) / 3;
+      const float a = turn + kTauF * static_cast<float>(k) / 3;
       const Vec2f out{std::cos(a), std::sin(a)};
       stand("dining_chair", p + out * 0.85f, FacingYaw(out * -1.0f), "furniture/seating/chair", rng.Index(4));
     }
@@ -191,7 +189,7 @@ void CloseLane(Park& park) {
 void FurnishPark(Park& park) {
   // The lamp right before the spawn.
   const Vec2f lamp{1.6f, 5.0f};
-  park.placer.Try("crook_lamp", {lamp.x, lamp.y, park.layout.Base(lamp) + 0.12f}, kTau / 2);
+  park.placer.Try("crook_lamp", {lamp.x, lamp.y, park.layout.Base(lamp) + 0.12f}, kTauF / 2);
   FurnishRoad(park, park.layout.main(), kMainHalf);
   for (const Curve& side : park.layout.side_roads()) FurnishRoad(park, side, kSideHalf);
   RngStream rng(park.seed, "park furniture");

@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/city_park/noise.h"
 #include "airsim360/worlds/city_park/park.h"
 #include "airsim360/worlds/props/drawing.h"
@@ -16,7 +16,6 @@
 namespace airsim360::internal::park {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr float kNearEnd = 44, kMiddleEnd = 125;
 
 // Blades relative to the lawn's colour, so that an instance's tint is the lawn there: dark foot, light tip;
@@ -51,7 +50,7 @@ constexpr PatchShape kFar{"lawn far", 2.3f, 1500, 0.06f, 0.15f, 0.030f};
 constexpr PatchShape kTuft{"tuft", 0.13f, 70, 0.12f, 0.34f, 0.008f};
 
 Vec2f OnDisc(float radius, RngStream& rng) {
-  const float r = radius * std::sqrt(static_cast<float>(rng.Uniform())), a = kTau * static_cast<float>(rng.Uniform());
+  const float r = radius * std::sqrt(static_cast<float>(rng.Uniform())), a = kTauF * static_cast<float>(rng.Uniform());
   return {r * std::cos(a), r * std::sin(a)};
 }
 
@@ -69,7 +68,7 @@ Model MakePatch(const PatchShape& shape, uint64_t seed) {
   std::array<PlantLayer, 1> layers = {BladeLayer()};
   for (int i = 0; i < shape.blades; ++i) {
     const Vec2f p = OnDisc(shape.radius, rng);
-    const auto a = kTau * static_cast<float>(rng.Uniform());
+    const auto a = kTauF * static_cast<float>(rng.Uniform());
     const Vec3f lean = Vec3f{std::cos(a), std::sin(a), 0} * static_cast<float>(rng.Uniform(0.15, 0.9));
     const int cell = rng.Chance(0.06) ? kLeafCells - 1 : static_cast<int>(rng.Index(kLeafCells - 1));
     AddBlade(layers[0], {p.x, p.y, -0.02f}, static_cast<float>(rng.Uniform(shape.low, shape.high)),
@@ -106,20 +105,20 @@ Model MakeClover(uint64_t seed) {
   layers[2].material.name = "daisy heart";
   for (int i = 0; i < 210; ++i) {
     const Vec2f p = OnDisc(0.40f, rng);
-    const auto h = static_cast<float>(rng.Uniform(0.035, 0.085)), a = kTau * static_cast<float>(rng.Uniform());
+    const auto h = static_cast<float>(rng.Uniform(0.035, 0.085)), a = kTauF * static_cast<float>(rng.Uniform());
     for (int k = 0; k < 3; ++k) {
-      const float b = a + kTau * static_cast<float>(k) / 3;
+      const float b = a + kTauF * static_cast<float>(k) / 3;
       AddLeaf(layers[0], {p.x, p.y, h}, Normalized(Vec3f{std::cos(b), std::sin(b), 0.12f}), {0, 0, 1}, {0.026f, 0.022f, 0.1f, 0.1f},
               static_cast<int>(rng.Index(kLeafCells - 1)), {0, 0, 0.4f});
     }
     if (i % 13) continue;
     const Vec3f head{p.x, p.y, h + 0.035f};
     for (int k = 0; k < 8; ++k) {
-      const float b = a + kTau * static_cast<float>(k) / 8;
+      const float b = a + kTauF * static_cast<float>(k) / 8;
       AddLeaf(layers[1], head, Normalized(Vec3f{std::cos(b), std::sin(b), 0.2f}), {0, 0, 1}, {0.015f, 0.008f, 0, 0}, 0);
     }
     for (int k = 0; k < 4; ++k) {
-      const float b = a + kTau * static_cast<float>(k) / 4;
+      const float b = a + kTauF * static_cast<float>(k) / 4;
       AddLeaf(layers[2], head + Vec3f{0, 0, 0.002f}, Normalized(Vec3f{std::cos(b), std::sin(b), 0.1f}), {0, 0, 1}, {0.006f, 0.006f, 0, 0},
               0);
     }
@@ -134,7 +133,7 @@ Model MakeReeds(uint64_t seed) {
   std::array<PlantLayer, 1> layers = {LeafLayer(leaves, 0.6f)};
   for (int i = 0; i < 130; ++i) {
     const Vec2f p = OnDisc(0.7f, rng);
-    const auto a = kTau * static_cast<float>(rng.Uniform());
+    const auto a = kTauF * static_cast<float>(rng.Uniform());
     const Vec3f lean = Vec3f{std::cos(a), std::sin(a), 0} * static_cast<float>(rng.Uniform(0.05, 0.5));
     AddBlade(layers[0], {p.x, p.y, -0.1f}, static_cast<float>(rng.Uniform(0.7, 1.7)), static_cast<float>(rng.Uniform(0.012, 0.024)), lean,
              a + 1.57f, static_cast<int>(rng.Index(kLeafCells - 1)));
@@ -162,7 +161,7 @@ Model MakeChips(uint64_t seed) {
                      static_cast<float>(rng.Uniform(0.003, 0.009))};
     const Vec3f up = Normalized(Vec3f{0.35f * static_cast<float>(rng.Normal()), 0.35f * static_cast<float>(rng.Normal()), 1});
     const AffineTransform X =
-        PlaceTilted({p.x, p.y, static_cast<float>(rng.Uniform(0.0, 0.02))}, up, kTau * static_cast<float>(rng.Uniform()), 1);
+        PlaceTilted({p.x, p.y, static_cast<float>(rng.Uniform(0.0, 0.02))}, up, kTauF * static_cast<float>(rng.Uniform()), 1);
     const Vec2f uv{static_cast<float>(rng.Uniform(0.01, 0.99)), 0.5f};
     // Five faces; the lowest is never seen.
     for (int axis = 0; axis < 3; ++axis) {
@@ -266,7 +265,7 @@ class Grower {
     RngStream rng(park_.seed, "reeds");
     std::vector<Instance> out;
     for (int k = 0; k < 1400; ++k) {
-      const float a = kTau * static_cast<float>(rng.Uniform());
+      const float a = kTauF * static_cast<float>(rng.Uniform());
       const auto f = static_cast<float>(rng.Uniform(0.80, 1.10));
       const Vec2f p{kLakeCenter.x + kLakeRx * f * std::cos(a), kLakeCenter.y + kLakeRy * f * std::sin(a)};
       const float lake = park_.layout.Lake(p);
@@ -308,7 +307,7 @@ class Grower {
   }
 
   void Put(const std::vector<MeshId>& meshes, Vec2f p, RngStream& rng, float scale, std::vector<Instance>& out, bool own_color = false) {
-    const AffineTransform X = PlaceTilted(park_.OnGround(p), park_.layout.Normal(p), kTau * static_cast<float>(rng.Uniform()), scale);
+    const AffineTransform X = PlaceTilted(park_.OnGround(p), park_.layout.Normal(p), kTauF * static_cast<float>(rng.Uniform()), scale);
     const float tone = 1.16f + 0.26f * static_cast<float>(rng.Uniform());
     const Vec3f tint = own_color ? Vec3f{tone, tone, tone} : park_.layout.LawnCoarse(p) * tone;
     out.push_back({meshes[rng.Index(static_cast<uint32_t>(meshes.size()))], X, park_.lawns.At(p), tint});
@@ -318,12 +317,12 @@ class Grower {
   }
   // In beds and on the shore: tufts and reeds are plants of the place they stand on.
   void Raw(const std::vector<MeshId>& meshes, Vec3f p, RngStream& rng, float scale, std::vector<Instance>& out, Vec3f tint) {
-    const AffineTransform X = PlaceUpright(p, kTau * static_cast<float>(rng.Uniform()), scale);
+    const AffineTransform X = PlaceUpright(p, kTauF * static_cast<float>(rng.Uniform()), scale);
     out.push_back({meshes[rng.Index(static_cast<uint32_t>(meshes.size()))], X, EntityAt(meshes, {p.x, p.y}), tint});
   }
   void Litter(Vec3f p, float scale, RngStream& rng) {
     if (litter_ == kNoEntity) litter_ = park_.AddEntity("fallen leaves", "vegetation/plant");
-    park_.placer.shelf().PlaceAs(litter_, "leaf_litter", PlaceUpright(p, kTau * static_cast<float>(rng.Uniform()), scale), rng.Index(12));
+    park_.placer.shelf().PlaceAs(litter_, "leaf_litter", PlaceUpright(p, kTauF * static_cast<float>(rng.Uniform()), scale), rng.Index(12));
   }
   bool OnBed(Vec3f p) const {
     // Not on the mouths of side roads, where the kerb line leaves the main road.

@@ -1,8 +1,8 @@
 // Gravel paths, the lake and its paved landings.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/city_park/noise.h"
 #include "airsim360/worlds/city_park/park.h"
 #include "airsim360/worlds/kit/mesh_builder.h"
@@ -10,7 +10,6 @@
 namespace airsim360::internal::park {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr int kAcross = 5;
 
 // Cross-section i of a path: points from right to left, on the ground, its borders uneven.
@@ -55,7 +54,7 @@ void FillLake(Park& park, MeshBuilder& mesh) {
   mesh.SetEntity(park.AddEntity("lake", "water/water_plane"));
   constexpr int kRim = 120;
   const auto at = [&](int i, float level) {
-    const Vec2f p = LakeRim(park.layout, kTau * static_cast<float>(i % kRim) / kRim, level);
+    const Vec2f p = LakeRim(park.layout, kTauF * static_cast<float>(i % kRim) / kRim, level);
     return Vec3f{p.x, p.y, kLakeZ};
   };
   const auto uv = [](Vec3f p) { return Vec2f{p.x, -p.y}; };
@@ -70,7 +69,7 @@ void FillLake(Park& park, MeshBuilder& mesh) {
 // A terrace of slabs at the shore with a stone wall to the water.
 void BuildLanding(Park& park, MeshBuilder& mesh, float a) {
   const Vec2f middle = LakeRim(park.layout, a, 1.10f), out = middle - kLakeCenter;
-  const float yaw = std::atan2(out.y, out.x) - kTau / 4;
+  const float yaw = std::atan2(out.y, out.x) - kTauF / 4;
   constexpr float kHalfX = 4.5f, kHalfY = 2.6f;
   float top = kLakeZ + 0.35f;
   for (float x : {-kHalfX, 0.0f, kHalfX}) {

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <unordered_map>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/city_park/noise.h"
 #include "airsim360/worlds/city_park/park.h"
 #include "airsim360/worlds/vegetation/park_trees.h"
@@ -13,7 +13,6 @@
 namespace airsim360::internal::park {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr float kMiddleFrom = 260, kFarFrom = 520, kWoodsEnd = 4200;
 
 // Meshes of all individuals of all species in all levels of detail.
@@ -100,7 +99,7 @@ class Planter {
   // The park's own trees: groves where the noise of woods is high, single ones elsewhere.
   void PlantPark() {
     for (int k = 0; k < 60000; ++k) {
-      const float r = 18 + (kFarFrom - 18) * std::sqrt(Uniform()), a = kTau * Uniform();
+      const float r = 18 + (kFarFrom - 18) * std::sqrt(Uniform()), a = kTauF * Uniform();
       const Vec2f p{r * std::cos(a), r * std::sin(a)};
       const float woods = Fractal(p.x / 60, p.y / 60, 3, 81);
       // Two open lawns before the spawn.
@@ -126,9 +125,9 @@ class Planter {
     std::map<std::tuple<int, int, ParkTree>, EntityId> patches;
     for (float r = kFarFrom - 2; r < kWoodsEnd;) {
       const float step = 6.5f + 0.0042f * (r - kFarFrom);
-      const int n = static_cast<int>(kTau * r / step);
+      const int n = static_cast<int>(kTauF * r / step);
       for (int i = 0; i < n; ++i) {
-        const float a = kTau * (static_cast<float>(i) + Uniform()) / static_cast<float>(n);
+        const float a = kTauF * (static_cast<float>(i) + Uniform()) / static_cast<float>(n);
         const float q = r + step * (Uniform() - 0.5f);
         const Vec2f p{q * std::cos(a), q * std::sin(a)};
         const float woods = Fractal(p.x / 160, p.y / 160, 2, 86);
@@ -148,7 +147,7 @@ class Planter {
 
   void PlantShrubs() {
     for (int k = 0; k < 30000; ++k) {
-      const float r = 12 + 420 * std::sqrt(Uniform()), a = kTau * Uniform();
+      const float r = 12 + 420 * std::sqrt(Uniform()), a = kTauF * Uniform();
       const Vec2f p{r * std::cos(a), r * std::sin(a)};
       const float thicket = Fractal(p.x / 17 + 3, p.y / 17, 3, 88);
       const bool lawn = std::hypot((p.x - 2) / 24, (p.y - 30) / 18) < 1;
@@ -158,11 +157,11 @@ class Planter {
     }
     // Around the foot of the solitary elm.
     for (int k = 0; k < 9; ++k) {
-      const float a = kTau * (static_cast<float>(k) + Uniform()) / 9, r = 0.9f + 0.9f * Uniform();
+      const float a = kTauF * (static_cast<float>(k) + Uniform()) / 9, r = 0.9f + 0.9f * Uniform();
       Shrub({4 + r * std::cos(a), 19.5f + r * std::sin(a)}, 0.3f + 0.2f * Uniform());
     }
     for (int k = 0; k < 14; ++k) {
-      const float a = kTau * Uniform(), r = 6 * Uniform();
+      const float a = kTauF * Uniform(), r = 6 * Uniform();
       Shrub({-60 + r * std::cos(a) * 1.2f, 88 + r * std::sin(a)}, 0.5f + 0.4f * Uniform());
     }
   }
@@ -170,7 +169,7 @@ class Planter {
   void ScatterRocks() {
     for (int k = 0; k < 900; ++k) {
       const bool shore = k < 500;
-      const float a = kTau * Uniform();
+      const float a = kTauF * Uniform();
       Vec2f p;
       if (shore) {
         const float f = static_cast<float>(rng_.Uniform(0.98, 1.12));
@@ -183,7 +182,7 @@ class Planter {
         if (!IsFree(p, 1) || Noise(p.x / 25, p.y / 25, 96) < 0.66f) continue;
       }
       const auto scale = static_cast<float>(rng_.Uniform(0.35, 1.0));
-      park_.placer.Try("rock", park_.OnGround(p, 0.12f * scale), kTau * Uniform(), scale);
+      park_.placer.Try("rock", park_.OnGround(p, 0.12f * scale), kTauF * Uniform(), scale);
     }
   }
 
@@ -206,9 +205,9 @@ class Planter {
            : u < 0.95f ? ParkTree::kPine
                        : ParkTree::kPoplar;
   }
-  void Shrub(Vec2f p, float scale) { park_.placer.Try("shrub", park_.OnGround(p, 0.05f), kTau * Uniform(), scale, LeafTint(rng_)); }
+  void Shrub(Vec2f p, float scale) { park_.placer.Try("shrub", park_.OnGround(p, 0.05f), kTauF * Uniform(), scale, LeafTint(rng_)); }
   void Place(MeshId mesh, Vec2f p, Vec3f up, float scale, EntityId entity) {
-    const AffineTransform X = PlaceTilted(park_.OnGround(p, 0.10f), up, kTau * Uniform(), scale);
+    const AffineTransform X = PlaceTilted(park_.OnGround(p, 0.10f), up, kTauF * Uniform(), scale);
     park_.builder.AddInstance({mesh, X, entity, LeafTint(rng_)});
   }
 

@@ -2,8 +2,8 @@
 // 170 x 75 cm; shower trays 90 x 90 (Neufert). Washing machines 60 x 60 x 85 cm.
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/furnishings/furnishing_families.h"
 #include "airsim360/worlds/furnishings/interior_finishes.h"
 #include "airsim360/worlds/furnishings/soft_shapes.h"
@@ -11,14 +11,12 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
-
 // One level of an egg-shaped body: half width, front and rear reach, where its middle lies, height.
 struct EggRing {
   float half, front, rear, y, z;
 };
 Vec3f OnEgg(const EggRing& e, float u) {
-  const float a = kTau * u, c = std::cos(a), s = std::sin(a);
+  const float a = kTauF * u, c = std::cos(a), s = std::sin(a);
   return {e.half * c, e.y + (s < 0 ? e.front : e.rear) * s, e.z};
 }
 // Skin through rings from bottom to top, outside outwards.

@@ -11,7 +11,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr Vec3f kBlack{0.02f, 0.021f, 0.023f};
+constexpr Vec3f kBlackPlastic{0.02f, 0.021f, 0.023f};
 constexpr float kNits = 150;
 
 // What is on a screen: an editor, a table of figures, a plan.
@@ -64,7 +64,7 @@ void ScreenFace(PropBuilder& b, float half, float z0, float z1, float y, int pic
 Model MakeMonitor(uint32_t variant, uint64_t) {
   PropBuilder b("monitor");
   const float half = std::array{0.266f, 0.266f, 0.405f, 0.299f}[variant], h = std::array{0.30f, 0.30f, 0.345f, 0.337f}[variant], z = 0.13f;
-  b.Use(Plastic(variant == 3 ? Vec3f{0.55f, 0.56f, 0.57f} : kBlack, 0.4f));
+  b.Use(Plastic(variant == 3 ? Vec3f{0.55f, 0.56f, 0.57f} : kBlackPlastic, 0.4f));
   b.BevelBox({-half - 0.008f, -0.012f, z}, {half + 0.008f, 0.014f, z + h + 0.022f}, 0.004f);
   SoftBox(b, {-half * 0.55f, 0.008f, z + 0.06f}, {half * 0.55f, 0.055f, z + h - 0.03f}, {.round = 0.03f, .crown = 0.004f, .cells = 6});
   b.BevelBox({-0.03f, 0.05f, 0.01f}, {0.03f, 0.075f, z + h * 0.6f}, 0.008f);
@@ -77,7 +77,7 @@ Model MakeMonitor(uint32_t variant, uint64_t) {
 Model MakeComputer(uint32_t variant, uint64_t) {
   PropBuilder b("computer");
   const float w = variant == 1 ? 0.05f : 0.09f, d = variant == 1 ? 0.15f : 0.21f, h = std::array{0.40f, 0.29f, 0.45f}[variant];
-  UseCoatedSteel(b, variant == 2 ? Vec3f{0.42f, 0.43f, 0.44f} : kBlack, 0.4f);
+  UseCoatedSteel(b, variant == 2 ? Vec3f{0.42f, 0.43f, 0.44f} : kBlackPlastic, 0.4f);
   b.BevelBox({-w, -d + 0.012f, 0.012f}, {w, d, h}, 0.004f);
   b.Use(Plastic(variant == 2 ? Vec3f{0.10f, 0.10f, 0.11f} : Vec3f{0.03f, 0.03f, 0.033f}, 0.3f));
   b.BevelBox({-w, -d, 0.012f}, {w, -d + 0.014f, h}, 0.005f);
@@ -98,7 +98,7 @@ Model MakeComputer(uint32_t variant, uint64_t) {
 // With a mouse on its right, and a mat under it in one variant.
 Model MakeKeyboard(uint32_t variant, uint64_t) {
   PropBuilder b("keyboard");
-  const Vec3f shell = variant == 1 ? Vec3f{0.62f, 0.63f, 0.64f} : kBlack,
+  const Vec3f shell = variant == 1 ? Vec3f{0.62f, 0.63f, 0.64f} : kBlackPlastic,
               key = variant == 1 ? Vec3f{0.72f, 0.72f, 0.72f} : Vec3f{0.035f, 0.036f, 0.04f};
   const float z0 = variant == 2 ? 0.003f : 0.0f;
   if (variant == 2) {
@@ -132,7 +132,7 @@ Model MakeKeyboard(uint32_t variant, uint64_t) {
 // Open with the screen on, open and dark, closed.
 Model MakeLaptop(uint32_t variant, uint64_t) {
   PropBuilder b("laptop");
-  const Vec3f shell = variant == 1 ? kBlack : Vec3f{0.50f, 0.51f, 0.52f};
+  const Vec3f shell = variant == 1 ? kBlackPlastic : Vec3f{0.50f, 0.51f, 0.52f};
   const float half = 0.16f, d = 0.11f;
   b.Use(Metal(shell, 0.4f));
   RoundedBoard(b, {-half, -d}, {half, d}, 0.010f, 0.002f, 0.014f, 0.003f);
@@ -164,7 +164,7 @@ Model MakePhone(uint32_t variant, uint64_t) {
     b.BevelBox({-0.0366f, -0.06f, 0.001f}, {0.0366f, 0.06f, 0.006f}, 0.001f);
     return b.Finish();
   }
-  b.Use(Plastic(kBlack, 0.4f));
+  b.Use(Plastic(kBlackPlastic, 0.4f));
   b.Place(Turn(14, 0, 0, {0, 0, 0.025f}));
   RoundedBoard(b, {-0.09f, -0.09f}, {0.09f, 0.09f}, 0.012f, 0, 0.022f, 0.005f);
   const Vec3f receiver[] = {{-0.06f, -0.095f, 0.036f}, {-0.06f, -0.06f, 0.048f}, {-0.06f, 0.06f, 0.048f}, {-0.06f, 0.095f, 0.036f}};
@@ -178,7 +178,7 @@ Model MakePhone(uint32_t variant, uint64_t) {
   b.Use(Plastic({0.20f, 0.26f, 0.22f}, 0.15f));
   b.BevelBox({-0.005f, 0.025f, 0.021f}, {0.07f, 0.072f, 0.024f}, 0.001f);
   b.Place({});
-  b.Use(Plastic(kBlack, 0.5f));
+  b.Use(Plastic(kBlackPlastic, 0.5f));
   b.BevelBox({-0.07f, -0.06f, 0}, {0.07f, 0.085f, 0.035f}, 0.004f);
   std::vector<Vec3f> cord;
   for (int i = 0; i <= 60; ++i) {
@@ -228,7 +228,7 @@ Model MakePrinter(uint32_t variant, uint64_t) {
 Model MakeWaterDispenser(uint32_t variant, uint64_t) {
   PropBuilder b("water_dispenser");
   const float half = 0.155f, d = 0.165f, h = variant == 0 ? 0.96f : 1.15f;
-  b.Use(Plastic(variant == 0 ? Vec3f{0.72f, 0.73f, 0.73f} : kBlack, 0.35f));
+  b.Use(Plastic(variant == 0 ? Vec3f{0.72f, 0.73f, 0.73f} : kBlackPlastic, 0.35f));
   SoftBox(b, {-half, -d + 0.02f, 0}, {half, d, h}, {.round = 0.02f, .crown = 0.002f, .cells = 6});
   SoftBox(b, {-half, -d, 0}, {half, d - 0.05f, h * 0.62f}, {.round = 0.02f, .crown = 0.003f, .cells = 6});
   b.BevelBox({-half, -d, h * 0.86f}, {half, d, h}, 0.015f);

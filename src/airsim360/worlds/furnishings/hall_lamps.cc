@@ -3,8 +3,8 @@
 // luminance of exit signs at least 2 cd/m^2 on green and 10 on white when lit from within (EN 1838), 200 in use.
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/furnishings/furnishing_families.h"
 #include "airsim360/worlds/furnishings/interior_finishes.h"
 #include "airsim360/worlds/furnishings/lamp_area.h"
@@ -13,8 +13,6 @@
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 // A rectangle that faces down, at height z.
 void FaceDown(PropBuilder& b, Vec2f lo, Vec2f hi, float z) {
@@ -62,9 +60,9 @@ Model MakeTubeLight(uint32_t variant, uint64_t) {
     // Diffuser: half a cylinder below the tray.
     constexpr int kSteps = 10;
     const float r = 0.048f;
-    b.Use(LampSurface(5000, kPi * r * 2 * (half - 0.02f), 4000, Burns::kAlways));
+    b.Use(LampSurface(5000, kPiF * r * 2 * (half - 0.02f), 4000, Burns::kAlways));
     for (int i = 0; i < kSteps; ++i) {
-      const float a0 = kPi * static_cast<float>(i) / kSteps, a1 = kPi * static_cast<float>(i + 1) / kSteps;
+      const float a0 = kPiF * static_cast<float>(i) / kSteps, a1 = kPiF * static_cast<float>(i + 1) / kSteps;
       const auto at = [&](float x, float a) { return Vec3f{x, -r * std::cos(a), 0.056f - r * std::sin(a)}; };
       const auto n = [](float a) { return Vec3f{0, -std::cos(a), -std::sin(a)}; };
       const float x0 = -half + 0.02f, x1 = half - 0.02f;
@@ -79,7 +77,7 @@ Model MakeTubeLight(uint32_t variant, uint64_t) {
     for (float s : {-1.0f, 1.0f})
       b.BevelBox({s * (half - 0.02f) - 0.012f, -0.02f, 0.0f}, {s * (half - 0.02f) + 0.012f, 0.02f, 0.06f}, 0.004f);
     const float r = 0.013f;
-    b.Use(LampSurface(5000, 2 * kPi * r * 2 * (half - 0.03f), 4000, Burns::kAlways));
+    b.Use(LampSurface(5000, 2 * kPiF * r * 2 * (half - 0.03f), 4000, Burns::kAlways));
     b.mesh().Tube({-half + 0.03f, 0, 0.022f}, {half - 0.03f, 0, 0.022f}, r, r, 14, false, false);
   }
   return b.Finish();
@@ -114,7 +112,7 @@ Model MakeHighBayLamp(uint32_t variant, uint64_t) {
   b.mesh().Tube({0, 0, body_top}, {0, 0, top}, 0.006f, 0.006f, 8);
   b.mesh().Tube({0, 0, body_top}, {0, 0, body_top + 0.04f}, 0.022f, 0.012f, 12);
   const float lens = r - 0.012f, z = variant == 0 ? 0.004f : 0.06f;
-  b.Use(LampSurface(20000, kPi * lens * lens, 5000, Burns::kAlways));
+  b.Use(LampSurface(20000, kPiF * lens * lens, 5000, Burns::kAlways));
   const Vec2f disc[] = {{0, z}, {lens, z}};
   b.Lathe(disc, 40);
   return b.Finish();
@@ -129,7 +127,7 @@ Model MakeDownlight(uint32_t variant, uint64_t) {
   const Vec2f ring[] = {{0.055f, 0.0008f}, {0.068f, 0}, {0.075f, 0.003f}, {0.076f, 0.008f}, {0, 0.008f}};
   b.Lathe(ring, 36);
   const float lens = 0.054f;
-  b.Use(LampSurface(900, kPi * lens * lens, kelvin, burns));
+  b.Use(LampSurface(900, kPiF * lens * lens, kelvin, burns));
   const Vec2f disc[] = {{0, 0.0015f}, {lens, 0.0015f}};
   b.Lathe(disc, 32);
   return b.Finish();

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/evening.h"
 #include "airsim360/worlds/texture/texture_field.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 Vec3f Blend(Vec3f a, Vec3f b, float t) { return a + (b - a) * std::clamp(t, 0.0f, 1.0f); }
 
@@ -35,8 +33,8 @@ constexpr std::array<WoodLook, 5> kWoods = {{
 // Contours of a shallow valley along the board: arches in the middle, straight lines at the sides.
 Vec3f WoodColor(const WoodLook& wood, float u, float v) {
   const float wander = 0.16f * (TileFractal(u, v, 2, 2, 3, wood.seed) - 0.5f);
-  const float across = std::cos(2 * kPi * (u + 0.35f * wander));
-  const float along = 0.30f * std::sin(2 * kPi * v) + 0.17f * std::sin(4 * kPi * v + 1) + 2.2f * wander;
+  const float across = std::cos(2 * kPiF * (u + 0.35f * wander));
+  const float along = 0.30f * std::sin(2 * kPiF * v) + 0.17f * std::sin(4 * kPiF * v + 1) + 2.2f * wander;
   const float ring = wood.rings * (0.55f * across + along);
   const float growth = ring - std::floor(ring);
   const float late = growth < 0.8f ? std::pow(growth / 0.8f, 1.6f) : (1 - growth) / 0.2f;
@@ -68,7 +66,7 @@ Thread WeaveAt(float u, float v, int n, uint64_t seed) {
   const float s = x - static_cast<float>(i) - 0.5f, t = y - static_cast<float>(j) - 0.5f;
   const bool warp = (i + j) % 2 == 0;
   const float across = warp ? s : t, along = warp ? t : s;
-  const float height = std::sqrt(std::max(0.0f, 1 - 3.2f * across * across)) * (0.55f + 0.45f * std::cos(kPi * along));
+  const float height = std::sqrt(std::max(0.0f, 1 - 3.2f * across * across)) * (0.55f + 0.45f * std::cos(kPiF * along));
   const int line = warp ? i : j + n;
   return {height, TileNoise(static_cast<float>(line) + 0.5f, (warp ? v : u) * 6, 4 * n, 6, seed)};
 }
@@ -179,7 +177,7 @@ const Texture& CardboardTexture() {
       "cardboard",
       Shade(256, 256,
             [](float u, float v) {
-              const float flute = 0.5f + 0.5f * std::cos(2 * kPi * 56 * u), fleck = TileFractal(u, v, 80, 80, 2, 661);
+              const float flute = 0.5f + 0.5f * std::cos(2 * kPiF * 56 * u), fleck = TileFractal(u, v, 80, 80, 2, 661);
               const float tone = 0.88f + 0.03f * flute + 0.10f * (TileFractal(u, v, 3, 3, 4, 662) - 0.5f) - (fleck > 0.72f ? 0.10f : 0.0f);
               return Vec3f{0.46f, 0.30f, 0.165f} * tone;
             }),
@@ -193,7 +191,7 @@ const Texture& RoughBoardTexture() {
       Shade(128, 512,
             [](float u, float v) {
               const float fibre = TileFractal(u, v, 40, 3, 3, 671), soft = TileFractal(u, v, 3, 2, 3, 672);
-              const float saw = 0.5f + 0.5f * std::sin(2 * kPi * 90 * v + 4 * fibre), stain = TileFractal(u, v, 5, 6, 3, 673);
+              const float saw = 0.5f + 0.5f * std::sin(2 * kPiF * 90 * v + 4 * fibre), stain = TileFractal(u, v, 5, 6, 3, 673);
               const Vec3f fresh{0.46f, 0.32f, 0.19f}, grey{0.28f, 0.25f, 0.22f};
               return Blend(fresh, grey, 1.5f * (soft - 0.25f)) *
                      ((0.72f + 0.45f * fibre) * (0.97f + 0.05f * saw) * (stain > 0.66f ? 0.72f : 1.0f));
@@ -243,7 +241,7 @@ const Texture& SpangleTexture() {
 void UseTimber(PropBuilder& b, Timber timber, Grain grain) {
   const bool along = grain == Grain::kAlongX;
   Material m = MakeFinish(along ? "lacquered along x" : "lacquered", {0.9f, 0.9f, 0.9f}, 0.42f);
-  if (along) m.uv_rotation = kPi / 2;
+  if (along) m.uv_rotation = kPiF / 2;
   b.Use(m, TimberTexture(timber), along ? Vec2f{1.5f, 0.36f} : Vec2f{0.36f, 1.5f});
 }
 
@@ -292,7 +290,7 @@ void UseCardboard(PropBuilder& b, float shade) {
 void UseRoughBoards(PropBuilder& b, Grain grain) {
   const bool along = grain == Grain::kAlongX;
   Material m = MakeFinish(along ? "rough along x" : "rough", {0.9f, 0.9f, 0.9f}, 0.85f);
-  if (along) m.uv_rotation = kPi / 2;
+  if (along) m.uv_rotation = kPiF / 2;
   b.Use(m, RoughBoardTexture(), along ? Vec2f{1.2f, 0.25f} : Vec2f{0.25f, 1.2f});
 }
 
@@ -313,7 +311,7 @@ Material Mirror() { return MakeFinish("mirror", {0.88f, 0.89f, 0.88f}, 0.02f, 1)
 
 Material LampSurface(float lumens, float square_metres, float kelvin, Burns burns) {
   Material m = MakeFinish(burns == Burns::kAlways ? "lit surface" : "evening surface", {0.85f, 0.85f, 0.83f}, 0.4f);
-  m.emission = LampWhite(kelvin) * (lumens / (kPi * square_metres) * kNit);
+  m.emission = LampWhite(kelvin) * (lumens / (kPiF * square_metres) * kNit);
   m.lamp = burns == Burns::kAtNight;
   return m;
 }

@@ -12,8 +12,6 @@
 namespace airsim360::internal {
 namespace {
 
-float Random(RngStream& rng, float low, float high) { return static_cast<float>(rng.Uniform(low, high)); }
-
 // Slats on steel, a padded island, a curved one of solid surface.
 Model MakeBenchMall(uint32_t variant, uint64_t) {
   PropBuilder b("bench_mall");

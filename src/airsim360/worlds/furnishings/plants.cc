@@ -11,8 +11,6 @@
 namespace airsim360::internal {
 namespace {
 
-float Random(RngStream& rng, float low, float high) { return static_cast<float>(rng.Uniform(low, high)); }
-
 // A leaf with its rib and veins; u along, v across.
 const Texture& LeafPicture() {
   static const Texture texture = Texture::FromImage(

@@ -15,8 +15,6 @@ namespace {
 
 constexpr float kPalletHeight = 0.144f;
 
-float Random(RngStream& rng, float low, float high) { return static_cast<float>(rng.Uniform(low, high)); }
-
 // Pallet of 1.2 m along X by 0.8 m: five top boards, three stringer boards, nine blocks, three bottom boards.
 void Pallet(PropBuilder& b, const AffineTransform& X) {
   b.Place(X);

@@ -2,9 +2,9 @@
 // 85 cm high (EN ISO 14738 heights for sitting and standing work).
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/furnishings/furnishing_families.h"
 #include "airsim360/worlds/furnishings/interior_finishes.h"
 #include "airsim360/worlds/furnishings/small_parts.h"
@@ -14,15 +14,12 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr std::array<Vec3f, 6> kClothes = {{{0.05f, 0.07f, 0.14f},
                                             {0.60f, 0.58f, 0.53f},
                                             {0.34f, 0.07f, 0.06f},
                                             {0.20f, 0.24f, 0.17f},
                                             {0.03f, 0.03f, 0.033f},
                                             {0.50f, 0.36f, 0.20f}}};
-
-float Random(RngStream& rng, float low, float high) { return static_cast<float>(rng.Uniform(low, high)); }
 
 // Two-sided gondola; variant 2 is one-sided against a wall, 2 m high.
 Model MakeShopShelf(uint32_t variant, uint64_t seed) {
@@ -120,14 +117,14 @@ void Skirt(PropBuilder& b, Vec3f color) {
   UseLinen(b, color);
   b.Sheet(48, 8,
           [&](float u, float v) {
-            const float a = kTau * u, down = 1 - v, r = 0.155f + 0.13f * down,
+            const float a = kTauF * u, down = 1 - v, r = 0.155f + 0.13f * down,
                         fold = 1 + 0.10f * down * std::sin(11 * a) + 0.04f * std::sin(5 * a) * down;
             return Vec3f{r * fold * std::cos(a) * 1.05f, r * fold * std::sin(a) * 0.85f, 1.10f - 0.60f * down};
           },
           {1.2f, 0.6f});
   b.Sheet(24, 8,
           [&](float u, float v) {  // its inside
-            const float a = -kTau * u, down = 1 - v, r = 0.15f + 0.13f * down;
+            const float a = -kTauF * u, down = 1 - v, r = 0.15f + 0.13f * down;
             return Vec3f{r * std::cos(a) * 1.04f, r * std::sin(a) * 0.84f, 1.10f - 0.60f * down};
           },
           {1.2f, 0.6f});
@@ -164,7 +161,7 @@ Model MakeMannequinBust(uint32_t variant, uint64_t seed) {
   const auto skin = [&](float grow, size_t first, size_t last) {
     b.Sheet(28, 3 * static_cast<int>(last - first),
             [&](float u, float v) {
-              const float s = v * static_cast<float>(last - first), a = kTau * u;
+              const float s = v * static_cast<float>(last - first), a = kTauF * u;
               const size_t i = std::min(last - first - 1, static_cast<size_t>(s)) + first;
               const float t = s - static_cast<float>(i - first), e = t * t * (3 - 2 * t);
               const auto mix = [&](float p, float q) { return p + (q - p) * e; };

@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/furnishings/interior_finishes.h"
+#include "airsim360/worlds/furnishings/soft_shapes.h"
 #include "airsim360/worlds/props/drawing.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr int kSpines = 16, kProducts = 16, kLabels = 4;
-
-float Random(RngStream& rng, float low, float high) { return static_cast<float>(rng.Uniform(low, high)); }
 
 constexpr Vec3f kCovers[8] = {{0.35f, 0.05f, 0.04f}, {0.05f, 0.10f, 0.24f},  {0.44f, 0.29f, 0.08f}, {0.06f, 0.16f, 0.11f},
                               {0.62f, 0.58f, 0.50f}, {0.03f, 0.03f, 0.035f}, {0.50f, 0.48f, 0.46f}, {0.20f, 0.10f, 0.22f}};
@@ -97,7 +95,7 @@ const Texture& CartonPrint() {
       canvas.Letters(marks[static_cast<size_t>(i)], {x + 0.20f, y + 0.12f}, 0.032f, ink);
       for (float ax : {0.05f, 0.11f}) {  // arrows
         canvas.Rectangle({x + ax + 0.012f, y + 0.36f}, {x + ax + 0.022f, y + 0.44f}, ink);
-        canvas.RegularPolygon({x + ax + 0.017f, y + 0.35f}, 0.022f, 3, -kPi / 2, ink);
+        canvas.RegularPolygon({x + ax + 0.017f, y + 0.35f}, 0.022f, 3, -kPiF / 2, ink);
       }
     }
     return canvas.Finish("carton print");
@@ -119,7 +117,7 @@ void Tin(PropBuilder& b, Vec3f c, float r, float h, int product) {
   const float u0 = static_cast<float>(product % 4) / 4, v0 = static_cast<float>(product / 4) / 4;
   const Vec3f up{0, 0, h};
   for (int k = 0; k < 12; ++k) {
-    const Vec3f d0 = Around(k, 12, -kPi), d1 = Around(k + 1, 12, -kPi);
+    const Vec3f d0 = Around(k, 12, -kPiF), d1 = Around(k + 1, 12, -kPiF);
     const float ua = u0 + 0.25f * static_cast<float>(k % 6) / 6, ub = ua + 0.25f / 6;
     const Vec2f uv[4] = {{ua, v0 + 0.245f}, {ub, v0 + 0.245f}, {ub, v0 + 0.005f}, {ua, v0 + 0.005f}};
     b.mesh().SmoothTriangle({c + d0 * r, c + d1 * r, c + d1 * r + up}, {d0, d1, d1}, {uv[0], uv[1], uv[2]});
@@ -218,7 +216,7 @@ void HangingGarment(PropBuilder& b, const AffineTransform& X, float width, float
   b.Place(X);
   const auto around = [&](float u, float v) {
     // u goes once around, v from hem to shoulders; the shoulders slope, the sides fall into folds.
-    const float a = 2 * kPi * u, down = 1 - v;
+    const float a = 2 * kPiF * u, down = 1 - v;
     const float shoulder = std::min(1.0f, 6 * down), half = width / 2 * (0.30f + 0.70f * std::sqrt(shoulder)) * (1 + 0.10f * down);
     const float fold = 1 + 0.13f * down * std::sin(5 * a + shift) + 0.06f * down * std::sin(9 * a + 2 * shift);
     const float thick = (0.035f + 0.05f * shoulder) * fold;

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/finishes.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 // Position 0..1 along an edge of `length` from grid parameter t: two cells at either end lie on the rounding.
 float Spread(float t, int cells, float round, float length) {
@@ -55,7 +53,7 @@ struct Puff {
 }  // namespace
 
 Vec3f Around(int i, int n, float offset) {
-  const float a = 2 * kPi * static_cast<float>(i) / static_cast<float>(n) + offset;
+  const float a = 2 * kPiF * static_cast<float>(i) / static_cast<float>(n) + offset;
   return {std::cos(a), std::sin(a), 0};
 }
 
@@ -101,7 +99,7 @@ void Pillow(PropBuilder& b, const AffineTransform& X, Vec2f size, float thicknes
 
 void Bedspread(PropBuilder& b, float half, float y0, float y1, float top, float drop, float fold, uint64_t seed) {
   constexpr float kRound = 0.06f;
-  const float flat = half - kRound, arc = kRound * kPi / 2, hang = std::max(0.0f, drop - kRound);
+  const float flat = half - kRound, arc = kRound * kPiF / 2, hang = std::max(0.0f, drop - kRound);
   const float total = 2 * (flat + arc + hang);
   const auto at = [&](float u, float v) {
     const float s = (u - 0.5f) * total, side = s < 0 ? -1.0f : 1.0f, d = std::abs(s);
@@ -133,7 +131,7 @@ void Hanging(PropBuilder& b, float x0, float x1, float top, float depth, int fol
   const auto at = [&](float u, float v) {
     // Tight pleats at the tape, wider and uneven ones below.
     const float loose = 1 - v, sway = 0.25f * std::sin(7 * u + shift) * loose;
-    const float phase = 2 * kPi * (static_cast<float>(folds) * u + sway);
+    const float phase = 2 * kPiF * (static_cast<float>(folds) * u + sway);
     const float y = depth * (0.55f + 0.45f * loose) * std::sin(phase) + 0.2f * depth * loose * std::sin(2.3f * phase + shift);
     return Vec3f{x0 + (x1 - x0) * u + 0.25f * depth * std::sin(2 * phase) * loose, y, top * v};
   };
@@ -151,7 +149,7 @@ void RoundedBoard(PropBuilder& b, Vec2f lo, Vec2f hi, float corner, float z0, fl
   b.mesh().Polygon(outer, z0, false);
   constexpr int kSteps = 3;
   for (int k = 0; k < kSteps; ++k) {
-    const float a0 = kPi / 2 * static_cast<float>(k) / kSteps, a1 = kPi / 2 * static_cast<float>(k + 1) / kSteps;
+    const float a0 = kPiF / 2 * static_cast<float>(k) / kSteps, a1 = kPiF / 2 * static_cast<float>(k + 1) / kSteps;
     const auto lower = ring(edge * (1 - std::cos(a0))), upper = ring(edge * (1 - std::cos(a1)));
     const float za = z1 - edge + edge * std::sin(a0), zb = z1 - edge + edge * std::sin(a1);
     for (size_t i = 0; i < n; ++i) {
@@ -186,7 +184,7 @@ void BroadLeaf(PropBuilder& b, const AffineTransform& X, float length, float wid
   b.Place(X);
   const auto at = [&](float u, float v) {
     const float s = 2 * v - 1;  // across
-    const float body = std::pow(std::max(0.0f, std::sin(kPi * std::pow(u, 0.75f))), 0.8f);
+    const float body = std::pow(std::max(0.0f, std::sin(kPiF * std::pow(u, 0.75f))), 0.8f);
     const float lobe = lobed ? 1 - 0.45f * std::abs(s) * (0.5f + 0.5f * std::sin(u * 26)) : 1.0f;
     const float w = width / 2 * std::max(body, 0.03f) * lobe;
     const float bend = droop * length * u * u;

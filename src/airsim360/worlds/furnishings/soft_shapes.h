@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "airsim360/base/random.h"
 #include "airsim360/worlds/props/prop_builder.h"
 
 namespace airsim360::internal {
@@ -55,5 +56,7 @@ void Castor(PropBuilder& b, Vec3f p);
 
 /// Direction of a compass step: i of n, in the XY plane.
 Vec3f Around(int i, int n, float offset = 0);
+
+inline float Random(RngStream& rng, float low, float high) { return static_cast<float>(rng.Uniform(low, high)); }
 
 }  // namespace airsim360::internal

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/furnishings/furnishing_families.h"
 #include "airsim360/worlds/furnishings/interior_finishes.h"
 #include "airsim360/worlds/furnishings/soft_shapes.h"
@@ -9,8 +10,6 @@
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 // Knotted wool: every texel is one knot of slightly uneven dye.
 Vec3f Knot(Vec3f dye, float u, float v, uint64_t seed) {
@@ -36,7 +35,7 @@ Vec3f Persian(float u, float v) {
   if (star < 0.30f) return cream;
   if (star < 0.50f) return std::sin(16 * a) * std::sin(40 * r) > 0.35f ? gold : navy;
   if (star < 0.53f) return cream;
-  const float vine = std::sin(11 * kPi * x) * std::sin(15 * kPi * y) + 0.4f * std::sin(23 * kPi * (x + y));
+  const float vine = std::sin(11 * kPiF * x) * std::sin(15 * kPiF * y) + 0.4f * std::sin(23 * kPiF * (x + y));
   return vine > 0.85f ? cream : vine < -0.9f ? navy : red;
 }
 Vec3f Stripes(float u, float v) {

@@ -2,8 +2,8 @@
 // long without forks, mast 2.1 m lowered; drums of 200 l (ISO 15750-2): 58.5 cm across, 88 high.
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/furnishings/furnishing_families.h"
 #include "airsim360/worlds/furnishings/interior_finishes.h"
 #include "airsim360/worlds/furnishings/soft_shapes.h"
@@ -11,8 +11,6 @@
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 void Tyre(PropBuilder& b, Vec3f hub, float r, float wide) {
   b.Place(Turn(0, 90, 0, hub));
@@ -110,7 +108,7 @@ Model MakeForklift(uint32_t variant, uint64_t) {
   b.Bar(std::array<Vec3f, 2>{Vec3f{0, front + 0.14f, 1.02f}, Vec3f{0, front + 0.32f, 1.28f}}, 0.022f, 10);
   std::vector<Vec3f> wheel;
   for (int i = 0; i <= 24; ++i) {
-    const float a = kTau * static_cast<float>(i % 24) / 24;
+    const float a = kTauF * static_cast<float>(i % 24) / 24;
     wheel.push_back({0.16f * std::cos(a), front + 0.32f - 0.09f * std::sin(a), 1.29f + 0.13f * std::sin(a)});
   }
   b.Bar(wheel, 0.013f, 8);

@@ -10,7 +10,7 @@
 namespace airsim360::internal {
 namespace {
 
-// Pictures of surfaces; grey ones have a mean near 1 and are coloured by the material.
+// FinishPictures of surfaces; grey ones have a mean near 1 and are coloured by the material.
 enum class Weave {
   kNone,
   kBoards,
@@ -124,11 +124,11 @@ float TileOf(Weave weave) {
 }
 
 // Distance from the joints of a grid of n x m tiles (odd rows shifted by `bond`), in tiles of the grid; and the tile's number.
-struct Cell {
+struct FinishCell {
   float edge_u, edge_v;
   int tile;
 };
-Cell CellOf(float u, float v, int n, int m, float bond) {
+FinishCell CellOf(float u, float v, int n, int m, float bond) {
   const float y = v * static_cast<float>(m), row = std::floor(y);
   float x = u * static_cast<float>(n) + bond * row;
   x -= std::floor(x / static_cast<float>(n)) * static_cast<float>(n);
@@ -152,7 +152,7 @@ Vec3f BoardsAt(float u, float v) {
 }
 
 Vec3f TilesAt(float u, float v, int n, int m, float bond, float grout, float size, float speckle) {
-  const Cell c = CellOf(u, v, n, m, bond);
+  const FinishCell c = CellOf(u, v, n, m, bond);
   const float d = std::min(c.edge_u, c.edge_v) * size;
   const float tone = 0.93f + 0.10f * OfTile(c.tile, 4) + speckle * (TileFractal(u, v, 24, 24, 4, 17) - 0.5f);
   return d < grout ? Vec3f{0.55f, 0.54f, 0.52f} : Vec3f{1, 1, 1} * tone;
@@ -164,7 +164,7 @@ Vec3f ColorAt(Weave weave, float u, float v) {
     case W::kBoards:
       return BoardsAt(u, v);
     case W::kCarpet: {
-      const Cell c = CellOf(u, v, 2, 2, 0);
+      const FinishCell c = CellOf(u, v, 2, 2, 0);
       const float pile = TileNoise(u * 256, v * 256, 256, 256, 3) + 0.6f * TileFractal(u, v, 8, 8, 5, 6);
       return one * (0.62f + 0.42f * pile + 0.05f * OfTile(c.tile, 8));
     }
@@ -178,7 +178,7 @@ Vec3f ColorAt(Weave weave, float u, float v) {
       return Vec3f{1, 0.98f - 0.05f * small, 0.95f - 0.06f * chip} * t;
     }
     case W::kStone: {
-      const Cell c = CellOf(u, v, 2, 3, 0.5f);
+      const FinishCell c = CellOf(u, v, 2, 3, 0.5f);
       const float vein = std::abs(2 * TileFractal(u, v, 3, 4, 5, 31 + static_cast<uint64_t>(c.tile)) - 1);
       const float d = std::min(c.edge_u * 0.9f, c.edge_v * 0.6f);
       return d < 0.0016f ? Vec3f{0.5f, 0.49f, 0.46f}
@@ -192,7 +192,7 @@ Vec3f ColorAt(Weave weave, float u, float v) {
     case W::kPlaster:
       return one * (0.965f + 0.05f * TileFractal(u, v, 3, 3, 4, 61) + 0.02f * TileNoise(u * 200, v * 200, 200, 200, 62));
     case W::kCeilingGrid: {
-      const Cell c = CellOf(u, v, 2, 2, 0);
+      const FinishCell c = CellOf(u, v, 2, 2, 0);
       const float d = std::min(c.edge_u, c.edge_v) * 0.6f;
       if (d < 0.012f) return one * (d > 0.010f ? 0.62f : 1.04f);
       const bool hole = TileNoise(u * 180, v * 180, 180, 180, 71) > 0.83f;
@@ -201,7 +201,7 @@ Vec3f ColorAt(Weave weave, float u, float v) {
     case W::kRibs:
       return one * (0.95f + 0.07f * TileFractal(u, v, 2, 6, 4, 81));
     case W::kBlocks: {
-      const Cell c = CellOf(u, v, 2, 4, 0.5f);
+      const FinishCell c = CellOf(u, v, 2, 4, 0.5f);
       const float d = std::min(c.edge_u * 0.4f, c.edge_v * 0.2f);
       return one * ((d < 0.005f ? 0.86f : 0.95f + 0.05f * OfTile(c.tile, 6)) + 0.06f * (TileFractal(u, v, 30, 30, 3, 91) - 0.5f));
     }
@@ -216,17 +216,17 @@ float HeightAt(Weave weave, float u, float v) {
     case W::kCarpet:
       return 0.0012f * TileNoise(u * 128, v * 128, 128, 128, 3);
     case W::kTiles60: {
-      const Cell c = CellOf(u, v, 2, 2, 0);
+      const FinishCell c = CellOf(u, v, 2, 2, 0);
       return 0.001f * std::min(1.0f, std::min(c.edge_u, c.edge_v) * 0.6f / 0.004f);
     }
     case W::kTiles20: {
-      const Cell c = CellOf(u, v, 4, 8, 0.5f);
+      const FinishCell c = CellOf(u, v, 4, 8, 0.5f);
       return 0.001f * std::min(1.0f, std::min(c.edge_u * 0.2f, c.edge_v * 0.1f) / 0.003f);
     }
     case W::kPlaster:
       return 0.0006f * TileFractal(u, v, 48, 48, 2, 63);
     case W::kCeilingGrid: {
-      const Cell c = CellOf(u, v, 2, 2, 0);
+      const FinishCell c = CellOf(u, v, 2, 2, 0);
       return -0.004f * (std::min(c.edge_u, c.edge_v) * 0.6f < 0.012f ? 0.0f : 1.0f);
     }
     case W::kRibs: {
@@ -234,7 +234,7 @@ float HeightAt(Weave weave, float u, float v) {
       return 0.02f * std::clamp((0.25f - std::abs(phase - 0.5f)) / 0.08f, 0.0f, 1.0f);
     }
     case W::kBlocks: {
-      const Cell c = CellOf(u, v, 2, 4, 0.5f);
+      const FinishCell c = CellOf(u, v, 2, 4, 0.5f);
       return 0.004f * std::min(1.0f, std::min(c.edge_u * 0.4f, c.edge_v * 0.2f) / 0.008f);
     }
     default:
@@ -246,7 +246,7 @@ bool HasRelief(Weave weave) {
          weave == W::kRibs || weave == W::kBlocks;
 }
 
-struct Pictures {
+struct FinishPictures {
   TextureId color = kNoTexture, normal = kNoTexture;
 };
 
@@ -268,7 +268,7 @@ Finishes::Finishes(SceneBuilder& builder) {
       normals[i] = NormalsFromHeight(name + " normals", kSize, kSize, 1, [&](float u, float v) { return HeightAt(weave, u, v) / tile; });
     }
   });
-  std::vector<Pictures> pictures(kWeaves);
+  std::vector<FinishPictures> pictures(kWeaves);
   for (size_t i = 1; i < pictures.size(); ++i) {
     pictures[i].color = builder.AddTexture(std::move(colors[i]));
     if (HasRelief(static_cast<Weave>(i))) pictures[i].normal = builder.AddTexture(std::move(normals[i]));
@@ -280,7 +280,7 @@ Finishes::Finishes(SceneBuilder& builder) {
     m.roughness = row.roughness;
     m.metallic = row.metallic;
     if (row.weave != Weave::kNone) {
-      const Pictures& p = pictures[static_cast<size_t>(row.weave)];
+      const FinishPictures& p = pictures[static_cast<size_t>(row.weave)];
       m.base_color = row.color * (1 / 0.8f);  // pictures are held below white
       m.base_color_texture = p.color;
       m.normal_texture = p.normal;

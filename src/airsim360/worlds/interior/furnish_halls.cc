@@ -1,14 +1,12 @@
 // Warehouse halls and parking decks; which furniture goes with which building.
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/interior/deck_bays.h"
 #include "airsim360/worlds/interior/furnisher.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 // Double rows of racks along y with ways of 3.3 m for fork-lifts.
 void Racks(RoomSpace& s) {
@@ -19,7 +17,7 @@ void Racks(RoomSpace& s) {
   for (float x = r.x0 + 1.4f + pair / 2; x + pair / 2 + 1.2f < r.x1; x += pair + way) {
     for (float y = y0 + bay.x / 2; y + bay.x / 2 < y1; y += bay.x + 0.02f) {
       for (const float side : {-1.0f, 1.0f}) {
-        s.At("rack_bay", {x + side * (bay.y + 0.1f) / 2, y}, side > 0 ? kPi / 2 : -kPi / 2);
+        s.At("rack_bay", {x + side * (bay.y + 0.1f) / 2, y}, side > 0 ? kPiF / 2 : -kPiF / 2);
         ++number;
       }
     }
@@ -71,10 +69,10 @@ void FurnishDecks(const BuildingPlan& plan, Furnisher& furnisher) {
     for (const DeckBay& bay : DeckBays(plan, storey)) {
       const Vec2f c = bay.rect.center();
       const float nose = bay.nose_north ? 1.0f : -1.0f;
-      furnisher.Put("wheel_stop", {c.x, c.y + nose * 2.05f, z}, bay.nose_north ? kPi : 0, 0);
+      furnisher.Put("wheel_stop", {c.x, c.y + nose * 2.05f, z}, bay.nose_north ? kPiF : 0, 0);
       if (!rng.Chance(fill)) continue;
       // Nose (-Y of a car) in, or backed in.
-      const float yaw = (bay.nose_north != rng.Chance(0.25) ? kPi : 0) + static_cast<float>(rng.Uniform(-0.03, 0.03));
+      const float yaw = (bay.nose_north != rng.Chance(0.25) ? kPiF : 0) + static_cast<float>(rng.Uniform(-0.03, 0.03));
       const bool van = rng.Chance(0.08);
       const char* kind = van ? "van" : "car";
       const uint32_t variant = rng.Index(furnisher.Variants(kind));
@@ -86,9 +84,9 @@ void FurnishDecks(const BuildingPlan& plan, Furnisher& furnisher) {
     for (size_t i = 0; i < plan.columns.size(); ++i) {
       const Vec2f c = plan.columns[i];
       if (i % 4 == 0) furnisher.Put("parking_sign", {c.x, c.y - plan.column / 2 - 0.03f, z + 1.7f}, 0, 0);
-      if (i % 5 == 1) furnisher.Put("fire_extinguisher", {c.x, c.y + plan.column / 2 + 0.08f, z + 0.9f}, kPi, 0);
+      if (i % 5 == 1) furnisher.Put("fire_extinguisher", {c.x, c.y + plan.column / 2 + 0.08f, z + 0.9f}, kPiF, 0);
     }
-    furnisher.Put("ticket_machine", {6.3f, plan.outline.y1 - 7.0f, z}, kPi / 2, 0);
+    furnisher.Put("ticket_machine", {6.3f, plan.outline.y1 - 7.0f, z}, kPiF / 2, 0);
     for (const PlanRect& aisle : DeckAisles(plan)) {
       const int cones = 1 + static_cast<int>(rng.Index(3));
       for (int i = 0; i < cones; ++i)

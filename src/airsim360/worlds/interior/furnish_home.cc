@@ -1,16 +1,12 @@
 // Rooms of homes: what stands in them, as people live in them.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/interior/furnisher.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
-
-float Jitter(RoomSpace& s, double by) { return static_cast<float>(s.rng().Uniform(-by, by)); }
 
 void Curtains(RoomSpace& s) {
   const uint32_t kind = s.Pick("curtain", {});
@@ -54,7 +50,7 @@ void Seats(RoomSpace& s) {
   s.Put("dishes", table + spot->along() * 0.02f + spot->inward * 0.1f, 0, top, 0);
   s.Put("plant_small", table + spot->along() * -0.2f, 0, top);
   for (const float side : {-1.0f, 1.0f})
-    if (s.rng().Chance(0.8)) s.At("armchair", spot->At(side * 1.75f, sofa_depth + 0.9f), spot->yaw + side * (kPi / 2) + Jitter(s, 0.25));
+    if (s.rng().Chance(0.8)) s.At("armchair", spot->At(side * 1.75f, sofa_depth + 0.9f), spot->yaw + side * (kPiF / 2) + Jitter(s, 0.25));
   s.At("floor_lamp", spot->At(1.55f, 0.3f), 0);
   // The television stands opposite.
   const int opposite = std::abs(spot->inward.y) > 0.5f ? (spot->inward.y > 0 ? 2 : 0) : (spot->inward.x > 0 ? 1 : 3);
@@ -85,7 +81,7 @@ void DiningSet(RoomSpace& s, Vec2f p, float yaw, int chairs_a_side) {
     const float along = table.x * ((static_cast<float>(i) + 0.5f) / static_cast<float>(chairs_a_side) - 0.5f);
     for (const float side : {-1.0f, 1.0f})
       s.Put("dining_chair_home", p + t * along + n * (side * (table.y / 2 + 0.12f + static_cast<float>(s.rng().Uniform(0.05, 0.2)))),
-            yaw + (side > 0 ? 0 : kPi) + Jitter(s, 0.18));
+            yaw + (side > 0 ? 0 : kPiF) + Jitter(s, 0.18));
     for (const float side : {-1.0f, 1.0f})
       s.Put("dishes", p + t * along + n * (side * (table.y / 2 - 0.2f)), 0, s.Top("dining_table_home"));
   }
@@ -94,7 +90,7 @@ void DiningSet(RoomSpace& s, Vec2f p, float yaw, int chairs_a_side) {
 
 void Dining(RoomSpace& s, double clutter) {
   const bool long_x = s.rect().width() > s.rect().depth();
-  DiningSet(s, s.rect().center(), long_x ? 0 : kPi / 2, 3);
+  DiningSet(s, s.rect().center(), long_x ? 0 : kPiF / 2, 3);
   if (const auto d = s.AtWall("dresser", 0.3f)) {
     s.Put("plant_small", d->At(0.2f, 0.2f), 0, s.Top("dresser"));
     s.Put("book_row", d->At(-0.25f, 0.2f), d->yaw, s.Top("dresser"));
@@ -165,7 +161,7 @@ void Bed(RoomSpace& s, const char* kind, float width) {
 void Desk(RoomSpace& s) {
   if (const auto d = s.AtWall("desk_office", 0.9f)) {
     const float depth = s.Size("desk_office").y, top = 0.73f;
-    s.Put("office_chair", d->At(0, depth + 0.35f), d->yaw + kPi + Jitter(s, 0.5));
+    s.Put("office_chair", d->At(0, depth + 0.35f), d->yaw + kPiF + Jitter(s, 0.5));
     s.Put("monitor", d->At(0, 0.22f), d->yaw, top);
     s.Put("keyboard", d->At(0, 0.5f), d->yaw, top);
     s.Put("computer", d->At(0.55f, 0.3f), d->yaw);

@@ -1,13 +1,11 @@
 // Shops and the halls between them.
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/interior/furnisher.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 // Rows of something with ways between, clear of the walls.
 void Rows(RoomSpace& s, const char* kind, float way, float margin, bool along_x) {
@@ -20,14 +18,14 @@ void Rows(RoomSpace& s, const char* kind, float way, float margin, bool along_x)
       for (const float side : {-1.0f, 1.0f}) {
         const float across = at + side * size.y / 2;
         const Vec2f p = along_x ? Vec2f{s0, across} : Vec2f{across, s0};
-        s.At(kind, p, along_x ? (side > 0 ? kPi : 0) : (side > 0 ? kPi / 2 : -kPi / 2));
+        s.At(kind, p, along_x ? (side > 0 ? kPiF : 0) : (side > 0 ? kPiF / 2 : -kPiF / 2));
       }
     }
   }
 }
 
 void Counter(RoomSpace& s) {
-  if (const auto c = s.AtWall("shop_counter", 0.9f)) s.Put("computer", c->At(0.2f, 0.3f), c->yaw + kPi, s.Top("shop_counter"));
+  if (const auto c = s.AtWall("shop_counter", 0.9f)) s.Put("computer", c->At(0.2f, 0.3f), c->yaw + kPiF, s.Top("shop_counter"));
 }
 
 void Clothes(RoomSpace& s, double clutter) {
@@ -49,7 +47,7 @@ void Electronics(RoomSpace& s) {
     for (float y = r.y0; y < r.y1; y += 2.4f) {
       if (!s.At("meeting_table", {x, y}, 0)) continue;
       for (const float d : {-0.6f, 0.0f, 0.6f})
-        s.Put(d == 0 ? "laptop" : "monitor", {x + d, y}, s.rng().Chance(0.5) ? 0 : kPi, s.Top("meeting_table"));
+        s.Put(d == 0 ? "laptop" : "monitor", {x + d, y}, s.rng().Chance(0.5) ? 0 : kPiF, s.Top("meeting_table"));
     }
   }
 }
@@ -58,7 +56,7 @@ void Groceries(RoomSpace& s) {
   // Tills towards the hall, shelves behind, fridges along the walls.
   const bool door_north = s.rect().y0 < 10;
   const float y = door_north ? s.rect().y1 - 2.6f : s.rect().y0 + 2.6f;
-  for (float x = s.rect().x0 + 1.6f; x < s.rect().x1 - 1.5f; x += 2.3f) s.At("checkout", {x, y}, kPi / 2);
+  for (float x = s.rect().x0 + 1.6f; x < s.rect().x1 - 1.5f; x += 2.3f) s.At("checkout", {x, y}, kPiF / 2);
   s.Reserve({s.rect().center().x, y}, {s.rect().width() / 2, 1.6f});
   for (int i = 0; i < 2; ++i) s.RowAtWall("fridge", 5, 0.01f);
   Rows(s, "shop_shelf", 1.5f, 1.5f, false);
@@ -72,7 +70,7 @@ void Cafe(RoomSpace& s) {
   const PlanRect r = s.rect().Inset(1.0f);
   for (float y = r.y0 + 0.8f; y < r.y1; y += 2.3f) {
     for (float x = r.x0 + 0.8f; x < r.x1; x += 2.6f) {
-      const float yaw = s.rng().Chance(0.3) ? kPi / 2 : 0;
+      const float yaw = s.rng().Chance(0.3) ? kPiF / 2 : 0;
       if (!s.At("dining_table_home", {x, y}, yaw)) continue;
       const Vec3f table = s.Size("dining_table_home");
       const Vec2f t{std::cos(yaw), std::sin(yaw)}, n{-t.y, t.x};
@@ -81,7 +79,7 @@ void Cafe(RoomSpace& s) {
           if (s.rng().Chance(0.9))
             s.Put("dining_chair_home",
                   Vec2f{x, y} + t * (along * table.x) + n * (side * (table.y / 2 + static_cast<float>(s.rng().Uniform(0.1, 0.35)))),
-                  yaw + (side > 0 ? 0 : kPi) + static_cast<float>(s.rng().Uniform(-0.3, 0.3)));
+                  yaw + (side > 0 ? 0 : kPiF) + static_cast<float>(s.rng().Uniform(-0.3, 0.3)));
       if (s.rng().Chance(0.5)) s.Put("dishes", {x, y}, 0, s.Top("dining_table_home"));
       if (s.rng().Chance(0.3)) s.Put("plant_small", {x + 0.2f, y + 0.1f}, 0, s.Top("dining_table_home"));
     }

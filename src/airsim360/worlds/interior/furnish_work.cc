@@ -1,15 +1,13 @@
 // Offices and libraries.
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/interior/furnisher.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>, kDeskTop = 0.73f;
-
-float Jitter(RoomSpace& s, double by) { return static_cast<float>(s.rng().Uniform(-by, by)); }
+constexpr float kDeskTop = 0.73f;
 
 // A desk whose user sits on its front side (-Y before turning by yaw); on it what is in use.
 bool WorkPlace(RoomSpace& s, Vec2f p, float yaw, double clutter) {
@@ -18,7 +16,7 @@ bool WorkPlace(RoomSpace& s, Vec2f p, float yaw, double clutter) {
   const auto on = [&](const char* kind, float right, float rear, float turn) {
     s.Put(kind, p + t * right + back * rear, yaw + turn, kDeskTop);
   };
-  s.Put("office_chair", p - back * (0.62f + Jitter(s, 0.12)), yaw + kPi + Jitter(s, 0.7));
+  s.Put("office_chair", p - back * (0.62f + Jitter(s, 0.12)), yaw + kPiF + Jitter(s, 0.7));
   const bool two = s.rng().Chance(0.4);
   on("monitor", two ? -0.28f : 0.0f, 0.18f, two ? 0.15f : Jitter(s, 0.1));
   if (two) on("monitor", 0.30f, 0.18f, -0.15f);
@@ -51,7 +49,7 @@ void Benches(RoomSpace& s, double clutter) {
       for (int i = 0; i < per_bench; ++i) {
         const float at = x + pitch_x * (static_cast<float>(i) + 0.5f);
         WorkPlace(s, {at, y - desk.y / 2 - 0.02f}, 0, clutter);
-        WorkPlace(s, {at, y + desk.y / 2 + 0.02f}, kPi, clutter);
+        WorkPlace(s, {at, y + desk.y / 2 + 0.02f}, kPiF, clutter);
         s.Put("partition", {at, y}, 0, 0, 0);
       }
       s.Reserve(middle, {(group - 1.5f) / 2, bench / 2 + seat});
@@ -79,7 +77,7 @@ void OpenOffice(RoomSpace& s, double clutter) {
 
 void Cell(RoomSpace& s, double clutter) {
   const Vec2f c = s.rect().center();
-  WorkPlace(s, {c.x + Jitter(s, 0.2), c.y + 0.55f}, s.rng().Chance(0.5) ? 0 : kPi, clutter);
+  WorkPlace(s, {c.x + Jitter(s, 0.2), c.y + 0.55f}, s.rng().Chance(0.5) ? 0 : kPiF, clutter);
   s.RowAtWall("filing_cabinet", 2);
   s.AtWall("bookshelf", 0.5f);
   s.AtWall("coat_rack");
@@ -93,7 +91,7 @@ void Cell(RoomSpace& s, double clutter) {
 void Meeting(RoomSpace& s) {
   const Vec2f c = s.rect().center();
   const bool along_x = s.rect().width() > s.rect().depth();
-  const float yaw = along_x ? 0 : kPi / 2;
+  const float yaw = along_x ? 0 : kPiF / 2;
   if (s.At("meeting_table", c, yaw)) {
     const Vec3f table = s.Size("meeting_table");
     const Vec2f t{std::cos(yaw), std::sin(yaw)}, n{-t.y, t.x};
@@ -102,10 +100,10 @@ void Meeting(RoomSpace& s) {
       const float along = table.x * ((static_cast<float>(i) + 0.5f) / static_cast<float>(seats) - 0.5f);
       for (const float side : {-1.0f, 1.0f})
         s.Put("office_chair", c + t * along + n * (side * (table.y / 2 + 0.3f + static_cast<float>(s.rng().Uniform(0, 0.25)))),
-              yaw + (side > 0 ? 0 : kPi) + Jitter(s, 0.4));
+              yaw + (side > 0 ? 0 : kPiF) + Jitter(s, 0.4));
     }
     s.Put("book_row", c + t * 0.3f, yaw + Jitter(s, 1), s.Top("meeting_table"));
-    s.Put("laptop", c - t * 0.5f + n * 0.3f, yaw + kPi, s.Top("meeting_table"));
+    s.Put("laptop", c - t * 0.5f + n * 0.3f, yaw + kPiF, s.Top("meeting_table"));
     s.Put("papers", c + t * 0.8f - n * 0.3f, yaw, s.Top("meeting_table"));
     s.Put("dishes", c - t * 0.1f, yaw, s.Top("meeting_table"), 0);
   }
@@ -126,9 +124,9 @@ void Pantry(RoomSpace& s) {
   const Vec2f c = s.rect().center();
   for (const float side : {-1.0f, 1.0f}) {
     const Vec2f p = c + Vec2f{side * s.rect().width() / 5, 0};
-    if (!s.At("dining_table_home", p, kPi / 2)) continue;
+    if (!s.At("dining_table_home", p, kPiF / 2)) continue;
     for (const float y : {-1.0f, 1.0f})
-      s.Put("dining_chair_home", p + Vec2f{y * (s.Size("dining_table_home").y / 2 + 0.15f), 0}, y > 0 ? -kPi / 2 : kPi / 2);
+      s.Put("dining_chair_home", p + Vec2f{y * (s.Size("dining_table_home").y / 2 + 0.15f), 0}, y > 0 ? -kPiF / 2 : kPiF / 2);
   }
   s.AtWall("waste_bin_indoor");
   s.OnWall("picture_frame", 1.4f);
@@ -148,8 +146,8 @@ void Stacks(RoomSpace& s) {
   const PlanRect r = s.rect().Inset(1.3f);
   for (float x = r.x0 + shelf.y; x + shelf.y < r.x1; x += 2 * shelf.y + 1.25f) {
     for (float y = r.y0 + shelf.x / 2; y + shelf.x / 2 < r.y1; y += shelf.x + 0.01f) {
-      s.At("bookshelf", {x - shelf.y / 2 - 0.01f, y}, -kPi / 2);
-      s.At("bookshelf", {x + shelf.y / 2 + 0.01f, y}, kPi / 2);
+      s.At("bookshelf", {x - shelf.y / 2 - 0.01f, y}, -kPiF / 2);
+      s.At("bookshelf", {x + shelf.y / 2 + 0.01f, y}, kPiF / 2);
     }
   }
   s.RowAtWall("bookshelf", 4);
@@ -166,7 +164,7 @@ void Reading(RoomSpace& s, double clutter) {
           s.Put("dining_chair_home",
                 {x + table.x * (static_cast<float>(i) - 1) / 3,
                  y + side * (table.y / 2 + 0.2f + static_cast<float>(s.rng().Uniform(0, 0.2)))},
-                side > 0 ? 0 : kPi);
+                side > 0 ? 0 : kPiF);
       s.Put("table_lamp", {x, y}, 0, s.Top("meeting_table"));
       if (s.rng().Chance(0.7 * clutter)) s.Put("book_row", {x + 0.5f, y + 0.2f}, Jitter(s, 1.5), s.Top("meeting_table"));
       if (s.rng().Chance(0.3)) s.Put("laptop", {x - 0.5f, y - 0.25f}, 0, s.Top("meeting_table"));
@@ -198,7 +196,7 @@ void FurnishWork(RoomSpace& s, double clutter) {
       break;
     case RoomType::kDispatchOffice:
       Cell(s, clutter);
-      WorkPlace(s, s.rect().center() + Vec2f{0, -1.6f}, kPi, clutter);
+      WorkPlace(s, s.rect().center() + Vec2f{0, -1.6f}, kPiF, clutter);
       break;
     case RoomType::kMeetingRoom:
       Meeting(s);

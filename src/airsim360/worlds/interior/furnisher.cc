@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>, kWallStep = 0.15f;
+constexpr float kWallStep = 0.15f;
 
 Vec2f Turned(Vec2f v, float yaw) { return {v.x * std::cos(yaw) - v.y * std::sin(yaw), v.x * std::sin(yaw) + v.y * std::cos(yaw)}; }
 
@@ -71,13 +71,13 @@ WallSpot RoomSpace::SpotAt(int side, float along) const {
   const PlanRect& r = rect();
   switch (side) {
     case 0:
-      return {{along, r.y0}, {0, 1}, kPi};
+      return {{along, r.y0}, {0, 1}, kPiF};
     case 1:
-      return {{r.x1, along}, {-1, 0}, -kPi / 2};
+      return {{r.x1, along}, {-1, 0}, -kPiF / 2};
     case 2:
       return {{along, r.y1}, {0, -1}, 0};
     default:
-      return {{r.x0, along}, {1, 0}, kPi / 2};
+      return {{r.x0, along}, {1, 0}, kPiF / 2};
   }
 }
 

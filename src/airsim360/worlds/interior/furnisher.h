@@ -124,4 +124,7 @@ void FurnishDecks(const BuildingPlan& plan, Furnisher& furnisher);
 void FurnishRooms(const BuildingPlan& plan, Furnisher& furnisher);
 void InstallServices(const BuildingPlan& plan, Furnisher& furnisher);
 
+/// Uniform in [-by, by].
+inline float Jitter(RoomSpace& s, double by) { return static_cast<float>(s.rng().Uniform(-by, by)); }
+
 }  // namespace airsim360::internal

@@ -8,11 +8,11 @@ namespace airsim360::internal {
 namespace {
 
 using T = RoomType;
-constexpr float kCorridor = 1.5f, kCeiling = 2.6f;
+constexpr float kHomeCorridor = 1.5f, kCeiling = 2.6f;
 
 void PlanFlat(PlanPen& pen, int storey, bool mirrored) {
   const float w = static_cast<float>(pen.plan().spec.width), d = static_cast<float>(pen.plan().spec.depth);
-  const float south = (d - kCorridor) * 0.5f, north = south + kCorridor;
+  const float south = (d - kHomeCorridor) * 0.5f, north = south + kHomeCorridor;
   const StripRoom sunny[] = {
       {T::kLivingRoom, 6.2f, kCeiling}, {T::kDiningRoom, 3.5f, kCeiling}, {T::kKitchen, 3.3f, kCeiling}, {T::kChildRoom, 3.2f, kCeiling}};
   const StripRoom shady[] = {{T::kStudy, 2.9f, kCeiling},  {T::kBedroom, 4.2f, kCeiling}, {T::kBathroom, 2.6f, 2.45f},

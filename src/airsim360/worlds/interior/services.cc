@@ -1,14 +1,12 @@
 // What hangs under ceilings and on walls for light, air and safety: lamps by the use of the room, vents, ducts, sprinklers, signs.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/interior/furnisher.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 // Lamps of a room: a grid with about so many metres between them.
 struct Lighting {
@@ -106,7 +104,7 @@ void HangLamps(const BuildingPlan& plan, const PlanRoom& room, float ceiling, Fu
     if (UnderSkylight(room, p, 0.5f)) return;
     // Panels take the place of a tile of the ceiling.
     if (panel) p = {std::floor(p.x / 0.6f) * 0.6f + 0.3f, std::floor(p.y / 0.6f) * 0.6f + 0.3f};
-    furnisher.Hang(lighting.lamp, {p.x, p.y, ceiling - lighting.drop}, tube && room.clear.depth() > room.clear.width() ? kPi / 2 : 0,
+    furnisher.Hang(lighting.lamp, {p.x, p.y, ceiling - lighting.drop}, tube && room.clear.depth() > room.clear.width() ? kPiF / 2 : 0,
                    variant);
   });
 }
@@ -138,7 +136,7 @@ void HangDucts(const PlanRoom& room, float ceiling, Furnisher& furnisher) {
   const float length = std::max(duct.x, duct.y), drop = hall ? 1.2f : 0.02f;
   const auto run = [&](const char* kind, float y, float below) {
     for (float x = room.clear.x0 + 1.2f + length / 2; x + length / 2 < room.clear.x1 - 0.5f; x += length)
-      furnisher.Hang(kind, {x, y, ceiling - below}, long_x ? 0 : kPi / 2, 0);
+      furnisher.Hang(kind, {x, y, ceiling - below}, long_x ? 0 : kPiF / 2, 0);
   };
   if (hall) {
     run("duct", room.clear.y0 + 4.0f, drop);
@@ -163,7 +161,7 @@ void HangSigns(const BuildingPlan& plan, Furnisher& furnisher) {
       // On the side from which one leaves.
       const bool to_high = o.outer ? wall.low < 0 : stairs(wall.low);
       const float inward = to_high ? 1.0f : -1.0f, middle = wall.from + (o.from + o.to) / 2, z = plan.StoreyZ(wall.storey);
-      const float yaw = wall.along_x ? (to_high ? kPi : 0) : (to_high ? kPi / 2 : -kPi / 2);
+      const float yaw = wall.along_x ? (to_high ? kPiF : 0) : (to_high ? kPiF / 2 : -kPiF / 2);
       const auto at = [&](float along, float across) {
         return wall.along_x ? Vec2f{along, wall.at + inward * across} : Vec2f{wall.at + inward * across, along};
       };

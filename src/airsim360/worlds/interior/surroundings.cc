@@ -3,12 +3,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/texture/surfaces.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>, kApron = 3.0f, kVerge = 9.0f, kRoad = 7.5f, kWalk = 2.5f;
+constexpr float kApron = 3.0f, kVerge = 9.0f, kRoad = 7.5f, kWalk = 2.5f;
 
 class Outside {
  public:
@@ -83,7 +84,7 @@ class Outside {
     for (float x = x0; x < x1; x += 9) pen_.Level({x, y - kRoad / 2 - 0.06f, x + 3, y - kRoad / 2 + 0.06f}, kOutsideZ - 0.092f, true);
     for (float x = x0 + 120; x < x1 - 120; x += static_cast<float>(rng_.Uniform(6, 13))) {
       if (!rng_.Chance(0.7)) continue;
-      furnisher_.Put("car", {x, y - 1.15f, kOutsideZ - 0.1f}, kPi / 2, rng_.Index(furnisher_.Variants("car")));
+      furnisher_.Put("car", {x, y - 1.15f, kOutsideZ - 0.1f}, kPiF / 2, rng_.Index(furnisher_.Variants("car")));
     }
     for (float x = x0 + 110; x < x1 - 110; x += 24) furnisher_.Put("street_light", {x, y - kRoad - 0.5f, kOutsideZ}, 0, 0);
   }

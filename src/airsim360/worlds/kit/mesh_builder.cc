@@ -2,14 +2,13 @@
 
 #include <cmath>
 #include <cstring>
-#include <numbers>
 #include <numeric>
 #include <unordered_map>
 
+#include "airsim360/math/angles.h"
+
 namespace airsim360 {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 // Any unit vector across `axis`.
 Vec3f Across(Vec3f axis) { return Normalized(Cross(axis, std::abs(axis.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0})); }
@@ -86,14 +85,14 @@ void MeshBuilder::Tube(Vec3f a, Vec3f b, float ra, float rb, int sides, bool cap
   const Vec3f axis = Normalized(b - a), s = Across(axis), t = Cross(axis, s);
   const float length = Norm(b - a), slope = length > 0 ? (ra - rb) / length : 0;
   const auto spoke = [&](int i) {
-    const float angle = kTau * static_cast<float>(i % sides) / static_cast<float>(sides);
+    const float angle = kTauF * static_cast<float>(i % sides) / static_cast<float>(sides);
     return s * std::cos(angle) + t * std::sin(angle);
   };
   for (int i = 0; i < sides; ++i) {
     const Vec3f d0 = spoke(i), d1 = spoke(i + 1);
     const Vec3f n0 = Normalized(d0 + axis * slope), n1 = Normalized(d1 + axis * slope);
-    const float u0 = kTau * ra * static_cast<float>(i) / static_cast<float>(sides);
-    const float u1 = kTau * ra * static_cast<float>(i + 1) / static_cast<float>(sides);
+    const float u0 = kTauF * ra * static_cast<float>(i) / static_cast<float>(sides);
+    const float u1 = kTauF * ra * static_cast<float>(i + 1) / static_cast<float>(sides);
     const Vec3f p00 = a + d0 * ra, p10 = a + d1 * ra, p01 = b + d0 * rb, p11 = b + d1 * rb;
     if (ra > 0) SmoothTriangle({p00, p10, p11}, {n0, n1, n1}, {{u0, length}, {u1, length}, {u1, 0}});
     if (rb > 0) SmoothTriangle({p00, p11, p01}, {n0, n1, n0}, {{u0, length}, {u1, 0}, {u0, 0}});
@@ -104,8 +103,8 @@ void MeshBuilder::Tube(Vec3f a, Vec3f b, float ra, float rb, int sides, bool cap
 
 void MeshBuilder::Sphere(Vec3f center, Vec3f radii, int rings, int sides) {
   const auto direction = [&](int ring, int side) {
-    const float polar = kTau / 2 * static_cast<float>(ring) / static_cast<float>(rings);
-    const float angle = kTau * static_cast<float>(side % sides) / static_cast<float>(sides);
+    const float polar = kTauF / 2 * static_cast<float>(ring) / static_cast<float>(rings);
+    const float angle = kTauF * static_cast<float>(side % sides) / static_cast<float>(sides);
     const float r = ring == 0 || ring == rings ? 0.0f : std::sin(polar);
     return Vec3f{r * std::cos(angle), r * std::sin(angle), std::cos(polar)};
   };
@@ -114,8 +113,9 @@ void MeshBuilder::Sphere(Vec3f center, Vec3f radii, int rings, int sides) {
   for (int i = 0; i < rings; ++i) {
     for (int j = 0; j < sides; ++j) {
       const Vec3f d[4] = {direction(i + 1, j), direction(i + 1, j + 1), direction(i, j + 1), direction(i, j)};
-      const float u0 = kTau * r * static_cast<float>(j) / static_cast<float>(sides), u1 = u0 + kTau * r / static_cast<float>(sides);
-      const float v0 = kTau / 2 * r * static_cast<float>(i) / static_cast<float>(rings), v1 = v0 + kTau / 2 * r / static_cast<float>(rings);
+      const float u0 = kTauF * r * static_cast<float>(j) / static_cast<float>(sides), u1 = u0 + kTauF * r / static_cast<float>(sides);
+      const float v0 = kTauF / 2 * r * static_cast<float>(i) / static_cast<float>(rings),
+                  v1 = v0 + kTauF / 2 * r / static_cast<float>(rings);
       const Vec2f uv[4] = {{u0, v1}, {u1, v1}, {u1, v0}, {u0, v0}};
       if (i + 1 < rings) {
         SmoothTriangle({center + d[0] * radii, center + d[1] * radii, center + d[2] * radii}, {normal(d[0]), normal(d[1]), normal(d[2])},

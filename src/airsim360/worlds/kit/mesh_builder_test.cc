@@ -6,14 +6,13 @@
 #include <functional>
 #include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/kit/test_mesh.h"
 
 namespace airsim360 {
 namespace {
 
 using namespace internal;
-
-constexpr double kPi = std::numbers::pi;
 
 // The area of a regular polygon in a circle of radius 1.
 double Corners(int n) { return n * std::sin(2 * kPi / n) / 2; }

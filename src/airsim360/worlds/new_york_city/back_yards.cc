@@ -3,12 +3,13 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/new_york_city/city.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 6.2831853f, kTop = 0.03f;
+constexpr float kTop = 0.03f;
 
 enum class YardKind { kLawn, kTerrace, kSoil };
 
@@ -35,7 +36,7 @@ void PlantYardTree(District& d, Vec2f p, EntityId ground, RngStream& rng) {
     return other.kind.starts_with("tree") && std::hypot(other.p_W.x - p.x, other.p_W.y - p.y) < 7.9f;
   });
   const char* kind = rng.Chance(0.6) ? "tree_generic" : "tree_narrowleaf";
-  const auto turn = static_cast<float>(rng.Uniform(0, kTau)), scale = static_cast<float>(rng.Uniform(0.55, 0.75));
+  const auto turn = static_cast<float>(rng.Uniform(0, kTauF)), scale = static_cast<float>(rng.Uniform(0.55, 0.75));
   if (!crowded && d.placer.Try(kind, {p.x, p.y, kTop - 0.02f}, turn, scale)) DropLeaves(d, ground, p, 2.2f, 5, kTop);
 }
 
@@ -69,7 +70,7 @@ void LayBackYards(District& d, const Manhattan& city) {
     for (float t = 2; t < plot.depth() - 1.5f; t += uniform(1.2f, 2.4f)) {
       static constexpr const char* kGreen[] = {"shrub", "plant", "green_pot", "shrub", "flower_bed"};
       const bool west = rng.Chance(0.5);
-      d.placer.Try(kGreen[rng.Index(5)], {west ? plot.x0 + 0.75f : plot.x1 - 0.65f, house + t * yard.out, kTop - 0.01f}, uniform(0, kTau),
+      d.placer.Try(kGreen[rng.Index(5)], {west ? plot.x0 + 0.75f : plot.x1 - 0.65f, house + t * yard.out, kTop - 0.01f}, uniform(0, kTauF),
                    uniform(0.5f, 0.8f));
     }
     if (kind == YardKind::kLawn) GrowGrass(d, ground, plot.Outline(), kTop, 1.2f);

@@ -2,15 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/new_york_city/far_city.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 Surface FarWall(RngStream& rng) {
   using S = Surface;
@@ -134,7 +132,7 @@ void BuildFarManhattan(District& d, const Density& density) {
   d.ground.Begin("far land", "ground/terrain/landscape", Surface::kPlain);
   float r0 = 0;
   for (float r1 : {600.0f, 1500.0f, 3500.0f, 7000.0f, 15000.0f}) {
-    d.ground.RingSector({0, 0}, r0, r1, 0, kTau, r1 > 600 ? -3.2f : -1.2f, 72);
+    d.ground.RingSector({0, 0}, r0, r1, 0, kTauF, r1 > 600 ? -3.2f : -1.2f, 72);
     r0 = r1;
   }
 }

@@ -1,14 +1,12 @@
 // Ground inside the blocks: yards, the plaza, the building site; medians of the boulevards.
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/new_york_city/city.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 void LayYards(District& d, const Block& block, size_t index) {
   // Slabs under the fronts: rounded corners and recessed doors leave some of them open.
@@ -32,9 +30,9 @@ void LayYards(District& d, const Block& block, size_t index) {
     const double pick = rng.Uniform();
     if (pick < 0.28) {
       const float at = y + static_cast<float>(rng.Uniform(-0.6, 0.6));
-      d.placer.Try("tree_narrowleaf", {x, at, -0.02f}, static_cast<float>(rng.Uniform(0, kTau)), 0.72f, {1, 1, 1}, rng.Index(3));
+      d.placer.Try("tree_narrowleaf", {x, at, -0.02f}, static_cast<float>(rng.Uniform(0, kTauF)), 0.72f, {1, 1, 1}, rng.Index(3));
     } else if (pick < 0.36) {
-      d.placer.Try("plant", {x, y + static_cast<float>(rng.Uniform(-1.8, 1.8)), 0}, static_cast<float>(rng.Uniform(0, kTau)), 1.2f);
+      d.placer.Try("plant", {x, y + static_cast<float>(rng.Uniform(-1.8, 1.8)), 0}, static_cast<float>(rng.Uniform(0, kTauF)), 1.2f);
     } else if (pick < 0.5) {
       d.placer.Try("trash_can", {x, y + 1.9f, 0});
     } else if (pick < 0.65) {
@@ -50,9 +48,9 @@ void PlaceCafeSet(District& d, Vec2f at, float z, int umbrella, Vec3f cloth) {
   if (umbrella > 0) {
     PlaceNamed(d, umbrella == 2 ? "yellow sunshade" : "umbrella", "umbrella", {at.x, at.y, z}, 0, 0, 1, cloth);
   }
-  const auto turn = static_cast<float>(rng.Uniform(0, kTau));
+  const auto turn = static_cast<float>(rng.Uniform(0, kTauF));
   for (int i = 0; i < 3; ++i) {
-    const float a = turn + kTau * static_cast<float>(i) / 3;
+    const float a = turn + kTauF * static_cast<float>(i) / 3;
     const Vec2f p{at.x + 0.9f * std::cos(a), at.y + 0.9f * std::sin(a)};
     d.placer.Put("dining_chair", {p.x, p.y, z}, FacingYaw(at - p), 1, {1, 1, 1}, style);
   }
@@ -98,18 +96,18 @@ void BuildSite(District& d, const Lot& lot) {
   // neighbour.
   for (int i = 0; i < 4; ++i) d.placer.Try("concrete_block", at(2.2f + 2.6f * static_cast<float>(i), 3), 0, 1, {1, 1, 1}, 2u);
   for (int i = 0; i < 10; ++i) {
-    const float a = kTau * static_cast<float>(i) / 10;
+    const float a = kTauF * static_cast<float>(i) / 10;
     d.placer.Try("traffic_cone", at(r.width() / 2 + 3.2f * std::cos(a), 11 + 3.2f * std::sin(a)));
   }
   d.ground.Begin("pit", "ground/dirt", Surface::kSoil);
-  d.ground.RingSector({r.center().x, street + way * 11}, 0, 2.6f, 0, kTau, 0.018f, 24);
-  for (float x = 1.4f; x < r.width() - 1.4f; x += 2.4f) d.placer.Try("scaffold", at(x, r.depth() - 3.2f), north ? kTau / 2 : 0.0f);
+  d.ground.RingSector({r.center().x, street + way * 11}, 0, 2.6f, 0, kTauF, 0.018f, 24);
+  for (float x = 1.4f; x < r.width() - 1.4f; x += 2.4f) d.placer.Try("scaffold", at(x, r.depth() - 3.2f), north ? kTauF / 2 : 0.0f);
   for (int i = 0; i < 14; ++i)
     d.placer.Try(i % 3 == 0   ? "plant"
                  : i % 3 == 1 ? "rock"
                               : "traffic_cone",
                  at(static_cast<float>(rng.Uniform(1, r.width() - 1)), static_cast<float>(rng.Uniform(4, r.depth() - 5))),
-                 static_cast<float>(rng.Uniform(0, kTau)), 0.9f);
+                 static_cast<float>(rng.Uniform(0, kTauF)), 0.9f);
 }
 
 // An island with round ends, kerbed, planted with grass and small trees.
@@ -122,7 +120,7 @@ void LayMedian(District& d, const StreetStretch& street, uint64_t id) {
     const float r = kHalf - inset;
     for (int end = 0; end < 2; ++end) {
       for (int i = 0; i <= 10; ++i) {
-        const float a = kTau * (0.5f * static_cast<float>(i) / 10 - 0.25f) + (end ? kTau / 2 : 0);
+        const float a = kTauF * (0.5f * static_cast<float>(i) / 10 - 0.25f) + (end ? kTauF / 2 : 0);
         const float s = (end ? s0 + kHalf : s1 - kHalf) + r * std::cos(a), across = r * std::sin(a);
         const Vec3f p = street.At(s, across);
         line.push_back({p.x, p.y});
@@ -144,9 +142,9 @@ void LayMedian(District& d, const StreetStretch& street, uint64_t id) {
   for (float s = s0 + 5; s < s1 - 4; s += 8.5f) {
     const Vec3f p = street.At(s, 0);
     if (rng.Chance(0.55)) {
-      d.placer.Try("tree_generic", {p.x, p.y, kTop - 0.02f}, static_cast<float>(rng.Uniform(0, kTau)), 0.62f, {1, 1, 1}, 3u);
+      d.placer.Try("tree_generic", {p.x, p.y, kTop - 0.02f}, static_cast<float>(rng.Uniform(0, kTauF)), 0.62f, {1, 1, 1}, 3u);
     } else {
-      d.placer.Try("shrub", {p.x, p.y, kTop - 0.03f}, static_cast<float>(rng.Uniform(0, kTau)), 0.7f);
+      d.placer.Try("shrub", {p.x, p.y, kTop - 0.03f}, static_cast<float>(rng.Uniform(0, kTauF)), 0.7f);
     }
     const Vec3f q = street.At(s + 4, 0);
     if (rng.Chance(0.5)) d.placer.Try("flower_bed", {q.x, q.y, kTop}, 0, 0.9f);

@@ -1,17 +1,15 @@
 // Furniture of the pavements, traffic, and the landmarks among them.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/building/facade.h"
 #include "airsim360/worlds/new_york_city/city.h"
 #include "airsim360/worlds/town/pavement_side.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 // What stands along every side: kind, spacing, depth from the kerb, looks at the street.
 struct Rule {
@@ -48,7 +46,7 @@ void FurnishSide(District& d, const PavementSide& side, bool avenue, const Densi
                                       {"tree_narrowleaf", 2, 0.95f}};
     const Tree& tree = kTrees[rng.Index(5)];
     const Vec3f p = side.At(s + uniform(-0.3, 0.3), 1.15f);
-    if (d.placer.Try(tree.kind, p, uniform(0, kTau), tree.scale * uniform(0.85, 1.0), {1, 1, 1}, tree.variant))
+    if (d.placer.Try(tree.kind, p, uniform(0, kTauF), tree.scale * uniform(0.85, 1.0), {1, 1, 1}, tree.variant))
       LayTreePit(d.ground, {p.x, p.y});
   }
   for (const Rule& rule : kRules) {
@@ -138,7 +136,7 @@ void PlaceLandmarks(District& d, const Manhattan& city) {
     PlaceNamed(d, "american flag", "us_flag", {r.x0 + r.width() * s, r.y0 - 0.3f, 9.4f}, FacingYaw({0, -1}), 1, 1.3f);
   const Lot& bottle = LotOf(city, "bottle roof");
   const Vec2f top = bottle.rect.center();
-  PlaceNamed(d, "giant cola bottle", "giant_bottle", {top.x, bottle.rect.y0 + 3.4f, bottle.podium}, kTau / 8);
+  PlaceNamed(d, "giant cola bottle", "giant_bottle", {top.x, bottle.rect.y0 + 3.4f, bottle.podium}, kTauF / 8);
 }
 
 void FurnishNewYorkPavements(District& d, const Manhattan& city, const Density& density) {
@@ -223,7 +221,7 @@ void FurnishNewYorkStreets(District& d, const std::vector<StreetStretch>& street
     }
     for (int k = 0; k < (avenue ? 5 : 3); ++k) {
       const float at = uniform(avenue ? 2.6 : 0.9, hw - 3.2) * (rng.Chance(0.5) ? 1.0f : -1.0f);
-      d.placer.shelf().Place("manhole", street.At(uniform(s0, s1), at, 0.012f), uniform(0, kTau), rng.Index(2));
+      d.placer.shelf().Place("manhole", street.At(uniform(s0, s1), at, 0.012f), uniform(0, kTauF), rng.Index(2));
     }
   }
 }

@@ -11,7 +11,7 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kHighest = 85;  // degrees of latitude that worlds reach
+constexpr double kHighestLatitude = 85;  // degrees of latitude that worlds reach
 
 // Numbers between commas; empty if anything else is there.
 std::vector<double> NumbersOf(const std::string& text) {
@@ -33,8 +33,8 @@ std::vector<double> NumbersOf(const std::string& text) {
 // What is wrong with a box, "" = nothing.
 std::string FaultOf(const GeoBox& box) {
   char text[160] = "";
-  if (std::abs(box.south) > kHighest || std::abs(box.north) > kHighest)
-    std::snprintf(text, sizeof(text), "latitudes %g and %g are not within %g south and north", box.south, box.north, kHighest);
+  if (std::abs(box.south) > kHighestLatitude || std::abs(box.north) > kHighestLatitude)
+    std::snprintf(text, sizeof(text), "latitudes %g and %g are not within %g south and north", box.south, box.north, kHighestLatitude);
   else if (std::abs(box.west) > 180 || std::abs(box.east) > 180)
     std::snprintf(text, sizeof(text), "longitudes %g and %g are not in -180 … 180", box.west, box.east);
   else if (!(box.south < box.north))
@@ -73,7 +73,7 @@ MapCut CutByBox(const std::string& flag, const std::string& text) {
 MapCut CutAround(const std::string& flag, const std::string& text, const std::string& radius_flag, double radius) {
   const std::vector<double> v = NumbersOf(text);
   if (v.size() != 2) throw InputError(flag + ": '" + text + "' is not LATITUDE,LONGITUDE in degrees, for example 60.1708,24.9375");
-  if (std::abs(v[0]) > kHighest || std::abs(v[1]) > 180)
+  if (std::abs(v[0]) > kHighestLatitude || std::abs(v[1]) > 180)
     throw InputError(flag + ": '" + text +
                      "' is not LATITUDE,LONGITUDE: latitudes are within 85 south and north, longitudes in -180 … 180");
   char number[32];

@@ -2,14 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/osm/osm_dresser.h"
 
 namespace airsim360::internal {
-namespace {
-
-constexpr double kTau = 2 * M_PI;
-
-}  // namespace
+namespace {}  // namespace
 
 // Along the streets: lamps and trees where the map has none at all, cars at the kerb, manholes.
 void Dresser::Fill() {

@@ -8,12 +8,12 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr int kWorstRank = 5;          // service ways and worse are left to walkers
-constexpr double kStreetDepth = 0.13;  // metres below the pavements
-constexpr double kBend = 3;            // metres that even a bend without a junction takes of its arms
-constexpr double kCrossing = 5.5;      // metres more where a crossing with signals lies before the junction
-constexpr double kShortest = 4;        // metres of road
-constexpr double kMeeting = 4.4;       // metres of carriageway in which two cars pass each other
+constexpr int kWorstRank = 5;               // service ways and worse are left to walkers
+constexpr double kStreetDepth = 0.13;       // metres below the pavements
+constexpr double kBend = 3;                 // metres that even a bend without a junction takes of its arms
+constexpr double kSignalledCrossing = 5.5;  // metres more where a crossing with signals lies before the junction
+constexpr double kShortest = 4;             // metres of road
+constexpr double kMeeting = 4.4;            // metres of carriageway in which two cars pass each other
 
 int32_t HeadOf(Vec2d along) { return std::abs(along.x) > std::abs(along.y) ? kEastWestHead : kNorthSouthHead; }
 
@@ -44,8 +44,8 @@ void AddSegment(const OsmScene& scene, const RoadGraph& graph, const RoadSegment
   if (segment.rank > kWorstRank || length < kShortest || (!segment.oneway && way.width < kMeeting) || way.width < 2.4) return;
   const bool signal0 = HasSignals(scene.data, graph.nodes[segment.from].id), signal1 = HasSignals(scene.data, graph.nodes[segment.to].id);
   const double most = length / 2 - kShortest / 4;
-  const double s0 = std::min(std::max(segment.start, kBend) + (signal0 ? kCrossing : 0), most),
-               s1 = length - std::min(std::max(segment.end, kBend) + (signal1 ? kCrossing : 0), most);
+  const double s0 = std::min(std::max(segment.start, kBend) + (signal0 ? kSignalledCrossing : 0), most),
+               s1 = length - std::min(std::max(segment.end, kBend) + (signal1 ? kSignalledCrossing : 0), most);
   const std::vector<Vec2f> axis = Axis(segment, s0, s1);
   if (axis.size() < 2) return;
   builder.AddRoad({.from = segment.from,

@@ -3,12 +3,11 @@
 #include <cmath>
 #include <tuple>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/osm/osm_dresser.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr double kTau = 2 * M_PI;
 
 constexpr NodeKind kNodes[] = {
     {"highway", "street_lamp", "street_light", true},

@@ -13,7 +13,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr const char* kFixture = "data/osm/crossing.osm";
+constexpr const char* kReliefFixture = "data/osm/crossing.osm";
 
 // Rolling ground of 8 m around 52 N 5 E, cells of 0.0002 degrees (14 x 22 m).
 HeightGrid Hills() {
@@ -97,8 +97,8 @@ TEST(Relief, PiecesOfASplitTriangleCoverItAndLieOnTheGround) {
 }
 
 TEST(OsmWorld, RoadsPavementsAndMarkingsLieOnRollingGroundInTheirOrder) {
-  const auto scene = BuildOsmWorld(kFixture, {.heights = [](const GeoBox&) { return Hills(); }});
-  const OsmData data = ReadOsm(kFixture, ReadFile(kFixture));
+  const auto scene = BuildOsmWorld(kReliefFixture, {.heights = [](const GeoBox&) { return Hills(); }});
+  const OsmData data = ReadOsm(kReliefFixture, ReadFile(kReliefFixture));
   const Relief relief(Hills(), data.origin, data.extent.width() * data.extent.depth());
   const auto lift = [&](Vec3f p) { return static_cast<double>(p.z) - relief.At({static_cast<double>(p.x), static_cast<double>(p.y)}); };
   std::map<std::string, std::pair<double, double>> lifts;  // by category: least and greatest

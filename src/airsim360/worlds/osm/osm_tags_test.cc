@@ -4,9 +4,9 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/kit/test_mesh.h"
 #include "airsim360/worlds/osm/osm_areas.h"
 #include "airsim360/worlds/osm/osm_buildings.h"
@@ -16,8 +16,6 @@
 
 namespace airsim360::internal {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // "natural=water" as the name of a test.
 std::string TestName(const std::string& text) {

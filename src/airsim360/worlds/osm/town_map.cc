@@ -37,7 +37,7 @@ double Draw(const double (&quantiles)[N], double u) {
 
 class Drawer {
  public:
-  explicit Drawer(uint64_t seed) : rng_(seed, "town map") {}
+  explicit Drawer(uint64_t seed) : seed_(seed), rng_(seed, "town map") {}
 
   OsmData DrawMap() {
     // Streets every 64 to 80 m, avenues every 180 m or so.
@@ -58,6 +58,7 @@ class Drawer {
     Streets();
     for (int c = 0; c < kColumns; ++c)
       for (int r = 0; r < kRows; ++r) Block(static_cast<size_t>(c), static_cast<size_t>(r));
+    LightTheRest(RngStream(seed_, "town map lamps"));
     std::sort(data_.nodes.begin(), data_.nodes.end(), [](const OsmNode& a, const OsmNode& b) { return a.id < b.id; });
     return std::move(data_);
   }
@@ -163,6 +164,26 @@ class Drawer {
     if (rng_.Chance(0.4)) Node({rng_.Uniform(x0, x1), y}, {{"amenity", "bicycle_parking"}, {"capacity", "8"}});
   }
 
+  // Lamps where no row of houses has brought them: along the avenues, before the garden and on the last street. After all else and
+  // by numbers of their own, which leave the rest of the town as it is.
+  void LightTheRest(RngStream rng) {
+    constexpr double kGap = 0.55;
+    const auto along_street = [&](size_t c, size_t k) {
+      const double x1 = avenues_[c + 1] - kHalfAvenue - kPavement - 4;
+      for (double x = avenues_[c] + kHalfAvenue + kPavement + 6; x < x1; x += rng.Uniform(18.6, 21.5))
+        Node({x, streets_[k] + kHalfStreet + kGap}, {{"highway", "street_lamp"}});
+    };
+    along_street(1, 3);
+    for (size_t c = 0; c < kColumns; ++c) along_street(c, kRows);
+    // The lamps of the streets light the crossings.
+    for (const double avenue : avenues_) {
+      for (size_t k = 0; k + 1 < streets_.size(); ++k) {
+        for (double y = streets_[k] + 21; y < streets_[k + 1] - 8; y += rng.Uniform(18.6, 21.5))
+          Node({avenue + kHalfAvenue + kGap, y}, {{"highway", "street_lamp"}});
+      }
+    }
+  }
+
   void Park(double x0, double y0, double x1, double y1) {
     OsmWay park = WayOf(next_way_++, Tags({{"leisure", "park"}, {"name", "Town Garden"}}));
     for (const Vec2d& p : {Vec2d{x0, y0}, Vec2d{x1, y0}, Vec2d{x1, y1}, Vec2d{x0, y1}, Vec2d{x0, y0}}) {
@@ -183,6 +204,7 @@ class Drawer {
       Node({x, (y0 + y1) / 2 + 9 * std::sin((x - x0) / (x1 - x0) * 6.24) + 2.2}, {{"amenity", "bench"}});
   }
 
+  uint64_t seed_;
   RngStream rng_;
   OsmData data_;
   std::vector<double> avenues_, streets_;

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/billboards.h"
 #include "airsim360/worlds/props/portrait.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr Vec3f kWhite{0.76f, 0.76f, 0.74f}, kBlack{0.012f, 0.012f, 0.013f}, kRed{0.55f, 0.012f, 0.015f}, kYellow{0.80f, 0.48f, 0.012f},
     kSkin{0.50f, 0.30f, 0.21f};
 
@@ -266,7 +265,7 @@ void TaxiBoard(Canvas& c) {
 void MarketBoard(Canvas& c) {
   Gradient(c, {0.02f, 0.20f, 0.09f}, {0.01f, 0.10f, 0.05f});
   for (int i = 0; i < 9; ++i) {
-    const float a = kTau * static_cast<float>(i) / 9;
+    const float a = kTauF * static_cast<float>(i) / 9;
     Ellipse(c, kBoard, {0.77f + 0.10f * std::cos(a), 0.5f + 0.17f * std::sin(a)}, {0.06f, 0.10f}, {0.75f, 0.55f, 0.60f});
   }
   c.Disc({0.77f, 0.5f}, 0.11f, kYellow);

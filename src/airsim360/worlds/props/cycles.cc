@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
 #include "airsim360/worlds/props/prop_builder.h"
@@ -9,13 +10,11 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 6.2831853f;
-
 void SpokedWheel(PropBuilder& b, Vec3f hub, float r) {
   std::array<Vec3f, 37> circle;
   const auto at = [&](float radius, float turn) { return hub + Vec3f{0, radius * std::cos(turn), radius * std::sin(turn)}; };
   const auto ring = [&](float radius, float thickness, int sides) {
-    for (size_t k = 0; k < circle.size(); ++k) circle[k] = at(radius, kTau * static_cast<float>(k % 36) / 36);
+    for (size_t k = 0; k < circle.size(); ++k) circle[k] = at(radius, kTauF * static_cast<float>(k % 36) / 36);
     b.Bar(circle, thickness, sides);
   };
   b.Use(Rubber());
@@ -23,7 +22,7 @@ void SpokedWheel(PropBuilder& b, Vec3f hub, float r) {
   b.Use(Metal({0.6f, 0.6f, 0.6f}, 0.25f));
   ring(r - 0.042f, 0.010f, 6);
   for (int i = 0; i < 18; ++i) {
-    const float a = kTau * static_cast<float>(i) / 18;
+    const float a = kTauF * static_cast<float>(i) / 18;
     b.mesh().Tube(hub + Vec3f{i % 2 ? 0.025f : -0.025f, 0, 0}, at(r - 0.045f, a), 0.0015f, 0.0015f, 3, false, false);
   }
   b.mesh().Tube(hub - Vec3f{0.05f, 0, 0}, hub + Vec3f{0.05f, 0, 0}, 0.02f, 0.02f, 10);

@@ -1,16 +1,14 @@
 // Fountains.
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
 #include "airsim360/worlds/props/prop_builder.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 Material Water() {
   Material m;
@@ -34,7 +32,7 @@ void AddDrop(MeshBuilder& mesh, Vec3f c, float r) {
 // Water along a parabola in the vertical plane of `azimuth`: a thread that breaks up into drops. `from` and
 // `speed` have their horizontal part in x; the flight lasts one unit of time.
 void AddJet(PropBuilder& b, float azimuth, Vec3f from, Vec3f speed, float gravity, RngStream& random) {
-  b.Place(Turn(0, 0, azimuth * 360 / kTau));
+  b.Place(Turn(0, 0, azimuth * 360 / kTauF));
   const auto at = [&](float t) { return from + speed * t - Vec3f{0, 0, gravity * t * t}; };
   std::vector<Vec3f> thread;
   std::vector<float> radii;
@@ -79,8 +77,8 @@ Model MakeFountain(uint32_t, uint64_t seed) {
   spray.name = "spray";
   b.Use(spray);
   RngStream random(seed, "fountain");
-  for (int i = 0; i < 12; ++i) AddJet(b, kTau * static_cast<float>(i) / 12, {1.0f, 0, 1.57f}, {0.85f, 0, 0.95f}, 2.09f, random);
-  for (int i = 0; i < 10; ++i) AddJet(b, kTau * static_cast<float>(i) / 10, {0.01f, 0, 2.19f}, {0.55f, 0, 1.7f}, 2.32f, random);
+  for (int i = 0; i < 12; ++i) AddJet(b, kTauF * static_cast<float>(i) / 12, {1.0f, 0, 1.57f}, {0.85f, 0, 0.95f}, 2.09f, random);
+  for (int i = 0; i < 10; ++i) AddJet(b, kTauF * static_cast<float>(i) / 10, {0.01f, 0, 2.19f}, {0.55f, 0, 1.7f}, 2.32f, random);
   return b.Finish();
 }
 

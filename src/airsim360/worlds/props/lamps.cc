@@ -1,7 +1,7 @@
 // Lamp posts and street lights.
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
 #include "airsim360/worlds/props/prop_builder.h"
@@ -9,7 +9,6 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr Vec3f kGreenBlack{0.020f, 0.030f, 0.026f};
 
 // Post of cast iron with opal globes: one on top and three or four on curved arms.
@@ -24,7 +23,7 @@ Model MakeLampPost(uint32_t variant, uint64_t) {
   const int arms = variant == 0 ? 3 : variant == 1 ? 4 : 2;
   std::vector<Vec3f> globes = {{0, 0, 4.03f}};
   for (int i = 0; i < arms; ++i) {
-    const float a = kTau * static_cast<float>(i) / static_cast<float>(arms);
+    const float a = kTauF * static_cast<float>(i) / static_cast<float>(arms);
     const Vec3f d{std::cos(a), std::sin(a), 0};
     const auto at = [&](float r, float z) { return d * r + Vec3f{0, 0, z}; };
     const Vec3f arm[] = {at(0.04f, 3.40f), at(0.18f, 3.34f), at(0.32f, 3.33f), at(0.44f, 3.39f), at(0.48f, 3.50f)};
@@ -62,7 +61,7 @@ Model MakeStreetLight(uint32_t variant, uint64_t) {
   std::vector<Vec3f> arm;
   std::vector<float> radii;
   for (int i = 0; i <= 12; ++i) {
-    const float a = kTau / 4 * static_cast<float>(i) / 12;
+    const float a = kTauF / 4 * static_cast<float>(i) / 12;
     arm.push_back({0, -reach * (1 - std::cos(a)), height - 1.0f + 0.95f * std::sin(a)});
     radii.push_back(0.055f - 0.0018f * static_cast<float>(i));
   }
@@ -95,7 +94,7 @@ Model MakeCrookLamp(uint32_t variant, uint64_t) {
   const float reach = variant == 0 ? 0.46f : 0.38f;
   std::vector<Vec3f> crook;
   for (int i = 0; i <= 14; ++i) {
-    const float a = kTau / 2 * static_cast<float>(i) / 14;
+    const float a = kTauF / 2 * static_cast<float>(i) / 14;
     crook.push_back({0, -reach * (1 - std::cos(a)), 5.50f + 0.95f * reach * std::sin(a)});
   }
   const Vec3f tip{0, -2 * reach, 5.26f};
@@ -123,7 +122,7 @@ Model MakeBollardLamp(uint32_t variant, uint64_t) {
   const Vec2f cap[] = {{0.125f, 0}, {0.125f, 0.025f}, {0.09f, 0.055f}, {0.03f, 0.075f}, {0, 0.078f}};
   b.Lathe(cap, 18, {0, 0, neck + 0.29f});
   for (int i = 0; i < 4; ++i) {
-    const float a = kTau * (static_cast<float>(i) + 0.5f) / 4;
+    const float a = kTauF * (static_cast<float>(i) + 0.5f) / 4;
     const Vec3f d{0.088f * std::cos(a), 0.088f * std::sin(a), 0};
     b.mesh().Tube(d + Vec3f{0, 0, neck + 0.06f}, d + Vec3f{0, 0, neck + 0.30f}, 0.006f, 0.006f, 6);
   }

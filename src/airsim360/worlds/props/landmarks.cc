@@ -1,8 +1,8 @@
 // Things that flight instructions name: phone booth, flags, food truck, orange mailbox, a giant bottle.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/car_shape.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/families.h"
@@ -13,8 +13,6 @@
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 // Red telephone booth: domed cap, glazed sides of small panes.
 Model MakePhoneBooth(uint32_t, uint64_t) {
@@ -63,7 +61,7 @@ Texture FlagPicture() {
     for (int i = 0; i < (row % 2 ? 5 : 6); ++i) {
       const float x = 0.4f * (static_cast<float>(2 * i + (row % 2 ? 2 : 1))) / 12, y = 7.0f / 13 * static_cast<float>(row + 1) / 10;
       // A star of five points: two triangles of lines are too coarse at this size, a small pentagon does.
-      c.RegularPolygon({x, y}, 0.018f, 5, kTau / 4, {0.75f, 0.75f, 0.73f});
+      c.RegularPolygon({x, y}, 0.018f, 5, kTauF / 4, {0.75f, 0.75f, 0.73f});
     }
   }
   return c.Finish("flag usa");
@@ -190,7 +188,7 @@ Model MakeGiantBottle(uint32_t, uint64_t) {
   b.Use(Paint({1, 1, 1}, 0.3f), label.Finish("cola label"));
   b.Sheet(40, 1,
           [](float u, float v) {
-            const float a = kTau * u;
+            const float a = kTauF * u;
             return Vec3f{1.275f * std::cos(a), 1.275f * std::sin(a), 4.15f + 1.1f * v};
           },
           {1, 1});
@@ -205,7 +203,7 @@ Model MakeBankSign(uint32_t, uint64_t) {
   b.BevelBox({-3.0f, -0.30f, 0}, {3.0f, 0.0f, 1.5f}, 0.03f);
   Canvas c(512, 128, purple);
   c.Disc({0.11f, 0.5f}, 0.36f, {0.75f, 0.72f, 0.80f});
-  c.RegularPolygon({0.11f, 0.46f}, 0.24f, 3, kTau / 4, purple);
+  c.RegularPolygon({0.11f, 0.46f}, 0.24f, 3, kTauF / 4, purple);
   c.Letters("UNION BANK", {0.59f, 0.5f}, 0.52f, {0.80f, 0.79f, 0.82f}, 0.82f);
   Material face = Paint({1, 1, 1}, 0.4f);
   face.emission = Vec3f{1, 1, 1} * (120 * kNit);

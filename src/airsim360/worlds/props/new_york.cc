@@ -1,9 +1,9 @@
 // Small things of New York's pavements and road works.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
@@ -11,8 +11,6 @@
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 // Box on a pedestal with a window that shows the front page.
 Model MakeNewspaperBox(uint32_t variant, uint64_t) {
@@ -186,7 +184,7 @@ Model MakeHotdogCart(uint32_t variant, uint64_t) {
   for (int i = 0; i < 8; ++i) {
     b.Use(Fabric(i % 2 ? Vec3f{0.58f, 0.42f, 0.12f} : Vec3f{0.09f, 0.14f, 0.32f}));
     const auto rim = [&](int k, float z) {
-      const float a = kTau * static_cast<float>(k) / 8;
+      const float a = kTauF * static_cast<float>(k) / 8;
       return Vec3f{0.55f + 1.25f * std::cos(a), 0.2f + 1.25f * std::sin(a), z};
     };
     b.mesh().Triangle(rim(i, 2.2f), rim(i + 1, 2.2f), {0.55f, 0.2f, 2.62f}, {0, 1}, {1, 1}, {0.5f, 0});
@@ -215,14 +213,14 @@ Model MakeTrashBags(uint32_t variant, uint64_t seed) {
   const int bags = 2 + static_cast<int>(variant % 3);
   for (int i = 0; i < bags; ++i) {
     b.Use(Plastic(i % 4 == 3 ? Vec3f{0.34f, 0.36f, 0.37f} : Vec3f{0.017f, 0.017f, 0.019f}, 0.34f));
-    const float r = uniform(0.24, 0.34), h = uniform(0.42, 0.60), p1 = uniform(0, kTau), p2 = uniform(0, kTau);
+    const float r = uniform(0.24, 0.34), h = uniform(0.42, 0.60), p1 = uniform(0, kTauF), p2 = uniform(0, kTauF);
     const Vec3f foot{0.42f * static_cast<float>(i) - 0.21f * static_cast<float>(bags - 1) + uniform(-0.06, 0.06), uniform(-0.16, 0.16),
                      -0.01f};
     // A sack: wide and creased below, drawn together under the knot, the ends of which stand up.
     b.Sheet(
         14, 10,
         [&](float u, float v) {
-          const float a = kTau * u, neck = std::max(0.0f, v - 0.72f) / 0.28f;
+          const float a = kTauF * u, neck = std::max(0.0f, v - 0.72f) / 0.28f;
           const float belly = std::sqrt(std::max(0.0f, 1 - std::pow(std::abs(2 * std::min(v, 0.72f) / 0.9f - 0.72f), 2.6f)));
           const float crease = 1 + 0.09f * std::sin(3 * a + p1 + 4 * v) + 0.05f * std::sin(7 * a + p2 - 9 * v);
           const float radius = v <= 0 ? 0.0f : neck > 0 ? r * (0.62f * (1 - neck) * (1 - neck) + 0.06f + 0.10f * neck) : r * belly * crease;

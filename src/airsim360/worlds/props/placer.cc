@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/plane.h"
 
 namespace airsim360 {
 namespace {
@@ -25,12 +26,9 @@ constexpr Extent kExtents[] = {
 
 Vec2f AxisX(const Footprint& f) { return {std::cos(f.yaw), std::sin(f.yaw)}; }
 Vec2f AxisY(const Footprint& f) { return {-std::sin(f.yaw), std::cos(f.yaw)}; }
-float Dot2(Vec2f a, Vec2f b) { return a.x * b.x + a.y * b.y; }
 
 // Half length of the projection of a footprint on a unit axis.
-float Reach(const Footprint& f, Vec2f axis) {
-  return f.half.x * std::abs(Dot2(AxisX(f), axis)) + f.half.y * std::abs(Dot2(AxisY(f), axis));
-}
+float Reach(const Footprint& f, Vec2f axis) { return f.half.x * std::abs(Dot(AxisX(f), axis)) + f.half.y * std::abs(Dot(AxisY(f), axis)); }
 
 int64_t CellKey(int x, int y) { return (static_cast<int64_t>(x) << 32) ^ static_cast<uint32_t>(y); }
 
@@ -40,14 +38,14 @@ bool Footprint::Overlaps(const Footprint& other) const {
   // Separating axes: the four edge directions.
   const Vec2f between = other.center - center;
   for (Vec2f axis : {AxisX(*this), AxisY(*this), AxisX(other), AxisY(other)}) {
-    if (std::abs(Dot2(between, axis)) >= Reach(*this, axis) + Reach(other, axis)) return false;
+    if (std::abs(Dot(between, axis)) >= Reach(*this, axis) + Reach(other, axis)) return false;
   }
   return true;
 }
 
 bool Footprint::Contains(Vec2f p) const {
   const Vec2f v = p - center;
-  return std::abs(Dot2(v, AxisX(*this))) <= half.x && std::abs(Dot2(v, AxisY(*this))) <= half.y;
+  return std::abs(Dot(v, AxisX(*this))) <= half.x && std::abs(Dot(v, AxisY(*this))) <= half.y;
 }
 
 template <class Visit>

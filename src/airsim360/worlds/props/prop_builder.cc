@@ -6,10 +6,11 @@
 #include <tuple>
 #include <utility>
 
+#include "airsim360/math/angles.h"
+
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr float kCreaseCosine = 0.766f;  // corners sharper than 40 degrees stay sharp
 
 auto Fields(const Material& m) {
@@ -144,12 +145,12 @@ void PropBuilder::Lathe(std::span<const Vec2f> profile, int sides, Vec3f base) {
     const Vec2f p0 = profile[i], p1 = profile[i + 1];
     const float v1 = v - std::hypot(p1.x - p0.x, p1.y - p0.y);
     for (int j = 0; j < sides; ++j) {
-      const float a0 = kTau * static_cast<float>(j) / static_cast<float>(sides);
-      const float a1 = kTau * static_cast<float>((j + 1) % sides) / static_cast<float>(sides);
+      const float a0 = kTauF * static_cast<float>(j) / static_cast<float>(sides);
+      const float a1 = kTauF * static_cast<float>((j + 1) % sides) / static_cast<float>(sides);
       const auto at = [&](Vec2f rz, float a) { return base + Vec3f{rz.x * std::cos(a), rz.x * std::sin(a), rz.y}; };
       const auto out = [&](Vec2f n, float a) { return Vec3f{n.x * std::cos(a), n.x * std::sin(a), n.y}; };
-      const float u0 = widest * kTau * static_cast<float>(j) / static_cast<float>(sides);
-      const float u1 = widest * kTau * static_cast<float>(j + 1) / static_cast<float>(sides);
+      const float u0 = widest * kTauF * static_cast<float>(j) / static_cast<float>(sides);
+      const float u1 = widest * kTauF * static_cast<float>(j + 1) / static_cast<float>(sides);
       const Vec2f n0 = normals[i].first, n1 = normals[i].second;
       if (p0.x > 0)
         mesh_.SmoothTriangle({at(p0, a0), at(p0, a1), at(p1, a1)}, {out(n0, a0), out(n0, a1), out(n1, a1)}, {{u0, v}, {u1, v}, {u1, v1}});
@@ -171,7 +172,7 @@ void PropBuilder::Bar(std::span<const Vec3f> path, std::span<const float> radii,
     side[i] = Normalized(s - axis[i] * Dot(s, axis[i]));
   }
   const auto spoke = [&](size_t i, int j) {
-    const float a = kTau * static_cast<float>(j % sides) / static_cast<float>(sides);
+    const float a = kTauF * static_cast<float>(j % sides) / static_cast<float>(sides);
     return side[i] * std::cos(a) + Cross(axis[i], side[i]) * std::sin(a);
   };
   float v = 0;
@@ -181,8 +182,8 @@ void PropBuilder::Bar(std::span<const Vec3f> path, std::span<const float> radii,
       const Vec3f n00 = spoke(i, j), n10 = spoke(i, j + 1), n01 = spoke(i + 1, j), n11 = spoke(i + 1, j + 1);
       const Vec3f p00 = path[i] + n00 * radius(i), p10 = path[i] + n10 * radius(i);
       const Vec3f p01 = path[i + 1] + n01 * radius(i + 1), p11 = path[i + 1] + n11 * radius(i + 1);
-      const float u0 = kTau * radius(0) * static_cast<float>(j) / static_cast<float>(sides);
-      const float u1 = kTau * radius(0) * static_cast<float>(j + 1) / static_cast<float>(sides);
+      const float u0 = kTauF * radius(0) * static_cast<float>(j) / static_cast<float>(sides);
+      const float u1 = kTauF * radius(0) * static_cast<float>(j + 1) / static_cast<float>(sides);
       mesh_.SmoothTriangle({p00, p10, p11}, {n00, n10, n11}, {{u0, v}, {u1, v}, {u1, v1}});
       if (radius(i + 1) > 0) mesh_.SmoothTriangle({p00, p11, p01}, {n00, n11, n01}, {{u0, v}, {u1, v1}, {u0, v1}});
     }
@@ -253,7 +254,7 @@ std::vector<Vec2f> RoundedRectangle(Vec2f min, Vec2f max, float radius, int step
                             {max.x - radius, min.y + radius}};
   for (int c = 0; c < 4; ++c) {
     for (int i = 0; i <= steps; ++i) {
-      const float a = kTau / 4 * (static_cast<float>(c) + static_cast<float>(i) / static_cast<float>(steps));
+      const float a = kTauF / 4 * (static_cast<float>(c) + static_cast<float>(i) / static_cast<float>(steps));
       outline.push_back(centers[c] + Vec2f{std::cos(a), std::sin(a)} * radius);
     }
   }

@@ -4,16 +4,14 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <tuple>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/finishes.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Volume enclosed by the faces, by the divergence theorem: positive when they look outwards.
 double SignedVolume(const Mesh& mesh) {

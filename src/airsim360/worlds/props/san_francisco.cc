@@ -1,8 +1,8 @@
 // Small things of San Francisco's pavements: its lamps, poles, bins, ropes and what keeps people and cars apart.
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
@@ -10,8 +10,6 @@
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 // Two globes of opal glass on the arms of a fluted post, a finial between them; the arms run along X.
 Model MakeBoulevardLamp(uint32_t variant, uint64_t) {
@@ -23,7 +21,7 @@ Model MakeBoulevardLamp(uint32_t variant, uint64_t) {
                         {0.07f, 5.10f}, {0.06f, 5.75f}, {0.09f, 5.82f}, {0.03f, 5.98f}, {0.05f, 6.05f}, {0, 6.16f}};
   b.Lathe(post, 20);
   for (int i = 0; i < 8; ++i) {
-    const float a = kTau * static_cast<float>(i) / 8, c = std::cos(a), s = std::sin(a);
+    const float a = kTauF * static_cast<float>(i) / 8, c = std::cos(a), s = std::sin(a);
     b.mesh().Tube({0.095f * c, 0.095f * s, 1.25f}, {0.082f * c, 0.082f * s, 4.85f}, 0.012f, 0.012f, 5, false, false);
   }
   for (float side : {-1.0f, 1.0f}) {
@@ -57,7 +55,7 @@ Model MakeHillLamp(uint32_t variant, uint64_t) {
   const Vec2f hood[] = {{0.27f, 0.55f}, {0.26f, 0.60f}, {0.14f, 0.74f}, {0.05f, 0.80f}, {0.05f, 0.86f}, {0, 0.90f}};
   b.Lathe(hood, 6, {0, 0, neck});
   for (int i = 0; i < 6; ++i) {
-    const float a = kTau * static_cast<float>(i) / 6, c = std::cos(a), s = std::sin(a);
+    const float a = kTauF * static_cast<float>(i) / 6, c = std::cos(a), s = std::sin(a);
     b.mesh().Tube({0.12f * c, 0.12f * s, neck + 0.08f}, {0.24f * c, 0.24f * s, neck + 0.56f}, 0.012f, 0.012f, 5);
   }
   // 95 cd to all sides.

@@ -1,7 +1,7 @@
 // Umbrellas and market tarps.
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
@@ -9,8 +9,6 @@
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 const Vec3f kCloth[4] = {{0.62f, 0.58f, 0.47f}, {0.30f, 0.085f, 0.070f}, {0.070f, 0.135f, 0.105f}, {0.085f, 0.115f, 0.19f}};
 
@@ -36,7 +34,7 @@ Model MakeUmbrella(uint32_t variant, uint64_t) {
   const Vec2f base[] = {{0.30f, 0}, {0.30f, 0.035f}, {0.27f, 0.055f}, {0.08f, 0.075f}, {0.045f, 0.10f}, {0.04f, 0.34f}, {0.02f, 0.345f}};
   b.Lathe(base, 28);
   const auto rib = [&](int i) {
-    const float a = kTau * (static_cast<float>(i) + 0.5f) / gores;
+    const float a = kTauF * (static_cast<float>(i) + 0.5f) / gores;
     return Vec3f{std::cos(a), std::sin(a), 0};
   };
   const auto crown = [&](float t) { return top - (top - rim) * (0.62f * t + 0.38f * t * t); };

@@ -1,8 +1,8 @@
 // Poster stands and traffic signs with drawn faces.
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
@@ -11,7 +11,6 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr Vec3f kWhite{0.80f, 0.80f, 0.80f}, kBlack{0.015f, 0.015f, 0.015f}, kRed{0.50f, 0.015f, 0.02f}, kGreen{0.0f, 0.13f, 0.06f},
     kYellow{0.85f, 0.50f, 0.01f};
 
@@ -88,7 +87,7 @@ Texture SignFace(uint32_t variant) {
   switch (variant) {
     case 0: {
       Canvas c(256, 256, kWhite);
-      c.RegularPolygon({0.5f, 0.5f}, 0.515f, 8, kTau / 16, kRed);
+      c.RegularPolygon({0.5f, 0.5f}, 0.515f, 8, kTauF / 16, kRed);
       c.Letters("STOP", {0.5f, 0.5f}, 0.23f, kWhite);
       return c.Finish("sign stop");
     }
@@ -134,8 +133,8 @@ std::vector<Vec2f> PlateOutline(uint32_t variant) {
     case 0: {
       std::vector<Vec2f> octagon;
       for (int i = 0; i < 8; ++i)
-        octagon.push_back(Vec2f{std::cos(kTau * (static_cast<float>(i) + 0.5f) / 8), std::sin(kTau * (static_cast<float>(i) + 0.5f) / 8)} *
-                          0.40f);
+        octagon.push_back(
+            Vec2f{std::cos(kTauF * (static_cast<float>(i) + 0.5f) / 8), std::sin(kTauF * (static_cast<float>(i) + 0.5f) / 8)} * 0.40f);
       return octagon;
     }
     case 2:

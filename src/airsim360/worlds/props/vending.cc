@@ -1,7 +1,7 @@
 // Food carts.
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
@@ -10,7 +10,6 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 const Vec3f kTones[3] = {{0.31f, 0.060f, 0.050f}, {0.060f, 0.15f, 0.115f}, {0.47f, 0.31f, 0.10f}};
 constexpr const char* kNames[3] = {"HOT DOGS", "FRESH TACOS", "ICE CREAM"};
 
@@ -37,14 +36,14 @@ Texture NameBoard(uint32_t variant) {
 void Wheel(PropBuilder& b, Vec3f hub, float r, Vec3f tone) {
   std::vector<Vec3f> rim;
   for (int k = 0; k <= 32; ++k) {
-    const float a = kTau * static_cast<float>(k) / 32;
+    const float a = kTauF * static_cast<float>(k) / 32;
     rim.push_back(hub + Vec3f{0, r * std::cos(a), r * std::sin(a)});
   }
   b.Use(Rubber());
   b.Bar(rim, 0.022f, 8);
   b.Use(Paint(tone));
   for (int k = 0; k < 10; ++k) {
-    const float a = kTau * static_cast<float>(k) / 10;
+    const float a = kTauF * static_cast<float>(k) / 10;
     b.mesh().Tube(hub, hub + Vec3f{0, r * std::cos(a), r * std::sin(a)}, 0.012f, 0.009f, 6, false, false);
   }
   b.mesh().Tube(hub - Vec3f{0.05f, 0, 0}, hub + Vec3f{0.05f, 0, 0}, 0.045f, 0.045f, 12);
@@ -75,7 +74,7 @@ void Awning(PropBuilder& b, uint32_t variant) {
       const float t0 = static_cast<float>(i) / static_cast<float>(scallops * 4),
                   t1 = static_cast<float>(i + 1) / static_cast<float>(scallops * 4);
       const auto drop = [&](int k) {
-        return Vec3f{0, 0, -0.10f - 0.045f * std::sin(kTau / 2 * static_cast<float>(k % 4 == 0 ? 0 : k % 4) / 4)};
+        return Vec3f{0, 0, -0.10f - 0.045f * std::sin(kTauF / 2 * static_cast<float>(k % 4 == 0 ? 0 : k % 4) / 4)};
       };
       const Vec3f x0 = from + (to - from) * t0, x1 = from + (to - from) * t1;
       const float u0 = 0.18f * static_cast<float>(i) / 4, u1 = 0.18f * static_cast<float>(i + 1) / 4;

@@ -1,7 +1,7 @@
 // Bins.
 #include <cmath>
-#include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
@@ -10,20 +10,18 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
-
 // The label of a recycling bin: three chasing arrows and a word.
 Texture RecycleLabel(const char* word, Vec3f ground) {
   Canvas canvas(128, 192, ground);
   const Vec3f white{0.85f, 0.85f, 0.85f};
   for (int i = 0; i < 3; ++i) {
     const auto at = [&](float turn, float r) {
-      const float a = kTau * (turn + static_cast<float>(i) / 3) - kTau / 4;
+      const float a = kTauF * (turn + static_cast<float>(i) / 3) - kTauF / 4;
       return Vec2f{0.5f + 1.5f * r * std::cos(a), 0.38f + r * std::sin(a)};
     };
     canvas.Line(at(0.03f, 0.20f), at(0.21f, 0.20f), 0.055f, white);
-    const float a = kTau * (0.24f + static_cast<float>(i) / 3) - kTau / 4;
-    canvas.RegularPolygon(at(0.24f, 0.19f), 0.065f, 3, -a - kTau / 4, white);
+    const float a = kTauF * (0.24f + static_cast<float>(i) / 3) - kTauF / 4;
+    canvas.RegularPolygon(at(0.24f, 0.19f), 0.065f, 3, -a - kTauF / 4, white);
   }
   canvas.Letters(word, {0.5f, 0.80f}, 0.085f, white);
   return canvas.Finish(std::string("recycle ") + word);
@@ -85,7 +83,7 @@ Model MakeTrashCan(uint32_t variant, uint64_t) {
   for (const auto& [r, z] : {std::pair(0.247f, 0.05f), std::pair(0.252f, 0.45f), std::pair(0.316f, 0.905f)}) {
     std::vector<Vec3f> ring;
     for (int k = 0; k <= 28; ++k) {
-      const float a = kTau * static_cast<float>(k) / 28;
+      const float a = kTauF * static_cast<float>(k) / 28;
       ring.push_back({r * std::cos(a), r * std::sin(a), z});
     }
     b.Bar(ring, 0.011f, 6);

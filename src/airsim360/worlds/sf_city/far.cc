@@ -3,12 +3,13 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/sf_city/city.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 6.2831853f, kStreet = 12.5f, kCity = 1900;
+constexpr float kStreet = 12.5f, kCity = 1900;
 
 // Walls with pictured windows in the colours of the houses.
 std::vector<MaterialId> AddFarWalls(District& d) {
@@ -77,7 +78,7 @@ class FarBuilder {
     for (float x = block.x0 + 10; x < block.x1 - 8; x += static_cast<float>(rng.Uniform(12, 26))) {
       if (towers > 0.3f) break;
       d_.placer.Put(rng.Chance(0.7) ? "tree_generic" : "tree_pine", {x, c.y + static_cast<float>(rng.Uniform(-8, 8)), -0.1f},
-                    static_cast<float>(rng.Uniform(0, kTau)), static_cast<float>(rng.Uniform(0.7, 1.0)));
+                    static_cast<float>(rng.Uniform(0, kTauF)), static_cast<float>(rng.Uniform(0.7, 1.0)));
     }
   }
 
@@ -196,7 +197,7 @@ void BuildFarSf(District& d, Ground& far, const Hills& hills) {
                          {8600, 60, 150, 900},
                          {6800, -75, -25, 420},
                          {6200, 200, 300, 520}})
-    RaiseRidge(d, index++, r.radius, r.from_deg * kTau / 360, r.to_deg * kTau / 360, r.height,
+    RaiseRidge(d, index++, r.radius, r.from_deg * kTauF / 360, r.to_deg * kTauF / 360, r.height,
                r.radius > 5000 ? Surface::kMountainFar : Surface::kMountain);
   BuildGate(d, far);
 }

@@ -3,12 +3,13 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/sf_city/city.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 6.2831853f, kLawnZ = 0.05f, kWalkHalf = 1.6f;
+constexpr float kLawnZ = 0.05f, kWalkHalf = 1.6f;
 
 // Steps up the slope from x0 to x1 (downhill to uphill) along y = const: a rise of 15 cm each, as far apart as the ground asks.
 void BuildStairs(District& d, const Hills& hills, float x0, float x1, float y) {
@@ -55,7 +56,7 @@ void PlantLawn(District& d, const GroundRect& lawn, int index) {
     const Vec2f p = spot(2.5f);
     if (std::any_of(trees.begin(), trees.end(), [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 7.5f; })) continue;
     static constexpr const char* kKinds[] = {"tree_pine", "tree_generic", "tree_generic", "tree_narrowleaf"};
-    if (!d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.06f}, static_cast<float>(rng.Uniform(0, kTau)),
+    if (!d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.06f}, static_cast<float>(rng.Uniform(0, kTauF)),
                       static_cast<float>(rng.Uniform(0.8, 1.2))))
       continue;
     trees.push_back(p);
@@ -64,7 +65,7 @@ void PlantLawn(District& d, const GroundRect& lawn, int index) {
   for (int i = 0; i < 26; ++i) {
     static constexpr const char* kKinds[] = {"shrub", "plant", "flower_bed", "rock"};
     const Vec2f p = spot(1.0f);
-    d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f}, static_cast<float>(rng.Uniform(0, kTau)), 0.9f);
+    d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f}, static_cast<float>(rng.Uniform(0, kTauF)), 0.9f);
   }
   GrowGrass(d, grass, outline, kLawnZ, 2);
 }

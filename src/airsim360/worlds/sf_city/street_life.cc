@@ -3,13 +3,12 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/sf_city/city.h"
 #include "airsim360/worlds/town/pavement_side.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 6.2831853f;
 
 constexpr CafeRow kCafe{.tables = 3, .pitch = 2.6f, .from_wall = 1.0f, .umbrella = 0.85f, .to_chair = 0.85f};
 
@@ -59,8 +58,8 @@ void PlantTrees(District& d, const PavementSide& side, float pitch, double chanc
     if (!rng.Chance(chance)) continue;
     const Tree& tree = kTrees[rng.Chance(0.7) ? kin : rng.Index(6)];
     const Vec3f p = side.At(s + static_cast<float>(rng.Uniform(-0.4, 0.4)), 1.1f);
-    if (d.placer.Try(tree.kind, p, static_cast<float>(rng.Uniform(0, kTau)), size * tree.scale * static_cast<float>(rng.Uniform(0.85, 1.1)),
-                     {1, 1, 1}, tree.variant)) {
+    if (d.placer.Try(tree.kind, p, static_cast<float>(rng.Uniform(0, kTauF)),
+                     size * tree.scale * static_cast<float>(rng.Uniform(0.85, 1.1)), {1, 1, 1}, tree.variant)) {
       LayTreePit(d.ground, {p.x, p.y});
       DropLeaves(d, litter, {p.x, p.y}, 1.0f, 9, 0.012f);
     }
@@ -132,15 +131,15 @@ void PlaceRoadWorks(District& d, const StreetStretch& street, float s0, float s1
   for (int i = 0; i < 6; ++i) {
     const float t = static_cast<float>(i) / 5;
     d.placer.Try("traffic_cone", at(s0 - 1.5f - 1.2f * static_cast<float>(i), inner + (outer - inner) * t),
-                 static_cast<float>(rng.Uniform(0, kTau)));
+                 static_cast<float>(rng.Uniform(0, kTauF)));
     d.placer.Try("traffic_cone", at(s1 + 1.5f + 0.8f * static_cast<float>(i), inner + (outer - inner) * t),
-                 static_cast<float>(rng.Uniform(0, kTau)));
+                 static_cast<float>(rng.Uniform(0, kTauF)));
   }
   for (float s : {s0 + 4, s1 - 4}) {
     d.placer.Try("water_barrier", at(s, lane - 0.9f), FacingYaw(along));
     d.placer.Try("water_barrier", at(s, lane + 0.9f), FacingYaw(along));
   }
-  for (float s = s0 + 8; s < s1 - 7; s += 2.2f) d.placer.Try("water_barrier", at(s, outer), FacingYaw(along) + kTau / 4);
+  for (float s = s0 + 8; s < s1 - 7; s += 2.2f) d.placer.Try("water_barrier", at(s, outer), FacingYaw(along) + kTauF / 4);
 }
 
 }  // namespace
@@ -206,7 +205,7 @@ void FurnishSfStreets(District& d, const Hills&, const std::vector<StreetStretch
     }
     for (int k = 0; k < (avenue ? 5 : 4); ++k) {
       const float at = uniform(0.9, hw - 3.2) * (rng.Chance(0.5) ? 1.0f : -1.0f);
-      d.placer.shelf().Place("manhole", street.At(uniform(s0, s1), at, 0.001f), uniform(0, kTau), rng.Index(2));
+      d.placer.shelf().Place("manhole", street.At(uniform(s0, s1), at, 0.001f), uniform(0, kTauF), rng.Index(2));
     }
   }
 }

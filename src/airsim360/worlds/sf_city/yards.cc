@@ -3,12 +3,13 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/sf_city/city.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 6.2831853f, kTop = 0.03f;
+constexpr float kTop = 0.03f;
 
 GroundRect Spanning(Vec2f a, Vec2f b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x), std::max(a.y, b.y)}; }
 
@@ -34,7 +35,7 @@ void LayFrontGarden(District& d, const RowHouse& house, RngStream& rng) {
       for (float s = from + 0.4f; s < s0 - 0.3f; s += static_cast<float>(rng.Uniform(0.6, 1.2))) {
         static constexpr const char* kGreen[] = {"shrub", "plant", "flower_bed", "green_pot", "shrub"};
         const Vec2f p = house.At(s, -static_cast<float>(rng.Uniform(0.5, kSetback - 0.4)));
-        d.placer.Try(kGreen[rng.Index(5)], {p.x, p.y, 0.03f}, static_cast<float>(rng.Uniform(0, kTau)),
+        d.placer.Try(kGreen[rng.Index(5)], {p.x, p.y, 0.03f}, static_cast<float>(rng.Uniform(0, kTauF)),
                      static_cast<float>(rng.Uniform(0.5, 0.8)));
       }
       if (s0 - from > 1.2f && rng.Chance(0.35))
@@ -75,7 +76,7 @@ void LayBackYard(District& d, const HillYard& yard, size_t index) {
   for (int i = 0; i < (backdrop ? 1 : 2); ++i) {
     const Vec2f p{uniform(plot.x0 + 1.6f, plot.x1 - 1.6f), house + yard.out * uniform(plot.depth() * 0.35f, plot.depth() - 1.5f)};
     const char* kind = rng.Chance(0.55) ? "tree_generic" : rng.Chance(0.6) ? "tree_narrowleaf" : "tree_pine";
-    if (rng.Chance(0.62) && d.placer.Try(kind, {p.x, p.y, kTop - 0.05f}, uniform(0, kTau), uniform(0.5f, 0.8f)) && !backdrop)
+    if (rng.Chance(0.62) && d.placer.Try(kind, {p.x, p.y, kTop - 0.05f}, uniform(0, kTauF), uniform(0.5f, 0.8f)) && !backdrop)
       DropLeaves(d, ground, p, 2.2f, 9, kTop);
   }
   if (backdrop) return;
@@ -85,7 +86,7 @@ void LayBackYard(District& d, const HillYard& yard, size_t index) {
   for (float t = 2; t < plot.depth() - 1.2f; t += uniform(1.0f, 2.2f)) {
     static constexpr const char* kGreen[] = {"shrub", "plant", "green_pot", "shrub", "flower_bed"};
     d.placer.Try(kGreen[rng.Index(5)], {rng.Chance(0.5) ? plot.x0 + 0.75f : plot.x1 - 0.65f, house + t * yard.out, kTop - 0.01f},
-                 uniform(0, kTau), uniform(0.5f, 0.85f));
+                 uniform(0, kTauF), uniform(0.5f, 0.85f));
   }
   if (lawn) GrowGrass(d, ground, plot.Outline(), kTop, 2);
 }
@@ -120,7 +121,7 @@ void PlantBetweenHouses(District& d) {
       d.ground.Rect(strip, 0.02f);
       for (float y = strip.y0 + 3; y < strip.y1 - 2; y += static_cast<float>(rng.Uniform(6, 11))) {
         const Vec2f p{strip.center().x, y};
-        d.placer.Try(rng.Chance(0.7) ? "tree_generic" : "tree_pine", {p.x, p.y, 0}, static_cast<float>(rng.Uniform(0, kTau)),
+        d.placer.Try(rng.Chance(0.7) ? "tree_generic" : "tree_pine", {p.x, p.y, 0}, static_cast<float>(rng.Uniform(0, kTauF)),
                      static_cast<float>(rng.Uniform(0.5, 0.7)));
       }
       if (block.kind == BlockKind::kBuilt) GrowGrass(d, grass, strip.Outline(), 0.02f, 2);

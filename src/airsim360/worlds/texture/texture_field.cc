@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/texture/recipe_shapes.h"
 #include "airsim360/worlds/texture/texture_synth.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 float Quintic(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
@@ -32,7 +31,7 @@ void AddOctave(Field& out, uint32_t seed, int cells_x, int cells_y, float amplit
   std::vector<float> gx(columns * (static_cast<size_t>(cells_y) + 1)), gy(gx.size());
   for (int j = 0; j <= cells_y; ++j) {
     for (int i = 0; i <= cells_x; ++i) {
-      const float angle = 2 * kPi * HashUnit(seed, static_cast<uint32_t>(i % cells_x), static_cast<uint32_t>(j % cells_y));
+      const float angle = 2 * kPiF * HashUnit(seed, static_cast<uint32_t>(i % cells_x), static_cast<uint32_t>(j % cells_y));
       gx[static_cast<size_t>(j) * columns + i] = std::cos(angle);
       gy[static_cast<size_t>(j) * columns + i] = std::sin(angle);
     }
@@ -103,9 +102,9 @@ Stone MakeStone(int size, float scale, const StoneOptions& o, uint32_t seed, uin
   s.foot = Mix(o.lowest, o.highest, h(4));
   s.tilt_x = o.tilt * HashNormal(seed, 4 * k + 1);
   s.tilt_y = o.tilt * HashNormal(seed, 4 * k + 2);
-  const float turn = 2 * kPi * h(5);
+  const float turn = 2 * kPiF * h(5);
   for (uint32_t i = 0; i < 6; ++i) {
-    const float a = turn + (static_cast<float>(i) + 0.7f * (h(10 + i) - 0.5f)) * (kPi / 3);
+    const float a = turn + (static_cast<float>(i) + 0.7f * (h(10 + i) - 0.5f)) * (kPiF / 3);
     const float reach = 1 / (s.radius * (0.62f + 0.38f * h(20 + i)));
     s.face_x[i] = std::cos(a) * reach;
     s.face_y[i] = std::sin(a) * reach;
@@ -237,7 +236,7 @@ StoneField DropStones(int size, float tile, float floor, const StoneOptions& opt
   for (uint32_t k = 0; area < wanted; ++k) {
     const Stone stone = MakeStone(size, scale, options, seed, k);
     const double r = stone.radius / scale;
-    area += 0.75 * kPi * r * r;
+    area += 0.75 * kPiF * r * r;
     DropStone(out, stone, scale, options);
   }
   return out;

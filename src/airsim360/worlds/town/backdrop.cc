@@ -1,15 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/texture/texture_synth.h"
 #include "airsim360/worlds/town/district.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr float kPitch = 112, kRoad = 13, kCityEdge = 640, kPlainZ = -0.5f;
 
 // A far building: walls with pictured windows, a deck, a box on top.
@@ -72,7 +71,7 @@ void LayPlain(District& d) {
   d.ground.Begin("plain", "ground/terrain/landscape", Surface::kPlain);
   float r0 = 0;
   for (float r1 : {200.0f, 600.0f, 1500.0f, 3500.0f, 7000.0f, 14000.0f}) {
-    d.ground.RingSector({0, 0}, r0, r1, 0, kTau, kPlainZ, 72);
+    d.ground.RingSector({0, 0}, r0, r1, 0, kTauF, kPlainZ, 72);
     r0 = r1;
   }
 }
@@ -126,7 +125,7 @@ void RaiseMountains(District& d) {
   };
   int index = 0;
   for (const RidgeRow& row : kRidges) {
-    RaiseRidge(d, index++, row.radius, row.from_deg * kTau / 360, row.to_deg * kTau / 360, row.height, row.surface);
+    RaiseRidge(d, index++, row.radius, row.from_deg * kTauF / 360, row.to_deg * kTauF / 360, row.height, row.surface);
   }
 }
 
@@ -134,11 +133,11 @@ void RaiseMountains(District& d) {
 void PlantFarWoods(District& d) {
   RngStream rng(d.seed, "far woods");
   for (int grove = 0; grove < 26; ++grove) {
-    const double a = rng.Uniform(0, kTau), r = rng.Uniform(760, 1500);
+    const double a = rng.Uniform(0, kTauF), r = rng.Uniform(760, 1500);
     for (int i = 0; i < 9; ++i) {
       const Vec3f p{static_cast<float>(r * std::cos(a) + 26 * rng.Normal()), static_cast<float>(r * std::sin(a) + 26 * rng.Normal()),
                     kPlainZ};
-      d.placer.Put(rng.Chance(0.4) ? "tree_pine" : "tree_generic", p, static_cast<float>(rng.Uniform(0, kTau)),
+      d.placer.Put(rng.Chance(0.4) ? "tree_pine" : "tree_generic", p, static_cast<float>(rng.Uniform(0, kTauF)),
                    static_cast<float>(rng.Uniform(0.9, 1.4)));
     }
   }

@@ -1,6 +1,7 @@
 // What the builders of one downtown share, and the builders of its parts.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -80,5 +81,8 @@ void FurnishStreets(District& district, const std::vector<StreetStretch>& street
 void RaiseRidge(District& district, int index, float radius, float from, float to, float height, Surface surface);
 /// Far blocks to 640 m, the plain to the horizon, mountain ridges.
 void BuildBackdrop(District& district);
+
+/// Point at distance `r` from `c` in direction `a` [rad].
+inline Vec2f Polar(Vec2f c, float r, float a) { return {c.x + r * std::cos(a), c.y + r * std::sin(a)}; }
 
 }  // namespace airsim360::internal

@@ -1,15 +1,14 @@
 // A park of one block: a lake with a wooded island, a red bridge, a walk around it.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/town/district.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr Vec2f kLakeHalf{28, 16.5f};
 constexpr float kWaterZ = -0.45f, kLawnZ = 0.06f, kBank = 1.10f, kWalkIn = 1.18f;
 constexpr int kSteps = 96;
@@ -27,7 +26,7 @@ Vec2f Walk(Vec2f c, float a, float offset) {
 
 void Ring(Ground& g, Vec2f c, float s0, float s1, float z0, float z1) {
   for (int i = 0; i < kSteps; ++i) {
-    const float a0 = kTau * static_cast<float>(i) / kSteps, a1 = kTau * static_cast<float>(i + 1) / kSteps;
+    const float a0 = kTauF * static_cast<float>(i) / kSteps, a1 = kTauF * static_cast<float>(i + 1) / kSteps;
     const Vec2f p = Shore(c, a0, s0), q = Shore(c, a0, s1), r = Shore(c, a1, s1), t = Shore(c, a1, s0);
     g.Quad({p.x, p.y, z0}, {q.x, q.y, z1}, {r.x, r.y, z1}, {t.x, t.y, z0});
   }
@@ -37,7 +36,7 @@ void LayLake(District& d, Vec2f c) {
   Ground& g = d.ground;
   g.Begin("lake", "water/lake", Surface::kWater);
   std::vector<Vec2f> shore;
-  for (int i = 0; i < kSteps; ++i) shore.push_back(Shore(c, kTau * static_cast<float>(i) / kSteps, 1.0f));
+  for (int i = 0; i < kSteps; ++i) shore.push_back(Shore(c, kTauF * static_cast<float>(i) / kSteps, 1.0f));
   g.Polygon(shore, kWaterZ);
   g.Begin("shore", "ground/dirt", Surface::kSoil);
   Ring(g, c, 0.99f, 1.035f, kWaterZ - 0.06f, -0.22f);
@@ -47,7 +46,7 @@ void LayLake(District& d, Vec2f c) {
   Ring(g, c, kBank, kWalkIn - 0.005f, kLawnZ, kLawnZ);
   RngStream rng(d.seed, "lake bank");
   for (int i = 0; i < 900; ++i) {
-    const float a = static_cast<float>(rng.Uniform(0, kTau)), s = static_cast<float>(rng.Uniform(1.045, kWalkIn - 0.01));
+    const float a = static_cast<float>(rng.Uniform(0, kTauF)), s = static_cast<float>(rng.Uniform(1.045, kWalkIn - 0.01));
     const Vec2f p = Shore(c, a, s);
     const float t = std::min(1.0f, (s - 1.035f) / (kBank - 1.035f)), tone = static_cast<float>(rng.Uniform(0.8, 1.2));
     d.placer.shelf().PlaceAs(bank, "grass_tuft",
@@ -55,7 +54,7 @@ void LayLake(District& d, Vec2f c) {
                              rng.Index(16), {tone, tone, tone});
   }
   for (int i = 0; i < 46; ++i) {
-    const float a = static_cast<float>(rng.Uniform(0, kTau));
+    const float a = static_cast<float>(rng.Uniform(0, kTauF));
     const Vec2f p = Shore(c, a, static_cast<float>(rng.Uniform(0.965, 1.03)));
     d.placer.Try("rock", {p.x, p.y, kWaterZ - 0.12f}, a, static_cast<float>(rng.Uniform(0.4, 1.0)));
   }
@@ -63,7 +62,7 @@ void LayLake(District& d, Vec2f c) {
   for (int k = 0; k < 8; ++k) {
     g.Begin("park walk", "ground/path/park_walkway", Surface::kPath);
     for (int i = 0; i < kSteps / 8; ++i) {
-      const float a0 = kTau * static_cast<float>(k * kSteps / 8 + i) / kSteps, a1 = a0 + kTau / kSteps;
+      const float a0 = kTauF * static_cast<float>(k * kSteps / 8 + i) / kSteps, a1 = a0 + kTauF / kSteps;
       const Vec2f p = Walk(c, a0, 0), q = Walk(c, a0, 2.8f), r = Walk(c, a1, 2.8f), t = Walk(c, a1, 0);
       g.Quad({p.x, p.y, 0.03f}, {q.x, q.y, 0.03f}, {r.x, r.y, 0.03f}, {t.x, t.y, 0.03f});
     }
@@ -74,10 +73,10 @@ void LayLake(District& d, Vec2f c) {
 std::vector<Vec2f> QuadrantOutline(const GroundRect& area, Vec2f c, int quadrant) {
   constexpr float kHalf = 1.5f;
   const float sx = quadrant == 0 || quadrant == 3 ? 1.0f : -1.0f, sy = quadrant < 2 ? 1.0f : -1.0f;
-  const float a0 = kTau / 4 * static_cast<float>(quadrant);
+  const float a0 = kTauF / 4 * static_cast<float>(quadrant);
   std::vector<Vec2f> line;
   for (int i = 0; i <= 24; ++i) {
-    const Vec2f p = Walk(c, a0 + kTau / 4 * static_cast<float>(i) / 24, 2.85f);
+    const Vec2f p = Walk(c, a0 + kTauF / 4 * static_cast<float>(i) / 24, 2.85f);
     if ((p.x - c.x) * sx > kHalf && (p.y - c.y) * sy > kHalf) line.push_back(p);
   }
   const float ex = sx > 0 ? area.x1 : area.x0, ey = sy > 0 ? area.y1 : area.y0;
@@ -104,7 +103,7 @@ void PlantQuadrant(District& d, const std::vector<Vec2f>& outline, EntityId lawn
     const bool crowded = std::any_of(trees.begin(), trees.end(), [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 7.9f; });
     if (crowded || !InPolygon(outline, p) || EdgeDistance(outline, p) < 1.6f) continue;
     static constexpr const char* kKinds[] = {"tree_generic", "tree_generic", "tree_narrowleaf", "tree_pine"};
-    if (!d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f}, static_cast<float>(rng.Uniform(0, kTau)),
+    if (!d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f}, static_cast<float>(rng.Uniform(0, kTauF)),
                       static_cast<float>(rng.Uniform(0.75, 1.1))))
       continue;
     trees.push_back(p);
@@ -114,7 +113,7 @@ void PlantQuadrant(District& d, const std::vector<Vec2f>& outline, EntityId lawn
     const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)), static_cast<float>(rng.Uniform(box.y0, box.y1))};
     if (!InPolygon(outline, p) || EdgeDistance(outline, p) < 0.8f) continue;
     static constexpr const char* kKinds[] = {"shrub", "plant", "flower_bed", "rock"};
-    d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f}, static_cast<float>(rng.Uniform(0, kTau)), 0.9f);
+    d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f}, static_cast<float>(rng.Uniform(0, kTauF)), 0.9f);
   }
   GrowGrass(d, lawn, outline, kLawnZ, 2);
 }
@@ -130,7 +129,7 @@ void BuildLakePark(District& d, const Block& block) {
   // Four short walks from the ring to the pavements.
   for (int k = 0; k < 4; ++k) {
     d.ground.Begin("park entrance", "ground/path/park_walkway", Surface::kPath);
-    const Vec2f p = Walk(c, kTau / 4 * static_cast<float>(k), 2.4f);
+    const Vec2f p = Walk(c, kTauF / 4 * static_cast<float>(k), 2.4f);
     const GroundRect strips[] = {{p.x, c.y - 1.5f, area.x1, c.y + 1.5f},
                                  {c.x - 1.5f, p.y, c.x + 1.5f, area.y1},
                                  {area.x0, c.y - 1.5f, p.x, c.y + 1.5f},
@@ -140,12 +139,12 @@ void BuildLakePark(District& d, const Block& block) {
   // Soil under everything; only rims of it show.
   d.ground.Begin("park soil", "ground/dirt", Surface::kSoil);
   for (int i = 0; i < kSteps; ++i) {
-    const float a0 = kTau * static_cast<float>(i) / kSteps, a1 = kTau * static_cast<float>(i + 1) / kSteps;
+    const float a0 = kTauF * static_cast<float>(i) / kSteps, a1 = kTauF * static_cast<float>(i + 1) / kSteps;
     const Vec2f p = Shore(c, a0, kBank + 0.01f), q = Walk(c, a0, 3.2f), r = Walk(c, a1, 3.2f), t = Shore(c, a1, kBank + 0.01f);
     d.ground.Quad({p.x, p.y, 0.0f}, {q.x, q.y, 0.0f}, {r.x, r.y, 0.0f}, {t.x, t.y, 0.0f});
   }
   for (int i = 0; i < 24; ++i) {
-    const float a = kTau * (static_cast<float>(i) + 0.5f) / 24;
+    const float a = kTauF * (static_cast<float>(i) + 0.5f) / 24;
     const Vec2f p = Walk(c, a, 3.5f);
     const float yaw = FacingYaw(c - p);
     d.placer.Try(i % 3 == 0 ? "lamp_post" : i % 3 == 1 ? "bench_wood" : i % 2 ? "trash_can" : "bench_wood", {p.x, p.y, kLawnZ}, yaw);

@@ -1,23 +1,19 @@
 // What stands in the lakes of the downtowns: an island and a red footbridge.
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/town/district.h"
 
 namespace airsim360::internal {
-namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
-
-}  // namespace
+namespace {}  // namespace
 
 void RaiseIsland(District& d, std::string_view category, Vec2f c, Vec2f half, float water_z) {
   const EntityId island = d.ground.Begin("island", category, Surface::kLawn);
   constexpr int kRings = 6, kSides = 40;
-  const auto height = [&](float t) { return water_z - 0.15f + std::cos(kTau / 4 * std::min(1.0f, t * t)); };
+  const auto height = [&](float t) { return water_z - 0.15f + std::cos(kTauF / 4 * std::min(1.0f, t * t)); };
   const auto at = [&](int ring, int side) {
-    const float t = static_cast<float>(ring) / kRings, a = kTau * static_cast<float>(side % kSides) / kSides;
+    const float t = static_cast<float>(ring) / kRings, a = kTauF * static_cast<float>(side % kSides) / kSides;
     const float wobble = 1 + 0.08f * std::sin(2 * a + 1) + 0.05f * std::sin(5 * a);
     return Vec3f{c.x + half.x * t * wobble * std::cos(a), c.y + half.y * t * wobble * std::sin(a), height(t)};
   };
@@ -34,7 +30,7 @@ void RaiseIsland(District& d, std::string_view category, Vec2f c, Vec2f half, fl
   RngStream rng(d.seed, "island");
   const auto top = [&](Vec2f p) { return height(std::hypot((p.x - c.x) / half.x, (p.y - c.y) / half.y)); };
   for (int i = 0; i < 160; ++i) {
-    const float a = static_cast<float>(rng.Uniform(0, kTau)), t = std::sqrt(static_cast<float>(rng.Uniform(0, 0.6)));
+    const float a = static_cast<float>(rng.Uniform(0, kTauF)), t = std::sqrt(static_cast<float>(rng.Uniform(0, 0.6)));
     const Vec2f p{c.x + half.x * t * std::cos(a), c.y + half.y * t * std::sin(a)};
     const auto scale = static_cast<float>(rng.Uniform(0.8, 1.5));
     d.placer.shelf().PlaceAs(island, "grass_tuft", PlaceUpright({p.x, p.y, top(p) - 0.01f}, a * 5, scale), rng.Index(16));
@@ -44,7 +40,7 @@ void RaiseIsland(District& d, std::string_view category, Vec2f c, Vec2f half, fl
     d.placer.Try("tree_generic", {p.x, p.y, top(p) - 0.05f}, o.x * 6, 0.7f, {1, 1, 1}, 2u);
   }
   for (int i = 0; i < 7; ++i) {
-    const float a = kTau * static_cast<float>(i) / 7;
+    const float a = kTauF * static_cast<float>(i) / 7;
     const Vec2f p{c.x + 0.81f * half.x * std::cos(a), c.y + 0.81f * half.y * std::sin(a)};
     d.placer.Try(i % 2 ? "rock" : "shrub", {p.x, p.y, top(p) - 0.05f}, a, 0.55f);
   }

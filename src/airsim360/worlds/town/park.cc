@@ -1,18 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/town/district.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr float kPond = 17.0f, kCoping = 17.6f, kRingIn = 18.9f, kRingOut = 22.5f, kPathHalf = 1.35f, kLawnZ = 0.06f, kWaterZ = -0.22f;
 constexpr int kPaths = 8, kSteps = 14;
-
-Vec2f Polar(Vec2f c, float r, float a) { return {c.x + r * std::cos(a), c.y + r * std::sin(a)}; }
 
 // One of the curved paths from the ring walk to the edge of the park.
 struct ParkPath {
@@ -21,7 +18,7 @@ struct ParkPath {
 
 ParkPath TracePath(const GroundRect& area, int index) {
   const Vec2f c = area.center();
-  const float angle = kTau * (static_cast<float>(index) + 0.5f) / kPaths;
+  const float angle = kTauF * (static_cast<float>(index) + 0.5f) / kPaths;
   const Vec2f dir{std::cos(angle), std::sin(angle)}, normal{-dir.y, dir.x};
   const float bend = index % 2 ? 2.2f : -2.2f, start = std::sqrt(kRingOut * kRingOut - kPathHalf * kPathHalf);
   const auto side = [&](float offset) {
@@ -33,7 +30,7 @@ ParkPath TracePath(const GroundRect& area, int index) {
     std::vector<Vec2f> line;
     for (int i = 0; i <= kSteps; ++i) {
       const float t = static_cast<float>(i) / kSteps, r = start + (end - start) * t;
-      const float sway = offset + bend * std::sin(kTau / 2 * t) * std::sin(kTau / 2 * t);
+      const float sway = offset + bend * std::sin(kTauF / 2 * t) * std::sin(kTauF / 2 * t);
       line.push_back(c + dir * r + normal * sway);
     }
     return line;
@@ -57,7 +54,7 @@ std::vector<Vec2f> LawnOutline(const GroundRect& area, const ParkPath& path, con
   const Vec2f c = area.center(), from = next.right.front() - c, to = path.left.front() - c;
   float a0 = std::atan2(from.y, from.x);
   const float a1 = std::atan2(to.y, to.x);
-  if (a0 < a1) a0 += kTau;
+  if (a0 < a1) a0 += kTauF;
   for (int i = 1; i < 8; ++i) outline.push_back(Polar(c, kRingOut, a0 + (a1 - a0) * static_cast<float>(i) / 8));
   return outline;
 }
@@ -65,41 +62,41 @@ std::vector<Vec2f> LawnOutline(const GroundRect& area, const ParkPath& path, con
 void LayLake(District& d, Vec2f c) {
   Ground& g = d.ground;
   g.Begin("lake", "water/water_plane", Surface::kWater);
-  g.RingSector(c, 0, kPond, 0, kTau, kWaterZ, 64);
+  g.RingSector(c, 0, kPond, 0, kTauF, kWaterZ, 64);
   g.Begin("lake edge", "construction/wall", Surface::kLimestone);
   std::vector<Vec2f> inner, outer;
   for (int i = 0; i <= 64; ++i) {
-    inner.push_back(Polar(c, kPond, kTau - kTau * static_cast<float>(i) / 64));
-    outer.push_back(Polar(c, kCoping, kTau * static_cast<float>(i) / 64));
+    inner.push_back(Polar(c, kPond, kTauF - kTauF * static_cast<float>(i) / 64));
+    outer.push_back(Polar(c, kCoping, kTauF * static_cast<float>(i) / 64));
   }
   g.Wall(inner, -0.6f, 0.38f);
   g.Wall(outer, 0, 0.38f);
   g.Use(Surface::kTrimStone);
-  g.RingSector(c, kPond - 0.04f, kCoping + 0.05f, 0, kTau, 0.42f, 64);
+  g.RingSector(c, kPond - 0.04f, kCoping + 0.05f, 0, kTauF, 0.42f, 64);
   std::vector<Vec2f> lip_in, lip_out;
   for (int i = 0; i <= 64; ++i) {
-    lip_in.push_back(Polar(c, kPond - 0.04f, kTau - kTau * static_cast<float>(i) / 64));
-    lip_out.push_back(Polar(c, kCoping + 0.05f, kTau * static_cast<float>(i) / 64));
+    lip_in.push_back(Polar(c, kPond - 0.04f, kTauF - kTauF * static_cast<float>(i) / 64));
+    lip_out.push_back(Polar(c, kCoping + 0.05f, kTauF * static_cast<float>(i) / 64));
   }
   g.Wall(lip_in, 0.36f, 0.42f);
   g.Wall(lip_out, 0.36f, 0.42f);
   // Paving between coping and walk, then the ring walk in eight segments.
   g.Begin("lake paving", "ground/pavement/modular", Surface::kPlazaStone);
-  g.RingSector(c, kCoping, kRingIn, 0, kTau, 0, 64);
+  g.RingSector(c, kCoping, kRingIn, 0, kTauF, 0, 64);
   for (int i = 0; i < kPaths; ++i) {
-    const float a = kTau * static_cast<float>(i) / kPaths;
+    const float a = kTauF * static_cast<float>(i) / kPaths;
     g.Begin("ring walk", "ground/path/park_walkway", Surface::kPath);
-    g.RingSector(c, kRingIn, kRingOut, a, a + kTau / kPaths, 0.004f, 8);
+    g.RingSector(c, kRingIn, kRingOut, a, a + kTauF / kPaths, 0.004f, 8);
   }
   // An island, a bridge that lands where two paths arrive, rocks along the edge.
   RaiseIsland(d, "ground/terrain/landscape", {c.x - 4.5f, c.y}, {5.6f, 4.8f}, kWaterZ);
   d.placer.Reserve({{c.x - 4.5f, c.y}, {5.9f, 5.1f}, 0});
-  const float landing = kTau * 1.5f / kPaths;
+  const float landing = kTauF * 1.5f / kPaths;
   BuildRedBridge(d, {c.x + (kCoping + 0.4f) * std::cos(landing), c.y}, (kRingIn - 0.1f) * std::sin(landing));
   RngStream& rng = d.placer.rng();
   for (int i = 0; i < 14; ++i) {
-    const Vec2f p = Polar(c, static_cast<float>(rng.Uniform(13.5, 16)), static_cast<float>(rng.Uniform(0, kTau)));
-    d.placer.Try("rock", {p.x, p.y, -0.45f}, static_cast<float>(rng.Uniform(0, kTau)), static_cast<float>(rng.Uniform(0.6, 1.1)));
+    const Vec2f p = Polar(c, static_cast<float>(rng.Uniform(13.5, 16)), static_cast<float>(rng.Uniform(0, kTauF)));
+    d.placer.Try("rock", {p.x, p.y, -0.45f}, static_cast<float>(rng.Uniform(0, kTauF)), static_cast<float>(rng.Uniform(0.6, 1.1)));
   }
 }
 
@@ -115,7 +112,7 @@ void LayPath(Ground& ground, const ParkPath& path) {
 // Railing on the street half of the lake, with gaps where the paths arrive.
 void FenceLake(District& d, Vec2f c) {
   for (int k = 0; k < kPaths; ++k) {
-    const float a0 = kTau * (static_cast<float>(k) + 0.66f) / kPaths, a1 = kTau * (static_cast<float>(k) + 1.34f) / kPaths;
+    const float a0 = kTauF * (static_cast<float>(k) + 0.66f) / kPaths, a1 = kTauF * (static_cast<float>(k) + 1.34f) / kPaths;
     for (int i = 0; i < 4; ++i) {
       const auto at = [&](int n) { return Polar(c, kCoping + 0.7f, a0 + (a1 - a0) * static_cast<float>(n) / 4); };
       PlaceRun(d, "rail", at(i), at(i + 1), 0, "rail_pillar");
@@ -143,7 +140,7 @@ void PlantLawn(District& d, const std::vector<Vec2f>& outline, EntityId lawn, in
   GroundRect box{1e9f, 1e9f, -1e9f, -1e9f};
   for (Vec2f p : outline) box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
   const auto spot = [&] { return Vec2f{static_cast<float>(rng.Uniform(box.x0, box.x1)), static_cast<float>(rng.Uniform(box.y0, box.y1))}; };
-  const auto turn = [&] { return static_cast<float>(rng.Uniform(0, kTau)); };
+  const auto turn = [&] { return static_cast<float>(rng.Uniform(0, kTauF)); };
   // Trees with room between them; each lawn has its leading species.
   std::vector<Vec2f> trees;
   const char* lead = index % 4 == 1 ? "tree_pine" : index % 4 == 3 ? "tree_narrowleaf" : "tree_generic";
@@ -210,11 +207,11 @@ void BuildPark(District& d, const Block& block) {
   for (int i = 0; i < kPaths; ++i) FurnishPath(d, paths[static_cast<size_t>(i)], i);
   // Benches and lamps outside the ring walk.
   for (int i = 0; i < 16; ++i) {
-    const Vec2f p = Polar(c, kRingOut + 0.8f, kTau * (static_cast<float>(i) + 0.5f) / 16);
+    const Vec2f p = Polar(c, kRingOut + 0.8f, kTauF * (static_cast<float>(i) + 0.5f) / 16);
     d.placer.Try(i % 2 ? "bench_wood" : "lamp_post", {p.x, p.y, kLawnZ - 0.01f}, FacingYaw(c - p));
   }
   for (int i = 0; i < 96; ++i) {
-    const float a = kTau * (static_cast<float>(i) + 0.5f) / 96;
+    const float a = kTauF * (static_cast<float>(i) + 0.5f) / 96;
     const Vec2f p = Polar(c, kRingOut + 0.75f, a);
     bool on_path = false;
     for (const ParkPath& path : paths) {

@@ -1,17 +1,14 @@
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/town/district.h"
 #include "airsim360/worlds/town/market_stall.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr float kTerraceZ = 0.6f;
-
-Vec2f Polar(Vec2f c, float r, float a) { return {c.x + r * std::cos(a), c.y + r * std::sin(a)}; }
 
 constexpr int kCells = 9;  // brick fields along each side
 
@@ -45,7 +42,7 @@ std::vector<EntityId> LayPaving(Ground& ground, const GroundRect& area) {
                                 {13, 14, Surface::kPlazaStone}};
   for (const RingRow& ring : kRings) {
     ground.Begin("plaza ring", "ground/pavement/modular", ring.surface);
-    ground.RingSector(area.center(), ring.r0, ring.r1, 0, kTau, 0.005f, 72);
+    ground.RingSector(area.center(), ring.r0, ring.r1, 0, kTauF, 0.005f, 72);
   }
   return fields;
 }
@@ -81,7 +78,7 @@ void LayTerrace(Ground& ground, const GroundRect& terrace, float steps_half) {
 void PlaceCafeTable(District& d, Vec2f at, float z, bool yellow) {
   RngStream& rng = d.placer.rng();
   const auto style = static_cast<uint32_t>(rng.Index(4));
-  const auto turn = static_cast<float>(rng.Uniform(0, kTau));
+  const auto turn = static_cast<float>(rng.Uniform(0, kTauF));
   if (!d.placer.Try("dining_table", {at.x, at.y, z}, turn, 1, {1, 1, 1}, style)) return;
   const auto cloth = static_cast<uint32_t>(rng.Index(2));
   if (yellow)
@@ -90,7 +87,7 @@ void PlaceCafeTable(District& d, Vec2f at, float z, bool yellow) {
     d.placer.Put("umbrella", {at.x, at.y, z}, turn, 1, {1, 1, 1}, cloth);
   const int chairs = 3 + static_cast<int>(rng.Index(2));
   for (int i = 0; i < chairs; ++i) {
-    const float a = turn + kTau * static_cast<float>(i) / static_cast<float>(chairs);
+    const float a = turn + kTauF * static_cast<float>(i) / static_cast<float>(chairs);
     const Vec2f p = Polar(at, 0.95f, a);
     d.placer.Put("dining_chair", {p.x, p.y, z}, FacingYaw(at - p) + static_cast<float>(rng.Uniform(-0.3, 0.3)), 1, {1, 1, 1}, style);
   }
@@ -152,13 +149,13 @@ void BuildBed(District& d, Vec2f at, float half) {
   }
   const EntityId soil = d.ground.Begin("bed", "ground/terrain/landscape", Surface::kSoil);
   d.ground.Rect(inner, 0.38f);
-  d.placer.Try("tree_generic", {at.x, at.y, 0.36f}, static_cast<float>(d.placer.rng().Uniform(0, kTau)), 0.85f);
+  d.placer.Try("tree_generic", {at.x, at.y, 0.36f}, static_cast<float>(d.placer.rng().Uniform(0, kTauF)), 0.85f);
   RngStream& rng = d.placer.rng();
   for (int i = 0; i < 26; ++i) {
     const Vec2f p{static_cast<float>(rng.Uniform(inner.x0 + 0.5, inner.x1 - 0.5)),
                   static_cast<float>(rng.Uniform(inner.y0 + 0.5, inner.y1 - 0.5))};
     const char* kind = i < 8 ? "flower_bed" : i < 15 ? "shrub" : "rock";
-    d.placer.Try(kind, {p.x, p.y, 0.37f}, static_cast<float>(rng.Uniform(0, kTau)), i < 15 ? 0.7f : 0.45f);
+    d.placer.Try(kind, {p.x, p.y, 0.37f}, static_cast<float>(rng.Uniform(0, kTauF)), i < 15 ? 0.7f : 0.45f);
   }
   GrowGrass(d, soil, inner.Outline(), 0.38f, 1.9f);
 }
@@ -169,7 +166,7 @@ void PlantAllees(District& d, Vec2f c) {
       const Vec2f at{c.x + x, c.y - 37 + 8.2f * static_cast<float>(i)};
       LayTreePit(d.ground, at);
       const bool outer = std::abs(x) > 35;
-      d.placer.Try(outer ? "tree_generic" : "tree_narrowleaf", {at.x, at.y, 0}, static_cast<float>(d.placer.rng().Uniform(0, kTau)), 0.9f);
+      d.placer.Try(outer ? "tree_generic" : "tree_narrowleaf", {at.x, at.y, 0}, static_cast<float>(d.placer.rng().Uniform(0, kTauF)), 0.9f);
       if (i == 7) continue;
       // Between the trees: lamps and benches by turns, on the inner side bins too.
       const Vec2f gap{at.x, at.y + 4.1f};
@@ -216,11 +213,11 @@ void LitterPlaza(District& d, const GroundRect& area, const std::vector<EntityId
     if (!tree.kind.starts_with("tree_") || !area.Contains({tree.p_W.x, tree.p_W.y}) || tree.p_W.z > 0.1f) continue;
     for (int i = 0; i < 9; ++i) {
       const float u = static_cast<float>(rng.Uniform());
-      const Vec2f p = Polar({tree.p_W.x, tree.p_W.y}, 0.4f + 4.2f * u * std::sqrt(u), static_cast<float>(rng.Uniform(0, kTau)));
+      const Vec2f p = Polar({tree.p_W.x, tree.p_W.y}, 0.4f + 4.2f * u * std::sqrt(u), static_cast<float>(rng.Uniform(0, kTauF)));
       if (!area.Inset(0.2f).Contains(p)) continue;
       const auto cell = [&](float at, float from, float size) { return static_cast<size_t>((at - from) / size * kCells); };
       const size_t field = cell(p.y, area.y0, area.depth()) * kCells + cell(p.x, area.x0, area.width());
-      d.placer.shelf().PlaceAs(fields[field], "leaf_litter", PlaceUpright({p.x, p.y, 0.006f}, static_cast<float>(rng.Uniform(0, kTau))),
+      d.placer.shelf().PlaceAs(fields[field], "leaf_litter", PlaceUpright({p.x, p.y, 0.006f}, static_cast<float>(rng.Uniform(0, kTauF))),
                                rng.Index(16));
     }
   }
@@ -240,26 +237,26 @@ void BuildPlaza(District& d, const Block& block) {
   // The fountain, a ring of benches that look at it and of lamps with globes.
   d.placer.Try("fountain", {c.x, c.y, 0.004f}, 0, 1.5f);
   for (int i = 0; i < 12; ++i) {
-    const float a = kTau * (static_cast<float>(i) + 0.5f) / 12;
+    const float a = kTauF * (static_cast<float>(i) + 0.5f) / 12;
     const Vec2f p = Polar(c, 12.2f, a);
     d.placer.Try("bench_wood", {p.x, p.y, 0.005f}, FacingYaw(c - p), 1, {1, 1, 1}, 0u);
   }
   for (int i = 0; i < 8; ++i) {
-    const Vec2f p = Polar(c, 15.2f, kTau * static_cast<float>(i) / 8);
+    const Vec2f p = Polar(c, 15.2f, kTauF * static_cast<float>(i) / 8);
     d.placer.Try("lamp_post", {p.x, p.y, 0}, FacingYaw(c - p), 1, {1, 1, 1}, 0u);
   }
   // An inner grove: trees between the lamps, further out.
   for (int i = 0; i < 12; ++i) {
-    const Vec2f p = Polar(c, 20.5f, kTau * (static_cast<float>(i) + 0.5f) / 12);
+    const Vec2f p = Polar(c, 20.5f, kTauF * (static_cast<float>(i) + 0.5f) / 12);
     if (std::abs(p.x - c.x) < 6 || (std::abs(std::abs(p.x - c.x) - 17.5f) < 4 && std::abs(std::abs(p.y - c.y) - 14.7f) < 5)) continue;
     LayTreePit(d.ground, p);
-    d.placer.Try("tree_generic", {p.x, p.y, 0}, static_cast<float>(d.placer.rng().Uniform(0, kTau)), 0.75f);
+    d.placer.Try("tree_generic", {p.x, p.y, 0}, static_cast<float>(d.placer.rng().Uniform(0, kTauF)), 0.75f);
   }
   for (Vec2f offset : {Vec2f{25, 0}, Vec2f{24.5f, 20.5f}, Vec2f{11, -19.5f}}) {
     for (float side : {-1.0f, 1.0f}) {
       const Vec2f p{c.x + side * offset.x, c.y + offset.y};
       LayTreePit(d.ground, p);
-      d.placer.Try("tree_generic", {p.x, p.y, 0}, static_cast<float>(d.placer.rng().Uniform(0, kTau)), 0.8f);
+      d.placer.Try("tree_generic", {p.x, p.y, 0}, static_cast<float>(d.placer.rng().Uniform(0, kTauF)), 0.8f);
     }
   }
   FurnishTerrace(d, terrace, kStepsHalf);

@@ -1,17 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/town/district.h"
 #include "airsim360/worlds/town/pavement_side.h"
 #include "airsim360/worlds/town/street_markings.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 struct Strip : PavementSide {
   std::vector<float> lamps;  // where along it
@@ -41,7 +39,7 @@ void PlantStreetTrees(District& d, const Strip& strip, bool open, RngStream& rng
     const float at = at_lamp ? s + 3.2f : s;
     const StreetTree& tree = kStreetTrees[species + rng.Index(3)];
     const Vec2f p = strip.line.At(at, 1.15f);
-    const auto turn = static_cast<float>(rng.Uniform(0, kTau));
+    const auto turn = static_cast<float>(rng.Uniform(0, kTauF));
     const float scale = tree.scale * static_cast<float>(rng.Uniform(0.85, 1.0));
     if (d.placer.Try(tree.kind, {p.x, p.y, 0}, turn, scale, {1, 1, 1}, tree.variant)) LayTreePit(d.ground, p);
   }
@@ -100,7 +98,7 @@ void PlaceCafe(District& d, const Strip& strip, float s) {
 void FurnishCorner(District& d, const Block& block, const BlockSide& side, std::string_view bollard) {
   const float r = block.corner_radius;
   const auto at = [&](float radius, float a) { return side.At(side.length - r + radius * std::sin(a), r - radius * std::cos(a)); };
-  const float eighth = kTau / 8;
+  const float eighth = kTauF / 8;
   const Vec2f p = at(r - 0.55f, eighth * 0.35f), q = at(r - 0.55f, eighth * 1.65f);
   // One mast with an arm over the street, green for the east-west streets; one post for those on foot.
   const bool east_west = std::abs(side.along.x) > 0.5f;
@@ -215,7 +213,7 @@ void FurnishStreets(District& d, const std::vector<StreetStretch>& streets) {
     for (int k = 0; k < 3; ++k) {
       const float d0 = static_cast<float>(rng.Uniform(0.9, hw - 3.2)) * (rng.Chance(0.5) ? 1.0f : -1.0f);
       const Vec3f p = street.At(static_cast<float>(rng.Uniform(s0, s1)), d0, 0.001f);
-      d.placer.shelf().Place("manhole", p, static_cast<float>(rng.Uniform(0, kTau)), rng.Index(2));
+      d.placer.shelf().Place("manhole", p, static_cast<float>(rng.Uniform(0, kTauF)), rng.Index(2));
     }
   }
 }

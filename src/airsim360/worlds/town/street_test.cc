@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/kit/test_mesh.h"
 #include "airsim360/worlds/texture/test_surfaces.h"
 #include "airsim360/worlds/town/street_markings.h"
@@ -12,8 +13,6 @@ namespace airsim360 {
 namespace {
 
 using namespace internal;
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 // Ground that is laid and looked at.
 struct Laid {
@@ -339,7 +338,7 @@ TEST(GroundPieces, PolygonsHaveTheAreaOfTheShoelaceFormula) {
   for (int corners = 3; corners < 60; corners += 7) {
     std::vector<Vec2f> outline;
     for (int i = 0; i < corners; ++i) {
-      const float a = 2 * kPi * static_cast<float>(i) / static_cast<float>(corners);
+      const float a = 2 * kPiF * static_cast<float>(i) / static_cast<float>(corners);
       const float r = 10 + 6 * std::sin(3.7f * static_cast<float>(i * i));
       outline.push_back({100 + r * std::cos(a), -50 + r * std::sin(a)});
     }
@@ -358,7 +357,7 @@ TEST(GroundPieces, PolygonsHaveTheAreaOfTheShoelaceFormula) {
 // A wall is seen from the right-hand side of its line.
 TEST(GroundPieces, WallsLookToTheRightOfTheirLine) {
   for (int i = 0; i < 8; ++i) {
-    const float a = kPi / 4 * static_cast<float>(i);
+    const float a = kPiF / 4 * static_cast<float>(i);
     const std::vector<Vec2f> line{{1, 2}, {1 + 3 * std::cos(a), 2 + 3 * std::sin(a)}};
     Laid laid;
     laid.ground.Begin("wall", "ground/kerb", Surface::kKerb);

@@ -2,12 +2,13 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/town/district.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 6.2831853f, kLawnZ = 0.06f;
+constexpr float kLawnZ = 0.06f;
 
 // A garden: lawn, slabs by the gate at its outer end (towards `out` in y), trees, shrubs and flowers along its fences.
 void LayGarden(District& d, const GroundRect& plot, float out, RngStream& rng) {
@@ -29,7 +30,7 @@ void LayGarden(District& d, const GroundRect& plot, float out, RngStream& rng) {
   static constexpr const char* kTrees[] = {"tree_generic", "tree_generic", "tree_narrowleaf", "tree_pine"};
   for (int i = 0; i < 4; ++i) {
     const Vec2f p = spot(2.2f);
-    const auto turn = uniform(0, kTau);
+    const auto turn = uniform(0, kTauF);
     const auto crowded = [&](const Placement& other) {
       return other.kind.starts_with("tree") && std::hypot(other.p_W.x - p.x, other.p_W.y - p.y) < 7.9f;
     };
@@ -43,7 +44,7 @@ void LayGarden(District& d, const GroundRect& plot, float out, RngStream& rng) {
     for (float x : {plot.x0 + 0.8f, plot.x1 - 0.8f}) {
       if (!rng.Chance(0.6)) continue;
       static constexpr const char* kBed[] = {"shrub", "shrub", "flower_bed", "rock"};
-      d.placer.Try(kBed[rng.Index(4)], {x, y, kLawnZ - 0.02f}, uniform(0, kTau), uniform(0.5f, 0.9f));
+      d.placer.Try(kBed[rng.Index(4)], {x, y, kLawnZ - 0.02f}, uniform(0, kTauF), uniform(0.5f, 0.9f));
     }
   }
   GrowGrass(d, lawn, green.Outline(), kLawnZ, 2);

@@ -2,13 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/town/district.h"
 #include "airsim360/worlds/town_maker/town_finisher.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr double kTau = 6.283185307;
 
 /// Builds on a deck of 2 hx by 2 hy metres. X runs east, Y north, both from the middle of the deck; z from the deck.
 class TerraceBuilder {

@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kWaterside = 9;  // metres between water and what is built
 
-double Length(Vec2d v) { return std::hypot(v.x, v.y); }
-
 OsmTags TagsOf(const TagList& list) {
   OsmTags tags;
   for (const auto& tag : list) tags.Add(tag.first, tag.second);

@@ -1,6 +1,7 @@
 // Inside DrawTown: one town being drawn, step by step.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -84,5 +85,7 @@ class TownDrawer {
   int64_t next_node_ = 100'000, next_way_ = 1;
   uint64_t houses_ = 0;
 };
+
+inline double Length(Vec2d v) { return std::hypot(v.x, v.y); }
 
 }  // namespace airsim360::internal

@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/osm/osm_streets.h"
 #include "airsim360/worlds/town/district.h"
 #include "airsim360/worlds/town/market_stall.h"
 #include "airsim360/worlds/town_maker/town_trees.h"
 
 namespace airsim360::internal {
-namespace {
-
-constexpr double kTau = 6.283185307;
-
-}  // namespace
+namespace {}  // namespace
 
 void TownFinisher::Run() {
   for (const OsmArea& area : scene_.areas)

@@ -2,15 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/texture/texture_synth.h"
 #include "airsim360/worlds/town_maker/town_finisher.h"
 
 namespace airsim360::internal {
-namespace {
-
-constexpr double kTau = 6.283185307;
-
-}  // namespace
+namespace {}  // namespace
 
 void TownFinisher::FarWoods() {
   const bool forest = spec_.country == TownCountry::kForest;

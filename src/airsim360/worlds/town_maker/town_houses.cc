@@ -9,8 +9,6 @@ namespace {
 
 constexpr double kLeastHouse = 20;  // m^2
 
-double Length(Vec2d v) { return std::hypot(v.x, v.y); }
-
 // The corners of a ring that lie more than `off` metres from the line between their neighbours (Douglas and Peucker).
 void Simplify(const Ring& ring, size_t a, size_t b, double off, Ring& out) {
   double farthest = off;

@@ -7,8 +7,6 @@
 namespace airsim360::internal {
 namespace {
 
-double Length(Vec2d v) { return std::hypot(v.x, v.y); }
-
 Ring BoxAt(Vec2d c, Vec2d along, double half_length, double half_width) {
   const Vec2d side{-along.y, along.x};
   return {c - along * half_length - side * half_width, c + along * half_length - side * half_width,

@@ -2,15 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/town/district.h"
 #include "airsim360/worlds/town_maker/town_finisher.h"
 
 namespace airsim360::internal {
-namespace {
-
-constexpr float kTau = 6.2831853f;
-
-}  // namespace
+namespace {}  // namespace
 
 // A fluted shaft on a base, with a capital where it is whole.
 void TownFinisher::Column(Vec2d p, double radius, double height, bool whole) {
@@ -21,7 +18,7 @@ void TownFinisher::Column(Vec2d p, double radius, double height, bool whole) {
   mesh_.Tube({0, 0, 0.35f}, {0, 0, 0.55f}, 1.35f * r, 1.1f * r, 20, false, true);
   mesh_.Tube({0, 0, 0.5f}, {0, 0, h}, r, 0.86f * r, 18, false, true);
   for (int i = 0; i < 16; ++i) {  // fillets between flutes
-    const float a = kTau * static_cast<float>(i) / 16;
+    const float a = kTauF * static_cast<float>(i) / 16;
     const Vec3f out{std::cos(a), std::sin(a), 0};
     mesh_.Beam(out * (1.0f * r) + Vec3f{0, 0, 0.55f}, out * (0.87f * r) + Vec3f{0, 0, h - 0.1f}, 0.06f);
   }
@@ -89,7 +86,7 @@ void TownFinisher::Arch(const TownSpot& spot) {
                                                                              : Surface::kLimestone]);
   const int n = 14;
   const auto point = [&](int i) {
-    const float a = kTau / 2 * static_cast<float>(i) / static_cast<float>(n);
+    const float a = kTauF / 2 * static_cast<float>(i) / static_cast<float>(n);
     return Vec2f{-clear * std::cos(a), spring + clear * std::sin(a)};
   };
   for (float y : {-depth, depth}) {
@@ -130,7 +127,7 @@ void TownFinisher::Windmill(const TownSpot& spot) {
   mesh_.Tube({0, 0, h + 0.7f}, hub, 0.22f, 0.22f, 12);
   const auto turn = static_cast<float>(rng_.Uniform(0.2, 1.2));
   for (int i = 0; i < 4; ++i) {
-    const float a = turn + kTau / 4 * static_cast<float>(i);
+    const float a = turn + kTauF / 4 * static_cast<float>(i);
     const Vec3f out{std::cos(a), 0, std::sin(a)}, side{-std::sin(a), 0, std::cos(a)};
     mesh_.Beam(hub, hub + out * 8.2f, 0.2f);
     for (int k = 0; k <= 12; ++k)

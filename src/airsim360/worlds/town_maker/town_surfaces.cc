@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/texture/recipe_shapes.h"
 #include "airsim360/worlds/texture/texture_maps.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 6.2831853f;
 
 // Tiles of 14 cm with a painted ornament of eightfold symmetry in `ink` on glaze of `ground`.
 void Azulejo(SurfaceMaps& m, Vec3f ground, Vec3f ink) {
@@ -57,7 +56,7 @@ void Calcada(SurfaceMaps& m) {
   const Field soft = m.Noise(722, 0.4f, 5, 0.55f), grain = m.Noise(723, 0.01f, 3, 0.7f);
   m.ForEach([&](size_t i, float u, float v) {
     const CellPattern::Cell cell = cells.At(u, v);
-    const float wave = v + 0.075f * std::sin(kTau * u * 2);
+    const float wave = v + 0.075f * std::sin(kTauF * u * 2);
     const float band = std::abs(wave * 3 - std::floor(wave * 3) - 0.5f);
     const bool dark = band + 0.02f * (HashUnit(cell.id, 4) - 0.5f) < 0.13f;
     const float tone = 0.84f + 0.3f * HashUnit(cell.id, 5), joint = Step(0.085f, 0.03f, cell.edge);
@@ -74,7 +73,7 @@ void Sampietrini(SurfaceMaps& m) {
   const Field soft = m.Noise(732, 0.5f, 5, 0.55f), grain = m.Noise(733, 0.008f, 3, 0.75f);
   m.ForEach([&](size_t i, float u, float v) {
     // Rows bend in fans.
-    const float fan = 0.028f * std::abs(std::sin(kTau * u));
+    const float fan = 0.028f * std::abs(std::sin(kTauF * u));
     const CellPattern::Cell cell = cells.At(u, v + fan);
     const float tone = 0.8f + 0.4f * HashUnit(cell.id, 5), joint = Step(0.14f, 0.05f, cell.edge), head = Step(0.0f, 0.34f, cell.edge);
     const float y = 0.135f * tone * (1 + 0.07f * soft[i] + 0.06f * grain[i]);

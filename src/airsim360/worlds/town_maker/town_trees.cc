@@ -2,12 +2,11 @@
 
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/vegetation/plant_mesh.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 6.2831853f;
 
 float U(RngStream& rng, double low, double high) { return static_cast<float>(rng.Uniform(low, high)); }
 
@@ -23,7 +22,7 @@ Model Cypress(RngStream& rng) {
   AddBark(layers[0], nodes, 0.02f, 0.3f);
   for (int i = 0; i < 9000; ++i) {
     const float t = U(rng, 0.03, 1), z = 0.5f + (height - 0.5f) * t, a = U(rng, 0, 6.2831853);
-    const float full = radius * std::pow(std::max(0.0f, std::sin(std::min(1.0f, 0.13f + 0.9f * t) * kTau / 2)), 0.72f) *
+    const float full = radius * std::pow(std::max(0.0f, std::sin(std::min(1.0f, 0.13f + 0.9f * t) * kTauF / 2)), 0.72f) *
                        (1 + 0.12f * std::sin(5 * a + 9 * t));
     const float share = std::sqrt(U(rng, 0.35, 1)), r = full * share;
     const Vec3f out{std::cos(a), std::sin(a), 0}, base = out * r + Vec3f{0, 0, z};
@@ -47,7 +46,7 @@ Model UmbrellaPine(RngStream& rng) {
   const int limbs = 9;
   std::vector<Vec3f> tips;
   for (int i = 0; i < limbs; ++i) {
-    const float a = kTau * (static_cast<float>(i) + U(rng, -0.2, 0.2)) / limbs, r = radius * U(rng, 0.45, 0.85);
+    const float a = kTauF * (static_cast<float>(i) + U(rng, -0.2, 0.2)) / limbs, r = radius * U(rng, 0.45, 0.85);
     const Vec3f tip = lean + Vec3f{r * std::cos(a), r * std::sin(a), (height - fork) * U(rng, 0.42, 0.6)};
     const int end = AddStem(nodes, crotch, lean, tip, 0.35f, 0.10f, rng);
     for (int k = 0; k < 3; ++k)
@@ -94,7 +93,7 @@ Model Palm(RngStream& rng) {
       nodes.push_back({p, parent});
       parent = static_cast<int>(nodes.size()) - 1;
       if (t < 0.12f) continue;
-      const float size = 0.62f * std::sqrt(std::max(0.0f, std::sin(std::min(0.96f, t) * kTau / 2))) + 0.12f;
+      const float size = 0.62f * std::sqrt(std::max(0.0f, std::sin(std::min(0.96f, t) * kTauF / 2))) + 0.12f;
       for (int pair = 0; pair < 3; ++pair)
         for (float hand : {-1.0f, 1.0f}) {
           const Vec3f direction = Normalized(side * hand + along * 0.65f + Vec3f{0, 0, -0.12f} + RandomDirection(rng) * 0.1f);

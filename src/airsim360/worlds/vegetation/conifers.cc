@@ -10,7 +10,7 @@
 namespace airsim360::internal {
 namespace {
 
-struct Build {
+struct ConiferBuild {
   float height, clear_trunk, radius, trunk_radius;
   float whorl = 0.56f;  // metres between whorls at the bottom
   float taper = 0.8f;   // of the crown's outline: 1 a cone
@@ -88,7 +88,7 @@ void AddNeedles(const std::vector<Branchlet>& branchlets, int total, Sparse spar
   }
 }
 
-Model BuildPine(const Build& b, Sparse sparse, uint64_t seed) {
+Model BuildPine(const ConiferBuild& b, Sparse sparse, uint64_t seed) {
   static const Vec3f tones[] = {{0.036f, 0.066f, 0.028f}, {0.044f, 0.076f, 0.030f}, {0.030f, 0.058f, 0.030f}};
   static const Texture atlas = LeafAtlas("needles", tones);
   RngStream random(seed, "pine");
@@ -128,7 +128,7 @@ Model BuildPine(const Build& b, Sparse sparse, uint64_t seed) {
 }
 
 Model MakePine(uint32_t variant, uint64_t seed) {
-  constexpr Build builds[4] = {
+  constexpr ConiferBuild builds[4] = {
       {12.5f, 1.4f, 2.9f, 0.18f}, {15.5f, 2.4f, 3.3f, 0.23f}, {9.2f, 0.7f, 2.4f, 0.13f}, {13.8f, 3.4f, 3.0f, 0.20f}};
   return BuildPine(builds[variant], {}, seed);
 }
@@ -137,10 +137,10 @@ Model MakePine(uint32_t variant, uint64_t seed) {
 
 Model GrowPine(int individual, float detail, uint64_t seed) {
   // Taller and slimmer than in streets: they grew up in company.
-  constexpr Build builds[4] = {{17.0f, 2.0f, 4.3f, 0.25f, 0.86f, 1.00f, 0.92f},
-                               {14.0f, 1.4f, 3.7f, 0.21f, 0.76f, 1.05f, 0.95f},
-                               {19.0f, 3.4f, 4.1f, 0.28f, 0.92f, 0.95f, 0.80f},
-                               {10.5f, 0.7f, 3.2f, 0.16f, 0.64f, 1.10f, 1.00f}};
+  constexpr ConiferBuild builds[4] = {{17.0f, 2.0f, 4.3f, 0.25f, 0.86f, 1.00f, 0.92f},
+                                      {14.0f, 1.4f, 3.7f, 0.21f, 0.76f, 1.05f, 0.95f},
+                                      {19.0f, 3.4f, 4.1f, 0.28f, 0.92f, 0.95f, 0.80f},
+                                      {10.5f, 0.7f, 3.2f, 0.16f, 0.64f, 1.10f, 1.00f}};
   return BuildPine(builds[individual % 4], {detail}, seed);
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
 #include "airsim360/worlds/vegetation/plant_mesh.h"
@@ -10,7 +11,6 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 6.2831853f;
 constexpr float kLawnDensity = 10500;  // blades a square metre
 
 const Texture& GrassBlades() {
@@ -20,7 +20,7 @@ const Texture& GrassBlades() {
 }
 
 Vec3f OnDisc(float radius, RngStream& random) {
-  const float r = radius * std::sqrt(static_cast<float>(random.Uniform())), a = kTau * static_cast<float>(random.Uniform());
+  const float r = radius * std::sqrt(static_cast<float>(random.Uniform())), a = kTauF * static_cast<float>(random.Uniform());
   return {r * std::cos(a), r * std::sin(a), 0};
 }
 
@@ -32,7 +32,7 @@ Model MakeGrassTuft(uint32_t variant, uint64_t seed) {
   for (int i = 0; i < 40; ++i) {
     const Vec3f p = OnDisc(tall ? 0.10f : 0.16f, random) - Vec3f{0, 0, 0.01f};
     const float height = static_cast<float>(tall ? random.Uniform(0.14, 0.34) : random.Uniform(0.05, 0.12));
-    const float a = kTau * static_cast<float>(random.Uniform());
+    const float a = kTauF * static_cast<float>(random.Uniform());
     const Vec3f lean = Vec3f{std::cos(a), std::sin(a), 0} * static_cast<float>(random.Uniform(0.15, 0.9));
     AddBlade(layers[0], p, height, static_cast<float>(random.Uniform(0.005, 0.010)), lean, a + 1.57f,
              static_cast<int>(random.Index(kLeafCells)));
@@ -78,7 +78,7 @@ Model MakeLeafLitter(uint32_t, uint64_t seed) {
   RngStream random(seed, "leaf_litter");
   std::array<PlantLayer, 1> layers = {LeafLayer(atlas, 0.3f)};
   for (int i = 0; i < 45; ++i) {
-    const float a = kTau * static_cast<float>(random.Uniform()), size = static_cast<float>(random.Uniform(0.05, 0.11));
+    const float a = kTauF * static_cast<float>(random.Uniform()), size = static_cast<float>(random.Uniform(0.05, 0.11));
     const Vec3f direction = Normalized(Vec3f{std::cos(a), std::sin(a), static_cast<float>(random.Uniform(-0.05, 0.15))});
     const Vec3f up = Normalized(Vec3f{0.25f * static_cast<float>(random.Normal()), 0.25f * static_cast<float>(random.Normal()), 1});
     AddLeaf(layers[0], OnDisc(0.55f, random) + Vec3f{0, 0, static_cast<float>(random.Uniform(0.006, 0.02))}, direction, up,
@@ -103,7 +103,7 @@ Model MakeFlowerBed(uint32_t variant, uint64_t seed) {
     const Vec3f foot = OnDisc(0.48f, random);
     const float height = static_cast<float>(random.Uniform(0.14, 0.26));
     for (int k = 0; k < 9; ++k) {
-      const float a = kTau * static_cast<float>(random.Uniform()), t = static_cast<float>(random.Uniform(0.05, 0.8));
+      const float a = kTauF * static_cast<float>(random.Uniform()), t = static_cast<float>(random.Uniform(0.05, 0.8));
       const Vec3f d = Normalized(Vec3f{std::cos(a), std::sin(a), 0.55f});
       AddLeaf(layers[0], foot + Vec3f{0, 0, height * t}, d, {0, 0, 1}, {0.075f, 0.034f, 0.12f, 0.3f},
               static_cast<int>(random.Index(kLeafCells - 1)), {0, 0, 0.5f});
@@ -114,12 +114,12 @@ Model MakeFlowerBed(uint32_t variant, uint64_t seed) {
     const Vec3f up = Normalized(Vec3f{0.3f * static_cast<float>(random.Normal()), 0.3f * static_cast<float>(random.Normal()), 1});
     const Vec3f side = Normalized(Cross(up, Vec3f{0.1f, 1, 0.2f})), other = Cross(up, side);
     for (int k = 0; k < 6; ++k) {
-      const float a = kTau * static_cast<float>(k) / 6;
+      const float a = kTauF * static_cast<float>(k) / 6;
       AddLeaf(layers[1], head, Normalized(side * std::cos(a) + other * std::sin(a) + up * 0.35f), up, {0.034f, 0.026f, 0.1f, 0.15f}, 0,
               up * 0.5f);
     }
     for (int k = 0; k < 5; ++k) {
-      const float a = kTau * static_cast<float>(k) / 5, b = a + kTau / 5;
+      const float a = kTauF * static_cast<float>(k) / 5, b = a + kTauF / 5;
       const auto rim = [&](float q) { return head + up * 0.009f + (side * std::cos(q) + other * std::sin(q)) * 0.010f; };
       const uint32_t c = layers[2].Add(head + up * 0.014f, up, {});
       layers[2].Add(rim(a), up, {});

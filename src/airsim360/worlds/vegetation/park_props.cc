@@ -1,9 +1,9 @@
 // What parks have: playground, picnic tables, round fences, barriers of road works, ivy.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
 #include "airsim360/worlds/props/prop_builder.h"
@@ -11,8 +11,6 @@
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 Vec3f Round(float r, float a, float z) { return {r * std::cos(a), r * std::sin(a), z}; }
 
@@ -87,8 +85,8 @@ void AddDome(PropBuilder& b) {
   b.Use(Paint({0.04f, 0.22f, 0.10f}, 0.4f));
   const float radius = 1.5f;
   const auto at = [&](int ring, float k) {
-    const float tilt = kTau / 4 * static_cast<float>(ring) / 4;
-    return Round(radius * std::cos(tilt), kTau * k / 10, radius * std::sin(tilt) * 1.15f);
+    const float tilt = kTauF / 4 * static_cast<float>(ring) / 4;
+    return Round(radius * std::cos(tilt), kTauF * k / 10, radius * std::sin(tilt) * 1.15f);
   };
   for (int k = 0; k < 10; ++k) {
     const float half = 0.5f;
@@ -139,16 +137,16 @@ Model MakeCircleFence(uint32_t variant, uint64_t) {
   const int hoops = variant == 0 ? 14 : 10;
   const float radius = variant == 0 ? 0.85f : 0.70f, height = 0.55f;
   for (int i = 0; i < hoops; ++i) {
-    const float a0 = kTau * static_cast<float>(i) / static_cast<float>(hoops), a1 = a0 + kTau / static_cast<float>(hoops) * 1.35f;
+    const float a0 = kTauF * static_cast<float>(i) / static_cast<float>(hoops), a1 = a0 + kTauF / static_cast<float>(hoops) * 1.35f;
     std::vector<Vec3f> hoop;
     for (int k = 0; k <= 10; ++k) {
-      const float t = static_cast<float>(k) / 10, up = std::min(1.0f, std::sin(t * kTau / 2) * 1.6f);
+      const float t = static_cast<float>(k) / 10, up = std::min(1.0f, std::sin(t * kTauF / 2) * 1.6f);
       hoop.push_back(Round(radius, a0 + (a1 - a0) * t, -0.1f + (height + 0.1f) * up));
     }
     b.Bar(hoop, 0.010f, 6);
   }
   std::vector<Vec3f> ring;
-  for (int k = 0; k <= 40; ++k) ring.push_back(Round(radius, kTau * static_cast<float>(k) / 40, 0.22f));
+  for (int k = 0; k <= 40; ++k) ring.push_back(Round(radius, kTauF * static_cast<float>(k) / 40, 0.22f));
   b.Bar(ring, 0.009f, 6);
   return b.Finish();
 }

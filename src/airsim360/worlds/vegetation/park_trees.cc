@@ -10,7 +10,7 @@ namespace airsim360::internal {
 namespace {
 
 // Of one individual, metres.
-struct Build {
+struct CrownBuild {
   float height, clear, radius, trunk, leader, lean, dead;
   int leaves;
 };
@@ -27,11 +27,11 @@ static_assert(std::size(kInfos) == static_cast<size_t>(ParkTree::kCount));
 
 // Individual 0 is the solitary of 16.5 m; then a middle-aged one, an old one with dead limbs, a leaning one.
 BroadleafSpecies Elm(int individual) {
-  constexpr Build builds[4] = {{16.5f, 3.4f, 8.2f, 0.46f, 0.55f, 0.015f, 0.02f, 120000},
-                               {14.5f, 3.2f, 5.8f, 0.29f, 0.60f, 0.03f, 0.04f, 58000},
-                               {17.5f, 4.4f, 6.4f, 0.36f, 0.55f, 0.03f, 0.14f, 66000},
-                               {12.0f, 3.0f, 4.9f, 0.23f, 0.50f, 0.09f, 0.06f, 45000}};
-  const Build& b = builds[individual % 4];
+  constexpr CrownBuild builds[4] = {{16.5f, 3.4f, 8.2f, 0.46f, 0.55f, 0.015f, 0.02f, 120000},
+                                    {14.5f, 3.2f, 5.8f, 0.29f, 0.60f, 0.03f, 0.04f, 58000},
+                                    {17.5f, 4.4f, 6.4f, 0.36f, 0.55f, 0.03f, 0.14f, 66000},
+                                    {12.0f, 3.0f, 4.9f, 0.23f, 0.50f, 0.09f, 0.06f, 45000}};
+  const CrownBuild& b = builds[individual % 4];
   BroadleafSpecies s{.name = "elm",
                      .height = b.height,
                      .clear_trunk = b.clear,
@@ -57,11 +57,11 @@ BroadleafSpecies Elm(int individual) {
 
 // Round crowns with lobed leaves; the last one is young.
 BroadleafSpecies Maple(int individual) {
-  constexpr Build builds[4] = {{13.0f, 3.0f, 5.2f, 0.24f, 0.55f, 0.02f, 0.02f, 64000},
-                               {11.0f, 2.6f, 4.3f, 0.20f, 0.60f, 0.04f, 0.03f, 55000},
-                               {14.5f, 3.4f, 5.0f, 0.27f, 0.62f, 0.03f, 0.10f, 62000},
-                               {8.0f, 2.0f, 2.9f, 0.11f, 0.66f, 0.03f, 0.00f, 32000}};
-  const Build& b = builds[individual % 4];
+  constexpr CrownBuild builds[4] = {{13.0f, 3.0f, 5.2f, 0.24f, 0.55f, 0.02f, 0.02f, 64000},
+                                    {11.0f, 2.6f, 4.3f, 0.20f, 0.60f, 0.04f, 0.03f, 55000},
+                                    {14.5f, 3.4f, 5.0f, 0.27f, 0.62f, 0.03f, 0.10f, 62000},
+                                    {8.0f, 2.0f, 2.9f, 0.11f, 0.66f, 0.03f, 0.00f, 32000}};
+  const CrownBuild& b = builds[individual % 4];
   BroadleafSpecies s{.name = "maple",
                      .height = b.height,
                      .clear_trunk = b.clear,
@@ -88,10 +88,10 @@ BroadleafSpecies Maple(int individual) {
 
 // Wide, open crowns with corky, light bark.
 BroadleafSpecies Cork(int individual) {
-  constexpr Build builds[3] = {{10.5f, 2.2f, 5.0f, 0.26f, 0.40f, 0.05f, 0.06f, 44000},
-                               {9.0f, 1.9f, 4.4f, 0.22f, 0.35f, 0.07f, 0.04f, 38000},
-                               {12.0f, 2.8f, 5.6f, 0.30f, 0.45f, 0.04f, 0.12f, 48000}};
-  const Build& b = builds[individual % 3];
+  constexpr CrownBuild builds[3] = {{10.5f, 2.2f, 5.0f, 0.26f, 0.40f, 0.05f, 0.06f, 44000},
+                                    {9.0f, 1.9f, 4.4f, 0.22f, 0.35f, 0.07f, 0.04f, 38000},
+                                    {12.0f, 2.8f, 5.6f, 0.30f, 0.45f, 0.04f, 0.12f, 48000}};
+  const CrownBuild& b = builds[individual % 3];
   BroadleafSpecies s{.name = "amur_cork",
                      .height = b.height,
                      .clear_trunk = b.clear,
@@ -116,10 +116,10 @@ BroadleafSpecies Cork(int individual) {
 }
 
 BroadleafSpecies Poplar(int individual) {
-  constexpr Build builds[3] = {{15.5f, 2.2f, 2.2f, 0.20f, 0.86f, 0.01f, 0.02f, 44000},
-                               {13.0f, 2.0f, 2.4f, 0.18f, 0.80f, 0.02f, 0.03f, 40000},
-                               {17.5f, 2.8f, 2.6f, 0.25f, 0.86f, 0.015f, 0.06f, 52000}};
-  const Build& b = builds[individual % 3];
+  constexpr CrownBuild builds[3] = {{15.5f, 2.2f, 2.2f, 0.20f, 0.86f, 0.01f, 0.02f, 44000},
+                                    {13.0f, 2.0f, 2.4f, 0.18f, 0.80f, 0.02f, 0.03f, 40000},
+                                    {17.5f, 2.8f, 2.6f, 0.25f, 0.86f, 0.015f, 0.06f, 52000}};
+  const CrownBuild& b = builds[individual % 3];
   BroadleafSpecies s{.name = "narrowleaf",
                      .height = b.height,
                      .clear_trunk = b.clear,

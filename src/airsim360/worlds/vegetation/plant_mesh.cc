@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/finishes.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 Vec3f Across(Vec3f axis) { return Normalized(Cross(axis, std::abs(axis.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0})); }
 
@@ -46,13 +44,13 @@ int SidesFor(float radius) { return radius > 0.11f ? 12 : radius > 0.05f ? 8 : r
 // Joins rings to tubes; the number of sides falls with the radius, then a new run of rings starts at the same
 // place.
 void AddTube(PlantLayer& layer, const std::vector<Ring>& rings, float flare) {
-  const float tiles = std::max(1.0f, std::round(kTau * rings.front().radius / 0.5f));
+  const float tiles = std::max(1.0f, std::round(kTauF * rings.front().radius / 0.5f));
   uint32_t previous = 0;
   int sides = 0;
   const auto add_ring = [&](const Ring& ring, int count) {
     const auto first = static_cast<uint32_t>(layer.positions.size());
     for (int k = 0; k <= count; ++k) {
-      const float a = kTau * static_cast<float>(k % count) / static_cast<float>(count);
+      const float a = kTauF * static_cast<float>(k % count) / static_cast<float>(count);
       const Vec3f out = ring.side * std::cos(a) + Cross(ring.axis, ring.side) * std::sin(a);
       // The foot of a trunk widens into five buttresses.
       const float foot = flare > 0 ? std::exp(-std::max(0.0f, ring.p.z + 0.05f) / flare) : 0.0f;

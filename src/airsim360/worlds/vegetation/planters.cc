@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
 #include "airsim360/worlds/props/prop_builder.h"
@@ -9,8 +10,6 @@
 
 namespace airsim360::internal {
 namespace {
-
-constexpr float kTau = 6.2831853f;
 
 const Texture& PotLeaves() {
   static const Vec3f tones[] = {{0.052f, 0.092f, 0.024f}, {0.070f, 0.110f, 0.030f}, {0.045f, 0.078f, 0.026f}};
@@ -48,7 +47,7 @@ Model Foliage(bool straps, Vec3f c, float r, int leaves, RngStream& random) {
       const Vec3f lean = Normalized(Vec3f{d.x, d.y, 0.001f}) * static_cast<float>(random.Uniform(0.2, 1.0));
       const Vec3f foot = c + Vec3f{d.x, d.y, 0} * (0.25f * r);
       AddBlade(layers[random.Chance(0.4) ? 2 : 3], foot, r * static_cast<float>(random.Uniform(1.4, 2.4)), 0.035f, lean,
-               std::atan2(lean.y, lean.x) + kTau / 4, static_cast<int>(random.Index(kLeafCells - 1)));
+               std::atan2(lean.y, lean.x) + kTauF / 4, static_cast<int>(random.Index(kLeafCells - 1)));
       continue;
     }
     const float shell = std::cbrt(static_cast<float>(random.Uniform(0.04, 1.0))) * (0.85f + 0.3f * Noise(d * 2.0f + c * 3.0f, 5));

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/angles.h"
+
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 6.2831853f;
-
 // One blade of a tuft: upright in its middle, leaning outwards at its rim, all a little to one side.
 void AddTuftBlade(PlantLayer& layer, const Turf& turf, Vec3f middle, float radius, float comb, float shorter, RngStream& random) {
-  const float r = std::sqrt(static_cast<float>(random.Uniform())), a = kTau * static_cast<float>(random.Uniform());
+  const float r = std::sqrt(static_cast<float>(random.Uniform())), a = kTauF * static_cast<float>(random.Uniform());
   const Vec3f out{std::cos(a), std::sin(a), 0}, p = middle + out * (radius * r);
   const Vec3f lean =
       (out * (0.15f + 0.6f * r) + Vec3f{std::cos(comb), std::sin(comb), 0} * 0.2f) * static_cast<float>(random.Uniform(0.5, 1.3));
@@ -32,7 +32,7 @@ void AddTurf(PlantLayer& layer, const Turf& turf, int count, const std::function
     const auto share = static_cast<float>(random.Uniform());
     const int blades = std::min(left, 6 + static_cast<int>(46 * share * share));
     const Vec3f middle = place();
-    const float radius = 0.006f + 0.0011f * static_cast<float>(blades), comb = kTau * static_cast<float>(random.Uniform()),
+    const float radius = 0.006f + 0.0011f * static_cast<float>(blades), comb = kTauF * static_cast<float>(random.Uniform()),
                 size = shorter(middle);
     for (int i = 0; i < blades; ++i) AddTuftBlade(layer, turf, middle, radius, comb, size, random);
     left -= blades;

@@ -51,7 +51,7 @@ vec3 LightOf(Ray ray, Shaded s) {
   vec3 light = body + o.sun * s.sunlit + mirrored * o.skin + OwnAndLamps(s, o);
   if (s.clear) light += s.behind * o.straight;
   if (view.has_sky != 0) {
-    const AirEffect air = AirToSurface(ray.origin.z, ray.direction, ray.distance_);
+    const AirEffect air = AirToSurface(ray.origin, ray.direction, ray.distance_);
     light = light * air.kept + air.added;
   }
   return light;
@@ -74,7 +74,7 @@ Terms TermsOf(Ray ray, Shaded s, bool sun) {
   if (s.traced) t.rest += s.reflected * sharp;
   if (s.clear) t.rest += s.behind * o.straight;
   if (view.has_sky != 0) {
-    const AirEffect air = AirToSurface(ray.origin.z, ray.direction, ray.distance_);
+    const AirEffect air = AirToSurface(ray.origin, ray.direction, ray.distance_);
     t.ambient *= air.kept, t.sun *= air.kept;
     t.rest = t.rest * air.kept + air.added;
   }

@@ -139,7 +139,7 @@ void TakeLight(int step, Query q, inout Look look) {
 }
 
 void TakeSky(int step, Query q, inout Look look) {
-  vec3 sky = LookUpSky(q.origin.z, q.to, step == kCamera);
+  vec3 sky = LookUpSky(q.origin, q.to, step == kCamera);
   if (step == kCamera) sky = BehindDrops(sky, look.eye, look.direction, 2e5, look.cone_angle);
   if (step == kMirror) look.s0.reflected = sky, look.s0.traced = true;
   if (step == kBehind) look.s0.behind = sky, look.s0.clear = true;

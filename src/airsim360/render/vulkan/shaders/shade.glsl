@@ -29,6 +29,19 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Shade { Gpu
 #include "airsim360/render/shared/shading_ground.h"
 #include "airsim360/render/shared/shading_marks.h"
 
+/// Whether something keeps rain off a point.
+bool roof_hides(vec3 p) {
+  if (view.roof_size == 0) return false;
+  const float last = float(view.roof_size - 1);
+  const float column = (p.x - p.z * view.roof_lean - view.roof_origin[0]) * view.roof_cells_per_metre;
+  const float row = (p.y - view.roof_origin[1]) * view.roof_cells_per_metre;
+  if (!(column > 0.0 && column < last && row > 0.0 && row < last)) return false;
+  return p.z < view.roof_heights.v[int(row) * view.roof_size + int(column)];
+}
+#define ROOFS_ARGUMENT
+#define ROOFS
+#include "airsim360/render/shared/shading_roofs.h"
+
 const float kFoliage = 1.0, kGlass = 2.0, kWater = 3.0;
 const uint kMirroredUv = 0x80000000u;
 

@@ -74,6 +74,7 @@ struct GpuShade {
   ADDRESS(Floats) probes;           // 16 floats each
   ADDRESS(Floats) layer_of_height;
   ADDRESS(Floats) cloud_texels;
+  ADDRESS(Floats) roof_heights;
   ADDRESS(Lamps) lamps;
   ADDRESS(Uints) lamp_cells;        // 16 words each
   ADDRESS(Uints) lamp_cell_of;
@@ -95,6 +96,9 @@ struct GpuShade {
   // Cloud shadows.
   int cloud_size;
   float cloud_slant[2], cloud_origin[2], cloud_cells_per_metre, cloud_plane_z;
+  // What keeps rain off; size 0 = nothing.
+  int roof_size;
+  float roof_origin[2], roof_cells_per_metre, roof_lean;
   float wetness, lying_snow, drops, lit_rooms, lamplight, open_sky, evening;
   uint tone;
   float sun_seen, moon_light[3], moon_gain;

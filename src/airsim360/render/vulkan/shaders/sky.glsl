@@ -129,8 +129,11 @@ AirEffect EffectOf(vec3 depth, vec3 source) {
 vec3 WeatherSource(float mu) { return Vec(view.weather_glow) * forward_phase(0.80, mu) + Vec(view.weather_light); }
 vec3 Horizon(int k) { return vec3(view.horizon[3 * k], view.horizon[3 * k + 1], view.horizon[3 * k + 2]); }
 
-AirEffect AirToSurface(float z, vec3 d, float distance_) {
-  const float height = z - view.base_z;
+/// Metres of a way that are free of fog.
+float FreeOfFog(vec3 o, vec3 d, float distance_) { return view.weather > 0.0 ? roofed_way(o, d, distance_) : 0.0; }
+
+AirEffect AirToSurface(vec3 o, vec3 d, float distance_) {
+  const float height = o.z - view.base_z;
   vec3 depth = Vec(view.rayleigh) * layer_path(height, d.z, distance_, view.rayleigh_height) +
                Vec(view.aerosol) * layer_path(height, d.z, distance_, view.aerosol_height);
   const float mu = dot(d, Vec(view.air_to_sun));
@@ -138,19 +141,21 @@ AirEffect AirToSurface(float z, vec3 d, float distance_) {
   vec3 source = around_horizon(Horizon(0), Horizon(1), Horizon(2), Horizon(3), Horizon(4), Horizon(5), Horizon(6), d) *
                 (glow + 1.0);
   if (view.weather > 0.0) {
-    const float fog = view.weather * layer_path(height, d.z, distance_, view.weather_height);
+    const float free = FreeOfFog(o, d, distance_);
+    const float fog = view.weather * layer_path(height + d.z * free, d.z, distance_ - free, view.weather_height);
     source = lerp3(source, WeatherSource(mu), fog / max(fog + depth.y, 1e-9));
     depth += fog;
   }
   return EffectOf(depth, source);
 }
-AirEffect AirToSky(float z, vec3 d, float distance_) {
-  const float fog = view.weather * layer_path(z - view.base_z, d.z, distance_, view.weather_height);
+AirEffect AirToSky(vec3 o, vec3 d, float distance_) {
+  const float free = FreeOfFog(o, d, distance_);
+  const float fog = view.weather * layer_path(o.z - view.base_z + d.z * free, d.z, distance_ - free, view.weather_height);
   return EffectOf(vec3(fog), WeatherSource(dot(d, Vec(view.air_to_sun))));
 }
 
 /// What a ray that met nothing sees.
-vec3 LookUpSky(float z, vec3 d, bool sun_disc) {
+vec3 LookUpSky(vec3 o, vec3 d, bool sun_disc) {
   if (view.has_sky == 0) return vec3(0.0);
   const vec3 up = vec3(d.xy, abs(d.z));
   const bool down = d.z < 0.0, ground = down && view.has_below == 0;
@@ -158,8 +163,8 @@ vec3 LookUpSky(float z, vec3 d, bool sun_disc) {
   if (!ground) c = SampleSky(TableOf(down ? 4 : 0), up, false);
   if (ground || (!down && view.weather > 0.0)) {
     AirEffect air;
-    if (ground) air = AirToSurface(z, d, max(z - view.ground_z, 2.0) / max(-d.z, 1e-4));
-    else air = AirToSky(z, up, 2e5);
+    if (ground) air = AirToSurface(o, d, max(o.z - view.ground_z, 2.0) / max(-d.z, 1e-4));
+    else air = AirToSky(o, up, 2e5);
     c = c * air.kept + air.added;
   }
   if (sun_disc) {

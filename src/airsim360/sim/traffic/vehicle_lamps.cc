@@ -1,0 +1,120 @@
+#include "airsim360/sim/traffic/vehicle_lamps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "airsim360/base/random.h"
+#include "airsim360/scene/luminance.h"
+
+namespace airsim360::internal {
+namespace {
+
+// Each of two lamps: UN Regulation 148 asks for 60 to 185 cd of a brake lamp, 50 to 500 of a rear and 175 to 1,000 of a front
+// indicator.
+constexpr float kBrakeCandela = 100, kIndicatorCandela = 200;
+constexpr Vec3f kRed{1, 0.02f, 0.01f}, kAmber{1, 0.35f, 0.01f};
+constexpr float kBrakeOut = 0.006f, kIndicatorOut = 0.009f;  // metres in front of the glasses
+constexpr float kAwayScale = 1e-4f, kAwayHeight = -1000;     // of lamps where they are made
+constexpr int64_t kBlinkNs = 666'666'667;
+
+enum class Glass { kTail, kLeft, kRight };
+
+// +Y of a mesh is backwards and +X its left (PlaceOf in traffic.cc).
+bool IsOf(Glass glass, const Material& material, float x) {
+  if (glass == Glass::kTail) return material.beam < 0;
+  return glass == Glass::kLeft ? x > 0 : x < 0;
+}
+
+// The material of a glass when it is lit: what it looks like otherwise stays.
+Material Lit(const Material& glass, const char* name, Vec3f color, float candela, float area) {
+  Material lit = glass;
+  lit.name = name;
+  lit.lamp = false;
+  lit.beam = 0;
+  lit.emission = color / Luminance(color) * (candela / std::max(area, 0.005f) * kNit);
+  return lit;
+}
+
+struct Piece {
+  MaterialId material = 0;
+  std::vector<uint32_t> triangles;
+  float area = 0;  // seen from ahead or behind
+};
+
+std::vector<Piece> PiecesOf(const Mesh& mesh, const Scene& scene, Glass glass) {
+  std::vector<Piece> pieces;
+  for (const MeshPart& part : mesh.parts) {
+    const Material& material = scene.materials[part.material];
+    if (!material.lamp || std::abs(material.beam) < 1) continue;  // windows of buses shine, too, but throw no beam
+    Piece piece;
+    piece.material = part.material;
+    for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
+      const Vec3u t = mesh.triangles[k];
+      const Vec3f a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+      if (!IsOf(glass, material, a.x + b.x + c.x)) continue;
+      piece.triangles.push_back(k);
+      piece.area += 0.5f * std::abs(Cross(b - a, c - a).y);
+    }
+    if (!piece.triangles.empty()) pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+std::optional<MeshId> AddGlass(MeshId vehicle, Glass glass, Scene& scene) {
+  const Mesh& mesh = scene.meshes[vehicle];
+  const std::vector<Piece> pieces = PiecesOf(mesh, scene, glass);
+  if (pieces.empty()) return std::nullopt;
+  const bool tail = glass == Glass::kTail;
+  const char* name = tail ? "brake lamp" : "indicator";
+  Mesh lit;
+  lit.name = mesh.name + " " + name;
+  for (const Piece& piece : pieces) {
+    const Material& material = scene.materials[piece.material];
+    const float out = (tail ? kBrakeOut : kIndicatorOut) * (material.beam < 0 ? 1.0f : -1.0f);
+    lit.parts.push_back({static_cast<uint32_t>(lit.triangles.size()), static_cast<uint32_t>(piece.triangles.size()),
+                         static_cast<MaterialId>(scene.materials.size()), kNoEntity});
+    for (const uint32_t k : piece.triangles) {
+      const auto first = static_cast<uint32_t>(lit.positions.size());
+      const Vec3u t = mesh.triangles[k];
+      for (const uint32_t corner : {t.x, t.y, t.z}) {
+        lit.positions.push_back(mesh.positions[corner] + Vec3f{0, out, 0});
+        if (!mesh.normals.empty()) lit.normals.push_back(mesh.normals[corner]);
+        if (!mesh.uvs.empty()) lit.uvs.push_back(mesh.uvs[corner]);
+        if (!mesh.colors.empty()) lit.colors.push_back(mesh.colors[corner]);
+      }
+      lit.triangles.push_back({first, first + 1, first + 2});
+    }
+    // Both tail lamps are one mesh; of indicators there is one at each end.
+    const float candela = tail ? 2 * kBrakeCandela : kIndicatorCandela;
+    scene.materials.push_back(Lit(material, name, tail ? kRed : kAmber, candela, piece.area));
+  }
+  scene.meshes.push_back(std::move(lit));
+  return static_cast<MeshId>(scene.meshes.size() - 1);
+}
+
+uint32_t AddLamp(const std::optional<MeshId>& mesh, EntityId entity, Scene& scene) {
+  if (!mesh) return kNoLamp;
+  Instance lamp{.mesh = *mesh, .X_WM = {}, .entity = entity};
+  lamp.X_WM.A = Mat3f::FromColumns({kAwayScale, 0, 0}, {0, kAwayScale, 0}, {0, 0, kAwayScale});
+  lamp.X_WM.p = {0, 0, kAwayHeight};
+  scene.instances.push_back(lamp);
+  return static_cast<uint32_t>(scene.instances.size() - 1);
+}
+
+}  // namespace
+
+LampMeshes AddLampMeshes(MeshId vehicle, Scene& scene) {
+  return {AddGlass(vehicle, Glass::kTail, scene), AddGlass(vehicle, Glass::kLeft, scene), AddGlass(vehicle, Glass::kRight, scene)};
+}
+
+VehicleLamps AddLamps(const LampMeshes& meshes, EntityId entity, Scene& scene) {
+  return {AddLamp(meshes.brake, entity, scene), AddLamp(meshes.left, entity, scene), AddLamp(meshes.right, entity, scene)};
+}
+
+bool BlinksAt(size_t vehicle, int64_t t_ns) {
+  const auto beat = static_cast<int64_t>(MixBits(vehicle) % static_cast<uint64_t>(kBlinkNs));
+  return ((t_ns + beat) % kBlinkNs + kBlinkNs) % kBlinkNs < kBlinkNs / 2;
+}
+
+}  // namespace airsim360::internal
