@@ -29,6 +29,7 @@
 #include "airsim360/render/renderer.h"
 #include "airsim360/scene/viewpoint.h"
 #include "airsim360/sensors/rig.h"
+#include "clock.h"
 #include "ray_recorder.h"
 #include "scenes.h"
 
@@ -61,9 +62,7 @@ World MakeWorld(const std::string& name) {
 
 double Now(bool processor) {
   if (!processor) return std::chrono::duration<double, std::milli>(Clock::now().time_since_epoch()).count();
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+  return 1e3 * SecondsOf(CLOCK_PROCESS_CPUTIME_ID);
 }
 
 double Milliseconds(const Options& options, const std::function<void()>& job) {

@@ -1,6 +1,5 @@
 // Drones in closed loop: tracking errors of the comparison flights, the catalogue against the sizing laws,
 // every prompt of the sweep, and control steps per second.
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +12,13 @@
 #include "airsim360/flight/prompt/design.h"
 #include "airsim360/flight/prompt/gate.h"
 #include "airsim360/flight/prompt/sample_prompts.h"
+#include "clock.h"
 
 using namespace airsim360;
 
 namespace {
 
-double CpuNow() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double CpuNow() { return SecondsOf(CLOCK_THREAD_CPUTIME_ID); }
 
 void Compare(const char* name, double amplitude, double speed, ControllerKind kind) {
   const DroneModel model = CatalogModel(name);

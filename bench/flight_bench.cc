@@ -1,7 +1,6 @@
 // Speed of the flight dynamics: one drone, lanes by instruction set, drones a call, threads, and what every
 // term costs. `--soak HOURS` instead flies random commands in a closed room and reports whether it stayed
 // sound.
-#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -20,15 +19,12 @@
 #include "airsim360/flight/drone_step.h"
 #include "airsim360/flight/dynamics.h"
 #include "airsim360/flight/test_drones.h"
+#include "clock.h"
 
 namespace airsim360 {
 namespace {
 
-double ThreadSeconds() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double ThreadSeconds() { return SecondsOf(CLOCK_THREAD_CPUTIME_ID); }
 
 struct Row {
   std::string name;

@@ -19,6 +19,7 @@
 #include "airsim360/scene/viewpoint.h"
 #include "airsim360/sensors/rig.h"
 #include "airsim360/sim/fly_route.h"
+#include "clock.h"
 
 namespace {
 
@@ -32,11 +33,7 @@ struct Row {
 };
 
 // Of all threads of this process so far, ms.
-double ProcessorMilliseconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-}
+double ProcessorMilliseconds() { return 1e3 * SecondsOf(CLOCK_PROCESS_CPUTIME_ID); }
 
 double Median(std::vector<double> v) {
   std::sort(v.begin(), v.end());

@@ -1,6 +1,5 @@
 // Worst case of base/pattern.h: hard expressions on many names. Usage: pattern_bench [EXPRESSIONS]. Prints
 // milliseconds of processor time an expression takes, parsing included: mean, median, 99 %, worst.
-#include <time.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -11,6 +10,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/pattern.h"
+#include "clock.h"
 
 namespace {
 
@@ -82,11 +82,7 @@ std::vector<std::string> Names() {
   return names;
 }
 
-double ProcessorMs() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
+double ProcessorMs() { return 1e3 * airsim360::SecondsOf(CLOCK_THREAD_CPUTIME_ID); }
 
 }  // namespace
 

@@ -1,7 +1,6 @@
 // Bodies in motion: time of a step, of a pose, of skinning, of the dynamic geometry of 30 people; processor time of
 // one thread. Run on a quiet machine.
 //   build/bin/people_bench [PEOPLE] [SECONDS]
-#include <time.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -9,16 +8,13 @@
 #include "airsim360/people/body/skinning.h"
 #include "airsim360/people/motion/pose.h"
 #include "airsim360/trace/ray_tracer.h"
+#include "clock.h"
 
 using namespace airsim360;
 
 namespace {
 
-double CpuNow(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
-  timespec t;
-  clock_gettime(clock, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double CpuNow(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) { return SecondsOf(clock); }
 
 struct Person {
   PersonState state;

@@ -1,7 +1,6 @@
 // A whole crowd alive, one core: behaviour, avoidance, gait with feet on the ground and the pose of everybody, 20 times a
 // second. The bar: 1,000 people in real time, that is 50 ms a tick.
 //   people_live_bench [PEOPLE] [SECONDS] [THREADS] [WORLD]     default 1000 20 1 and a town of blocks, 200 x 200 m
-#include <time.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -14,16 +13,13 @@
 #include "airsim360/opening/world_loader.h"
 #include "airsim360/sim/people/populate.h"
 #include "blocks.h"
+#include "clock.h"
 
 namespace {
 
 using namespace airsim360;
 
-double Now() {
-  timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
+double Now() { return 1e3 * SecondsOf(CLOCK_MONOTONIC); }
 
 void Print(const char* what, std::vector<double> ms, size_t people) {
   std::ranges::sort(ms);

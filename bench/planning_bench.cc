@@ -11,6 +11,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/planning/minimum_snap.h"
 #include "airsim360/planning/time_allocation.h"
+#include "clock.h"
 
 using namespace airsim360;
 
@@ -18,11 +19,7 @@ namespace {
 
 constexpr int kRounds = 21;
 
-double Microseconds() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
-}
+double Microseconds() { return 1e6 * SecondsOf(CLOCK_THREAD_CPUTIME_ID); }
 
 /// Median over rounds of the time of one call.
 template <class F>

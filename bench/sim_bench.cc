@@ -2,7 +2,6 @@
 // per second of a lidar. Drones fly random velocity commands over the scene's spawn.
 //   sim_bench [--world W] [--seconds S]
 // CPU seconds of all threads; the figures for more threads are by the wall clock.
-#include <time.h>
 
 #include <chrono>
 #include <cstdio>
@@ -15,6 +14,7 @@
 #include "airsim360/opening/world_loader.h"
 #include "airsim360/scene/viewpoint.h"
 #include "airsim360/sim/capture.h"
+#include "clock.h"
 
 namespace {
 
@@ -27,11 +27,7 @@ std::string Argument(int argc, char** argv, const char* name, const char* value)
   return value;
 }
 
-double CpuSeconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double CpuSeconds() { return SecondsOf(CLOCK_PROCESS_CPUTIME_ID); }
 
 double WallSeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 

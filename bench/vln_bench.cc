@@ -2,7 +2,6 @@
 // drawn one after the other. Either makes two renderers. What the programs take that answer is apart: they stand for models on other machines.
 //   vln_bench EPISODES.jsonl [FLIGHTS [WORKERS [DECISIONS [WIDTH]]]]     default 64 64 12 512
 #include <sys/resource.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -14,6 +13,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/math/transform.h"
 #include "airsim360/vln/report/run_episodes.h"
+#include "clock.h"
 
 namespace {
 
@@ -24,9 +24,7 @@ struct Spent {
 };
 
 Spent Now() {
-  timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  Spent now{.wall = static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec)};
+  Spent now{.wall = SecondsOf(CLOCK_MONOTONIC)};
   const auto used_by = [](auto who) {
     rusage used;
     getrusage(who, &used);

@@ -1,7 +1,6 @@
 // What the waypoint set costs, and where: draws, times and polynomials, certificates. CPU time of one thread.
 //   waypoint_bench [WORLD [ROUTES]]
 // Then free flights between random places of the world: found, refused, and how long each took.
-#include <time.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -12,15 +11,12 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/dataset/waypoint_set.h"
 #include "airsim360/opening/world_loader.h"
+#include "clock.h"
 
 namespace airsim360 {
 namespace {
 
-double CpuSeconds() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double CpuSeconds() { return SecondsOf(CLOCK_THREAD_CPUTIME_ID); }
 
 // CPU time of a call.
 template <class Call>
