@@ -8,8 +8,8 @@ else()
 endif()
 option(AIRSIM360_UNITY "compile the sources of a folder together" ${together})
 
-# airsim360_unity(TARGET SOURCES...): the sources are absolute paths.
-function(airsim360_unity target)
+# airsim360_unity(TARGET KIND SOURCES...): the sources are absolute paths; those of two kinds are kept apart.
+function(airsim360_unity target kind)
   if(NOT AIRSIM360_UNITY)
     return()
   endif()
@@ -22,7 +22,7 @@ function(airsim360_unity target)
     endif()
     math(EXPR group "${count_${folder}} / 8")
     math(EXPR count_${folder} "${count_${folder}} + 1")
-    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${folder}_${group})
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${kind}_${folder}_${group})
   endforeach()
   # It takes every file that is included for a header.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)

@@ -159,7 +159,8 @@ void AddMasks(const py::handle& masks, int64_t image, const char* what, std::vec
   }
 }
 
-py::dict Entity(const py::sequence& predictions, const py::sequence& scores, const py::sequence& truths, const std::string& weights) {
+py::dict EntityPrecision(const py::sequence& predictions, const py::sequence& scores, const py::sequence& truths,
+                         const std::string& weights) {
   if (predictions.size() != truths.size() || scores.size() != truths.size())
     throw InputError("predictions, scores, truths: one entry a picture each");
   CocoTruths all{{}, {{1, "entity"}}, {}, {}};
@@ -282,7 +283,7 @@ void BindTaskMetrics(py::module_& metrics) {
       "panoptic", &Panoptic, py::arg("prediction"), py::arg("truth"), py::arg("pred_categories"), py::arg("categories"),
       py::arg("crowds") = std::vector<uint32_t>{}, py::arg("weights") = "pixel",
       "Panoptic quality of ids (H, W), 0 = void, whose categories are dicts id -> category: a dict category -> pq, sq, rq, iou, tp, fp, fn.");
-  metrics.def("entity", &Entity, py::arg("predictions"), py::arg("scores"), py::arg("truths"), py::arg("weights") = "pixel",
+  metrics.def("entity", &EntityPrecision, py::arg("predictions"), py::arg("scores"), py::arg("truths"), py::arg("weights") = "pixel",
               "COCO's twelve figures of masks without categories: of each picture masks (K, H, W) and scores (K,).");
   metrics.def("flow", &FlowOf, py::arg("prediction"), py::arg("truth"), py::arg("weights") = "pixel",
               "Errors of flow (H, W, 2), NaN = unknown: epe, fl_all, below1, below3, below5, angle_error_deg, valid.");

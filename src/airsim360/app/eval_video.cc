@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-struct VideoArguments {
+struct EvalVideoArguments {
   PanopticPaths paths;
   std::string protocol, weights = "pixel";
   std::vector<int> windows = {1, 2, 3, 4};
@@ -29,13 +29,13 @@ struct VideoArguments {
 };
 
 // One frame, whatever the layout of its files.
-struct Frame {
+struct VideoFrame {
   LabelPicture prediction, truth;
   std::vector<PanopticSegment> predicted, real;
 };
 struct Sequence {
   std::string name;
-  std::vector<std::function<Frame()>> frames;
+  std::vector<std::function<VideoFrame()>> frames;
 };
 struct Video {
   std::vector<PanopticCategory> categories;
@@ -49,7 +49,7 @@ struct Result {
   std::map<int, std::vector<PanopticCount>> windows;
 };
 
-Video PanopticVideo(const VideoArguments& a) {
+Video PanopticVideo(const EvalVideoArguments& a) {
   auto input = std::make_shared<PanopticInput>(a.paths);
   Video video{input->truth.categories, {}, input->notes};
   std::map<std::string, size_t> index;
@@ -59,13 +59,13 @@ Video PanopticVideo(const VideoArguments& a) {
     if (fresh) video.sequences.push_back({name, {}});
     video.sequences[at->second].frames.push_back([input, i] {
       auto [pred, gt] = input->Read(i);
-      return Frame{std::move(pred), std::move(gt), input->Prediction(i).segments, input->truth.frames[i].segments};
+      return VideoFrame{std::move(pred), std::move(gt), input->Prediction(i).segments, input->truth.frames[i].segments};
     });
   }
   return video;
 }
 
-Video StepVideo(const VideoArguments& a) {
+Video StepVideo(const EvalVideoArguments& a) {
   if (a.classes < 1 || a.classes > 254) throw InputError("--classes " + std::to_string(a.classes) + ": must be 1 to 254");
   const StepClasses classes{a.classes, a.void_class, {a.things.begin(), a.things.end()}};
   Video video;
@@ -80,7 +80,7 @@ Video StepVideo(const VideoArguments& a) {
       StepFrame pred = ReadStepFrame(pair.prediction, classes, false), gt = ReadStepFrame(pair.truth, classes, true);
       if (pred.ids.width != gt.ids.width || pred.ids.height != gt.ids.height)
         throw InputError(pair.prediction.string() + " and " + pair.truth.string() + " are of different size");
-      return Frame{std::move(pred.ids), std::move(gt.ids), std::move(pred.segments), std::move(gt.segments)};
+      return VideoFrame{std::move(pred.ids), std::move(gt.ids), std::move(pred.segments), std::move(gt.segments)};
     });
   }
   return video;
@@ -142,7 +142,7 @@ void CountWindows(const std::vector<SeenFrame>& frames, int window, std::vector<
   }
 }
 
-Result MeasureSequence(const Sequence& sequence, const VideoArguments& a, const std::vector<PanopticCategory>& categories,
+Result MeasureSequence(const Sequence& sequence, const EvalVideoArguments& a, const std::vector<PanopticCategory>& categories,
                        ViewCache& cache) {
   std::vector<bool> things;
   for (const PanopticCategory& category : categories) things.push_back(category.thing);
@@ -150,7 +150,7 @@ Result MeasureSequence(const Sequence& sequence, const VideoArguments& a, const 
   std::vector<SeenFrame> frames;
   try {
     for (size_t f = 0; f < sequence.frames.size(); ++f) {
-      const Frame frame = sequence.frames[f]();
+      const VideoFrame frame = sequence.frames[f]();
       const std::string name = "frame " + std::to_string(f);
       const Labels pred = LabelsOf(frame.prediction, frame.predicted, things, name), gt = LabelsOf(frame.truth, frame.real, things, name);
       const auto views = cache.Of(frame.truth.width, frame.truth.height);
@@ -212,7 +212,7 @@ std::vector<Figure> FiguresOf(const Scores& scores, const std::vector<PanopticCa
   return figures;
 }
 
-void Run(const VideoArguments& a, const GlobalOptions& globals) {
+void Run(const EvalVideoArguments& a, const GlobalOptions& globals) {
   if (!a.protocol.empty() && a.protocol != "step")
     throw InputError("--protocol: " + UnknownChoiceMessage("protocol of video", a.protocol, std::vector<std::string>{"step"}));
   std::set<int> windows;
@@ -269,7 +269,7 @@ void Run(const VideoArguments& a, const GlobalOptions& globals) {
 
 void AddEvalVideo(CLI::App& command, GlobalOptions& globals) {
   CLI::App* video = command.add_subcommand("video", "segmentation and tracking of panoptic video: STQ, AQ, SQ, VPQ");
-  const auto a = std::make_shared<VideoArguments>();
+  const auto a = std::make_shared<EvalVideoArguments>();
   AddPanopticPaths(*video, a->paths);
   video->get_option("pred")->description(
       "COCO panoptic JSON whose ids are the same over frames (images may have video_id), a dataset of ours, or a folder of STEP's PNGs");

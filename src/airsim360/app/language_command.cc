@@ -48,7 +48,7 @@ class LineFile {
   std::ofstream out_;
 };
 
-struct MakeArguments {
+struct LanguageMakeArguments {
   std::string world, out;
   LanguageOptions options;
   std::vector<std::string> layouts;
@@ -57,7 +57,7 @@ struct MakeArguments {
   EnvironmentFlags environment;
 };
 
-void Make(MakeArguments& a, const GlobalOptions& globals) {
+void Make(LanguageMakeArguments& a, const GlobalOptions& globals) {
   for (const std::string& layout : a.layouts) CheckLanguageLayout(layout, a.options.kind);
   CheckRenderSettings(a.picture, "--");
   if (a.picture.tier == Tier::kLabels) throw InputError("--tier: labels has no pictures; choices: fast, high, reference");
@@ -89,7 +89,7 @@ void Make(MakeArguments& a, const GlobalOptions& globals) {
 
 void AddMake(CLI::App& parent, GlobalOptions& globals) {
   CLI::App* command = parent.add_subcommand("make", "captions, referring expressions or questions about a world, each with its proof");
-  const auto a = std::make_shared<MakeArguments>();
+  const auto a = std::make_shared<LanguageMakeArguments>();
   command->add_option("--world", a->world, "name or file of the world")->required();
   command->add_option("--kind", a->options.kind, "caption, refer or vqa (default vqa)");
   command->add_option("--count", a->options.count, "items (default 1000)");

@@ -45,7 +45,7 @@ std::shared_ptr<Stage> Open(const GlobalOptions& globals, const std::string& wor
 
 // ------------------------------------------------------------------------------------------------ make
 
-struct MakeArguments {
+struct VlnMakeArguments {
   VlnMakeOptions options;
   std::string recipe, out;
 };
@@ -81,7 +81,7 @@ void PrintMade(const VlnMade& made, const std::string& out, const GlobalOptions&
 }
 
 // What a recipe makes, of one world or of all, with the seed, people, weather and limit of the flags.
-VlnMade MakeRecipe(const MakeArguments& arguments, const GlobalOptions& globals) {
+VlnMade MakeRecipe(const VlnMakeArguments& arguments, const GlobalOptions& globals) {
   std::vector<std::string> known;
   for (const WorldInfo& info : ListWorlds()) known.push_back(info.name);
   VlnMade made;
@@ -106,7 +106,7 @@ VlnMade MakeRecipe(const MakeArguments& arguments, const GlobalOptions& globals)
   return made;
 }
 
-void Make(MakeArguments& arguments, const GlobalOptions& globals) {
+void Make(VlnMakeArguments& arguments, const GlobalOptions& globals) {
   VlnMakeOptions& options = arguments.options;
   options.seed = globals.seed;
   if (options.world.empty() && arguments.recipe.empty()) throw InputError("--world: give a world or a --recipe");
@@ -122,7 +122,7 @@ void Make(MakeArguments& arguments, const GlobalOptions& globals) {
 
 void AddMake(CLI::App& parent, GlobalOptions& globals) {
   CLI::App* command = parent.add_subcommand("make", "episodes: instructions bound to a world, each with the proof that it means one thing");
-  const auto a = std::make_shared<MakeArguments>();
+  const auto a = std::make_shared<VlnMakeArguments>();
   command->add_option("--world", a->options.world, "name or file of the world");
   CLI::Option* recipe = command->add_option(
       "--recipe", a->recipe, "what is made of which worlds: omni360-vln, over 10,000 episodes in all; with --world the part of that world");
