@@ -15,7 +15,7 @@ namespace airsim360 {
 namespace {
 
 // Single precision of coordinates and of a dozen operations on them, relative to the largest coordinate.
-constexpr double kRounding = 0x1p-20;
+constexpr double kFloatRounding = 0x1p-20;
 constexpr double kMaxVoxels = 64e6;
 constexpr double kMapVoxel = 0.5, kMapMargin = 40;  // metres; of a map around points
 
@@ -25,7 +25,7 @@ WorldClearance::WorldClearance(std::shared_ptr<const RayTracer> tracer, std::sha
     : tracer_(std::move(tracer)), field_(std::move(field)) {}
 
 double WorldClearance::Clearance(Vec3d p, double max_distance) const {
-  const double error = kRounding * (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) + max_distance);
+  const double error = kFloatRounding * (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) + max_distance);
   const double reach = max_distance + error;
   const double distance = tracer_->Clearance(VecCast<float>(p), static_cast<float>(reach));
   return std::clamp(distance - error, 0.0, max_distance);
@@ -79,7 +79,7 @@ Box3d Transformed(const AffineTransform& X, const Box3f& box) {
   Vec3d reach;
   for (int i = 0; i < 3; ++i)
     reach[i] = std::fabs(X.A.m[i][0]) * half.x + std::fabs(X.A.m[i][1]) * half.y + std::fabs(X.A.m[i][2]) * half.z;
-  const double error = kRounding * (Norm(center) + Norm(reach));
+  const double error = kFloatRounding * (Norm(center) + Norm(reach));
   reach += Vec3d{error, error, error};
   return {center - reach, center + reach};
 }

@@ -8,8 +8,6 @@
 namespace airsim360::internal {
 namespace {
 
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-
 size_t Digits(std::string_view text, size_t at) {
   size_t n = 0;
   while (at + n < text.size() && IsDigit(text[at + n])) ++n;

@@ -30,4 +30,6 @@ std::vector<Token> JoinNumbers(std::vector<Token> tokens);
 /// `value` that number; "2,500 kg" is two and a half, for no drone has tonnes.
 size_t ReadThousands(std::string_view text, size_t length, double& value);
 
+inline bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
 }  // namespace airsim360::internal

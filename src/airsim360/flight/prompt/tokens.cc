@@ -19,7 +19,6 @@ namespace {
 constexpr size_t kLongestPrompt = 1000;
 constexpr size_t kMostChunks = 8;  // of one name or phrase
 
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || static_cast<unsigned char>(c) >= 0x80; }
 
 /// A run of letters and digits, or one character of a script without spaces.
