@@ -22,6 +22,7 @@
 #include "airsim360/scene/luminance.h"
 #include "airsim360/scene/viewpoint.h"
 #include "airsim360/sensors/rig.h"
+#include "clock.h"
 
 namespace {
 
@@ -38,11 +39,7 @@ const char* Argument(int argc, char** argv, const char* name, const char* value)
   return value;
 }
 
-double ProcessorSeconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
-}
+double ProcessorSeconds() { return SecondsOf(CLOCK_PROCESS_CPUTIME_ID); }
 
 // A name of clouds, or else of weather.
 Environment Under(const std::string& word, const char* sun, int row, const Environment& base) {

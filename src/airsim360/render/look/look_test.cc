@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "airsim360/base/error.h"
@@ -9,6 +10,7 @@
 #include "airsim360/image/color.h"
 #include "airsim360/math/angles.h"
 #include "airsim360/render/look/develop_kernels.h"
+#include "airsim360/render/look/metering.h"
 #include "airsim360/render/look/photo.h"
 #include "airsim360/render/look/scatter.h"
 #include "airsim360/render/look/scatter_kernels.h"
@@ -286,6 +288,25 @@ TEST(PhotoTest, ADarkSkyDoesNotBurnOutWhatShines) {
   };
   EXPECT_GT(burnt(400), 0.09);
   EXPECT_LT(burnt(0.05), 0.055);
+}
+
+TEST(PhotoTest, LampsOfARoomAreNotTakenForTheDuskOutside) {
+  // As bright as what dusk makes of grey ground: by its own light, then by warm lamps.
+  Daylight dusk;
+  dusk.to_sun = {0.9f, 0, -0.07f};
+  dusk.sky = {0.5f, 0.8f, 1.6f};
+  const auto gains = [&](Rgb32f light) {
+    LightCells cells(true, 64, 32, 2 * kPi / 64, kPi / 32);
+    std::fill(cells.planes[0].begin(), cells.planes[0].end(), light.r);
+    std::fill(cells.planes[1].begin(), cells.planes[1].end(), light.g);
+    std::fill(cells.planes[2].begin(), cells.planes[2].end(), light.b);
+    return WhiteBalance(0.85, dusk, LightHistogram(cells, 1, LightCells(), 0));
+  };
+  const auto grey = static_cast<float>(0.18 / kPi);
+  const std::array<double, 3> outside = gains({dusk.sky.r * grey, dusk.sky.g * grey, dusk.sky.b * grey});
+  EXPECT_GT(outside[0], 1.1 * outside[2]);
+  const std::array<double, 3> inside = gains({2.5f * dusk.sky.g * grey, dusk.sky.g * grey, 0.3f * dusk.sky.g * grey});
+  EXPECT_GT(inside[2], 2 * inside[0]);
 }
 
 TEST(PhotoTest, StopsComeOnTopOfTheMeter) {

@@ -97,7 +97,10 @@ std::array<double, 3> WhiteBalance(double strength, const Daylight& day, const L
   double by_day = 0;
   if (is_day) {
     const double octaves = std::log2(mean[1] / (0.18 * light[1] / std::numbers::pi));
-    by_day = Smooth(-6, -3, octaves) * (1 - Smooth(3, 6, octaves));
+    by_day = Smooth(-6, -3, octaves) * (1 - Smooth(2.6, 4.2, octaves));
+    // Lamps of a room in the evening are as bright as what is outside, but far warmer than it makes anything.
+    const double warmth = std::log2(mean[0] / mean[2] * light[2] / light[0]);
+    by_day *= 1 - Smooth(1.2, 2.2, warmth);
   }
   constexpr double kLowSun = 0.56;
   const double adapted = strength * (kLowSun + (1 - kLowSun) * Smooth(0.05, 0.42, height)) * by_day;

@@ -91,6 +91,14 @@ Box3f DetailBounds(const Scene& scene) {
   return {Max(box.min - margin, scene.bounds.min), Min(box.max + margin, scene.bounds.max)};
 }
 
+Box3f DetailAround(const Scene& scene, float reach) {
+  const Box3f box = DetailBounds(scene);
+  if (box.empty()) return box;
+  const Vec3f at = scene.spawn.value_or((box.min + box.max) * 0.5f), far{reach, reach, INFINITY};
+  const Box3f around{Max(box.min, at - far), Min(box.max, at + far)};
+  return around.min.x < around.max.x && around.min.y < around.max.y ? around : box;
+}
+
 namespace {
 
 /// What up to 16 points see along one direction, and how the sun comes to what they meet.

@@ -38,5 +38,7 @@ Seen LookAlong(const ProbeLight& world, std::span<const Vec3f> points, Vec3f dir
 /// Where the scene's detail is: all but the outermost hundredths of its triangles, each way, with a margin;
 /// empty for an empty scene.
 Box3f DetailBounds(const Scene& scene);
+/// What of it lies no farther than `reach` from the spawn (or its own middle) in x and in y.
+Box3f DetailAround(const Scene& scene, float reach);
 
 }  // namespace airsim360::internal

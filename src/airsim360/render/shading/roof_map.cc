@@ -13,9 +13,11 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kFinest = 0.25f, kOpenGround = -1e30f;
-// A ray that met a leaf looks on this far below it, so often: a crown of ten metres.
-constexpr float kLeafStep = 0.4f;
-constexpr int kMostLeaves = 24;
+// Metres about the spawn that are looked at: texels are 0.8 m then.
+constexpr float kRoofsReach = 400;
+// A ray that met a leaf looks on this many metres below it, so often at the most.
+constexpr float kLeafStep = 1;
+constexpr int kMostLeaves = 12;
 
 // The least or the greatest of each texel and its `reach` neighbours each way along a row.
 template <class Choose>
@@ -42,7 +44,7 @@ bool IsLeaf(const RayTracer& tracer, const SurfaceTables& tables, const RayHit16
 }  // namespace
 
 RoofMap::RoofMap(const RayTracer& tracer, const SurfaceTables& tables, int size) {
-  const Box3f box = DetailBounds(tracer.scene());
+  const Box3f box = DetailAround(tracer.scene(), kRoofsReach);
   if (box.empty()) return;
   // What falls onto a high roof would meet z = 0 elsewhere.
   const float low = std::min(box.min.z, 0.0f), high = std::max(box.max.z, 0.0f);

@@ -8,7 +8,7 @@
 
 namespace airsim360::internal {
 
-/// Heights of what stops rain, seen along the way that rain falls, over the detailed part of a scene (DetailBounds). Panes stop
+/// Heights of what stops rain, seen along the way that rain falls, over the detailed part of a scene around its spawn. Panes stop
 /// it, leaves do not, nor do poles and wires (what is thinner than three texels); roofs reach a texel farther than they do, so
 /// that none leaks at its edge. Immutable; the same bytes with any number of threads.
 class RoofMap {

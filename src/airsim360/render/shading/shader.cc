@@ -96,7 +96,7 @@ void Shader::Impl::SetLight(const Environment& environment) {
 }
 
 void Shader::Impl::FindRoofs() {
-  if (!sky || view.air.weather <= 0 || built->scene().instances.empty()) return;
+  if (!sky || view.air.weather + view.wetness + view.snow <= 0 || built->scene().instances.empty()) return;
   if (!roofs) roofs = std::make_shared<const internal::RoofMap>(*internal::StaticTracer(built), tables);
   view.roofs = roofs->view();
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "airsim360/render/shading/surface_fetch.h"
+#include "airsim360/render/shared/roofs_simd.h"
 #include "airsim360/render/shared/shading_ambient.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
@@ -275,12 +276,13 @@ struct Skin {
   real3 n, emission;
 };
 
-/// Share of the sky that is open above, from the probes: 1 in the open, 0.5 in a street, 0.2 under a canopy.
+/// Share of the sky that is open above, from the probes: 1 in the open, 0.5 in a street, 0.2 under a canopy. By night they know
+/// lamps above all: the roofs of rooms count as well.
 KERNEL real OpenAbove(const ShadeView& view, real3 p, real3 facing) {
   if (!(view.open_sky > 0)) return real(0.0f);
   const real3 up = make3(real(0.0f), real(0.0f), real(1.0f));
   const real e = luminance(SampleProbes(view, p, facing, up, up).front);
-  return clamp01(e * (1.0f / view.open_sky));
+  return clamp01(e * (1.0f / view.open_sky)) * (1.0f - roof_share(view.roofs, p));
 }
 
 /// Film of water with puddles, then snow over it.

@@ -5,7 +5,7 @@
 
 namespace airsim360::internal {
 
-/// Light that a scene's lamps give, lm, for each square metre of the ground that most of its triangles stand on.
+/// Light that the lamps around a scene's spawn give, lm, for each square metre of its ground there (DetailAround, 500 m).
 float LampsPerArea(const Scene& scene, const LightTable& lights);
 
 /// What lamps send up into sky, clouds, fog and rain, of what those of a large city do: 1 from kTownLamps on, below it in

@@ -18,12 +18,16 @@ struct LitField {
   std::unique_ptr<SurfaceTables> tables;
   std::unique_ptr<LightTable> lights;
 
-  // A square of ground with one lamp of a square metre.
+  // A square of ground, in pieces as bounds of detail are those of most triangles, with one lamp of a square metre.
   LitField(float side, float radiance) {
     RoomScene scene("field");
     const MaterialId soil = scene.Paint({0.2f, 0.2f, 0.2f}), lamp = scene.Paint({0, 0, 0}, {radiance, radiance, radiance});
-    const float h = side / 2;
-    scene.Quad({-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}, soil);
+    constexpr int kPieces = 12;
+    const float h = side / 2, piece = side / kPieces;
+    for (int k = 0; k < kPieces * kPieces; ++k) {
+      const float x = -h + piece * static_cast<float>(k % kPieces), y = -h + piece * static_cast<float>(k / kPieces);
+      scene.Quad({x, y, 0}, {x + piece, y, 0}, {x + piece, y + piece, 0}, {x, y + piece, 0}, soil);
+    }
     scene.Quad({0, 1, 5}, {1, 1, 5}, {1, 0, 5}, {0, 0, 5}, lamp);
     tracer = scene.Build();
     tables = std::make_unique<SurfaceTables>(tracer->scene());

@@ -10,6 +10,7 @@ namespace airsim360::internal::scalar {
 #define SHARED static inline __attribute__((always_inline, unused))
 #define ROOFS_ARGUMENT const RoofView &roofs,
 #define ROOFS roofs,
+#define ROOFS_TEXELS_PER_METRE roofs.cells_per_metre
 SHARED bool roof_hides(const RoofView& map, Vec3f p) {
   if (map.heights == nullptr) return false;
   const float shift = p.z * map.lean;
@@ -22,5 +23,6 @@ SHARED bool roof_hides(const RoofView& map, Vec3f p) {
 #undef SHARED
 #undef ROOFS_ARGUMENT
 #undef ROOFS
+#undef ROOFS_TEXELS_PER_METRE
 
 }  // namespace airsim360::internal::scalar

@@ -8,6 +8,7 @@ namespace airsim360::internal::AIRSIM360_ISA {
 #define SHARED static inline __attribute__((always_inline, unused))
 #define ROOFS_ARGUMENT const RoofView &roofs,
 #define ROOFS roofs,
+#define ROOFS_TEXELS_PER_METRE roofs.cells_per_metre
 SHARED mask_t roof_hides(const RoofView& map, real3 p) {
   if (map.heights == nullptr) return mask_t(false);
   const real shift = p.z * map.lean, last = real(static_cast<float>(map.size - 1)), zero = real(0.0f);
@@ -20,5 +21,6 @@ SHARED mask_t roof_hides(const RoofView& map, real3 p) {
 #undef SHARED
 #undef ROOFS_ARGUMENT
 #undef ROOFS
+#undef ROOFS_TEXELS_PER_METRE
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

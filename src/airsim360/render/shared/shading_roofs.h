@@ -1,6 +1,25 @@
 // What falls from the sky, and where fog begins: neither is under roofs. In the subset of shading_shared.h, after which it is
 // included; not a normal header. Asks `roof_hides(ROOFS p)` whether something keeps rain off a point: ROOFS hands the map on
-// (with its comma) where it is a parameter, ROOFS_ARGUMENT declares it; both are empty in GLSL.
+// (with its comma) where it is a parameter, ROOFS_ARGUMENT declares it; both are empty in GLSL. ROOFS_TEXELS_PER_METRE is the map's.
+
+// Roofs are this much higher than what they keep dry, so that they are not taken for dry themselves.
+#define ROOF_ABOVE 1.0f
+
+// Share of the place about a surface's point that lies under a roof, 0 where the map is too coarse to tell the edge of a wall: of
+// four points half a texel away, a little under the roof's own height.
+SHARED real roof_share(ROOFS_ARGUMENT real3 p) {
+  if (!(ROOFS_TEXELS_PER_METRE > 3.0f)) return real(0.0f);
+  real3 q = make3(p.x, p.y, p.z + ROOF_ABOVE);
+  real reach = real(0.5f / ROOFS_TEXELS_PER_METRE);
+  real zero = real(0.0f);
+  real share = zero;
+  for (int i = 0; i < 4; i++) {
+    real side = i < 2 ? 0.0f - reach : reach;
+    real along = (i & 1) == 0 ? 0.0f - reach : reach;
+    share = share + sel(roof_hides(ROOFS q + make3(side, along, zero)), real(0.25f), zero);
+  }
+  return share;
+}
 
 // Metres along a ray that are under roofs from its origin on: up to the open, to within a hand's breadth near by and a fiftieth
 // of the way far away, `distance` at the most. Steps grow, so that a gap far away may be missed.

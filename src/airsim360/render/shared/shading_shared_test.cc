@@ -230,7 +230,7 @@ TEST(ShadingShared, ScalarAndSimdAgree) {
   for (size_t i = 0; i < heights.size(); ++i) heights[i] = i % 16 < 8 ? 2.0f : -1e30f;
   static internal::RoofView roofs;
   roofs = {heights.data(), 16, -1.6f, -1.6f, 5.0f, 0.12f};
-  SAME(-1, 1, roofed_way(roofs, make3(a, b, c), make3(b, c, a), 7.0f));
+  SAME(-1, 1, roofed_way(roofs, make3(a, b, c), make3(b, c, a), 7.0f) + roof_share(roofs, make3(a, b, c)));
   SAME(-1, 1, drops_cover(roofs, 0.12f, a * 9.0f, b, c, make3(a, b, c), 6.0f, 0.003f, 0.4f, 0.5f, 0.2f, 0.01f, 0.9f, 5.0f, 3.0f));
   SAME(0, 2, water_normal(a * 100.0f, b * 100.0f, c, a).x + a);
   SAME(0, 1, hash_cell(a * 1000.0f, b * 1000.0f) + wet_albedo(c));
@@ -238,6 +238,14 @@ TEST(ShadingShared, ScalarAndSimdAgree) {
   SAME(0, 1, paving_marks(make3(a, b, c), a * 90.0f, b * 70.0f, make3(b, c, a), make3(c, a, b), make3(a, c, b), a, b * 0.01f).y);
   SAME(0, 1, asphalt_marks(make3(a, b, c), a * 90.0f, b * 70.0f, make3(b, c, a), make3(c, a, b), make3(a, c, b), a, b * 0.01f).z);
 #undef SAME
+}
+
+TEST(ShadingShared, ProbesCountAsRaysByNightAlone) {
+  constexpr float kLuxOfSky = 20.0f / 133300;
+  EXPECT_EQ(scalar::probe_rays(20000 * kLuxOfSky), 0);
+  EXPECT_EQ(scalar::probe_rays(4 * kLuxOfSky), 0);
+  EXPECT_NEAR(scalar::probe_rays(2 * kLuxOfSky), 2, 0.01);
+  EXPECT_EQ(scalar::probe_rays(0.3f * kLuxOfSky), 4);
 }
 
 // Mean of what `marks` makes of `color` over 12 x 12 m of average noise, seen with pixels of `width`.
@@ -308,7 +316,8 @@ TEST(ShadingShared, CompilesAsGlsl) {
   {
     std::ofstream out(stem + ".comp");
     out << "#version 450\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer Values { float v[]; };\n"
-        << read("shading_glsl.h") << shared << "#define ROOFS\n#define ROOFS_ARGUMENT\nbool roof_hides(vec3 p) { return p.z < 2.0; }\n"
+        << read("shading_glsl.h") << shared
+        << "#define ROOFS\n#define ROOFS_ARGUMENT\n#define ROOFS_TEXELS_PER_METRE 4.0\nbool roof_hides(vec3 p) { return p.z < 2.0; }\n"
         << read("shading_roofs.h") << read("shading_tone.h") << read("shading_interior.h") << read("shading_weather.h")
         << read("shading_moon.h") << read("shading_ground.h") << read("shading_marks.h")
         << "void main() { float lost = 0.0; vec3 n = water_normal(v[0], v[1], v[2], lost);\n"
@@ -318,7 +327,7 @@ TEST(ShadingShared, CompilesAsGlsl) {
            "fresnel_dielectric(1.5, v[4]) + lost +\n"
            "  layer_path(v[0], v[1], v[2], 160.0) + around_horizon(n, n, n, n, n, n, n, c).x + "
            "shadow_column(v[0], v[1], "
-           "0.5, 3.0, 0.1, 64.0) +\n  roofed_way(n, c, v[2]) + drops_cover(0.1, v[0], v[1], v[2], c, v[3], 0.1, 0.4, 0.5, 0.2, 0.01, 0.5, "
+           "0.5, 3.0, 0.1, 64.0) +\n  roofed_way(n, c, v[2]) + roof_share(n) + drops_cover(0.1, v[0], v[1], v[2], c, v[3], 0.1, 0.4, 0.5, 0.2, 0.01, 0.5, "
            "5.0, 1.0) + forward_phase(0.7, v[1]);\n"
            "  vec3 day, lamp; float front, a, b;\n"
            "  interior_room(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7],\n"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "airsim360/render/shared/shading_scalar.h"
+#include "airsim360/render/shared/roofs_scalar.h"
 #include "airsim360/render/sky/sky.h"
 
 namespace airsim360::internal {
@@ -123,7 +123,7 @@ TEST(Precipitation, CoverGrowsWithTheReachAndIsTheSameSeenFromAlongTheRay) {
   // World-anchored: starting nearer along the same ray hides no more than before, and what is left is kept.
   const Vec3f d = Normalized(Vec3f{0.8f, 0.35f, 0.1f});
   const auto cover = [&](Vec3f o, float reach) {
-    return scalar::drops_cover(o.x, o.y, o.z, d, reach, 0.003f, 0.4f, 0.55f, 0.22f, 0.0011f, 0.9f, 5.0f, 3.0f);
+    return scalar::drops_cover({}, 0.0f, o.x, o.y, o.z, d, reach, 0.003f, 0.4f, 0.55f, 0.22f, 0.0011f, 0.9f, 5.0f, 3.0f);
   };
   float before = 0;
   double mean = 0;

@@ -40,6 +40,7 @@ bool roof_hides(vec3 p) {
 }
 #define ROOFS_ARGUMENT
 #define ROOFS
+#define ROOFS_TEXELS_PER_METRE view.roof_cells_per_metre
 #include "airsim360/render/shared/shading_roofs.h"
 
 const float kFoliage = 1.0, kGlass = 2.0, kWater = 3.0;

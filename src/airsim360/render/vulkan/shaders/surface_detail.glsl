@@ -167,7 +167,8 @@ struct Skin {
 void LieWeather(GpuMaterial m, Noises s, vec3 p, vec3 facing, float width, float u, inout Skin k) {
   const vec3 above = vec3(0.0, 0.0, 1.0);
   const float open =
-      view.open_sky > 0.0 ? clamp01(luminance(SampleProbes(p, facing, above, above).front) * (1.0 / view.open_sky)) : 0.0;
+      view.open_sky > 0.0 ? clamp01(luminance(SampleProbes(p, facing, above, above).front) * (1.0 / view.open_sky)) * (1.0 - roof_share(p))
+                          : 0.0;
   const bool leaf = k.kind == kFoliage, solid = k.kind != kGlass && k.kind != kWater;
   const float up = leaf ? abs(facing.z) : facing.z;
   const int ground = int(m.ground + 0.5);
