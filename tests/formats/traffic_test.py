@@ -85,6 +85,98 @@ class Traffic(unittest.TestCase):
                 self.assertEqual(label[0], {"vehicle/car": "Car", "vehicle/van": "Van", "vehicle/truck": "Truck"}.get(vehicle["category"], label[0]))
         self.assertGreater(checked, 8)
 
+    def test_nuscenes_tables_hold_the_boxes_as_its_devkit_reads_them(self):
+        out = self.folder / "nuscenes"
+        done = run("dataset", "export", self.data, "--format", "nuscenes", "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        tables = {path.stem: json.loads(path.read_text()) for path in (out / "v1.0-airsim360").glob("*.json")}
+        self.assertEqual(set(tables), {"category", "attribute", "visibility", "instance", "sensor", "calibrated_sensor", "ego_pose", "log",
+                                       "scene", "sample", "sample_data", "sample_annotation", "map"})
+        by_token = {name: {row["token"]: row for row in rows} for name, rows in tables.items()}
+        for name, rows in tables.items():
+            self.assertEqual(len(by_token[name]), len(rows), name)
+        # Samples in time, from the scene's first to its last.
+        scene, chain = tables["scene"][0], []
+        token = scene["first_sample_token"]
+        while token:
+            chain.append(by_token["sample"][token])
+            token = chain[-1]["next"]
+        self.assertEqual([sample["timestamp"] * 1000 for sample in chain], [frame["t_ns"] for frame in self.frames])
+        self.assertEqual(chain[-1]["token"], scene["last_sample_token"])
+        of_sample = {sample["token"]: [] for sample in chain}
+        for row in tables["sample_annotation"]:
+            of_sample[row["sample_token"]].append(row)
+        for sample, frame, line in zip(chain, self.frames, self.lines):
+            data = [row for row in tables["sample_data"] if row["sample_token"] == sample["token"]]
+            pose = by_token["ego_pose"][data[0]["ego_pose_token"]]
+            np.testing.assert_allclose(pose["translation"], frame["X_WC"]["p"], atol=1e-9)
+            entity = read_ids(self.data / "entity" / f"{frame['stem']}.png")
+            shown = {tuple(np.round(vehicle["velocity"], 5)) + (vehicle["entity"],): vehicle for vehicle in line["vehicles"] if (entity == vehicle["entity"]).any()}
+            rows = of_sample[sample["token"]]
+            self.assertEqual(len(rows), len(shown))
+            middles = {tuple(row["translation"]): row for row in rows}
+            for vehicle in shown.values():
+                R = rotation(vehicle["X_WB"]["q_wxyz"])
+                middle = np.array(vehicle["X_WB"]["p"]) + R[:, 2] * vehicle["size"][2] / 2
+                row = min(middles.values(), key=lambda row: np.linalg.norm(middle - row["translation"]))
+                np.testing.assert_allclose(row["translation"], middle, atol=1e-6)
+                width, length, height = row["size"]
+                np.testing.assert_allclose([length, width, height], vehicle["size"], atol=1e-9)
+                np.testing.assert_allclose(rotation(row["rotation"]), R, atol=1e-9)
+                np.testing.assert_allclose(row["velocity"], vehicle["velocity"], atol=1e-9)
+                category = by_token["category"][by_token["instance"][row["instance_token"]]["category_token"]]["name"]
+                self.assertEqual(category, {"vehicle/car": "vehicle.car", "vehicle/van": "vehicle.car", "vehicle/truck": "vehicle.truck",
+                                            "vehicle/bus": "vehicle.bus.rigid"}.get(vehicle["category"], category))
+                attributes = [by_token["attribute"][token]["name"] for token in row["attribute_tokens"]]
+                self.assertEqual(attributes, ["vehicle.stopped" if vehicle["stopped"] else "vehicle.moving"])
+        # Tracks: the chains of instances hold every box once, and box_velocity of the devkit is what the vehicle drives.
+        followed, compared = set(), 0
+        for instance in tables["instance"]:
+            token, before = instance["first_annotation_token"], None
+            rows = []
+            while token:
+                rows.append(by_token["sample_annotation"][token])
+                token = rows[-1]["next"]
+            self.assertEqual([len(rows), rows[-1]["token"]], [instance["nbr_annotations"], instance["last_annotation_token"]])
+            followed.update(row["token"] for row in rows)
+            for before, after in zip(rows, rows[1:]):
+                seconds = (by_token["sample"][after["sample_token"]]["timestamp"] - by_token["sample"][before["sample_token"]]["timestamp"]) * 1e-6
+                difference = (np.array(after["translation"]) - before["translation"]) / seconds
+                mean = (np.array(after["velocity"]) + before["velocity"]) / 2
+                self.assertLess(np.linalg.norm(difference - mean), 0.2 + 0.15 * np.linalg.norm(mean))
+                compared += 1
+        self.assertEqual(followed, set(by_token["sample_annotation"]))
+        self.assertGreater(compared, 8)
+
+    def test_lines_tell_lanes_and_near_misses(self):
+        lanes = {}
+        for line in self.lines:
+            self.assertIsInstance(line["near_misses"], list)
+            for vehicle in line["vehicles"]:
+                # Two on one lane are apart by a length at least.
+                lanes.setdefault((line["frame"], vehicle["lane"]), []).append((vehicle["lane_position"], vehicle["size"][0]))
+        for places in lanes.values():
+            places.sort()
+            for (behind, _), (ahead, length) in zip(places, places[1:]):
+                self.assertGreater(ahead - length, behind)
+        self.assertTrue(any(len(places) > 1 for places in lanes.values()))
+
+    def test_a_survey_counts_what_happens(self):
+        flags = ("traffic", "--world", "downtown_west", "--traffic", 150, "--seconds", 20, "--json")
+        first, again = json.loads(run(*flags).stdout), json.loads(run(*flags, "--threads", 1).stdout)
+        for survey in (first, again):
+            self.assertGreater(survey.pop("tick_ms"), 0)
+            survey.pop("people_tick_ms")
+        self.assertEqual(first, again)
+        self.assertEqual((first["vehicles"], first["people"], first["seconds"], first["overlaps"]), (150, 0, 20, 0))
+        self.assertEqual(len(first["near_misses"]), first["near_misses_of_vehicles"] + first["near_misses_with_people"])
+        for miss in first["near_misses"]:
+            self.assertLessEqual(miss["time_to_collision"], 1.5)
+            self.assertGreaterEqual(miss["braking"], 3.35)
+        done = run("traffic", "--world", "downtown_west", "--traffic", 0)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--traffic", done.stderr)
+
     def test_kitti_labels_need_traffic(self):
         still = self.folder / "still"
         done = run("collect", "--world", "box_room", "--frames", 1, "--size", "64x32", "--tier", "labels", "--out", still)

@@ -39,6 +39,7 @@ void AddVlnCommand(CLI::App& app, GlobalOptions& globals);
 void AddLanguageCommand(CLI::App& app, GlobalOptions& globals);
 void AddViewCommand(CLI::App& app, GlobalOptions& globals);
 void AddPeopleCommand(CLI::App& app, GlobalOptions& globals);
+void AddTrafficCommand(CLI::App& app, GlobalOptions& globals);
 void AddDroneCommand(CLI::App& app, GlobalOptions& globals);
 void AddVideoCommand(CLI::App& app, GlobalOptions& globals);
 void AddEnvironmentsCommand(CLI::App& app, GlobalOptions& globals);

@@ -161,6 +161,7 @@ Program::Program() : app_("Panoramic (360 degree) simulator for drones", "airsim
   AddLanguageCommand(app_, globals_);
   AddViewCommand(app_, globals_);
   AddPeopleCommand(app_, globals_);
+  AddTrafficCommand(app_, globals_);
   AddDroneCommand(app_, globals_);
   AddEnvironmentsCommand(app_, globals_);
   AddBenchCommand(app_, globals_);

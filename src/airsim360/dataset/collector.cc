@@ -143,7 +143,7 @@ void FinishDataset(const CollectInput& input) {
   write("panoptic.json", AsBytes(PanopticJson(index, input.spec, input.scene)));
   if (!input.flight.trajectory.empty()) write("trajectory.csv", AsBytes(TrajectoryCsv(input.flight)));
   for (const auto& [name, text] : input.further_files) write(name.c_str(), AsBytes(text));
-  if (input.traffic) write("vehicles.jsonl", AsBytes(VehiclesJsonl(*input.traffic, input.flight)));
+  if (input.traffic) write("vehicles.jsonl", AsBytes(VehiclesJsonl(*input.traffic, input.flight, input.people.get())));
   if (!input.trajectory_json.empty()) write("trajectory.json", AsBytes(input.trajectory_json));
   if (input.spec.video) {
     FilmDataset(input.out, input.out / kVideoName, {});

@@ -17,13 +17,13 @@ constexpr size_t kDigest = 64;  // hex digits
 constexpr int64_t kMostSteps = int64_t{1} << 40;
 
 template <class T>
-concept Number = std::is_arithmetic_v<T>;
+concept PlainNumber = std::is_arithmetic_v<T>;
 
 /// Appends fields.
 class Writer {
  public:
   static constexpr bool kReads = false;
-  template <Number T>
+  template <PlainNumber T>
   void Field(const T& value) {
     const auto bytes = std::as_bytes(std::span(&value, 1));
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
@@ -44,7 +44,7 @@ class Reader {
   static constexpr bool kReads = true;
   Reader(std::span<const std::byte> rest, std::string_view name) : rest_(rest), name_(name) {}
   [[noreturn]] void Fail(const std::string& what) const { throw InputError(std::string(name_) + ": " + what); }
-  template <Number T>
+  template <PlainNumber T>
   void Field(T& value) {
     if (rest_.size() < sizeof(T)) Fail("the recording is cut off");
     std::memcpy(&value, rest_.data(), sizeof(T));
@@ -72,7 +72,7 @@ void Walk(A& archive, FlightCommand& command);
 template <class A>
 void Walk(A& archive, RigidTransform& X);
 
-template <class A, Number T>
+template <class A, PlainNumber T>
 void Walk(A& archive, T& value) {
   archive.Field(value);
 }

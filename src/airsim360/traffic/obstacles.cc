@@ -1,5 +1,6 @@
 #include "airsim360/traffic/obstacles.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace airsim360::internal {
@@ -12,6 +13,7 @@ constexpr double kHeight = 2.5;   // metres above or below the street that no lo
 
 ObstacleGrid::ObstacleGrid(std::span<const TrafficObstacle> obstacles) {
   for (const TrafficObstacle& obstacle : obstacles) {
+    now_.Add(obstacle.p, obstacle.radius);
     // Where it will be, too: those who step off the kerb are seen before.
     for (const double seconds : {0.0, 0.8, 1.6}) {
       discs_.Add(obstacle.p + obstacle.v * seconds, obstacle.radius);
@@ -19,12 +21,24 @@ ObstacleGrid::ObstacleGrid(std::span<const TrafficObstacle> obstacles) {
     }
   }
   discs_.Sort();
+  now_.Sort();
+}
+
+bool ObstacleGrid::Touches(const TrafficModel& model, const DrivingVehicle& self, const VehicleShape& shape) const {
+  // Discs along the body that are as wide as it is, from nose to tail.
+  const double r = shape.width / 2, first = -r, last = r - shape.length;
+  const int steps = std::max(1, static_cast<int>(std::ceil((first - last) / r)));
+  for (int k = 0; k <= steps; ++k)
+    if (now_.Meets(AlongWay(model, self, first + (last - first) * k / steps).p, r, kHeight)) return true;
+  return false;
 }
 
 double ObstacleGrid::GapAhead(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, double reach) const {
   if (discs_.empty()) return INFINITY;
   const DrivingVehicle& self = state.vehicles[vehicle];
-  const double half_width = model.vehicles[vehicle].shape.width / 2;
+  const VehicleShape& shape = model.vehicles[vehicle].shape;
+  const double half_width = shape.width / 2;
+  if (Touches(model, self, shape)) return 0;
   for (double ahead = 0.5; ahead <= reach; ahead += 1)
     if (discs_.Meets(AlongWay(model, self, ahead + half_width).p, half_width + kMargin, kHeight)) return ahead - 0.5;
   return INFINITY;

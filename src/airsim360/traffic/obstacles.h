@@ -11,12 +11,15 @@ namespace airsim360::internal {
 class ObstacleGrid {
  public:
   explicit ObstacleGrid(std::span<const TrafficObstacle> obstacles);
-  /// Metres from the front of a vehicle to the nearest in its way within `reach`, now or within the next 1.6 s; infinite:
-  /// nothing.
+  /// Metres from the front of a vehicle to the nearest in its way within `reach`, now or within the next 1.6 s; 0 if somebody
+  /// touches its body now: people walk into standing cars. Infinite: nothing.
   double GapAhead(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, double reach) const;
 
  private:
-  DiscGrid discs_;
+  bool Touches(const TrafficModel& model, const DrivingVehicle& self, const VehicleShape& shape) const;
+
+  DiscGrid discs_;  // now and soon
+  DiscGrid now_;
 };
 
 /// The place `ahead` metres (negative: behind) of the front of a vehicle along its way.

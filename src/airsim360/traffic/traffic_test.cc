@@ -111,5 +111,20 @@ TEST(Traffic, StopsForSomebodyInTheStreetAndNotForSomebodyBesideOrAboveIt) {
   EXPECT_FALSE(passes({200, 2.4, 0}, {0, -1.4, 0}));  // about to step into the lane
 }
 
+// People do not look: somebody walks into a car that has stopped for them, through it and out at its tail.
+TEST(Traffic, WaitsUntilWhoeverWalkedIntoItIsOutAgain) {
+  const TrafficModel model = ModelOf(Street(900, {}), 1);
+  TrafficState state;
+  state.vehicles = {{.lane = 0, .ahead = {1, 2}, .s = 100, .v = 0}};
+  const double length = model.vehicles[0].shape.length;
+  for (double x = 103; x > 90; x -= 1.2 * 0.05) {
+    const TrafficObstacle person{{x, 0.3, 0}, {-1.2, 0, 0}};
+    TickTraffic(model, std::span(&person, 1), state);
+    const bool inside = x > state.vehicles[0].s - length - 0.2;
+    EXPECT_TRUE(!inside || state.vehicles[0].v < 0.01) << x;
+  }
+  EXPECT_GT(state.vehicles[0].v, 2);
+}
+
 }  // namespace
 }  // namespace airsim360

@@ -82,6 +82,7 @@ void ExportTum(ExportJob& job);
 void ExportEuroc(ExportJob& job);
 void ExportKittiOdometry(ExportJob& job);
 void ExportKittiObject(ExportJob& job);
+void ExportNuScenes(ExportJob& job);
 void ExportCityscapes(ExportJob& job);
 void ExportAde20k(ExportJob& job);
 void ExportWildPass(ExportJob& job);

@@ -1,4 +1,5 @@
-// KITTI object detection (Geiger et al., CVPR 2012): a line of a label file for every vehicle of traffic that a frame shows.
+// KITTI object detection (Geiger et al., CVPR 2012): a line of a label file for every vehicle of traffic and every person that a
+// frame shows.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -7,6 +8,8 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/dataset/export/export_job.h"
+#include "airsim360/dataset/export/vehicle_frames.h"
+#include "airsim360/dataset/people/nuscenes_tables.h"
 #include "airsim360/projection/camera_model.h"
 
 namespace airsim360::internal {
@@ -24,32 +27,12 @@ const char* TypeOf(const std::string& category) {
                                                                        {"vehicle/train", "Tram"},
                                                                        {"vehicle/bicycle", "Cyclist"}}};
   for (const auto& [path, type] : kTypes) {
-    if (category == path || category.starts_with(std::string(path) + "/")) return type;
+    if (IsCategory(category, path)) return type;
   }
   return "Misc";
 }
 
 Vec3d ToVec(const Json& json) { return {json.at(0), json.at(1), json.at(2)}; }
-
-// The vehicles of each frame, as vehicles.jsonl has them.
-std::vector<Json> ReadVehicles(const ExportJob& job) {
-  const std::filesystem::path path = job.data.folder() / "vehicles.jsonl";
-  job.Need(std::filesystem::exists(path), "vehicles of traffic", "--traffic N");
-  std::vector<Json> frames;
-  const std::string text = ReadTextFile(path, uint64_t{4} << 30);
-  for (size_t begin = 0; begin < text.size();) {
-    const size_t end = std::min(text.find('\n', begin), text.size());
-    const Json line = Json::parse(text.substr(begin, end - begin), nullptr, false);
-    if (!line.is_object() || !line.contains("vehicles") || !line["vehicles"].is_array())
-      throw InputError(path.string() + ":" + std::to_string(frames.size() + 1) + ": is no line of vehicles");
-    frames.push_back(line["vehicles"]);
-    begin = end + 1;
-  }
-  if (frames.size() != job.data.size())
-    throw InputError(path.string() + ": has " + std::to_string(frames.size()) + " lines, the dataset " + std::to_string(job.data.size()) +
-                     " frames");
-  return frames;
-}
 
 // How much of the rectangle around a box's corners lies outside of the picture; 0 in panoramas, which show every direction.
 double Truncation(const Camera& camera, const RigidTransform& X_CB, Vec3d size) {
@@ -82,15 +65,20 @@ std::string LabelLine(const Segment& segment, const Json& vehicle, const View& v
   return line;
 }
 
-std::string LabelsOf(const ExportJob& job, const NativeFrame& frame, const View& view, const Json& vehicles, int64_t& lines) {
-  std::map<EntityId, const Json*> known;
-  for (const Json& vehicle : vehicles) known[vehicle.at("entity")] = &vehicle;
-  const RigidTransform X_CW = frame.X_WC(view).inverse();
+// Of everybody whom the frame shows: vehicles, then people.
+std::string LabelsOf(const ExportJob& job, const NativeFrame& frame, const View& view, const std::vector<Json>& vehicles, int64_t& lines) {
   std::string text;
-  for (const Segment& segment : job.data.Segments(frame, view)) {
-    const auto found = known.find(segment.entity);
-    if (found == known.end()) continue;
-    text += LabelLine(segment, *found->second, view, X_CW), ++lines;
+  const RigidTransform X_CW = frame.X_WC(view).inverse();
+  if (!vehicles.empty()) {
+    for (const SeenVehicle& seen : VehiclesSeen(job, frame, view, vehicles[frame.position])) {
+      text += OfVehicles(job, frame, [&] { return LabelLine(seen.segment, *seen.vehicle, view, X_CW); });
+      ++lines;
+    }
+  }
+  for (const Json& person : job.data.Persons(frame, view)) {
+    if (person.at("area") == 0) continue;
+    const std::string line = KittiLine(person);
+    text += line, lines += !line.empty();
   }
   return text;
 }
@@ -109,19 +97,14 @@ void ExportKittiObject(ExportJob& job) {
   const View& view = job.OneView();
   if (!std::holds_alternative<Equirectangular>(view.camera) && !std::holds_alternative<Pinhole>(view.camera))
     throw InputError("--format kitti_object: panoramas and pinhole pictures have such labels, this dataset's camera is neither");
-  const std::vector<Json> vehicles = ReadVehicles(job);
+  job.Need(HasVehicles(job) || job.data.HasPeople(), "vehicles of traffic or people", "--traffic N or --people N");
+  const std::vector<Json> vehicles = HasVehicles(job) ? ReadVehicles(job) : std::vector<Json>{};
   const std::string calibration = Calibration(view.camera);
   int64_t boxes = 0;
   job.EachFrame(
       [&](const NativeFrame& frame) {
-        std::string text;
         int64_t lines = 0;
-        try {
-          text = LabelsOf(job, frame, view, vehicles[frame.position], lines);
-        } catch (const Json::exception& error) {
-          throw InputError((job.data.folder() / "vehicles.jsonl").string() + ":" + std::to_string(frame.position + 1) + ": " +
-                           error.what());
-        }
+        const std::string text = LabelsOf(job, frame, view, vehicles, lines);
         job.out.Write("label_2/" + frame.stem + ".txt", text);
         if (!calibration.empty()) job.out.Write("calib/" + frame.stem + ".txt", calibration);
         if (job.data.Has("rgb")) job.out.Write("image_2/" + job.data.FileName(frame, view, "rgb"), job.data.Read(frame, view, "rgb"));

@@ -75,9 +75,7 @@ void AddMonoLoco(const Json& line, const Json& person, Split& split) {
 
 }  // namespace
 
-std::string internal::KittiLine(const Json& person) {
-  return person["box2d_amodal"].is_null() ? std::string() : LineOf(person);
-}
+std::string internal::KittiLine(const Json& person) { return person["box2d_amodal"].is_null() ? std::string() : LineOf(person); }
 
 std::vector<ExportedFile> internal::KittiLabels(const std::string& people_jsonl) {
   std::vector<ExportedFile> files;

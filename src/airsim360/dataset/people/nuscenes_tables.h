@@ -15,8 +15,8 @@ namespace airsim360::internal {
 
 /// Something with a box in space, in one frame.
 struct NuScenesBox {
-  std::string kind;    ///< tells tracks of different things apart; empty: people
-  int64_t track = 0;   ///< the same thing in all frames
+  std::string kind;   ///< tells tracks of different things apart; empty: people
+  int64_t track = 0;  ///< the same thing in all frames
   std::string category, attribute;
   std::string visibility;                     ///< "1" … "4"; empty: not known
   nlohmann::ordered_json translation, size;   ///< middle, and width, length, height

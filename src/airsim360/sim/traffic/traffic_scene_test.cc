@@ -7,6 +7,7 @@
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/sim/living_world.h"
 #include "airsim360/sim/traffic/traffic.h"
+#include "airsim360/sim/traffic_survey.h"
 #include "airsim360/traffic/test_roads.h"
 #include "airsim360/worlds/kit/mesh_builder.h"
 
@@ -209,7 +210,7 @@ TEST(TrafficScene, VehiclesWaitForADroneThatHasLandedOnTheRoadAndGoOnWhenItHasLe
   }
   for (const DrivingVehicle& vehicle : state.traffic->vehicles) EXPECT_GE(vehicle.stopped_ns, 0);
   EXPECT_GT(nearest, 2.2 + 0.5);  // from the middle of a car of 4.4 m, and the drone's radius
-  EXPECT_LT(nearest, 2.2 + 0.5 + 2.5);
+  EXPECT_LT(nearest, 2.2 + 0.5 + 4);
   EXPECT_TRUE(std::ranges::none_of(events, [](const SimEvent& event) { return event.kind == SimEvent::Kind::kNearMiss; }));
   state.vehicles[0] = VehicleAt(model, {{}, {0, radius, 12}});
   for (int i = 0; i < 1000; ++i) Step(model, {}, state);
@@ -246,6 +247,37 @@ TEST(TrafficScene, ADroneThatDropsBeforeAVehicleIsANearMissOnceItIsOver) {
   ASSERT_EQ(again.size(), 1u);
   EXPECT_EQ(again[0].text, events[0].text);
   EXPECT_EQ(HashState(state), hash);
+}
+
+TEST(TrafficSurvey, MeansAreThoseOfTheStepsAndTwoInOnePlaceOverlap) {
+  SimModel model = ModelOf(AddTraffic(RingScene(), {.count = 6, .seed = 2}));
+  const TrafficSurvey survey = SurveyTraffic(model, 20);
+  EXPECT_EQ(survey.overlaps, 0);
+  EXPECT_EQ(survey.seconds, 20);
+  TrafficState state = *model.traffic->start;
+  double speed = 0, hardest = 0;
+  for (int tick = 1; tick <= 400; ++tick) {
+    TickTraffic(model.traffic->model, {}, state);
+    for (const DrivingVehicle& vehicle : state.vehicles) {
+      hardest = std::max(hardest, -vehicle.a);
+      if (tick % 20 == 0) speed += vehicle.v / (20 * 6);
+    }
+  }
+  EXPECT_NEAR(survey.mean_speed, speed, 1e-9);
+  EXPECT_EQ(survey.hardest_braking, hardest);
+  // One that begins 3 m behind the front of another is in it, and 5 m is enough for 4.4.
+  for (const double behind : {3.0, 5.0}) {
+    auto traffic = std::make_shared<SimTraffic>(*model.traffic);
+    auto start = std::make_shared<TrafficState>(*traffic->start);
+    start->vehicles.resize(2);
+    traffic->bodies.resize(2);
+    traffic->model.vehicles.resize(2);
+    start->vehicles[0] = {.lane = 0, .ahead = {1, 0}, .s = 100, .v = 0};
+    start->vehicles[1] = {.lane = 0, .ahead = {1, 0}, .s = 100 - behind, .v = 0};
+    traffic->start = start;
+    model.traffic = traffic;
+    EXPECT_EQ(SurveyTraffic(model, 1).overlaps, behind < 4.4) << behind;
+  }
 }
 
 TEST(TrafficScene, WithoutRoadsOrVehiclesOrWithTooManyTheWorldIsNamed) {

@@ -10,9 +10,8 @@
 namespace airsim360::internal {
 namespace {
 
-// Each of two lamps: UN Regulation 148 asks for 60 to 185 cd of a brake lamp, 50 to 500 of a rear and 175 to 1,000 of a front
-// indicator.
-constexpr float kBrakeCandela = 100, kIndicatorCandela = 200;
+// cd/m^2: UN Regulation 148 asks for 60 to 185 cd of a brake lamp and 50 to 500 of a rear indicator, from some 0.015 m^2.
+constexpr float kBrakeNits = 8000, kIndicatorNits = 12000;
 constexpr Vec3f kRed{1, 0.02f, 0.01f}, kAmber{1, 0.35f, 0.01f};
 constexpr float kBrakeOut = 0.006f, kIndicatorOut = 0.009f;  // metres in front of the glasses
 constexpr float kAwayScale = 1e-4f, kAwayHeight = -1000;     // of lamps where they are made
@@ -26,20 +25,32 @@ bool IsOf(Glass glass, const Material& material, float x) {
   return glass == Glass::kLeft ? x > 0 : x < 0;
 }
 
+// Whether a triangle shows red glass of its texture: library models paint bodies and lamps into one picture.
+bool ShowsRed(const Mesh& mesh, uint32_t triangle, const Material& material, const Scene& scene) {
+  if (material.base_color_texture == kNoTexture || mesh.uvs.empty()) return true;
+  const Vec3u t = mesh.triangles[triangle];
+  const Vec2f uv = UvTransform(material) * ((mesh.uvs[t.x] + mesh.uvs[t.y] + mesh.uvs[t.z]) * (1.0f / 3));
+  const Image<Rgba8>& picture = scene.textures[static_cast<size_t>(material.base_color_texture)].levels.front();
+  const auto texel = [](float x, int size) { return std::min(size - 1, static_cast<int>((x - std::floor(x)) * static_cast<float>(size))); };
+  const Rgba8 p = picture(texel(uv.x, picture.width()), texel(uv.y, picture.height()));
+  return p.r > 50 && 2 * p.r > 3 * p.g && 2 * p.r > 3 * p.b;
+}
+
 // The material of a glass when it is lit: what it looks like otherwise stays.
-Material Lit(const Material& glass, const char* name, Vec3f color, float candela, float area) {
+Material Lit(const Material& glass, const char* name, bool red) {
+  const Vec3f color = red ? kRed : kAmber;
   Material lit = glass;
   lit.name = name;
   lit.lamp = false;
   lit.beam = 0;
-  lit.emission = color / Luminance(color) * (candela / std::max(area, 0.005f) * kNit);
+  if (!red && glass.beam < 0) lit.emission_texture = kNoTexture;
+  lit.emission = color / Luminance(color) * ((red ? kBrakeNits : kIndicatorNits) * kNit);
   return lit;
 }
 
 struct Piece {
   MaterialId material = 0;
   std::vector<uint32_t> triangles;
-  float area = 0;  // seen from ahead or behind
 };
 
 std::vector<Piece> PiecesOf(const Mesh& mesh, const Scene& scene, Glass glass) {
@@ -51,11 +62,12 @@ std::vector<Piece> PiecesOf(const Mesh& mesh, const Scene& scene, Glass glass) {
     piece.material = part.material;
     for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
       const Vec3u t = mesh.triangles[k];
-      const Vec3f a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-      if (!IsOf(glass, material, a.x + b.x + c.x)) continue;
+      if (!IsOf(glass, material, mesh.positions[t.x].x + mesh.positions[t.y].x + mesh.positions[t.z].x)) continue;
       piece.triangles.push_back(k);
-      piece.area += 0.5f * std::abs(Cross(b - a, c - a).y);
     }
+    // An indicator is amber through red glass, but not through a painted body.
+    if (glass != Glass::kTail && material.beam < 0)
+      std::erase_if(piece.triangles, [&](uint32_t triangle) { return !ShowsRed(mesh, triangle, material, scene); });
     if (!piece.triangles.empty()) pieces.push_back(std::move(piece));
   }
   return pieces;
@@ -85,9 +97,7 @@ std::optional<MeshId> AddGlass(MeshId vehicle, Glass glass, Scene& scene) {
       }
       lit.triangles.push_back({first, first + 1, first + 2});
     }
-    // Both tail lamps are one mesh; of indicators there is one at each end.
-    const float candela = tail ? 2 * kBrakeCandela : kIndicatorCandela;
-    scene.materials.push_back(Lit(material, name, tail ? kRed : kAmber, candela, piece.area));
+    scene.materials.push_back(Lit(material, name, tail));
   }
   scene.meshes.push_back(std::move(lit));
   return static_cast<MeshId>(scene.meshes.size() - 1);
