@@ -41,8 +41,8 @@ int main() {
   using namespace airsim360;
 
   // The server of `airsim360 agent --world box_room`, in this process.
-  AgentApi api({.world = "box_room", .open = [](const std::string& name, uint64_t seed) {
-                  return std::make_shared<AgentWorld>(std::make_shared<Stage>(StageOptions{.world = {.world = name, .seed = seed}}));
+  AgentApi api({.world = "box_room", .open = [](const AgentWorldKey& key) {
+                  return std::make_shared<AgentWorld>(std::make_shared<Stage>(StageOptions{.world = {.world = key.name, .seed = key.seed}}));
                 }});
   const AgentServer server(api, {.port = 0});
 

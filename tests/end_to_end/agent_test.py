@@ -103,6 +103,27 @@ class AgentTest(unittest.TestCase):
             for name in ("panorama.jpg", "view.jpg"):
                 self.assertEqual(pathlib.Path(folder, name).read_bytes()[:3], b"\xff\xd8\xff")
 
+    def test_episodes_of_vln_are_tasks_whose_goal_is_not_told(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "tasks.jsonl")
+            subprocess.run([PROGRAM, "vln", "make", "--world", "box_room", "--templates", "any", "--starts", "1", "--limit", "2", "--out", file],
+                           check=True, capture_output=True, timeout=60)
+            episodes = [json.loads(line) for line in pathlib.Path(file).read_text(encoding="utf-8").splitlines()]
+            agent = Agent("--tasks", file)
+            self.addCleanup(agent.stop)
+        self.assertEqual([t["task"] for t in agent.call("GET", "/v1/tasks")[1]["tasks"]], [e["id"] for e in episodes])
+        for episode in episodes:
+            _, made = agent.call("POST", "/v1/episodes", {"task": episode["id"]})
+            self.assertEqual((made["task"]["instruction"], made["task"]["start"]["p"]), (episode["instruction"], episode["start"]["p"]))
+            self.assertIsNone(made["task"]["goal"])
+            path = "/v1/episodes/" + made["episode"]
+            # The way of the file leads there.
+            for point in episode["ref"][1:]:
+                _, seen = agent.call("POST", path + "/step", {"action": {"type": "waypoints", "points": [point], "speed": 1}})
+                self.assertIsNone(seen["observation"]["distance_to_goal"])
+            self.assertTrue(agent.call("POST", path + "/step", {"action": "stop"})[1]["score"]["success"], episode["id"])
+        self.assertEqual(agent.call("POST", "/v1/episodes", {"task": "other"})[0], 422)
+
     def test_the_openapi_description_is_served(self):
         status, api = self.agent.call("GET", "/openapi.json")
         self.assertEqual((status, api["openapi"]), (200, "3.0.3"))

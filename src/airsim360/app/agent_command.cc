@@ -33,20 +33,12 @@ struct AgentArguments {
 
 double SteadySeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-// A world that can be looked at at once: its light is there, and not when the first agent waits for a picture.
+// A world that can be looked at at once. Its renderer says how far the light of rooms is, which takes tens of seconds.
 std::shared_ptr<AgentWorld> OpenForAgents(const StageOptions& options, const RenderSettings& picture) {
   const auto stage = std::make_shared<Stage>(options);
-  const std::string& name = options.world.world;
-  LogInfo(name + ": built after " + ClockText(stage->load_seconds()) + "; lighting it, which takes longest in rooms");
-  const auto world = std::make_shared<AgentWorld>(stage, picture);
-  {
-    const LongTask lighting("lighting " + name);
-    stage->renderer(picture.tier);
-    constexpr int kSmall = 64;  // pixels across: what a first picture makes is the same for any
-    world->Panorama(BodyPose(world->places().front(), 0, 0, 0), kSmall);
-  }
-  LogInfo(name + ": ready after " + ClockText(stage->load_seconds()));
-  return world;
+  stage->renderer(picture.tier);  // now, and not when the first agent waits for a picture
+  LogInfo(options.world.world + ": ready after " + ClockText(stage->load_seconds()));
+  return std::make_shared<AgentWorld>(stage, picture);
 }
 
 // Episodes of `vln make`, as tasks.

@@ -64,7 +64,7 @@ std::string Quoted(std::string_view text) {
   return quoted + "\"";
 }
 
-std::string Body(const DroneChat& chat, const std::string& words) {
+std::string RequestBody(const DroneChat& chat, const std::string& words) {
   const std::string task =
       "You fill a form with what a description says about a multirotor drone. Answer with one flat JSON object of "
       "this schema and nothing else. Leave out every field that the description does not tell; of a real drone that "
@@ -141,7 +141,7 @@ std::string Content(const ParsedJson& answer, const std::string& text, const std
 DroneRequest AskForDrone(const DroneChat& chat, const std::string& words) {
   const std::string address = Endpoint(chat.url), key = Key(chat.key_environment);
   if (words.size() > kLongestWords) throw InputError("the description has " + std::to_string(words.size()) + " bytes, more than 1000");
-  const std::string text = Post(address, key, Body(chat, words));
+  const std::string text = Post(address, key, RequestBody(chat, words));
   const ParsedJson answer = ParseAnswer(text, address);
   DroneRequest request = ReadDroneForm(Content(answer, text, address), words);
   std::string model = chat.model;

@@ -23,12 +23,18 @@ struct DroneOptions {
   bool catalog = false, words = false, form = false, check = false;
 };
 
-nlohmann::ordered_json Json(Vec3d v) { return {v.x, v.y, v.z}; }
+nlohmann::ordered_json VectorJson(Vec3d v) { return {v.x, v.y, v.z}; }
 
 nlohmann::ordered_json RotorJson(const RotorModel& r) {
-  return {{"position", Json(r.p_B)}, {"axis", Json(r.axis_B)},           {"direction", r.direction},
-          {"diameter", r.diameter},  {"thrust_factor", r.thrust_factor}, {"torque_ratio", r.torque_ratio},
-          {"tau_up", r.tau_up},      {"tau_down", r.tau_down},           {"max_speed", r.max_speed},
+  return {{"position", VectorJson(r.p_B)},
+          {"axis", VectorJson(r.axis_B)},
+          {"direction", r.direction},
+          {"diameter", r.diameter},
+          {"thrust_factor", r.thrust_factor},
+          {"torque_ratio", r.torque_ratio},
+          {"tau_up", r.tau_up},
+          {"tau_down", r.tau_down},
+          {"max_speed", r.max_speed},
           {"inertia", r.inertia}};
 }
 
@@ -51,7 +57,7 @@ nlohmann::ordered_json DesignJson(const DroneDesign& design) {
                                  {"thrust_coefficient", figures.thrust_coefficient},
                                  {"figure_of_merit", figures.figure_of_merit},
                                  {"tip_mach", figures.tip_mach},
-                                 {"half_size", Json(model.half_size_B)},
+                                 {"half_size", VectorJson(model.half_size_B)},
                                  {"gate", GateProblems(model)}};
   if (design.endurance > 0) {
     json["hover_power"] = design.hover_power;

@@ -17,7 +17,7 @@ using internal::JsonFields;
 constexpr double kFarthest = 1e5;      // metres
 constexpr double kFastest = 100;       // m/s
 constexpr size_t kLongestText = 4096;  // bytes of an instruction
-constexpr size_t kMostWaypoints = 256, kMostReferencePoints = 4096, kMostViews = 8;
+constexpr size_t kMostWaypoints = 256, kMostViews = 8;
 constexpr int kWidestPanorama = 4096, kWidestView = 2048;
 
 template <size_t N>

@@ -13,9 +13,8 @@ namespace {
 
 constexpr double kOpenRadius = 20, kRoomRadius = 1;           // metres: default radius of success
 constexpr double kNear = 0.25, kSlow = 0.35, kTurned = 0.04;  // at a target: metres, m/s, rad
-constexpr size_t kMostReferencePoints = 4096;
-constexpr double kSpacing = 1;                   // metres between points compared
-constexpr int64_t kLengthPeriodNs = 20'000'000;  // how often the way flown is measured
+constexpr double kSpacing = 1;                                // metres between points compared
+constexpr int64_t kLengthPeriodNs = 20'000'000;               // how often the way flown is measured
 
 // Points at even steps of about `spacing` metres along a polyline, its ends among them; at most about a thousand.
 std::vector<Vec3d> Spaced(const std::vector<Vec3d>& points, double spacing) {

@@ -21,6 +21,9 @@ namespace airsim360 {
 enum class SuccessRule { kStop, kReach };
 inline constexpr const char* kSuccessRuleNames[] = {"stop", "reach"};
 
+/// Of a reference path, and of more goals.
+inline constexpr size_t kMostReferencePoints = 4096;
+
 struct EpisodeSpec {
   std::string instruction;             ///< what the agent is asked to do, in words; may be empty
   std::optional<Vec3d> goal;           ///< in W; none: a free place by the seed

@@ -29,6 +29,8 @@ std::string WordOf(const std::string& path) {
 }
 
 bool IsNameable(const std::string& path) {
+  // To people the walls of houses are walls too.
+  if (path == "barrier/wall") return false;
   for (const char* no :
        {"ground", "sky", "nature", "human", "uav", "animal", "construction/building", "construction/wall", "construction/ceiling",
         "vegetation/grass_tuft", "vegetation/plant", "vegetation/climber", "furniture/misc", "object", "traffic/temporary/tube"})
@@ -112,6 +114,21 @@ InstructionTemplate OneThenTheOther(const SpokenOf& first, const SpokenOf& secon
           .then = {{.query = second.Asked({Bearing(sector), Nearest()})}}};
 }
 
+// The plan of what has a ceiling. Flights in rooms lead to nothing else: the trees before a house are outside.
+std::vector<Box3f> CeilingsOf(const Scene& scene) {
+  std::vector<Box3f> ceilings;
+  for (const Entity& entity : scene.entities)
+    if (scene.tree[entity.category].path.starts_with("construction/ceiling")) ceilings.push_back(entity.bounds);
+  return ceilings;
+}
+
+bool IsBelowOne(const std::vector<Box3f>& ceilings, const Box3f& box) {
+  const Vec3f c = (box.min + box.max) * 0.5f;
+  return std::ranges::any_of(ceilings, [&](const Box3f& ceiling) {
+    return ceiling.min.x <= c.x && c.x <= ceiling.max.x && ceiling.min.y <= c.y && c.y <= ceiling.max.y && c.z < ceiling.max.z;
+  });
+}
+
 // Two of them have a storey between their feet and the same place seen from above.
 bool StandOverEachOther(const std::vector<Box3f>& boxes) {
   constexpr float kStorey = 2;  // metres
@@ -144,11 +161,13 @@ void FitRoom(InstructionTemplate& made) {
 std::vector<InstructionTemplate> AnyWorldTemplates(const Scene& scene, bool rooms) {
   std::map<std::string, std::set<std::string>> by_word;  // categories
   std::map<std::string, std::vector<Box3f>> boxes;
+  const std::vector<Box3f> ceilings = rooms ? CeilingsOf(scene) : std::vector<Box3f>{};
   for (const Entity& entity : scene.entities) {
     const std::string& path = scene.tree[entity.category].path;
     const Vec3f size = entity.bounds.size();
     const float largest = std::max({size.x, size.y, size.z});
     if (entity.bounds.empty() || !IsNameable(path) || largest < kSmallest || largest > kLargest) continue;
+    if (!ceilings.empty() && !IsBelowOne(ceilings, entity.bounds)) continue;
     by_word[WordOf(path)].insert(path);
     boxes[WordOf(path)].push_back(entity.bounds);
   }

@@ -80,8 +80,11 @@ struct Draw {
     const Vec3d ahead = way / gap;
     const Vec3d half = first.size() * 0.5;
     const double edge = std::abs(ahead.x) * half.x + std::abs(ahead.y) * half.y;
-    const Vec3d place = first.center() - ahead * (edge + random.Uniform(least, most));
-    return At({place.x, place.y, thing.center().z}, HeadingOf(ahead) + random.Uniform(-0.2, 0.2) * kLineJitter);
+    // A little aside, so that the first does not hide the others.
+    constexpr double kAside = 0.6;  // metres
+    const Vec3d aside = Vec3d{-ahead.y, ahead.x, 0} * random.Uniform(-kAside, kAside);
+    const Vec3d place = first.center() - ahead * (edge + random.Uniform(least, most)) + aside;
+    return At({place.x, place.y, thing.center().z}, HeadingOf(ahead) + random.Uniform(-0.5, 0.5) * kLineJitter);
   }
 
   std::optional<Standpoint> OnRoad() const {

@@ -73,8 +73,8 @@ TEST(MakeEpisodes, ALimitIsSharedAmongNouns) {
   TestTown town;
   town.Box("street", "ground/road", {0, 0, 0}, {300, 300, 1}, -1);
   town.Box("bench", kBench, {0, 0, 0}, {2, 2, 2});
-  town.Box("statue", "furniture/art/statue", {60, 0, 0}, {2, 2, 3});
-  town.Box("kiosk", "furniture/vending/kiosk", {0, 60, 0}, {3, 3, 3});
+  town.Box("post box", "furniture/mail/post_box", {60, 0, 0}, {2, 2, 3});
+  town.Box("kiosk", "furniture/vending/food_stall", {0, 60, 0}, {3, 3, 3});
   const auto stage = std::make_shared<Stage>(town.Build());
   const auto nouns = [&](int64_t limit) {
     std::map<std::string, int> count;

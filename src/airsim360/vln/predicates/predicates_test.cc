@@ -170,17 +170,18 @@ TEST(Decide, WhatStandsAsideOfANarrowWayMayBeCountedOrNotAndDecidesNothing) {
     town.Box("column", kBox, {10, 0.3f, 0}, {0.5f, 0.5f, 3});
     town.Box("column", kBox, {15, aside, 0}, {0.5f, 0.5f, 3});
     town.Box("column", kBox, {20, -0.3f, 0}, {0.5f, 0.5f, 3});
-    const Query query{Named("column"), {{.kind = PredicateKind::kAlong, .width = 1.5, .clear = 6}, {.kind = PredicateKind::kOrdinal, .k = 2}}};
+    const Query query{Named("column"),
+                      {{.kind = PredicateKind::kAlong, .width = 1.5, .clear = 6}, {.kind = PredicateKind::kOrdinal, .k = 2}}};
     const Standpoint at{{{0, 0, 2}, 0}};
     const auto scene = town.Build();
     const EntityId one = Meant(scene, query, at);
     EXPECT_EQ(BruteForce(scene).Answers(query, at).size(), one == kNoEntity ? 2u : 1u) << aside;
     return one;
   };
-  EXPECT_EQ(meant(0), 2u);          // in the way
-  EXPECT_EQ(meant(3), kNoEntity);   // one counts it, another does not
+  EXPECT_EQ(meant(0), 2u);         // in the way
+  EXPECT_EQ(meant(3), kNoEntity);  // one counts it, another does not
   EXPECT_EQ(meant(5), kNoEntity);
-  EXPECT_EQ(meant(9), 3u);          // nobody counts it
+  EXPECT_EQ(meant(9), 3u);  // nobody counts it
 }
 
 TEST(Decide, AboveAndBelowAreElevations) {
@@ -295,15 +296,16 @@ TEST(Decide, AWideThingWhoseBoxIsMetNearItsEndMayBeCrossedAndDecidesNothing) {
 TEST(Decide, BothMethodsAgreeWhereverOneIsSure) {
   RngStream random(360, "vln predicates test");
   int decided = 0, asked = 0;
-  const Query queries[] = {{Named("box"), {Is(PredicateKind::kNearest)}},
-                           {Named("box"), {Sector("ahead"), Is(PredicateKind::kNearest)}},
-                           {Named("box"), {Sector("rear_right"), Is(PredicateKind::kNearest)}},
-                           {Named("box"), {{.kind = PredicateKind::kAlong, .width = 15}, {.kind = PredicateKind::kOrdinal, .k = 2}}},
-                           {Named("box"), {{.kind = PredicateKind::kAlong, .width = 8, .clear = 12}, {.kind = PredicateKind::kOrdinal, .k = 2}}},
-                           {Named("box"), {Sector("straight_ahead"), Is(PredicateKind::kNearest)}},
-                           {Named("box"), {{.kind = PredicateKind::kHeightQuantile, .share = 0.7}, Is(PredicateKind::kNearest)}},
-                           {Named("box"), {{.kind = PredicateKind::kSideOf, .sector = "left"}, Is(PredicateKind::kNearest)}},
-                           {Named("box"), {Is(PredicateKind::kAcross), Is(PredicateKind::kNearest)}}};
+  const Query queries[] = {
+      {Named("box"), {Is(PredicateKind::kNearest)}},
+      {Named("box"), {Sector("ahead"), Is(PredicateKind::kNearest)}},
+      {Named("box"), {Sector("rear_right"), Is(PredicateKind::kNearest)}},
+      {Named("box"), {{.kind = PredicateKind::kAlong, .width = 15}, {.kind = PredicateKind::kOrdinal, .k = 2}}},
+      {Named("box"), {{.kind = PredicateKind::kAlong, .width = 8, .clear = 12}, {.kind = PredicateKind::kOrdinal, .k = 2}}},
+      {Named("box"), {Sector("straight_ahead"), Is(PredicateKind::kNearest)}},
+      {Named("box"), {{.kind = PredicateKind::kHeightQuantile, .share = 0.7}, Is(PredicateKind::kNearest)}},
+      {Named("box"), {{.kind = PredicateKind::kSideOf, .sector = "left"}, Is(PredicateKind::kNearest)}},
+      {Named("box"), {Is(PredicateKind::kAcross), Is(PredicateKind::kNearest)}}};
   for (int t = 0; t < 12; ++t) {
     TestTown town;
     for (int i = 0; i < 25; ++i) {
