@@ -16,9 +16,9 @@ void StartLife(const SimModel& model, SimState& state);
 /// drones and people, and near misses on the roads, are added to `events`, if given.
 void StepLife(const SimModel& model, SimState& state, std::vector<SimEvent>* events);
 
-/// "traffic/012", "person/007", or the name of a drone.
+/// `traffic/012`, `person/007`, or the name of a drone.
 const std::string& NameOfRoadUser(const SimModel& model, const RoadUser& user);
-/// "traffic/012 and person/007 0.84 s before a crash".
+/// `traffic/012 and person/007 0.84 s before a crash`.
 std::string TextOfNearMiss(const SimModel& model, const NearMiss& miss);
 
 /// The people as vehicles see them.

@@ -170,7 +170,7 @@ class Drawer {
     constexpr double kGap = 0.55;
     const auto along_street = [&](size_t c, size_t k) {
       const double x1 = avenues_[c + 1] - kHalfAvenue - kPavement - 4;
-      for (double x = avenues_[c] + kHalfAvenue + kPavement + 6; x < x1; x += rng.Uniform(18.6, 21.5))
+      for (double x = avenues_[c] + kHalfAvenue + kPavement + 6; x < x1; x += rng.Uniform(19.4, 22))
         Node({x, streets_[k] + kHalfStreet + kGap}, {{"highway", "street_lamp"}});
     };
     along_street(1, 3);
@@ -178,7 +178,7 @@ class Drawer {
     // The lamps of the streets light the crossings.
     for (const double avenue : avenues_) {
       for (size_t k = 0; k + 1 < streets_.size(); ++k) {
-        for (double y = streets_[k] + 21; y < streets_[k + 1] - 8; y += rng.Uniform(18.6, 21.5))
+        for (double y = streets_[k] + 21; y < streets_[k + 1] - 8; y += rng.Uniform(19.4, 22))
           Node({avenue + kHalfAvenue + kGap, y}, {{"highway", "street_lamp"}});
       }
     }
