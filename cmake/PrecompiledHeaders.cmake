@@ -1,11 +1,6 @@
 # Standard headers and GoogleTest, parsed once: they are a third of a cold build. Off under a compiler cache, which
 # gains nothing from them, and when fuzzing, where clang finds the includes that they hide.
-if(CMAKE_CXX_COMPILER_LAUNCHER OR AIRSIM360_FUZZ)
-  set(precompile OFF)
-else()
-  set(precompile ON)
-endif()
-option(AIRSIM360_PCH "precompile standard headers" ${precompile})
+option(AIRSIM360_PCH "precompile standard headers" ${AIRSIM360_PARSE_ONCE})
 
 if(AIRSIM360_PCH)
   # Some libraries ask for it; the options of all must agree.

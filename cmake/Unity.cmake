@@ -1,12 +1,7 @@
 # Sources of one folder compiled together, up to eight at a time: headers and templates are parsed once for them, which
 # halves a cold build. Names in their unnamed namespaces must differ. Off for those who edit one file often
 # (-DAIRSIM360_UNITY=OFF) and under a compiler cache, which knows single files better.
-if(CMAKE_CXX_COMPILER_LAUNCHER OR AIRSIM360_FUZZ)
-  set(together OFF)
-else()
-  set(together ON)
-endif()
-option(AIRSIM360_UNITY "compile the sources of a folder together" ${together})
+option(AIRSIM360_UNITY "compile the sources of a folder together" ${AIRSIM360_PARSE_ONCE})
 
 # airsim360_unity(TARGET KIND SOURCES...): the sources are absolute paths; those of two kinds are kept apart.
 function(airsim360_unity target kind)
