@@ -26,10 +26,7 @@ const char* TypeOf(const std::string& category) {
                                                                        {"vehicle/tram", "Tram"},
                                                                        {"vehicle/train", "Tram"},
                                                                        {"vehicle/bicycle", "Cyclist"}}};
-  for (const auto& [path, type] : kTypes) {
-    if (IsCategory(category, path)) return type;
-  }
-  return "Misc";
+  return WordFor(category, kTypes, "Misc");
 }
 
 Vec3d ToVec(const Json& json) { return {json.at(0), json.at(1), json.at(2)}; }

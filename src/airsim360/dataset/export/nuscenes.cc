@@ -20,10 +20,7 @@ const char* NuScenesCategory(const std::string& category) {
                                                                             {"vehicle/food_truck", "vehicle.truck"},
                                                                             {"vehicle/bus", "vehicle.bus.rigid"},
                                                                             {"vehicle/bicycle", "vehicle.bicycle"}}};
-  for (const auto& [path, name] : kCategories) {
-    if (IsCategory(category, path)) return name;
-  }
-  return "movable_object.debris";
+  return WordFor(category, kCategories, "movable_object.debris");
 }
 
 NuScenesBox BoxOf(const Json& vehicle) {

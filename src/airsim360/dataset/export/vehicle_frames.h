@@ -1,6 +1,7 @@
 // The vehicles of traffic in the frames of a dataset.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -34,5 +35,14 @@ auto OfVehicles(const ExportJob& job, const NativeFrame& frame, const Make& make
 
 /// Whether a category is `path` or below it.
 bool IsCategory(const std::string& category, const std::string& path);
+
+/// A foreign format's word for a category path: that of the first pair whose path it is or lies below.
+template <size_t N>
+const char* WordFor(const std::string& category, const std::array<std::pair<const char*, const char*>, N>& words, const char* otherwise) {
+  for (const auto& [path, word] : words) {
+    if (IsCategory(category, path)) return word;
+  }
+  return otherwise;
+}
 
 }  // namespace airsim360::internal
