@@ -162,9 +162,9 @@ float Layout::Dry(Vec2f p) const { return Ramp(0.58f, 0.74f, Fractal(p.x / 8 + 9
 
 Vec3f Layout::LawnCoarse(Vec2f p) const {
   const float wide = Fractal(p.x / 23, p.y / 23, 4, 41), narrow = Fractal(p.x / 3.1f, p.y / 3.1f, 3, 43);
-  Vec3f c = Mix(Vec3f{0.093f, 0.134f, 0.027f}, Vec3f{0.163f, 0.178f, 0.042f}, Ramp(0.3f, 0.72f, 0.6f * wide + 0.4f * narrow));
-  c = Mix(c, Vec3f{0.072f, 0.138f, 0.032f}, 0.45f * Clover(p));
-  return Mix(c, Vec3f{0.30f, 0.235f, 0.115f}, 0.7f * Dry(p));
+  Vec3f c = Mix(Vec3f{0.097f, 0.136f, 0.027f}, Vec3f{0.141f, 0.172f, 0.037f}, Ramp(0.3f, 0.72f, 0.6f * wide + 0.4f * narrow));
+  c = Mix(c, Vec3f{0.084f, 0.138f, 0.031f}, 0.40f * Clover(p));
+  return Mix(c, Vec3f{0.235f, 0.205f, 0.085f}, 0.45f * Dry(p));
 }
 
 Vec3f Layout::Lawn(Vec2f p) const { return LawnCoarse(p) * (0.72f + 0.56f * Fractal(p.x / 0.55f, p.y / 0.55f, 2, 45)); }

@@ -1,6 +1,7 @@
 #include "airsim360/worlds/props/props.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -95,20 +96,40 @@ Model MakeProp(const PropKind& kind, uint32_t variant, uint64_t seed, const Mode
   return model;
 }
 
+namespace {
+
+// The green of an individual: most are near their kind's own, a few yellowish, as each has its soil, age and light. Hedges,
+// which are planted a metre at a time, change slowly along their run.
+Vec3f PlantTint(const PropKind& kind, Vec3f p) {
+  const bool hedge = kind.category == "vegetation/hedge";
+  if (!hedge && kind.category != "vegetation/shrub/bush" && !kind.category.starts_with("vegetation/tree")) return {1, 1, 1};
+  if (hedge) {
+    const float wave = 0.5f + 0.25f * (std::sin(0.11f * p.x + 0.07f * p.y) + std::sin(0.09f * p.y - 0.05f * p.x));
+    return Vec3f{0.99f + 0.12f * wave, 1, 0.97f - 0.06f * wave} * (0.92f + 0.16f * wave);
+  }
+  const auto centimetres = [](float v) { return static_cast<uint64_t>(static_cast<int64_t>(std::lround(100 * v))); };
+  RngStream random(MixBits(centimetres(p.x)) ^ centimetres(p.y), "plant tint");
+  const auto yellow = static_cast<float>(random.Uniform()), light = static_cast<float>(random.Uniform(0.86, 1.12));
+  const float share = yellow * yellow;
+  return Vec3f{0.97f + 0.22f * share, 1 + 0.05f * share, 1 - 0.10f * share} * light;
+}
+
+}  // namespace
+
 PropShelf::PropShelf(SceneBuilder& builder, const ModelSource* models, uint64_t seed) : builder_(builder), models_(models), seed_(seed) {}
 
 EntityId PropShelf::Place(std::string_view kind, Vec3f p_W, float yaw, uint32_t variant, float scale, Vec3f tint, Engine engine) {
   const PropKind& found = FindPropKind(kind);
   const EntityId entity = builder_.AddEntity(std::string(found.name), builder_.tree().At(found.category));
   const AffineTransform placed = PlaceUpright(p_W, yaw, scale);
-  builder_.AddInstance({Get(found, variant), lay_ ? lay_(found.name, placed) : placed, entity, tint,
+  builder_.AddInstance({Get(found, variant), lay_ ? lay_(found.name, placed) : placed, entity, tint * PlantTint(found, p_W),
                         internal::EveningGlow(found.name, found.category, p_W, engine)});
   return entity;
 }
 
 void PropShelf::PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant, Vec3f tint) {
   const PropKind& found = FindPropKind(kind);
-  builder_.AddInstance({Get(found, variant), lay_ ? lay_(found.name, X_WM) : X_WM, entity, tint,
+  builder_.AddInstance({Get(found, variant), lay_ ? lay_(found.name, X_WM) : X_WM, entity, tint * PlantTint(found, X_WM.p),
                         internal::EveningGlow(found.name, found.category, X_WM.p, Engine::kOff)});
 }
 

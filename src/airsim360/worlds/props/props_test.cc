@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
@@ -225,6 +226,50 @@ TEST(PropShelf, InstancesOneMeshForManyPlaces) {
   EXPECT_EQ(scene->instances[2].entity, a);
   EXPECT_EQ(scene->entities.size(), 2u);
   EXPECT_EQ(scene->entity(b).name, "fire_hydrant 2");
+}
+
+// Tints that plants get where they are placed.
+std::vector<Vec3f> TintsOf(const char* kind, const std::vector<Vec3f>& places) {
+  SceneBuilder builder("shelf");
+  PropShelf shelf(builder, nullptr, 3);
+  for (Vec3f p : places) shelf.Place(kind, p);
+  std::vector<Vec3f> tints;
+  for (const Instance& instance : builder.Build()->instances) tints.push_back(instance.tint);
+  return tints;
+}
+
+TEST(PropShelf, GivesEveryTreeAGreenOfItsOwn) {
+  std::vector<Vec3f> places;
+  for (int i = 0; i < 60; ++i) places.push_back({7.3f * static_cast<float>(i % 10), 9.1f * static_cast<float>(i / 10), 0});
+  const std::vector<Vec3f> tints = TintsOf("tree_generic", places);
+  ASSERT_EQ(tints.size(), places.size());
+  EXPECT_EQ(tints, TintsOf("tree_generic", places));
+  std::set<float> yellow;
+  double brightest = 0, darkest = 2;
+  for (Vec3f t : tints) {
+    yellow.insert(t.x / t.y);
+    brightest = std::max<double>(brightest, t.y);
+    darkest = std::min<double>(darkest, t.y);
+  }
+  EXPECT_GT(yellow.size(), 55u);
+  EXPECT_GT(*yellow.rbegin() - *yellow.begin(), 0.12f);
+  EXPECT_GT(brightest / darkest, 1.15);
+  EXPECT_EQ(TintsOf("bench_wood", {{7.3f, 9.1f, 0}}).at(0), (Vec3f{1, 1, 1}));
+}
+
+// A hedge is planted a metre at a time: no joint of it may show.
+TEST(PropShelf, ChangesTheGreenOfAHedgeSlowlyAlongIt) {
+  std::vector<Vec3f> places;
+  for (int i = 0; i < 80; ++i) places.push_back({static_cast<float>(i), 0.4f * static_cast<float>(i), 0});
+  const std::vector<Vec3f> tints = TintsOf("hedge", places);
+  double darkest = 2, brightest = 0;
+  for (size_t i = 0; i < tints.size(); ++i) {
+    darkest = std::min<double>(darkest, tints[i].y);
+    brightest = std::max<double>(brightest, tints[i].y);
+    const Vec3f before = tints[i > 0 ? i - 1 : 0];
+    EXPECT_NEAR(tints[i].y / before.y, 1, 0.02) << i;
+  }
+  EXPECT_GT(brightest / darkest, 1.05);
 }
 
 TEST(PropShelf, SharesEqualTexturesAndMaterialsBetweenProps) {

@@ -75,8 +75,8 @@ namespace {
 // Tone of mown grass: wanders over some ten metres.
 Vec3f LawnTone(Vec2f p, RngStream& rng) {
   const float wide = std::sin(0.31f * p.x + 1.7f * std::sin(0.17f * p.y)) + std::sin(0.23f * p.y + 1.3f * std::sin(0.29f * p.x));
-  const float tone = 1.22f + 0.07f * wide + static_cast<float>(rng.Uniform(-0.03, 0.03)), dry = 1 + 0.05f * wide;
-  return {tone * dry, tone, tone * 0.9f};
+  const float tone = 1.12f + 0.07f * wide + static_cast<float>(rng.Uniform(-0.03, 0.03)), dry = 1 + 0.05f * wide;
+  return {0.95f * tone * dry, tone, tone * 0.9f};
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace {
 
 // Street and park trees of the size of limes and planes: six of different age and build.
 Model MakeGeneric(uint32_t variant, uint64_t seed) {
-  static const Vec3f fresh[] = {{0.078f, 0.118f, 0.028f}, {0.066f, 0.104f, 0.028f}, {0.090f, 0.128f, 0.034f}};
-  static const Vec3f deep[] = {{0.058f, 0.092f, 0.026f}, {0.066f, 0.098f, 0.030f}, {0.050f, 0.083f, 0.027f}};
+  static const Vec3f fresh[] = {{0.085f, 0.118f, 0.026f}, {0.073f, 0.104f, 0.025f}, {0.099f, 0.128f, 0.031f}};
+  static const Vec3f deep[] = {{0.064f, 0.092f, 0.023f}, {0.073f, 0.098f, 0.027f}, {0.055f, 0.083f, 0.024f}};
   static const Texture atlases[2] = {LeafAtlas("leaves fresh", fresh), LeafAtlas("leaves deep", deep)};
   struct Build {
     float height, clear, radius, trunk, leader;
@@ -25,14 +25,14 @@ Model MakeGeneric(uint32_t variant, uint64_t seed) {
                      b.radius,
                      b.trunk,
                      b.leader,
-                     15,
-                     0.40f,
+                     17,
+                     0.30f,
                      5200,
                      {},
-                     {0.108f, 0.074f, 0.12f, 0.25f},
+                     {0.094f, 0.066f, 0.12f, 0.25f},
                      0,
                      0.75f,
-                     {0.17f, 0.14f, 0.11f},
+                     {0.168f, 0.150f, 0.128f},
                      LeafOrder::kAlternate,
                      0.04f,
                      0.32f};
@@ -40,13 +40,13 @@ Model MakeGeneric(uint32_t variant, uint64_t seed) {
   s.min_branch = 0.012f;
   s.growth.influence = 1.7f;
   s.growth.kill = 0.42f * b.radius / 4.0f;
-  s.leaves = static_cast<int>(42000 * std::min(1.0f, b.radius / 4.0f * b.radius / 4.0f * 1.15f + 0.1f));
+  s.leaves = static_cast<int>(46000 * std::min(1.0f, b.radius / 4.0f * b.radius / 4.0f * 1.15f + 0.1f));
   return GrowBroadleaf(s, atlases[variant % 2], seed);
 }
 
 // Upright oval crowns with ascending branches and narrow leaves (willow oak, poplar).
 Model MakeNarrowleaf(uint32_t variant, uint64_t seed) {
-  static const Vec3f tones[] = {{0.074f, 0.112f, 0.040f}, {0.088f, 0.122f, 0.046f}, {0.062f, 0.098f, 0.034f}};
+  static const Vec3f tones[] = {{0.081f, 0.112f, 0.034f}, {0.096f, 0.122f, 0.040f}, {0.068f, 0.098f, 0.029f}};
   static const Texture atlas = LeafAtlas("leaves narrow", tones);
   struct Build {
     float height, clear, radius, trunk;
@@ -60,11 +60,11 @@ Model MakeNarrowleaf(uint32_t variant, uint64_t seed) {
                      b.radius,
                      b.trunk,
                      0.86f,
-                     14,
-                     0.52f,
+                     18,
+                     0.40f,
                      4600,
                      {},
-                     {0.115f, 0.034f, 0.15f, 0.2f},
+                     {0.097f, 0.041f, 0.15f, 0.2f},
                      46000,
                      0.6f,
                      {0.20f, 0.18f, 0.15f},

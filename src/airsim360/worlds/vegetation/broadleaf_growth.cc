@@ -125,7 +125,7 @@ void AddLeaves(const BroadleafSpecies& s, const Crown& crown, const std::vector<
 
 Crown::Crown(const BroadleafSpecies& s, RngStream& random) : height_(s.height - s.clear_trunk), radius_(s.crown_radius) {
   const Vec3f center{0, 0, s.clear_trunk + height_ * 0.48f};
-  lobes_.push_back({center, 0.55f});
+  lobes_.push_back({center, 0.46f});
   const auto lean = static_cast<float>(random.Uniform(0, 6.2832));
   for (int i = 0; i < s.lobes; ++i) {
     // Low-discrepancy directions with jitter, so that no side stays bare.
@@ -155,7 +155,17 @@ bool Crown::Contains(Vec3f p) const { return InOneOf(lobes_, p) && !InOneOf(hole
 
 float Crown::Openness(Vec3f p) const {
   const Vec3f d{(p.x - center().x) / radius_, (p.y - center().y) / radius_, (p.z - center().z) / (0.5f * height_)};
-  return 0.05f + 0.72f * std::pow(Norm(d), 1.5f) + 0.22f * d.z;
+  // A limb's leaves are a mass of their own: light on its upper and outer side, dark below and where it meets the others.
+  const float flat = std::min(1.0f, 2 * radius_ / height_);
+  float nearest = 1, local = 0;
+  for (size_t i = 1; i < lobes_.size(); ++i) {
+    const auto& [at, r] = lobes_[i];
+    const Vec3f q = Vec3f{p.x - at.x, p.y - at.y, (p.z - at.z) * flat} / (r * radius_);
+    if (Norm(q) >= nearest) continue;
+    nearest = Norm(q);
+    local = Dot(q, Normalized(Normalized(at - center()) + Vec3f{0, 0, 0.8f}));
+  }
+  return 0.05f + 0.66f * std::pow(Norm(d), 1.5f) + 0.20f * d.z + 0.30f * local;
 }
 
 std::vector<BranchNode> GrowTree(const BroadleafSpecies& s, const Crown& crown, RngStream& random) {

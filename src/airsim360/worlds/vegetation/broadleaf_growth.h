@@ -32,7 +32,7 @@ struct BroadleafSpecies {
   LeafOrder order = LeafOrder::kSpiral;
   float internode = 0.04f;     ///< metres of shoot between leaves or pairs
   float shoot = 0.30f;         ///< length of the longest shoots
-  int holes = 11;              ///< balls without branches in the crown, through which the sky is seen
+  int holes = 6;               ///< balls without branches in the crown, through which the sky is seen
   float open_side = 0.25f;     ///< how much farther the crown reaches to the side that it leans to, in radii
   float lean = 0.03f;          ///< of the trunk's top, standard deviation in heights
   float dead = 0;              ///< share of the limbs that carry no leaves any more

@@ -9,7 +9,7 @@ namespace airsim360::internal {
 namespace {
 
 const Texture& ShrubLeaves() {
-  static const Vec3f tones[] = {{0.062f, 0.098f, 0.024f}, {0.076f, 0.112f, 0.030f}, {0.050f, 0.082f, 0.024f}, {0.088f, 0.118f, 0.034f}};
+  static const Vec3f tones[] = {{0.067f, 0.098f, 0.023f}, {0.082f, 0.112f, 0.028f}, {0.055f, 0.082f, 0.022f}, {0.094f, 0.118f, 0.032f}};
   static const Texture atlas = LeafAtlas("leaves shrub", tones);
   return atlas;
 }

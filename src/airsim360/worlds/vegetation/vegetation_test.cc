@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "airsim360/worlds/props/props.h"
+#include "airsim360/worlds/vegetation/broadleaf_growth.h"
 #include "airsim360/worlds/vegetation/plant_mesh.h"
 
 namespace airsim360::internal {
@@ -142,6 +143,91 @@ std::pair<size_t, Box3f> Foliage(const Model& model) {
     }
   }
   return {triangles, box};
+}
+
+// Hue in degrees of the mean colour of a picture of leaves, as a screen shows it.
+double HueOf(const Texture& leaves) {
+  Vec3d sum;
+  for (const Rgba8 c : leaves.levels[0].pixels())
+    sum = sum + Vec3d{static_cast<double>(c.r), static_cast<double>(c.g), static_cast<double>(c.b)};
+  EXPECT_GT(sum.y, sum.x);
+  EXPECT_GT(sum.x, sum.z);
+  return 120 - 60 * (sum.x - sum.z) / (sum.y - sum.z);
+}
+
+// On photographs of a park and of a forest the hues of leaves by day have medians of 69 to 73 degrees and quartiles from 60
+// to 81 (distant crowns in side light, backlit broadleaves, shrubs). Pictures of ours that were 80 to 87 looked too green.
+TEST(LeafColors, LieAmongThoseOfPhotographs) {
+  for (const char* name : {"tree_generic", "tree_narrowleaf", "shrub"}) {
+    const PropKind& kind = FindPropKind(name);
+    for (int v = 0; v < 2; ++v) {
+      const Model plant = MakeProp(kind, static_cast<uint32_t>(v), 1, nullptr);
+      int pictures = 0;
+      for (const Texture& t : plant.textures) {
+        if (!t.name.starts_with("leaves")) continue;
+        ++pictures;
+        EXPECT_GT(HueOf(t), 60) << t.name;
+        EXPECT_LT(HueOf(t), 81) << t.name;
+      }
+      EXPECT_EQ(pictures, 1) << name;
+    }
+  }
+}
+
+// Most leaves of street trees are 4 to 12 cm long, and no two neighbours alike.
+TEST(LeafSizes, AreThoseOfStreetTrees) {
+  for (const char* name : {"tree_generic", "tree_narrowleaf"}) {
+    const Model tree = MakeProp(FindPropKind(name), 0, 1, nullptr);
+    std::vector<double> lengths;
+    for (const MeshPart& part : tree.mesh.parts) {
+      if (tree.materials[part.material].kind != SurfaceKind::kFoliage) continue;
+      // Two triangles a leaf, both from its base to its tip.
+      for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; k += 2) {
+        const Vec3u t = tree.mesh.triangles[k];
+        lengths.push_back(Norm(tree.mesh.positions[t.z] - tree.mesh.positions[t.x]));
+      }
+    }
+    ASSERT_GT(lengths.size(), 20000u) << name;
+    std::ranges::sort(lengths);
+    const auto at = [&](double share) { return lengths[static_cast<size_t>(share * static_cast<double>(lengths.size()))]; };
+    EXPECT_GT(at(0.05), 0.04) << name;
+    EXPECT_LT(at(0.95), 0.135) << name;
+    EXPECT_GT(at(0.95) / at(0.05), 1.7) << name;
+  }
+}
+
+// A crown is not a closed egg: limbs carry masses of leaves with sky between, each light above and dark below.
+TEST(Crown, IsMadeOfMassesWithGapsBetween) {
+  const BroadleafSpecies s{.name = "test",
+                           .height = 10,
+                           .clear_trunk = 2.5f,
+                           .crown_radius = 4,
+                           .trunk_radius = 0.2f,
+                           .leader = 0.5f,
+                           .lobes = 17,
+                           .lobe_radius = 0.30f,
+                           .attractors = 1,
+                           .growth = {},
+                           .leaf = {},
+                           .leaves = 1,
+                           .clumping = 0,
+                           .bark = {}};
+  for (uint64_t seed : {1, 2, 3}) {
+    RngStream random(seed, "crown");
+    const Crown crown(s, random);
+    int inside = 0, all = 0, dips = 0;
+    for (int i = 0; i < 40000; ++i) {
+      const Vec3f d = RandomDirection(random) * std::cbrt(static_cast<float>(random.Uniform()));
+      const Vec3f p = crown.center() + Vec3f{4 * d.x, 4 * d.y, 3.75f * d.z};
+      ++all;
+      inside += crown.Contains(p);
+      // Openness falls somewhere on the way up: from the top of one mass to the bottom of the next.
+      dips += d.z > 0 && crown.Openness(p + Vec3f{0, 0, 0.4f}) < crown.Openness(p) - 0.1f;
+    }
+    EXPECT_GT(inside, 0.25 * all) << seed;
+    EXPECT_LT(inside, 0.65 * all) << seed;
+    EXPECT_GT(dips, 0.01 * all) << seed;
+  }
 }
 
 struct Proportions {
