@@ -70,6 +70,9 @@ class Episodes(unittest.TestCase):
         run("vln", "make", "--world", "box_room", "--templates", "any", "--starts", 2, "--out", out)
         self.assertEqual({e["template"].split("/")[2] for e in lines(out)} - {"3", "5"}, {"1", "2", "4"})
         self.assertGreater(len({len(e["instruction"].split()) for e in lines(out)}), 4)
+        # Rooms are small: whoever keeps "a few metres" away has not arrived.
+        kept = {e["instruction"] for e in lines(out) if e["template"].endswith("/4")}
+        self.assertTrue(all("keep a metre away" in text for text in kept) and kept, kept)
         self.assertEqual(json.loads(run("vln", "check", out, "--json").stdout)["wrong"], 0)
 
     def test_a_limit_is_shared_among_nouns_and_asks_for_as_many_as_can_be_made(self):

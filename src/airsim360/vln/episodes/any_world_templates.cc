@@ -68,8 +68,8 @@ struct SpokenOf {
   }
 };
 
-// Five lengths of the same task, from three words to two sentences.
-std::vector<InstructionTemplate> OfNoun(const SpokenOf& named) {
+// Five lengths of the same task, from three words to two sentences. `keeping`: how far from it one stops.
+std::vector<InstructionTemplate> OfNoun(const SpokenOf& named, const std::string& keeping) {
   const std::string word = named.text();
   std::vector<InstructionTemplate> made;
   const auto add = [&](const std::string& kind, std::string text, std::vector<Predicate> predicates,
@@ -92,8 +92,8 @@ std::vector<InstructionTemplate> OfNoun(const SpokenOf& named) {
               " count. Choose the one of them that is nearest to where you are now, fly to it without touching anything, and stop beside it.",
           {Bearing(sector.name), Nearest()}, sector.name);
   }
-  add("4", "Turn until you find the " + word + " that is nearest to you, fly to it, keep a few metres away, and stop there.", {Nearest()},
-      "any");
+  add("4", "Turn until you find the " + word + " that is nearest to you, fly to it, keep " + keeping + " away, and stop there.",
+      {Nearest()}, "any");
   // Counted is what stands in the way, so to speak; what is farther aside than that one person counts and another does not.
   InstructionTemplate& second =
       add("3/second", "Fly straight ahead and stop when you reach the second " + word + ".",
@@ -183,7 +183,7 @@ std::vector<InstructionTemplate> AnyWorldTemplates(const Scene& scene, bool room
     nouns.push_back({{.word = word, .categories = {by_word[word].begin(), by_word[word].end()}}, rooms && StandOverEachOther(boxes[word])});
   std::vector<InstructionTemplate> templates;
   for (const SpokenOf& named : nouns)
-    for (InstructionTemplate& made : OfNoun(named)) templates.push_back(std::move(made));
+    for (InstructionTemplate& made : OfNoun(named, rooms ? "a metre" : "a few metres")) templates.push_back(std::move(made));
   // Each thing leads on to three others.
   for (size_t i = 0; i < nouns.size(); ++i)
     for (size_t k = 1; k <= std::min<size_t>(3, nouns.size() - 1); ++k)

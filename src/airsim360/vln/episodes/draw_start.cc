@@ -9,6 +9,9 @@ namespace {
 
 constexpr double kLongRoad = 25;      // metres: shorter ones are stubs
 constexpr double kLineJitter = 0.05;  // rad of a heading along a line
+constexpr double kCrossings = 16;     // metres beyond a junction that are still at the intersection: crossings, kerbs, corners
+constexpr double kAtCorner = 60;      // metres from a junction's middle: what is farther is not seen at it
+constexpr double kLanes = 0.5;        // of half a junction's width: how far its lanes are from its middle
 
 // Metres along the long side of a box, half of it, and its direction seen from above.
 struct LongSide {
@@ -106,20 +109,31 @@ struct Draw {
 
   std::optional<Standpoint> BeforeTurn() const {
     static const Noun kJunction{.word = "junction", .names = {"junction *"}};
-    const auto& junctions = graph.Find(kJunction);
+    // What is seen "at the intersection" is seen from somewhere over it and its crossings, in any lane of the way ahead; who turns
+    // does so in its middle.
+    const bool looks = wanted.in_sight > 0;
+    std::vector<const Thing*> junctions;
+    for (const Thing& junction : graph.Find(kJunction))
+      if (!looks || PlanDistance(junction.center(), thing.box).least < kAtCorner) junctions.push_back(&junction);
     if (junctions.empty()) return std::nullopt;
-    const Thing& junction = junctions[random.Index(static_cast<uint32_t>(junctions.size()))];
+    const Thing& junction = *junctions[random.Index(static_cast<uint32_t>(junctions.size()))];
     const double quarter = random.Index(4) * kPi / 2, back = random.Uniform(14, 70);
     const Vec3d ahead{std::cos(quarter), std::sin(quarter), 0}, middle = junction.center();
-    const double distance = PlanDistance(middle - ahead * back, thing.box).least;
+    const Vec3d half = junction.size() * 0.5, aside{-ahead.y, ahead.x, 0};
+    const double reach = std::abs(ahead.x) * half.x + std::abs(ahead.y) * half.y,
+                 lanes = kLanes * (std::abs(aside.x) * half.x + std::abs(aside.y) * half.y);
+    const Vec3d line = middle + aside * (looks ? random.Uniform(-lanes, lanes) : 0.0), place = line - ahead * back;
+    const double distance = PlanDistance(place, thing.box).least;
     if (distance < nearest || distance > farthest) return std::nullopt;
-    auto stands = At(middle - ahead * back, quarter);
+    auto stands = At(place, quarter);
     if (!stands) return std::nullopt;
     const auto below = ground.Below(stands->start.p_W);
     if (!below || !(ground.Is(below->entity, "ground/road") || ground.Is(below->entity, "ground/lane_marking") ||
                     ground.Is(below->entity, "ground/bike_lane")))
       return std::nullopt;
-    stands->turn = Viewpoint{{middle.x, middle.y, stands->start.p_W.z}, std::remainder(quarter, 2 * kPi)};
+    const Vec3d at = line + ahead * (looks ? random.Uniform(-reach, reach + kCrossings) : 0.0);
+    stands->turn = Viewpoint{{at.x, at.y, stands->start.p_W.z}, std::remainder(quarter, 2 * kPi)};
+    if (looks && !ground.IsFree(stands->turn->p_W, StartRoom(ground))) return std::nullopt;
     return stands;
   }
 

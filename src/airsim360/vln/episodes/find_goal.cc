@@ -10,6 +10,7 @@ namespace {
 constexpr double kEyeHeight = 1.6;  // metres above the ground: the lowest place beside a thing
 constexpr int kRing = 32;           // places tried around a thing
 constexpr double kBesideIt = 8;     // metres from a thing: farther is not beside it
+constexpr double kApart = 1;        // metres between places around a thing in a room
 constexpr double kReach = 150;      // metres that are looked at beyond a thing
 
 struct Finder {
@@ -58,13 +59,27 @@ struct Finder {
     return false;
   }
 
-  // As far from it as is wanted; where nothing is free there, for it stands in a corner or among others, a little farther.
+  // Places of a lattice over its box and as far around it as is wanted, about `apart` metres from each other.
+  std::vector<Vec3d> Lattice(double apart) const {
+    const double distance = std::max(wanted.distance, 0.8);
+    const Vec3d grown{distance, distance, distance}, low = thing.box.min - grown, size = thing.size() + grown * 2;
+    const auto parts = [apart](double length) { return static_cast<int>(length / apart) + 1; };
+    const int nx = parts(size.x), ny = parts(size.y), nz = parts(size.z);
+    std::vector<Vec3d> places;
+    for (int i = 0; i < nx * ny * nz; ++i)
+      places.push_back(low + Vec3d{size.x * (i % nx + 0.5) / nx, size.y * (i / nx % ny + 0.5) / ny, size.z * (i / (nx * ny) + 0.5) / nz});
+    return places;
+  }
+
+  // As far from it as is wanted; where nothing is free there, for it stands in a corner or among others, a little farther; of what
+  // fills a room of its own, as stairs do, within its box.
   std::optional<Vec3d> Near(bool on_ground) const {
     for (const double share : {1.0, 1.5, 2.0, 3.0}) {
       const double distance = std::max(wanted.distance, std::min(share * wanted.distance, kBesideIt));
       if (const auto place = Nearest(Ring(distance, on_ground), true)) return place;
     }
-    return std::nullopt;
+    if (!ground.rooms()) return std::nullopt;
+    return Nearest(Lattice(kApart), true);
   }
 
   // Above its surface; `highest`: only where that is near its top.
@@ -142,17 +157,11 @@ struct Finder {
 std::vector<Vec3d> FindPlaces(const VlnGround& ground, const InstructionTemplate& wanted, const Thing& thing, Vec3d goal) {
   const Viewpoint from{goal, 0};
   const Finder find{ground, wanted, thing, from};
-  const double distance = std::max(wanted.distance, 0.8);
-  const Vec3d grown{distance, distance, distance}, low = thing.box.min - grown, size = thing.size() + grown * 2;
-  // A lattice around the thing; wider, where that has too many places.
-  for (double apart = 1;; apart *= 1.25) {
+  // Wider, where a lattice has too many places.
+  for (double apart = kApart;; apart *= 1.25) {
     std::vector<Vec3d> places;
-    const auto parts = [apart](double length) { return static_cast<int>(length / apart) + 1; };
-    const int nx = parts(size.x), ny = parts(size.y), nz = parts(size.z);
-    for (int i = 0; i < nx * ny * nz; ++i) {
-      const Vec3d p = low + Vec3d{size.x * (i % nx + 0.5) / nx, size.y * (i / nx % ny + 0.5) / ny, size.z * (i / (nx * ny) + 0.5) / nz};
+    for (const Vec3d& p : find.Lattice(apart))
       if (ground.IsFree(p, GoalRoom(ground)) && find.Sees(p)) places.push_back(p);
-    }
     if (places.size() > kMostPlaces) continue;
     std::ranges::stable_sort(places, {}, [&](Vec3d p) { return Norm(p - goal); });
     return places;

@@ -214,9 +214,11 @@ class Maker {
     const double ratio = std::cbrt(wanted.farthest / std::max(wanted.nearest, 1.0));
     const double least = wanted.nearest * std::pow(ratio, k % 3);
     const int64_t needed = NeededPixels(wanted, k);
+    // Few places at an intersection show what stands around its corner.
+    const int most_looks = wanted.frame == StartFrame::kTurn ? 6 * kLooks : kLooks;
     int ways = 0, looks = 0;
-    for (int draw = 0; draw < kDraws && ways < kWays && looks < kLooks; ++draw) {
-      const bool anywhere = draw > kDraws / 4 || looks > kLooks / 2;
+    for (int draw = 0; draw < kDraws && ways < kWays && looks < most_looks; ++draw) {
+      const bool anywhere = draw > kDraws / 4 || looks > most_looks / 2;
       auto stands =
           DrawStart(ground_, graph_, wanted, anywhere ? wanted.nearest : least, anywhere ? wanted.farthest : least * ratio, random);
       if (!stands) continue;

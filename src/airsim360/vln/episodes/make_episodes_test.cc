@@ -5,6 +5,8 @@
 
 #include <map>
 
+#include "airsim360/math/angles.h"
+#include "airsim360/vln/predicates/entity_parts.h"
 #include "airsim360/vln/predicates/test_town.h"
 
 namespace airsim360 {
@@ -69,6 +71,44 @@ TEST(MakeEpisodes, AFirstStartOutOfSightIsSaid) {
   EXPECT_NE(tiny.hidden[0].why.find("pixels"), std::string::npos);
 }
 
+// A junction of streets; a booth at its north-eastern corner, behind a wall for whoever is in the middle.
+TEST(MakeEpisodes, WhatIsSeenAtAnIntersectionIsSeenFromOverIt) {
+  TestTown town;
+  town.Box("street", "ground/road", {0, 0, 0}, {300, 300, 1}, -1);
+  town.Box("junction main", "ground/road", {0, 0, 0}, {24, 24, 0.02f}, 0);
+  town.Box("wall", "construction/wall", {14, 5, 0}, {1, 6, 6});
+  town.Box("booth", "furniture/mail/post_box", {20, 10, 0}, {1, 1, 2.4f});
+  const auto stage = std::make_shared<Stage>(town.Build());
+  const auto asked = [](const char* more) {
+    return std::string(R"([{"id": "t", "text": "At the intersection, you'll see a booth on your right.", "frame": "turn",
+      "query": {"noun": {"word": "booth", "names": ["booth"]}, "predicates": [{"is": "bearing", "sector": "right", "at_turn": true},
+      {"is": "nearest", "at_turn": true}]})") +
+           more + "}]";
+  };
+  const VlnMade seen = Made(stage, {.templates = WrittenTo("seen_at_turn.json", asked(R"(, "in_sight": true)")), .starts = 3});
+  ASSERT_EQ(seen.episodes.size(), 3u);
+  const auto shows = [&](Vec3d from) {
+    for (const double u : {-0.45, 0.0, 0.45})
+      for (const double z : {0.2, 1.2, 2.3}) {
+        const Vec3d to{20 + u, 10 - u, z};
+        const auto hit = stage->solid()->Intersect(VecCast<float>(from), VecCast<float>(to - from), 1);
+        if (hit && stage->scene().entity(internal::EntityAt(stage->scene(), hit->surface)).name == "booth") return true;
+      }
+    return false;
+  };
+  EXPECT_FALSE(shows({0, 0, 2}) || shows({0, 0, 8}));
+  for (const LanguageEpisode& e : seen.episodes) {
+    EXPECT_TRUE(shows(e.turn->p_W));
+    EXPECT_LE(std::max(std::abs(e.turn->p_W.x), std::abs(e.turn->p_W.y)), 12 + 16) << "over the junction and its crossings";
+    const Vec3d on = e.turn->p_W - e.start.p_W;
+    EXPECT_NEAR(std::abs(std::remainder(std::atan2(on.y, on.x) - e.start.yaw, 2 * kPi)), 0, 1e-3) << "on the way ahead";
+  }
+  // Who only turns there does so in its middle.
+  const VlnMade turned = Made(stage, {.templates = WrittenTo("turned.json", asked("")), .starts = 3});
+  ASSERT_FALSE(turned.episodes.empty());
+  for (const LanguageEpisode& e : turned.episodes) EXPECT_NEAR(std::hypot(e.turn->p_W.x, e.turn->p_W.y), 0, 1e-6);
+}
+
 TEST(MakeEpisodes, ALimitIsSharedAmongNouns) {
   TestTown town;
   town.Box("street", "ground/road", {0, 0, 0}, {300, 300, 1}, -1);
@@ -88,6 +128,34 @@ TEST(MakeEpisodes, ALimitIsSharedAmongNouns) {
     sum += count;
   }
   EXPECT_EQ(sum, 6) << "instructions that cannot be given leave room for others";
+}
+
+// A room whose door a screen hides, and behind it a small room that one thing takes up from wall to wall, as stairs do.
+std::shared_ptr<Stage> Stairwell() {
+  TestTown town;
+  town.Box("floor", "ground/floor", {0, 0, 0}, {20, 12, 0.2f}, -0.2f);
+  town.Box("ceiling", "construction/ceiling", {0, 0, 0}, {20, 12, 0.2f}, 3);
+  for (const float side : {-1.0f, 1.0f}) {
+    town.Box("wall", "construction/wall", {side * 8, 0, 0}, {0.2f, 8, 3});
+    town.Box("wall", "construction/wall", {0, side * 4, 0}, {16, 0.2f, 3});
+    town.Box("wall", "construction/wall", {0, side * 2.3f, 0}, {0.2f, 3.4f, 3});  // a door of 1.2 m is left
+    town.Box("wall", "construction/wall", {3, side * 2, 0}, {6, 0.2f, 3});
+  }
+  town.Box("wall", "construction/wall", {6, 0, 0}, {0.2f, 4, 3});
+  town.Box("screen", "construction/wall", {-1.1f, 0, 0}, {0.1f, 3.2f, 3});
+  town.Boxes("stairs", "construction/stairs", 2, {0.9f, -1.3f, 0}, {4, 2.6f, 0}, {1, 1, 1});
+  return std::make_shared<Stage>(town.BuildRoom());
+}
+
+TEST(MakeEpisodes, WhatFillsARoomIsReachedWithinIt) {
+  const std::string file = WrittenTo("stairs.json", R"([{"id": "t", "text": "Fly to the stairs.", "distance": [2, 7], "height": [1, 2],
+    "goal_distance": 1, "query": {"noun": {"word": "stairs", "names": ["stairs"]}, "predicates": [{"is": "nearest"}]}}])");
+  const VlnMade made = Made(Stairwell(), {.templates = file, .starts = 3});
+  ASSERT_EQ(made.episodes.size(), 3u) << (made.unbound.empty() ? "" : made.unbound[0].why);
+  for (const LanguageEpisode& e : made.episodes) {
+    EXPECT_GT(e.goal.x, 0) << "behind the door, for nothing of them is seen before it";
+    EXPECT_LT(std::abs(e.goal.y), 2);
+  }
 }
 
 // A hall with a long counter on its floor.

@@ -141,6 +141,12 @@ TEST(Decide, StraightAheadIsNarrowerThanAhead) {
   EXPECT_FALSE(meant(13, "straight_ahead"));  // within 4 degrees of the limit
   EXPECT_FALSE(meant(33, "straight_ahead"));
   EXPECT_TRUE(meant(33, "ahead"));
+  // A hand is wider than a quarter: what one passes on it begins well ahead.
+  EXPECT_TRUE(meant(36, "right_hand"));
+  EXPECT_TRUE(meant(144, "right_hand"));
+  EXPECT_FALSE(meant(36, "right"));
+  EXPECT_FALSE(meant(24, "right_hand"));
+  EXPECT_FALSE(meant(-90, "right_hand"));
 }
 
 TEST(Decide, WhatPeopleMayCallTheSameCompetes) {
@@ -303,6 +309,7 @@ TEST(Decide, BothMethodsAgreeWhereverOneIsSure) {
       {Named("box"), {{.kind = PredicateKind::kAlong, .width = 15}, {.kind = PredicateKind::kOrdinal, .k = 2}}},
       {Named("box"), {{.kind = PredicateKind::kAlong, .width = 8, .clear = 12}, {.kind = PredicateKind::kOrdinal, .k = 2}}},
       {Named("box"), {Sector("straight_ahead"), Is(PredicateKind::kNearest)}},
+      {Named("box"), {Sector("right_hand"), Is(PredicateKind::kNearest)}},
       {Named("box"), {{.kind = PredicateKind::kHeightQuantile, .share = 0.7}, Is(PredicateKind::kNearest)}},
       {Named("box"), {{.kind = PredicateKind::kSideOf, .sector = "left"}, Is(PredicateKind::kNearest)}},
       {Named("box"), {Is(PredicateKind::kAcross), Is(PredicateKind::kNearest)}}};

@@ -32,10 +32,10 @@ struct Sector {
   const char* name;
   double azimuth, half_width;
 };
-inline constexpr Sector kSectors[] = {{"ahead", 0, 45},        {"right", 90, 45},       {"behind", 180, 45},
-                                      {"left", -90, 45},       {"ahead_left", -45, 40}, {"ahead_right", 45, 40},
-                                      {"rear_right", 135, 40}, {"rear_left", -135, 40}, {"straight_ahead", 0, 15}};
-inline constexpr size_t kPlainSectors = 8;    ///< the first of them divide the circle twice; those after are narrower
+inline constexpr Sector kSectors[] = {{"ahead", 0, 45},          {"right", 90, 45},       {"behind", 180, 45},     {"left", -90, 45},
+                                      {"ahead_left", -45, 40},   {"ahead_right", 45, 40}, {"rear_right", 135, 40}, {"rear_left", -135, 40},
+                                      {"straight_ahead", 0, 15}, {"right_hand", 90, 60}};
+inline constexpr size_t kPlainSectors = 8;    ///< the first of them divide the circle twice; those after overlap them
 inline constexpr double kAboveElevation = 8;  ///< degrees: higher is "above", lower than its negative "below"
 
 /// Metres by which a thing from `low` to `high` is on the floor over which somebody's eyes are one to two metres high; negative: it
