@@ -4,13 +4,9 @@
 #include <cmath>
 
 #include "airsim360/math/angles.h"
+#include "airsim360/render/sky/sky.h"
 
 namespace airsim360::internal {
-namespace {
-
-constexpr float kSunRadius = 0.004625f;  // radians; as in light_kernel.cc
-
-}  // namespace
 
 PathLights::PathLights(const Shader::Impl& parts) : sky_(parts.sky ? &*parts.sky : nullptr), lamps_(parts.lights) {
   if (sky_ == nullptr) return;

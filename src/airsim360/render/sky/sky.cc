@@ -18,7 +18,6 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kSunSolidAngle = 6.72e-5f;  // disc of 0.53 degrees
-constexpr float kSunRadius = 0.004625f;
 
 Vec3f FromCompass(double azimuth_deg, double elevation_deg) {
   const double azimuth = azimuth_deg * (M_PI / 180), elevation = elevation_deg * (M_PI / 180);
