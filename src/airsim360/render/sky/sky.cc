@@ -59,7 +59,7 @@ Vec3f LightOnMoon(Vec3f to_moon, Vec3f to_sun, double phase) {
 }  // namespace
 
 Sky::Sky(const Environment& environment, Vec3f place, const Sky* like, float town)
-    : place_(place), sun_radius_(kSunRadius), town_(environment.lamps_on() ? town : 0) {
+    : place_(place), sun_radius_(SUN_RADIUS), town_(environment.lamps_on() ? town : 0) {
   if (like != nullptr) {
     TakeTable(*like);
   } else {

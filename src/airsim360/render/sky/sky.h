@@ -14,8 +14,6 @@
 
 namespace airsim360::internal {
 
-inline constexpr float kSunRadius = 0.004625f;  ///< radians, of the sun's and the moon's disc
-
 /// The sun as a light: a disc of even mean radiance (darker towards its limb when seen, see SunDisc in
 /// light_kernel.cc). At night it is the moon. Black where neither shines.
 struct SunLight {
