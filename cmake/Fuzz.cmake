@@ -34,7 +34,7 @@ endfunction()
 # airsim360_fuzz_module(NAME ...): as airsim360_module, for a build of fuzz targets (tools/fuzz.sh). What a fuzz target
 # aims at is compiled by clang with the sanitizers; the rest comes from the ordinary build in AIRSIM360_RELEASE.
 function(airsim360_fuzz_module name)
-  cmake_parse_arguments(ARG "" "" "DEPS;PUBLIC_LIBS;PRIVATE_LIBS;TEST_DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "FRONT" "" "DEPS;PUBLIC_LIBS;PRIVATE_LIBS;TEST_DEPS" ${ARGN})
   set(dir ${CMAKE_SOURCE_DIR}/src/airsim360/${name})
   file(GLOB_RECURSE fuzzers CONFIGURE_DEPENDS ${dir}/*_fuzz.cc)
   set(sources "")

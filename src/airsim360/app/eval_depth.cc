@@ -152,7 +152,7 @@ std::vector<double> MeanFigures(const std::vector<DepthResult>& results, const O
   return sums;
 }
 
-std::vector<Figure> Named(const std::vector<double>& values, const char* suffix = "") {
+std::vector<Figure> WithNames(const std::vector<double>& values, const char* suffix = "") {
   std::vector<Figure> figures;
   for (size_t f = 0; f < values.size(); ++f) figures.emplace_back(std::string(kDepthFigures[f]) + suffix, values[f]);
   return figures;
@@ -189,7 +189,7 @@ void Run(DepthArguments a, const GlobalOptions& globals) {
         results, [view](const DepthResult& r) -> const DepthErrors& { return r.views[view]; }, draws);
   };
   Json json;
-  const std::vector<Figure> main = Named(of_view(0));
+  const std::vector<Figure> main = WithNames(of_view(0));
   json.update(ToJson(main));
   json["valid"] = Valid(results, 0);
   json["pictures"] = results.size();
@@ -197,7 +197,7 @@ void Run(DepthArguments a, const GlobalOptions& globals) {
   json["projection"] = a.view.projection;
   if (!a.protocol.empty()) json["protocol"] = a.protocol;
   if (a.protocol == "unik3d")
-    json.update(ToJson(Named(MeanFigures(results, [](const DepthResult& r) -> const DepthErrors& { return r.scaled; }), "_si")));
+    json.update(ToJson(WithNames(MeanFigures(results, [](const DepthResult& r) -> const DepthErrors& { return r.scaled; }), "_si")));
   std::vector<std::pair<std::string, std::string>> mistakes;
   for (size_t i = 0; i < results.size(); ++i) mistakes.emplace_back(files.pairs[i].prediction.string(), results[i].mistake);
   JudgeMistakes(mistakes, a.view.force, json);
@@ -205,13 +205,13 @@ void Run(DepthArguments a, const GlobalOptions& globals) {
     throw InputError(a.gt + ": no pixel has a truth above " + std::to_string(a.depth.min_depth) + " m" +
                      (a.depth.max_depth < 1e300 ? " and up to " + std::to_string(a.depth.max_depth) + " m" : ""));
   AppendViews(json, a.view, [&](size_t view) {
-    Json one = ToJson(Named(of_view(view)));
+    Json one = ToJson(WithNames(of_view(view)));
     one["valid"] = Valid(results, view);
     return one;
   });
   std::vector<std::vector<Figure>> turned;
   for (size_t r = 0; r < turns.size(); ++r)
-    turned.push_back(Named(MeanFigures(results, [r](const DepthResult& one) -> const DepthErrors& { return one.rolled[r]; })));
+    turned.push_back(WithNames(MeanFigures(results, [r](const DepthResult& one) -> const DepthErrors& { return one.rolled[r]; })));
   AppendRolled(json, turns, turned, main);
   std::vector<std::string> names(kDepthFigures.begin(), kDepthFigures.end());
   AppendIntervals(json, a.report, globals.seed, results.size(), names, [&](std::span<const uint32_t> draws) { return of_view(0, draws); });

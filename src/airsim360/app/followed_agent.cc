@@ -15,6 +15,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/json_depth.h"
 #include "airsim360/http/http_client.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/math/transform.h"
 #include "airsim360/view/live_messages.h"
 #include "airsim360/view/planes.h"
@@ -29,8 +30,7 @@ constexpr size_t kMostAnswer = size_t{256} << 20;
 constexpr int kDeepest = 12;
 constexpr double kPatience = 10, kFirstPatience = 3;  // seconds
 constexpr double kShortest = 0.05, kLongest = 0.5;    // seconds of a move
-constexpr double kNear = 0.5, kFar = 200, kMostSpeed = 15, kTurnRateDeg = 86;
-constexpr std::chrono::milliseconds kPause{100};  // between looks at an episode that stands still
+constexpr std::chrono::milliseconds kPause{100};      // between looks at an episode that stands still
 
 std::string UrlOf(const std::string& address, const std::string& path) { return "http://" + address + path; }
 
@@ -138,8 +138,8 @@ void FollowedAgent::Impl::Fly(const std::string& episode, const Json& input) {
   const double passed = std::clamp(std::chrono::duration<double>(now - moved_at).count(), kShortest, kLongest);
   moved_at = now;
   const Json action{{"type", "velocity"},
-                    {"v", {ahead * kMostSpeed, left * kMostSpeed, up * kMostSpeed}},
-                    {"yaw_rate_deg", turn * kTurnRateDeg},
+                    {"v", {ahead * kStickSpeed, left * kStickSpeed, up * kStickSpeed}},
+                    {"yaw_rate_deg", turn * kStickTurnRate / kDegree},
                     {"duration", passed}};
   const HttpAnswer answer =
       PostJson(UrlOf(options.address, "/v1/episodes/" + episode + "/step"), "", Json{{"action", action}}.dump(), kPatience, kMostAnswer);
@@ -232,7 +232,7 @@ FollowedAgent::~FollowedAgent() = default;
 std::string FollowedAgent::DescriptionJson() const {
   return Json{{"world", impl_->world + ", agents at " + impl_->options.address},
               {"products", {"range", "entity"}},
-              {"scale", {kNear, kFar}},
+              {"scale", {kNearestColor, kFarthestColor}},
               {"weathers", Json::array()},
               {"keeps", false},
               {"flies", impl_->options.lease},

@@ -9,6 +9,7 @@
 #include "airsim360/app/followed_pictures.h"
 #include "airsim360/app/rpc_client.h"
 #include "airsim360/base/error.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/rpc/airsim_image_types.h"
 #include "airsim360/rpc/ned.h"
 #include "airsim360/view/live_messages.h"
@@ -19,7 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kNear = 0.5, kFar = 200, kMostSpeed = 15, kTurnRateDeg = 86;
 constexpr float kMoveSeconds = 0.5F;  // after which a drone that is told nothing stops
 constexpr const char* kCameras[] = {"panorama_original", "panorama_depth", "panorama_entity"};
 
@@ -114,10 +114,11 @@ void FollowedServer::Impl::Fly(const Json& input) {
   const auto [ahead, left, up, turn] = SticksOf(input);
   if (ahead == 0 && left == 0 && up == 0 && turn == 0) return;
   moves.Post("moveByVelocityBodyFrame", 7, [&](WireWriter& w) {
-    w.Float(static_cast<float>(ahead * kMostSpeed)), w.Float(static_cast<float>(-left * kMostSpeed)),
-        w.Float(static_cast<float>(-up * kMostSpeed));
+    w.Float(static_cast<float>(ahead * kStickSpeed)), w.Float(static_cast<float>(-left * kStickSpeed)),
+        w.Float(static_cast<float>(-up * kStickSpeed));
     w.Float(kMoveSeconds), w.Int(0);
-    w.MapHeader(2), w.String("is_rate"), w.Bool(true), w.String("yaw_or_rate"), w.Float(static_cast<float>(-turn * kTurnRateDeg));
+    w.MapHeader(2), w.String("is_rate"), w.Bool(true), w.String("yaw_or_rate"),
+        w.Float(static_cast<float>(-turn * kStickTurnRate / kDegree));
     w.String(options.vehicle);
   });
 }
@@ -209,7 +210,7 @@ FollowedServer::~FollowedServer() {
 std::string FollowedServer::DescriptionJson() const {
   return Json{{"world", impl_->options.vehicle + " at " + impl_->options.address},
               {"products", {"range", "entity"}},
-              {"scale", {kNear, kFar}},
+              {"scale", {kNearestColor, kFarthestColor}},
               {"weathers", Json::array()},
               {"keeps", false},
               {"flies", impl_->options.lease},

@@ -40,14 +40,14 @@ double Number(const std::string& text, const std::string& where) {
   return value;
 }
 
-struct Segment {
+struct PlanSegment {
   uint64_t num_coeffs = 0;
   double segment_time = 0;
   std::vector<std::string> x, y, z, yaw;
 };
 
 PlannedPath FromYaml(const std::string& text, const std::string& name) {
-  std::vector<Segment> segments;
+  std::vector<PlanSegment> segments;
   uint64_t seq = 0, secs = 0, nsecs = 0;
   std::string frame;
   ReadYaml(text, name, [&](ConfigVisitor& v) {
@@ -59,7 +59,7 @@ PlannedPath FromYaml(const std::string& text, const std::string& name) {
         s.Field("nsecs", "nanoseconds", nsecs);
       });
     });
-    v.List("segments", "pieces of the path", segments, [](ConfigVisitor& e, Segment& s) {
+    v.List("segments", "pieces of the path", segments, [](ConfigVisitor& e, PlanSegment& s) {
       e.Field("num_coeffs", "powers", s.num_coeffs);
       e.Field("segment_time", "seconds", s.segment_time, 1e-9, 1e9);
       e.Field("x", "increasing powers", s.x);
@@ -71,7 +71,7 @@ PlannedPath FromYaml(const std::string& text, const std::string& name) {
   if (segments.empty()) throw InputError(name + ": no segments");
   std::vector<double> durations, coefficients;
   for (size_t i = 0; i < segments.size(); ++i) {
-    const Segment& s = segments[i];
+    const PlanSegment& s = segments[i];
     const std::string where = name + ": segment " + std::to_string(i + 1);
     durations.push_back(s.segment_time);
     for (const auto* axis : {&s.x, &s.y, &s.z}) {

@@ -237,7 +237,7 @@ TEST(VertexColors, SurviveGeneratedNormalsMergingAndSplitting) {
 }
 
 // Corners of all triangles in W with their colours, in any order.
-std::vector<std::tuple<float, float, float, uint16_t, uint16_t, uint16_t, uint16_t>> Corners(const Scene& scene) {
+std::vector<std::tuple<float, float, float, uint16_t, uint16_t, uint16_t, uint16_t>> ColoredCorners(const Scene& scene) {
   std::vector<std::tuple<float, float, float, uint16_t, uint16_t, uint16_t, uint16_t>> out;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
@@ -279,7 +279,7 @@ TEST(VertexColors, ComeBackFromAnExportToTheBit) {
   WriteFileAtomically(path, EncodeGlb(*scene));
   const auto back = ImportScene(path);
   fs::remove(path);
-  EXPECT_EQ(Corners(*back), Corners(*scene));
+  EXPECT_EQ(ColoredCorners(*back), ColoredCorners(*scene));
   const auto none = [](const Scene& s) {
     return std::count_if(s.meshes.begin(), s.meshes.end(), [](const Mesh& m) { return m.colors.empty(); });
   };

@@ -41,7 +41,7 @@ std::string Hex(const unsigned char* bytes, size_t count) {
   return text;
 }
 
-std::optional<std::vector<unsigned char>> Bytes(std::string_view hex, size_t count) {
+std::optional<std::vector<unsigned char>> BytesOfHex(std::string_view hex, size_t count) {
   if (hex.size() != 2 * count) return std::nullopt;
   std::vector<unsigned char> bytes(count);
   for (size_t i = 0; i < hex.size(); ++i) {
@@ -75,7 +75,7 @@ std::string SignText(std::string_view pem, std::string_view text) {
 }
 
 bool IsSignedBy(std::string_view public_key, std::string_view text, std::string_view signature) {
-  const auto raw = Bytes(public_key, kKeyBytes), signed_bytes = Bytes(signature, kSignatureBytes);
+  const auto raw = BytesOfHex(public_key, kKeyBytes), signed_bytes = BytesOfHex(signature, kSignatureBytes);
   if (!raw || !signed_bytes) return false;
   const Key key(EVP_PKEY_new_raw_public_key(EVP_PKEY_ED25519, nullptr, raw->data(), raw->size()), EVP_PKEY_free);
   const Context context(EVP_MD_CTX_new(), EVP_MD_CTX_free);

@@ -12,7 +12,7 @@ namespace airsim360 {
 namespace {
 
 template <class... Values>
-std::string Format(const char* format, Values... values) {
+std::string Formatted(const char* format, Values... values) {
   char text[256];
   std::snprintf(text, sizeof text, format, values...);
   return text;
@@ -35,8 +35,8 @@ std::string HistogramTable(const std::vector<CategoryTotal>& totals, const Scene
     const Category& category = scene.tree[total.category];
     table += "| " + std::to_string(total.category) + " | `" + category.path + "` | " + (category.thing ? "thing" : "stuff") + " | " +
              std::to_string(total.entities) + " | " + std::to_string(total.pixels) +
-             Format(" | %.3f | %.3f |\n", 100.0 * static_cast<double>(total.pixels) / static_cast<double>(pixels),
-                    100.0 * total.solid_angle / solid_angle);
+             Formatted(" | %.3f | %.3f |\n", 100.0 * static_cast<double>(total.pixels) / static_cast<double>(pixels),
+                       100.0 * total.solid_angle / solid_angle);
   }
   return table;
 }

@@ -13,7 +13,7 @@ namespace airsim360 {
 namespace {
 
 constexpr int kTries = 32;
-constexpr double kClosest = 0.3;  // metres ahead of the camera
+constexpr double kClosestInView = 0.3;  // metres ahead of the camera
 
 struct NamedDraw {
   const char* name;
@@ -144,9 +144,9 @@ MpdeSample DrawView(const PersonShape& shape, const ViewDraw& draw, RngStream& r
     bool inside = true;
     for (size_t k = 0; k < shape.keypoints.size(); ++k) {
       const Vec3d p = see(shape.keypoints[k]);
-      const double z = std::max(p.z, kClosest);
+      const double z = std::max(p.z, kClosestInView);
       sample.rays[2 * k] = static_cast<float>(p.x / z), sample.rays[2 * k + 1] = static_cast<float>(p.y / z);
-      inside = inside && p.z > kClosest && std::abs(p.y / z) <= limit;
+      inside = inside && p.z > kClosestInView && std::abs(p.y / z) <= limit;
     }
     const Vec3d center = see(shape.center), ahead = ToCamera({std::cos(shape.yaw + turn), std::sin(shape.yaw + turn), 0}, pitch);
     sample.truth = {Norm(center), WrapAngle(std::atan2(-ahead.z, ahead.x) - std::atan2(center.x, center.z))};

@@ -15,7 +15,7 @@ using internal::kAccelerationControls;
 using internal::kSpeedControls;
 
 /// Width of the certified bracket, relative, of the squares.
-constexpr double kWidth = 2e-11;
+constexpr double kPeakWidth = 2e-11;
 
 /// Bernstein control values on a part of a segment.
 template <int n>
@@ -93,7 +93,7 @@ class PeakSearch {
 
  private:
   double Control(size_t segment, int k) const { return controls_[(segment / 8 * stride_ + static_cast<size_t>(k)) * 8 + segment % 8]; }
-  double Ceiling() const { return floor_ * (1 + kWidth); }
+  double Ceiling() const { return floor_ * (1 + kPeakWidth); }
 
   void Attain(double value, size_t segment, double tau) {
     if (value <= floor_) return;
@@ -101,7 +101,7 @@ class PeakSearch {
     time_ = trajectory_.start(segment) + tau * trajectory_.durations()[segment];
   }
 
-  /// Upper bound of the segment, at most kWidth above the floor, which it raises.
+  /// Upper bound of the segment, at most kPeakWidth above the floor, which it raises.
   double Refine(size_t segment) {
     Part<n> whole = {{}, 0, 1};
     for (int k = 0; k <= n; ++k) whole.control[static_cast<size_t>(k)] = Control(segment, k);

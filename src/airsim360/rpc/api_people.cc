@@ -41,7 +41,7 @@ PersonIndex Find(const SimPeople& people, Text name) {
   return PersonByName(*people.crowd, name);
 }
 
-void Command(Session& s, Text name, const PersonAction& action) {
+void CommandPerson(Session& s, Text name, const PersonAction& action) {
   const SimPeople& people = PeopleOf(s.model());
   // Snapshots keep the people that they have.
   auto changed = std::make_shared<PeopleState>(*s.state().people);
@@ -88,28 +88,28 @@ void AddReading(Api& api) {
 
 void AddCommands(Api& api) {
   api.Change("simSpawnPerson", [](Session& s, Text name, const airsim::Pose& pose) {
-    Command(s, name, SpawnPerson{airsim::FromPose(pose, s.origin_W()).p, YawOf(pose, s.origin_W())});
+    CommandPerson(s, name, SpawnPerson{airsim::FromPose(pose, s.origin_W()).p, YawOf(pose, s.origin_W())});
   });
   api.Change("simMovePerson", [](Session& s, Text name, const airsim::Pose& pose) {
-    Command(s, name, MovePerson{airsim::FromPose(pose, s.origin_W()).p, YawOf(pose, s.origin_W())});
+    CommandPerson(s, name, MovePerson{airsim::FromPose(pose, s.origin_W()).p, YawOf(pose, s.origin_W())});
   });
-  api.Change("simRemovePerson", [](Session& s, Text name) { Command(s, name, RemovePerson{}); });
+  api.Change("simRemovePerson", [](Session& s, Text name) { CommandPerson(s, name, RemovePerson{}); });
   api.Change(
       "simSendPerson",
       [](Session& s, Text name, const airsim::Vector3r& goal, double speed) {
         airsim::Pose pose;
         pose.position = goal;
-        Command(s, name, SendPerson{airsim::FromPose(pose, s.origin_W()).p, speed});
+        CommandPerson(s, name, SendPerson{airsim::FromPose(pose, s.origin_W()).p, speed});
       },
       1);
   api.Change(
       "simSetPersonState",
       [](Session& s, Text name, Text state, double seconds) {
-        Command(s, name, SetPersonState{state, seconds});
+        CommandPerson(s, name, SetPersonState{state, seconds});
       },
       1);
-  api.Change("simMessagePerson", [](Session& s, Text name, Text type) { Command(s, name, MessagePerson{type}); });
-  api.Change("simReleasePerson", [](Session& s, Text name) { Command(s, name, ReleasePerson{}); });
+  api.Change("simMessagePerson", [](Session& s, Text name, Text type) { CommandPerson(s, name, MessagePerson{type}); });
+  api.Change("simReleasePerson", [](Session& s, Text name) { CommandPerson(s, name, ReleasePerson{}); });
 }
 
 }  // namespace

@@ -14,6 +14,11 @@
 
 namespace airsim360 {
 
+/// What a stick pushed all the way, or a key, asks of a drone.
+inline constexpr double kStickSpeed = 15, kStickTurnRate = 1.5;  ///< m/s, rad/s
+/// Ends of the scale that colours of ranges follow, metres.
+inline constexpr double kNearestColor = 0.5, kFarthestColor = 200;
+
 struct MessageLimits {
   size_t bytes = 4096;
   int depth = 4;  ///< levels of nesting

@@ -34,12 +34,10 @@ namespace {
 constexpr double kMostPassed = 0.25;         // seconds that pass between two pictures at most
 constexpr int64_t kSilenceNs = 500'000'000;  // after which the drone stops
 constexpr double kFlowSeconds = 0.1;
-constexpr double kMostSpeed = 15, kTurnRate = 1.5;  // m/s, rad/s
-constexpr double kKeyStep = 0.5;                    // of a stick: so much at once is a key, not the drift of a gamepad
+constexpr double kKeyStep = 0.5;  // of a stick: so much at once is a key, not the drift of a gamepad
 constexpr size_t kKeptFrames = 4, kMostKept = 1000, kMostMessage = 65536;
 constexpr int kSmallest = 128, kLargest = 4096;  // columns
 constexpr const char* kShown[] = {"range", "semantic", "entity", "normal", "albedo", "material", "position", "coverage", "flow"};
-constexpr double kNear = 0.5, kFar = 200;  // metres, ends of the scale of ranges
 
 std::string TimeOfDay(double hour) {
   const int minutes = static_cast<int>(std::lround(hour * 60)) % (24 * 60);
@@ -183,8 +181,8 @@ struct LiveWorld::Impl {
 
 void LiveWorld::Impl::Fly(const std::array<double, 4>& sticks) {
   const auto [ahead, left, up, turn] = sticks;
-  VelocityCommand command{.v = Vec3d{ahead, left, up} * kMostSpeed, .body_heading = true};
-  command.yaw = {YawTarget::Mode::kRate, turn * kTurnRate};
+  VelocityCommand command{.v = Vec3d{ahead, left, up} * kStickSpeed, .body_heading = true};
+  command.yaw = {YawTarget::Mode::kRate, turn * kStickTurnRate};
   loop.Post({0, FlightCommand{command, kSilenceNs}});
 }
 
@@ -424,7 +422,7 @@ std::string LiveWorld::DescriptionJson() const {
                    {"source", impl_->options.source},
                    {"source_text", impl_->options.source_text},
                    {"products", kShown},
-                   {"scale", {kNear, kFar}},
+                   {"scale", {kNearestColor, kFarthestColor}},
                    {"weathers", EnvironmentPresetNames()},
                    {"keeps", static_cast<bool>(impl_->options.save)},
                    {"flies", true},

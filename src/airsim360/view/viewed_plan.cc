@@ -14,9 +14,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kMostColumns = 1024;
 // Those that a plane message holds.
-constexpr const char* kShown[] = {"rgb", "range", "semantic", "entity", "normal", "albedo", "position", "coverage", "flow"};
+constexpr const char* kShownOfPlans[] = {"rgb", "range", "semantic", "entity", "normal", "albedo", "position", "coverage", "flow"};
 
-bool IsShown(const std::string& product) { return std::ranges::find(kShown, product) != std::end(kShown); }
+bool IsShown(const std::string& product) { return std::ranges::find(kShownOfPlans, product) != std::end(kShownOfPlans); }
 
 DatasetSpec PicturesOf(const DatasetPlan& plan) {
   RecipePicture picture = plan.recipe.picture;

@@ -56,13 +56,13 @@ constexpr const char* kMpcat40[] = {"wall",
 constexpr const char* kStanford13[] = {"beam", "board", "bookcase", "ceiling", "chair", "clutter", "column",
                                        "door", "floor", "sofa",     "table",   "wall",  "window"};
 
-struct Row {
+struct IndoorRow {
   std::string_view path;
   int nyu40, mpcat40, stanford13;
 };
 // Stanford's clutter is what stands in a room and has no class; ground and sky outside have none in any list.
 constexpr int kClutter = 6;
-constexpr Row kRows[] = {
+constexpr IndoorRow kIndoorRows[] = {
     {"animal", 40, 39, kClutter},
     {"barrier", 38, 30, kClutter},
     {"construction", 38, 40, kClutter},
@@ -121,9 +121,9 @@ constexpr Row kRows[] = {
     {"vehicle", 40, 39, kClutter},
 };
 
-const Row* RowOf(std::string_view path) {
+const IndoorRow* RowOf(std::string_view path) {
   while (!path.empty()) {
-    for (const Row& row : kRows)
+    for (const IndoorRow& row : kIndoorRows)
       if (row.path == path) return &row;
     const size_t slash = path.rfind('/');
     path = slash == std::string_view::npos ? std::string_view{} : path.substr(0, slash);
@@ -146,7 +146,7 @@ std::span<const char* const> IndoorNames(IndoorList list) {
 }
 
 int IndoorId(IndoorList list, std::string_view path) {
-  const Row* row = RowOf(path);
+  const IndoorRow* row = RowOf(path);
   if (!row) return -1;
   return list == IndoorList::kNyu40 ? row->nyu40 : list == IndoorList::kMpcat40 ? row->mpcat40 : row->stanford13;
 }

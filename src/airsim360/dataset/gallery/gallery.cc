@@ -12,6 +12,7 @@
 #include "airsim360/dataset/gallery/scene_legend.h"
 #include "airsim360/dataset/gallery/statistics.h"
 #include "airsim360/image/codecs.h"
+#include "airsim360/image/draw.h"
 
 namespace airsim360 {
 
@@ -28,13 +29,6 @@ uint8_t Byte(double v) { return static_cast<uint8_t>(std::lround(std::clamp(v, 0
 Rgb8 Rainbow(double t) {
   const auto hump = [](double x) { return std::clamp(1.5 - std::abs(x), 0.0, 1.0); };
   return {Byte(hump(4 * t - 3)), Byte(hump(4 * t - 2)), Byte(hump(4 * t - 1))};
-}
-
-// A colour of its own for each id, bright enough to tell from black.
-Rgb8 IdColor(uint32_t id) {
-  uint32_t h = id * 2654435761u;
-  h ^= h >> 15;
-  return {static_cast<uint8_t>(64 + h % 192), static_cast<uint8_t>(64 + h / 256 % 192), static_cast<uint8_t>(64 + h / 65536 % 192)};
 }
 
 Rgb8 FlowColor(float dx, float dy) {

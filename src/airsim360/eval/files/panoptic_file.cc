@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 using internal::JsonCursor;
 using internal::JsonFile;
 
-std::vector<PanopticCategory> Categories(const JsonCursor& list) {
+std::vector<PanopticCategory> PanopticCategories(const JsonCursor& list) {
   std::vector<PanopticCategory> categories;
   std::set<int64_t> ids;
   for (size_t i = 0; i < list.size(); ++i) {
@@ -58,7 +58,7 @@ std::string FileName(const JsonCursor& value) {
 
 PanopticFile Read(const JsonCursor& top, const std::vector<PanopticCategory>* known) {
   PanopticFile file;
-  file.categories = known ? *known : Categories(top["categories"]);
+  file.categories = known ? *known : PanopticCategories(top["categories"]);
   std::map<int64_t, size_t> categories;
   for (size_t c = 0; c < file.categories.size(); ++c) categories[file.categories[c].id] = c;
   const auto sequences = Sequences(top);

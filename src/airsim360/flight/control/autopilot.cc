@@ -22,7 +22,7 @@ const std::vector<std::string>& KindNames() {
 // A rotor has failed when for this long it turns at less than this share of the speed it should have.
 constexpr double kFaultTime = 0.15, kFaultShare = 0.5;
 constexpr double kFaultFloor = 0.15;  // of its top speed: slower ones are not judged
-constexpr double kIdleSpeed = 0.05;   // of the top speed
+constexpr double kIdleShare = 0.05;   // of the top speed
 
 void CheckOption(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
@@ -116,7 +116,7 @@ RotorValues Autopilot::Unflown(const Goal& goal, AutopilotState& state) const {
   RotorValues speeds{};
   for (size_t i = 0; i < model_.rotors.size(); ++i) {
     const double most = model_.rotors[i].max_speed;
-    if (goal.level == GoalLevel::kIdle) speeds[i] = kIdleSpeed * most;
+    if (goal.level == GoalLevel::kIdle) speeds[i] = kIdleShare * most;
     if (goal.level == GoalLevel::kSpeeds) speeds[i] = std::min(goal.speeds[i], most);
   }
   // Controllers start afresh after this.

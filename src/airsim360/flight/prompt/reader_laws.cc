@@ -6,12 +6,13 @@
 #include <numbers>
 
 #include "airsim360/base/error.h"
+#include "airsim360/flight/drone_model.h"
 #include "airsim360/flight/prompt/reader.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kGravityHere = 9.80665, kAirDensity = 1.225, kNominalCell = 3.7;  // m/s^2, kg/m^3, V
+constexpr double kAirDensity = 1.225, kNominalCell = 3.7;  // kg/m^3, V
 // A lithium cell between empty and full; that of a high voltage pack is full at 4.35 V.
 constexpr double kEmptyCell = 2.9, kFullestCell = 4.4;
 
@@ -143,7 +144,7 @@ void Reader::CheckPower() const {
   // Actuator disc: no rotor hovers with less.
   const double rotors = request_.rotors.value_or(request_.layout == RotorLayout::kCoaxial ? 8 : 4);
   const double disc = rotors * std::numbers::pi / 4 * *request_.propeller * *request_.propeller;
-  const double least = std::sqrt(std::pow(*request_.mass * kGravityHere, 3) / (2 * kAirDensity * disc));
+  const double least = std::sqrt(std::pow(*request_.mass * kGravity, 3) / (2 * kAirDensity * disc));
   if (power_->value >= least) return;
   throw InputError("no drone fits the description: '" + request_.words.at("mass") + "' on propellers of '" +
                    request_.words.at("propeller") + "' hover with " + Number(least) + " W at least, not with '" + power_->words + "'");

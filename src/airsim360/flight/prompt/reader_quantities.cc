@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/flight/drone_model.h"
 #include "airsim360/flight/prompt/figure_words.h"
 
 namespace airsim360::internal {
@@ -223,12 +224,11 @@ double Reader::PacksInSeries(size_t i) const {
 
 /// "A weight of 25 N", "weighing 15 N": true when it was read.
 bool Reader::ReadWeight(const Quantity& q) {
-  constexpr double kGravityHere = 9.80665;
   const std::string& unit = tokens_[q.last].text;
   if (unit != "n" && !unit.starts_with("newton")) return false;
   const size_t noun = NounBefore(q, true);
   if (noun == kNone || !Is(noun, WordKind::kMass)) return false;
-  ReadMass({q.first, q.last, tokens_[q.first].value / kGravityHere, FindWord("kg", false), q.words});
+  ReadMass({q.first, q.last, tokens_[q.first].value / kGravity, FindWord("kg", false), q.words});
   return true;
 }
 

@@ -4,13 +4,13 @@
 #include <iterator>
 
 #include "airsim360/base/error.h"
+#include "airsim360/flight/drone_model.h"
 #include "airsim360/flight/prompt/reader.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kGravityHere = 9.80665;  // N a kilogram
-constexpr double kMostRatio = 14;         // what the gate lets pass, with a margin
+constexpr double kMostRatio = 14;  // what the gate lets pass, with a margin
 
 template <size_t N>
 bool IsOneOf(const std::string& text, const char* const (&words)[N]) {
@@ -34,7 +34,7 @@ bool Reader::ReadThrust(const Quantity& q) {
   if (q.unit->kind != WordKind::kMassUnit && !newtons) return false;
   // "What thrust do I need for a 1.3 kg quad?"
   if (!newtons && (Is(q.last + 1, WordKind::kRotors) || Is(q.last + 1, WordKind::kDrone))) return false;
-  Thrust thrust{newtons ? tokens_[q.first].value / kGravityHere : q.value, false, false, q.words};
+  Thrust thrust{newtons ? tokens_[q.first].value / kGravity : q.value, false, false, q.words};
   size_t noun = kNone;
   bool motor = false, gives = newtons;
   const auto look = [&](size_t k) {

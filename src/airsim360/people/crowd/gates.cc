@@ -10,7 +10,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr double kWidest = 1.4;   // metres of a gate: farther out the way would grow long
-constexpr double kReach = 0.02;   // metres to a gate that is as good as passed
+constexpr double kAtGate = 0.02;  // metres to a gate that is as good as passed
 constexpr double kBeside = 0.25;  // and beside it, beyond its line
 
 Vec2d Unit(Vec2d a) {
@@ -62,7 +62,7 @@ Vec2d NearestInGate(const Gate& gate, Vec2d p) {
 bool HasPassed(const Gate& gate, Vec2d p) {
   const Vec2d off = p - NearestInGate(gate, p);
   const double beyond = Dot(off, gate.ahead), beside = std::abs(Cross(off, gate.ahead));
-  return Dot(off, off) < kReach * kReach || (beyond > 0 && beyond < 1.5 && beside < kBeside);
+  return Dot(off, off) < kAtGate * kAtGate || (beyond > 0 && beyond < 1.5 && beside < kBeside);
 }
 
 }  // namespace airsim360::internal

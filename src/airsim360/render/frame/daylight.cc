@@ -13,7 +13,7 @@ namespace {
 constexpr int kSunRays = 64;
 
 // Mean of the radiance of rays spread evenly over the sun's disc (Vogel's spiral).
-Rgb32f SunDisc(const RayTracer& tracer, const Shader& shader, const LabelView& labels, Vec3f origin, const SunLight& sun) {
+Rgb32f SeenSun(const RayTracer& tracer, const Shader& shader, const LabelView& labels, Vec3f origin, const SunLight& sun) {
   const TileKernels kernels;
   HitBatch hits;
   hits.origin = origin;
@@ -55,7 +55,7 @@ Daylight DaylightAt(const RayTracer& tracer, const Shader& shader, const LabelVi
   if (!(whole > 0)) return day;
   day.to_sun = sun.direction;
   day.sun = {sun.irradiance.x, sun.irradiance.y, sun.irradiance.z};
-  const Rgb32f seen = SunDisc(tracer, shader, labels, origin, sun);
+  const Rgb32f seen = SeenSun(tracer, shader, labels, origin, sun);
   day.sun_seen = std::clamp((seen.r + seen.g + seen.b) / whole, 0.0f, 1.0f);
   return day;
 }

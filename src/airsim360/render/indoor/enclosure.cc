@@ -10,12 +10,12 @@ namespace airsim360::internal {
 namespace {
 
 constexpr int kDirections = 48;
-constexpr float kSteep = 0.5f;       // sine of the elevation from which a ray looks for a roof: 12 of them
-constexpr float kFar = 60;           // m: what is farther encloses nothing
-constexpr float kMostCubes = 60000;  // of the box looked at
-constexpr float kLeastVolume = 12;   // m^3: smaller hollows are no rooms
-constexpr float kLeastShare = 0.1f;  // of its box that a scanned house is made of
-constexpr float kMargin = 1;         // m about ceilings
+constexpr float kSteep = 0.5f;            // sine of the elevation from which a ray looks for a roof: 12 of them
+constexpr float kFar = 60;                // m: what is farther encloses nothing
+constexpr float kMostCubes = 60000;       // of the box looked at
+constexpr float kLeastVolume = 12;        // m^3: smaller hollows are no rooms
+constexpr float kLeastShareOfBox = 0.1f;  // of its box that a scanned house is made of
+constexpr float kMargin = 1;              // m about ceilings
 
 bool IsUnder(const SemanticTree& tree, CategoryId id, std::string_view path) {
   const std::string& name = tree[id].path;
@@ -92,7 +92,7 @@ Enclosure::Enclosure(const RayTracer& tracer) {
   if (box.empty()) return;
   Look(tracer, box);
   const Vec3f size = box.size();
-  if (volume() < std::max(kLeastVolume, kLeastShare * size.x * size.y * std::min(size.z, 4.0f))) {
+  if (volume() < std::max(kLeastVolume, kLeastShareOfBox * size.x * size.y * std::min(size.z, 4.0f))) {
     cubes_.clear();
     enclosed_ = n_[0] = n_[1] = n_[2] = 0;
   }

@@ -8,7 +8,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr int kMostPanes = 4;
+constexpr int kMostClearPanes = 4;
 constexpr float kGlassIndex = 1.5f;
 
 }  // namespace
@@ -19,7 +19,7 @@ void DimByPanes(const RayTracer& tracer, const SurfaceTables& tables, const int*
   std::copy(valid, valid + 16, active);
   std::copy(rays.t_far, rays.t_far + 16, t_far);
   std::fill(rays.mask, rays.mask + 16, kMaskClearPanes);
-  for (int pane = 0; pane < kMostPanes; ++pane) {
+  for (int pane = 0; pane < kMostClearPanes; ++pane) {
     tracer.IntersectClearPanes16(active, rays);
     bool any = false;
     for (int i = 0; i < 16; ++i) {

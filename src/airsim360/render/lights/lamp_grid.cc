@@ -21,7 +21,7 @@ constexpr float kBrightLamp = 300 * kLux;
 constexpr size_t kFewLamps = 256;
 // A lamp reaches as far as it brings 0.05 lx, or one part in 10,000 of the daylight; one that brings less
 // than a five-hundredth of the daylight at 2 m is left out.
-constexpr float kLeastLight = 0.05f * kLux, kLeastShare = 1e-4f, kNearShare = 2e-3f, kNear = 2, kFarthest = 150;
+constexpr float kLeastLight = 0.05f * kLux, kLeastOfCell = 1e-4f, kNearShare = 2e-3f, kNearLamp = 2, kFarthest = 150;
 constexpr float kFinestCell = 2.5f;
 constexpr int kMostCells = 150000;
 constexpr float kAboveGround = 1.2f;
@@ -131,13 +131,13 @@ void LampGrid::Merge(const LightTable& table, float daylight) {
   }
 
   // Reach; what does not reach far is dropped.
-  const float least = std::max(kLeastLight, kLeastShare * daylight);
+  const float least = std::max(kLeastLight, kLeastOfCell * daylight);
   std::vector<uint32_t> kept(merged.size(), LightTable::kNoLamp);
   for (size_t k = 0; k < merged.size(); ++k) {
     LampRecord record = Record(merged[k]);
     const Vec3f color{record.color[0], record.color[1], record.color[2]};
     const float intensity = Luminance(color) * (record.body + Norm(merged[k].facing));
-    if (!(intensity > kNearShare * daylight * kNear * kNear) || !std::isfinite(intensity)) continue;
+    if (!(intensity > kNearShare * daylight * kNearLamp * kNearLamp) || !std::isfinite(intensity)) continue;
     record.reach = std::min(kFarthest, std::sqrt(intensity / least));
     kept[k] = static_cast<uint32_t>(records_.size());
     records_.push_back(record);

@@ -9,105 +9,15 @@
 #include "airsim360/base/random.h"
 #include "airsim360/image/color.h"
 #include "airsim360/math/angles.h"
-#include "airsim360/render/look/develop_kernels.h"
 #include "airsim360/render/look/metering.h"
 #include "airsim360/render/look/photo.h"
-#include "airsim360/render/look/scatter.h"
-#include "airsim360/render/look/scatter_kernels.h"
+#include "airsim360/render/look/test_point_spread.h"
 #include "airsim360/render/sky/atmosphere.h"
 
 namespace airsim360 {
 namespace {
 
 using namespace internal;
-
-// ---- the point-spread function
-
-// Legendre series of the symbol in scatter.h, damped, and with the first order of the damping taken out.
-double PointSpread(double angle_deg, double theta) {
-  const double a2 = std::pow(angle_deg * kDegree, 2), x = std::cos(theta);
-  const auto series = [&](double damping) {
-    double p0 = 1, p1 = x, sum = 1;
-    const int most = static_cast<int>(5 / damping);
-    for (int l = 1; l < most; ++l) {
-      const double f = 1 / (1 + std::pow(a2 * l * (l + 1.0), kScatterExponent));
-      sum += (2 * l + 1) * f * std::exp(-0.5 * damping * damping * l * (l + 1.0)) * p1;
-      const double p2 = ((2 * l + 1) * x * p1 - l * p0) / (l + 1);
-      p0 = p1, p1 = p2;
-    }
-    return sum / (4 * kPi);
-  };
-  constexpr double kDamping = 0.1 * kDegree;
-  return (4 * series(kDamping) - series(2 * kDamping)) / 3;
-}
-
-Vec3d CellDirection(const LightCells& cells, int x, int y) {
-  const double theta = 2 * kPi * (x + 0.5) / cells.width, phi = kPi * (0.5 - (y + 0.5) / cells.height);
-  return {std::cos(phi) * std::cos(theta), std::cos(phi) * std::sin(theta), std::sin(phi)};
-}
-
-double Energy(const LightCells& cells, int plane) {
-  double sum = 0;
-  for (int y = 0; y < cells.height; ++y)
-    for (int x = 0; x < cells.width; ++x) sum += cells.At(plane, x, y) * cells.CellAngle(y);
-  return sum;
-}
-
-struct Place {
-  const char* name;
-  int x, y;
-};
-class ScatterTest : public testing::TestWithParam<Place> {};
-
-TEST_P(ScatterTest, APointOfLightSpreadsByTheAnalyticFunctionAndKeepsItsEnergy) {
-  constexpr int kWidth = 1024, kHeight = 512;
-  constexpr double kAngle = 2;
-  LightCells light(true, kWidth, kHeight, 2 * kPi / kWidth, kPi / kHeight), out;
-  const Place at = GetParam();
-  light.At(1, at.x, at.y) = static_cast<float>(1 / light.CellAngle(at.y));
-  const ScatterMixture mixture = MakeScatterMixture(kAngle, kPi / kHeight);
-  Scatter(mixture, light, out);
-  EXPECT_NEAR(Energy(out, 1) + mixture.kept, 1, 2e-4);
-  EXPECT_NEAR(Energy(out, 0), 0, 1e-5);
-  EXPECT_NEAR(Energy(out, 2), 0, 1e-5);
-  // Means over rings of half a degree about the source, and the worst single cell.
-  const Vec3d source = CellDirection(light, at.x, at.y);
-  double worst = 0;
-  for (const double theta_deg : {1.5, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0, 40.0, 70.0, 120.0}) {
-    double sum = 0, weight = 0;
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
-        const double theta = std::acos(std::clamp(Dot(source, CellDirection(light, x, y)), -1.0, 1.0));
-        if (std::abs(theta / kDegree - theta_deg) > 0.18) continue;
-        const double expected = PointSpread(kAngle, theta);
-        worst = std::max(worst, std::abs(out.At(1, x, y) / expected - 1));
-        sum += out.At(1, x, y) / expected * light.CellAngle(y);
-        weight += light.CellAngle(y);
-        x += theta_deg > 15 ? 15 : 0;  // fewer of wide rings
-      }
-    }
-    ASSERT_GT(weight, 0) << theta_deg;
-    EXPECT_NEAR(sum / weight, 1, 0.02) << at.name << ' ' << theta_deg;
-  }
-  EXPECT_LT(worst, 0.06) << at.name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Everywhere, ScatterTest,
-                         testing::Values(Place{"middle", 512, 255}, Place{"seam", 0, 200}, Place{"pole", 300, 0},
-                                         Place{"near_pole", 700, 505}, Place{"high", 1023, 60}),
-                         [](const auto& info) { return info.param.name; });
-
-TEST(ScatterTest, APlaneKeepsItsEnergyBetweenMirrors) {
-  LightCells light(false, 64, 40, 0.01, 0.01), out;
-  light.At(0, 2, 3) = 5, light.At(2, 60, 39) = 2;
-  const ScatterMixture mixture = MakeScatterMixture(2, 0.01);
-  Scatter(mixture, light, out);
-  EXPECT_NEAR(Energy(out, 0) / Energy(light, 0) + mixture.kept, 1, 1e-4);
-  EXPECT_NEAR(Energy(out, 2) / Energy(light, 2) + mixture.kept, 1, 1e-4);
-  EXPECT_GT(out.At(0, 2, 4), out.At(0, 2, 6));
-}
-
-// ---- the picture
 
 constexpr int kWidth = 512, kHeight = 256;
 
@@ -435,69 +345,6 @@ TEST(PhotoTest, ToneKeepsMiddleGreyAndClipsAtItsShoulder) {
     EXPECT_LT(EncodeTone(shoulder, 0.7, ClipOfShoulder(shoulder) * 0.98), 1);
   }
   EXPECT_EQ(ClipOfShoulder(0), 1);
-}
-
-// ---- instruction sets
-
-TEST(LookKernels, AllInstructionSetsGiveTheSameBits) {
-  const KernelIsa best = CurrentKernelIsa();
-  const auto noise = [](size_t n, uint64_t key) {
-    std::vector<float> v(n);
-    RngStream random(1, "kernels", key);
-    for (float& x : v) x = static_cast<float>(random.Uniform());
-    return v;
-  };
-  const auto solve = [&](auto fourier, auto solver) {
-    constexpr int kLength = 32, kRows = 32;
-    std::vector<float> planes[4], cosines, sines;
-    for (uint64_t k = 0; k < 4; ++k) planes[k] = noise(kLength * kRows, k);
-    for (int k = 0; k < kLength / 2; ++k)
-      cosines.push_back(static_cast<float>(std::cos(2 * kPi * k / kLength))),
-          sines.push_back(static_cast<float>(std::sin(2 * kPi * k / kLength)));
-    const std::vector<float> area = noise(kRows, 5), flux = noise(kRows + 1, 6), across = noise(kRows, 7), eigen = noise(kLength, 8);
-    const float t[2] = {0.1f, 3}, weight[2] = {0.4f, 0.6f};
-    const ScatterRows rows{planes[0].data(), planes[1].data(), kLength, kLength, cosines.data(), sines.data()};
-    fourier(rows, 16, false);
-    solver({kRows,
-            kLength,
-            area.data(),
-            flux.data(),
-            across.data(),
-            eigen.data(),
-            2,
-            t,
-            weight,
-            {planes[0].data(), planes[1].data(), planes[2].data(), planes[3].data()}},
-           16);
-    fourier(rows, 0, true);
-    planes[0].insert(planes[0].end(), planes[1].begin(), planes[1].end());
-    return planes[0];
-  };
-  const auto develop = [&](auto expose, auto tone, auto sharpen) {
-    constexpr int kWide = 48;
-    alignas(64) float memory[30][kWide + 2 * kRowPad];
-    for (uint64_t i = 0; i < 30; ++i) std::ranges::copy(noise(kWide + 2 * kRowPad, 20 + i), memory[i]);
-    const auto row = [&](int i) { return memory[i] + kRowPad; };
-    const auto color = [&](int i) { return ColorRow{row(i), row(i + 1), row(i + 2)}; };
-    expose({kWide, 0.7f, 0.01f, 0.001f, 77u, 0.8f}, color(0));
-    std::vector<float> curve = noise(kCurveSize + 1, 60);
-    const ConstColorRow rows[3] = {{row(0), row(1), row(2)}, {row(3), row(4), row(5)}, {row(6), row(7), row(8)}};
-    tone({kWide, 0.18f, {1, 0.9f, 1.1f}, 0.5f, curve.data(), 1.05f}, rows, color(9), color(12), row(15));
-    const float* luminance[5] = {row(15), row(16), row(17), row(18), row(19)};
-    std::vector<Rgb8> out(kWide);
-    sharpen(kWide, 0.4f, {row(12), row(13), row(14)}, luminance, row(20), out.data());
-    return out;
-  };
-  const auto base = solve(isa_sse42::FourierRows, isa_sse42::SolveColumns);
-  const auto picture = develop(isa_sse42::ExposeRow, isa_sse42::ToneRow, isa_sse42::SharpenRow);
-  if (best != KernelIsa::kSse42) {
-    EXPECT_EQ(base, solve(isa_avx2::FourierRows, isa_avx2::SolveColumns));
-    EXPECT_EQ(picture, develop(isa_avx2::ExposeRow, isa_avx2::ToneRow, isa_avx2::SharpenRow));
-  }
-  if (best == KernelIsa::kAvx512) {
-    EXPECT_EQ(base, solve(isa_avx512::FourierRows, isa_avx512::SolveColumns));
-    EXPECT_EQ(picture, develop(isa_avx512::ExposeRow, isa_avx512::ToneRow, isa_avx512::SharpenRow));
-  }
 }
 
 }  // namespace

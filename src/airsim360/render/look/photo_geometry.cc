@@ -11,7 +11,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kSunRadius = 0.2666 * kPi / 180;
+constexpr double kSunDiscRadius = 0.2666 * kPi / 180;
 
 // Radians of a pixel in the middle of the picture.
 double PixelAngle(const Camera& camera) {
@@ -140,7 +140,7 @@ std::optional<Vec2d> FindSun(const PhotoGeometry& g, const PhotoRequest& request
 }
 
 void ClipSunDisc(const PhotoGeometry& g, const PhotoRequest& request, Vec2d sun, float most, Image<Rgb32f>& light) {
-  const double reach = kSunRadius + 1.5 * g.column;
+  const double reach = kSunDiscRadius + 1.5 * g.column;
   const auto direction = [&](Vec2d at) { return g.sphere ? std::optional(SphereDirection(g, at)) : PixelToRay(request.camera, at); };
   const std::optional<Vec3d> to_sun = direction(sun);
   if (!to_sun) return;

@@ -4,13 +4,9 @@
 #include <cmath>
 
 #include "airsim360/math/angles.h"
+#include "airsim360/render/shared/shading_scalar.h"
 
 namespace airsim360::internal {
-namespace {
-
-constexpr float kSunRadius = 0.004625f;  // radians; as in light_kernel.cc
-
-}  // namespace
 
 PathLights::PathLights(const Shader::Impl& parts) : sky_(parts.sky ? &*parts.sky : nullptr), lamps_(parts.lights) {
   if (sky_ == nullptr) return;
@@ -26,7 +22,7 @@ PathLights::PathLights(const Shader::Impl& parts) : sky_(parts.sky ? &*parts.sky
 
 LightRay PathLights::SampleSun(Vec3f p, Vec2f u) const {
   // The chord to the disc's centre squared is even over solid angle.
-  const float chord = kSunRadius * std::sqrt(u.x), turn = kTauF * u.y;
+  const float chord = SUN_RADIUS * std::sqrt(u.x), turn = kTauF * u.y;
   const float side = chord * std::sqrt(1 - 0.25f * chord * chord);
   const Vec3f d =
       Normalized(to_sun_ * (1 - 0.5f * chord * chord) + sun_right_ * (side * std::cos(turn)) + sun_up_ * (side * std::sin(turn)));
@@ -35,12 +31,12 @@ LightRay PathLights::SampleSun(Vec3f p, Vec2f u) const {
 
 float PathLights::SunPdf(Vec3f d) const {
   const Vec3f off = d - to_sun_;
-  return has_sun_ && Dot(off, off) < kSunRadius * kSunRadius ? 2 / (kTauF * kSunRadius * kSunRadius) : 0.0f;
+  return has_sun_ && Dot(off, off) < SUN_RADIUS * SUN_RADIUS ? 2 / (kTauF * SUN_RADIUS * SUN_RADIUS) : 0.0f;
 }
 
 Vec3f PathLights::SunRadiance(Vec3f p, Vec3f d) const {
   const Vec3f off = d - to_sun_;
-  const float x2 = Dot(off, off) / (kSunRadius * kSunRadius);
+  const float x2 = Dot(off, off) / (SUN_RADIUS * SUN_RADIUS);
   if (!has_sun_ || x2 >= 1) return {};
   return sun_radiance_ * (1.25f * (0.4f + 0.6f * std::sqrt(1 - x2)) * sky_->CloudShadow(p));
 }

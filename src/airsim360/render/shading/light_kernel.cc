@@ -186,12 +186,12 @@ KERNEL void TermsVector(const ShadeView& view, const RaySet& rays, const Surface
 /// mid-visible). By night the moon's, as wide, with its face and phase.
 KERNEL real3 SunDisc(const ShadeView& view, real3 d) {
   const real3 off = d - make3(real(view.to_sun[0]), real(view.to_sun[1]), real(view.to_sun[2]));
-  const real x2 = dot3(off, off) * (1.0f / (0.004625f * 0.004625f));
+  const real x2 = dot3(off, off) * (1.0f / (SUN_RADIUS * SUN_RADIUS));
   if (view.moon_gain > 0) {
     if (!stdx::any_of(x2 < 1.0f)) return Grey(0);
     const real3 light = make3(real(view.moon_light[0]), real(view.moon_light[1]), real(view.moon_light[2]));
     const real3 centre = make3(real(view.to_sun[0]), real(view.to_sun[1]), real(view.to_sun[2]));
-    return Uniform(view.sun_radiance) * (moon_face(off * real(1.0f / 0.004625f), centre, light) * (view.moon_gain * view.sun_seen));
+    return Uniform(view.sun_radiance) * (moon_face(off * real(1.0f / SUN_RADIUS), centre, light) * (view.moon_gain * view.sun_seen));
   }
   const real limb = 0.4f + 0.6f * rroot(rmax(1.0f - x2, real(0.0f)));
   return Uniform(view.sun_radiance) * sel(x2 < 1.0f, limb * (1.25f * view.sun_seen), real(0.0f));

@@ -1,4 +1,7 @@
-// The face of the moon, in the subset of shading_shared.h, after which it is included in the same way.
+// The disc of sun and moon and the face of the moon, in the subset of shading_shared.h, after which it is included in the
+// same way.
+
+#define SUN_RADIUS 0.004625f  // radians, of either disc
 
 // Reflectance over that of the highlands at (x, y) of the disc, x to the right and y up as seen from northern latitudes:
 // the great maria as soft spots (places after any map of the moon).

@@ -18,7 +18,6 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kSunSolidAngle = 6.72e-5f;  // disc of 0.53 degrees
-constexpr float kSunRadius = 0.004625f;
 
 Vec3f FromCompass(double azimuth_deg, double elevation_deg) {
   const double azimuth = azimuth_deg * (M_PI / 180), elevation = elevation_deg * (M_PI / 180);
@@ -60,7 +59,7 @@ Vec3f LightOnMoon(Vec3f to_moon, Vec3f to_sun, double phase) {
 }  // namespace
 
 Sky::Sky(const Environment& environment, Vec3f place, const Sky* like, float town)
-    : place_(place), sun_radius_(kSunRadius), town_(environment.lamps_on() ? town : 0) {
+    : place_(place), sun_radius_(SUN_RADIUS), town_(environment.lamps_on() ? town : 0) {
   if (like != nullptr) {
     TakeTable(*like);
   } else {

@@ -39,9 +39,9 @@ void Thin(std::vector<Draft>& drafts, const Balance& balance, RngStream& random)
   std::erase_if(drafts, [&](const Draft& d) { return !asked.insert({d.key, d.answer}).second || ++kept[d.type] > kMostOfType; });
 }
 
-class Maker {
+class LanguageMaker {
  public:
-  Maker(Stage& stage, const LanguageOptions& options)
+  LanguageMaker(Stage& stage, const LanguageOptions& options)
       : stage_(stage),
         options_(options),
         lexicon_(stage.scene()),
@@ -232,7 +232,7 @@ void CheckLanguageOptions(const LanguageOptions& options) {
 
 LanguageSummary MakeLanguage(Stage& stage, const LanguageOptions& options, const std::function<void(const std::string& line)>& line) {
   CheckLanguageOptions(options);
-  return Maker(stage, options).Make(line);
+  return LanguageMaker(stage, options).Make(line);
 }
 
 }  // namespace airsim360

@@ -7,10 +7,10 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kAhead = 70, kPast = 110;   // degrees from the heading: what was ahead and is past was passed
-constexpr double kNever = 55;                // still ahead after the flight: not passed
-constexpr double kNearer = 0.75, kBy = 1.5;  // share and metres of a range that has changed for sure
-constexpr double kBeside = 25;               // metres: what is farther away is not said to be passed
+constexpr double kAhead = 70, kPast = 110;          // degrees from the heading: what was ahead and is past was passed
+constexpr double kNever = 55;                       // still ahead after the flight: not passed
+constexpr double kNearer = 0.75, kChangedBy = 1.5;  // share and metres of a range that has changed for sure
+constexpr double kBeside = 25;                      // metres: what is farther away is not said to be passed
 constexpr int kTries = 24;
 
 class FlightAsker {
@@ -95,7 +95,7 @@ class FlightAsker {
   void AskApproach(const Pair& a) {
     const DistanceBounds before = speaker_.Range(*a.before, speaker_.glance(0).picture),
                          after = speaker_.Range(*a.after, speaker_.glance(kFlight).picture);
-    const bool nearer = after.most + kBy < before.least * kNearer, farther = before.most + kBy < after.least * kNearer;
+    const bool nearer = after.most + kChangedBy < before.least * kNearer, farther = before.most + kChangedBy < after.least * kNearer;
     if (nearer == farther) return;
     Draft& d = Add("approach", The(a), {&a});
     d.texts = {"From the first panorama to the second, do you come nearer to " + The(a) + " or move away from it?",

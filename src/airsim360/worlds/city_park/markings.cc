@@ -8,7 +8,6 @@ namespace airsim360::internal::park {
 namespace {
 
 constexpr float kLift = 0.005f;  // of paint over asphalt
-constexpr float kStretch = 80;
 
 class Painter {
  public:

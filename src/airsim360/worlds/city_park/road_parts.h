@@ -7,6 +7,8 @@
 
 namespace airsim360::internal::park {
 
+inline constexpr float kStretch = 80;  ///< metres of road per entity
+
 /// Height of a carriageway over its edges at distance d from the middle.
 float CarriagewayZ(float d, float half);
 

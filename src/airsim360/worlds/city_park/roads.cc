@@ -10,7 +10,6 @@
 namespace airsim360::internal::park {
 namespace {
 
-constexpr float kStretch = 80;    // metres of road per entity
 constexpr float kTurn = 6.0f;     // tangent length of the kerb's arc at junctions
 constexpr float kRowStep = 1.0f;  // metres between cross-sections
 

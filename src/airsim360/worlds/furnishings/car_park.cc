@@ -10,7 +10,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr Vec3f kYellow{0.68f, 0.42f, 0.01f}, kBlack{0.025f, 0.025f, 0.027f};
+constexpr Vec3f kYellow{0.68f, 0.42f, 0.01f}, kBumper{0.025f, 0.025f, 0.027f};
 
 // Rubber with yellow bands, or concrete.
 Model MakeWheelStop(uint32_t variant, uint64_t) {
@@ -51,7 +51,7 @@ Model MakePillarGuard(uint32_t variant, uint64_t) {
   const float h = variant == 0 ? 0.80f : 1.0f;
   for (int i = 0; i < bands; ++i) {
     const float z0 = h * static_cast<float>(i) / bands, z1 = h * static_cast<float>(i + 1) / bands;
-    b.Use(i % 2 ? Plastic(kYellow, 0.5f) : Plastic(kBlack, 0.7f));
+    b.Use(i % 2 ? Plastic(kYellow, 0.5f) : Plastic(kBumper, 0.7f));
     if (variant == 0) {
       b.BevelBox({-0.10f, -0.012f, z0}, {0.012f, 0, z1}, 0.003f);
       b.BevelBox({0, 0, z0}, {0.012f, 0.10f, z1}, 0.003f);
@@ -156,7 +156,7 @@ Model MakeBarrierGate(uint32_t variant, uint64_t) {
   // The model is centred: the cabinet stands at its left end.
   const float x = variant == 1 ? 0.0f : -1.55f;
   SoftBox(b, {x - 0.17f, -0.15f, 0.04f}, {x + 0.17f, 0.19f, 1.02f}, {.round = 0.03f, .crown = 0.002f, .cells = 6});
-  b.Use(Plastic(kBlack, 0.5f));
+  b.Use(Plastic(kBumper, 0.5f));
   b.BevelBox({x - 0.20f, -0.18f, 0}, {x + 0.20f, 0.22f, 0.045f}, 0.006f);
   b.mesh().Tube({x, -0.15f, 0.90f}, {x, -0.24f, 0.90f}, 0.07f, 0.065f, 20);
   b.Use(Paint({0.74f, 0.74f, 0.72f}));
@@ -167,7 +167,7 @@ Model MakeBarrierGate(uint32_t variant, uint64_t) {
     const float x0 = 0.05f + 0.305f * static_cast<float>(i);
     b.BevelBox({x0, -0.02f, -0.045f}, {x0 + 0.305f, 0.02f, 0.045f}, 0.010f);
   }
-  b.Use(Plastic(kBlack, 0.6f));
+  b.Use(Plastic(kBumper, 0.6f));
   b.BevelBox({-0.35f, -0.025f, -0.05f}, {0.06f, 0.025f, 0.05f}, 0.006f);
   b.BevelBox({0.10f, -0.018f, -0.06f}, {3.1f, 0.018f, -0.043f}, 0.004f);
   b.Place({});

@@ -12,7 +12,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr Vec3f kWhite{0.76f, 0.76f, 0.75f};
+constexpr Vec3f kWhitePaint{0.76f, 0.76f, 0.75f};
 
 // On a bracket on the wall (variant 0: 6 kg powder, 1: CO2 with its horn), or in a box with a glass door.
 Model MakeFireExtinguisher(uint32_t variant, uint64_t) {
@@ -86,7 +86,7 @@ Model MakeSprinkler(uint32_t variant, uint64_t) {
     b.Use(Paint({0.45f, 0.03f, 0.025f}, 0.4f));
     b.mesh().Tube({0, 0, 0.062f}, {0, 0, 0.065f + drop}, 0.0135f, 0.0135f, 12);
   } else {
-    b.Use(Paint(kWhite));
+    b.Use(Paint(kWhitePaint));
     const Vec2f rose[] = {{0.012f, 0.050f}, {0.032f, 0.054f}, {0.036f, 0.065f}, {0, 0.065f}};
     b.Lathe(rose, 20);
   }
@@ -96,7 +96,7 @@ Model MakeSprinkler(uint32_t variant, uint64_t) {
 // Swirl diffuser of 0.6 m in a ceiling grid, slotted return grille.
 Model MakeAirVent(uint32_t variant, uint64_t) {
   PropBuilder b("air_vent");
-  b.Use(Paint(kWhite, 0.45f));
+  b.Use(Paint(kWhitePaint, 0.45f));
   const float half = 0.298f, rim = 0.03f, h = 0.014f;
   for (float s : {-1.0f, 1.0f}) {
     b.BevelBox({-half, s > 0 ? half - rim : -half, 0.004f}, {half, s > 0 ? half : -half + rim, h}, 0.003f);
@@ -222,7 +222,7 @@ Model MakeCableTray(uint32_t variant, uint64_t) {
 
 Model MakeSmokeDetector(uint32_t variant, uint64_t) {
   PropBuilder b("smoke_detector");
-  b.Use(Plastic(kWhite, 0.4f));
+  b.Use(Plastic(kWhitePaint, 0.4f));
   const Vec2f dome[] = {{0, 0}, {0.022f, 0.0f}, {0.030f, 0.004f}, {0.034f, 0.010f}};
   b.Lathe(dome, 28);
   const Vec2f base[] = {{0.036f, 0.022f}, {0.046f, 0.026f}, {0.052f, 0.034f}, {0.052f, 0.045f}, {0, 0.045f}};
@@ -239,7 +239,7 @@ Model MakeSmokeDetector(uint32_t variant, uint64_t) {
 // Rocker, two rockers, a socket (sill 0.30 m), a thermostat.
 Model MakeSwitchPlate(uint32_t variant, uint64_t) {
   PropBuilder b("switch_plate");
-  b.Use(Plastic(kWhite, 0.3f));
+  b.Use(Plastic(kWhitePaint, 0.3f));
   const float half = 0.0405f;
   b.BevelBox({-half, -0.009f, 0}, {half, 0, 2 * half}, 0.003f);
   if (variant == 2) {
@@ -269,7 +269,7 @@ Model MakeSwitchPlate(uint32_t variant, uint64_t) {
 // Panel radiator with its valve, column radiator, towel rail.
 Model MakeRadiator(uint32_t variant, uint64_t) {
   PropBuilder b("radiator");
-  b.Use(Paint(kWhite, 0.3f));
+  b.Use(Paint(kWhitePaint, 0.3f));
   const float half = variant == 2 ? 0.25f : 0.50f, y = -0.10f;
   if (variant == 0) {
     for (float py : {y - 0.0f, y + 0.065f}) {
@@ -305,7 +305,7 @@ Model MakeRadiator(uint32_t variant, uint64_t) {
   }
   if (variant < 2) {
     for (float s : {-1.0f, 1.0f}) b.BevelBox({s * half * 0.7f - 0.015f, y + 0.04f, 0.1f}, {s * half * 0.7f + 0.015f, 0, 0.55f}, 0.002f);
-    b.Use(Plastic(kWhite, 0.35f));
+    b.Use(Plastic(kWhitePaint, 0.35f));
     b.mesh().Tube({half, -0.07f, 0.05f}, {half + 0.035f, -0.07f, 0.05f}, 0.012f, 0.012f, 10);
     const Vec3f knob[] = {{half + 0.03f, -0.07f, 0.05f}, {half + 0.05f, -0.07f, 0.05f}, {half + 0.10f, -0.07f, 0.05f}};
     const float radii[] = {0.016f, 0.024f, 0.021f};

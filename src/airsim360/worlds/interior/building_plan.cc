@@ -27,7 +27,7 @@ bool IsPassable(const PlanOpening& opening) {
   return opening.kind == OpeningKind::kPassage || (IsDoor(opening.kind) && opening.open > 0.5f);
 }
 
-int BuildingPlan::RoomAt(Vec3f p) const {
+int InteriorPlan::RoomAt(Vec3f p) const {
   for (size_t i = 0; i < rooms.size(); ++i) {
     const PlanRoom& room = rooms[i];
     if (room.has_floor && room.clear.Contains({p.x, p.y}) && p.z >= room.floor_z && p.z <= room.ceiling_z) return static_cast<int>(i);
@@ -35,14 +35,14 @@ int BuildingPlan::RoomAt(Vec3f p) const {
   return -1;
 }
 
-double BuildingPlan::area_m2() const {
+double InteriorPlan::area_m2() const {
   double sum = 0;
   for (const PlanRoom& room : rooms)
     if (room.has_floor && room.type != RoomType::kLiftShaft) sum += static_cast<double>(room.clear.area());
   return sum;
 }
 
-BuildingPlan PlanBuilding(const BuildingSpec& spec, uint64_t seed) {
+InteriorPlan PlanBuilding(const BuildingSpec& spec, uint64_t seed) {
   spec.Check("building: ");
   PlanPen pen(spec, seed);
   switch (spec.use) {

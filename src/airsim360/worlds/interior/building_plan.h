@@ -114,7 +114,7 @@ inline constexpr float kHalfWall = 0.06f;   ///< of partitions, metres
 inline constexpr float kOuterWall = 0.30f;  ///< thickness of outer walls, which reach outwards
 inline constexpr float kSlab = 0.25f;       ///< of floors between storeys and of the roof
 
-struct BuildingPlan {
+struct InteriorPlan {
   BuildingSpec spec;  ///< settled
   uint64_t seed = 0;
   PlanRect outline;  ///< cells together
@@ -132,6 +132,6 @@ struct BuildingPlan {
 };
 
 /// Plans a building; the same for the same spec and seed. Throws as BuildingSpec::Check does.
-BuildingPlan PlanBuilding(const BuildingSpec& spec, uint64_t seed);
+InteriorPlan PlanBuilding(const BuildingSpec& spec, uint64_t seed);
 
 }  // namespace airsim360::internal

@@ -14,7 +14,7 @@ namespace {
 constexpr BuildingUse kUses[] = {BuildingUse::kApartment, BuildingUse::kOffice,  BuildingUse::kWarehouse,
                                  BuildingUse::kMall,      BuildingUse::kCarPark, BuildingUse::kLibrary};
 
-BuildingPlan PlanOf(BuildingUse use, uint64_t seed = 0) { return PlanBuilding({.use = use}, seed); }
+InteriorPlan PlanOf(BuildingUse use, uint64_t seed = 0) { return PlanBuilding({.use = use}, seed); }
 
 template <class Visit>
 void ForPlans(const Visit& visit) {
@@ -25,8 +25,8 @@ void ForPlans(const Visit& visit) {
     }
 }
 
-TEST(BuildingPlan, RoomsOfAStoreyTileItsOutline) {
-  ForPlans([](const BuildingPlan& plan) {
+TEST(InteriorPlan, RoomsOfAStoreyTileItsOutline) {
+  ForPlans([](const InteriorPlan& plan) {
     for (int s = 0; s < static_cast<int>(plan.spec.storeys); ++s) {
       double sum = 0;
       for (size_t i = 0; i < plan.rooms.size(); ++i) {
@@ -47,8 +47,8 @@ TEST(BuildingPlan, RoomsOfAStoreyTileItsOutline) {
 
 // Widths: DIN 18101 and ADA 404 (0.71 … 1.3 m a leaf); heights: habitable rooms from 2.4 m (IRC R305: 2.13), offices 2.5 … 3.2 m
 // (ASR A1.2: 2.5 m and more), car parks from 2.1 m (IBC 406.2.2), racks of 8 … 12 m below warehouse roofs.
-TEST(BuildingPlan, DoorsAndCeilingsAreWithinPublishedRanges) {
-  ForPlans([](const BuildingPlan& plan) {
+TEST(InteriorPlan, DoorsAndCeilingsAreWithinPublishedRanges) {
+  ForPlans([](const InteriorPlan& plan) {
     for (const PlanWall& wall : plan.walls) {
       for (const PlanOpening& o : wall.openings) {
         const float width = o.to - o.from;
@@ -92,7 +92,7 @@ TEST(BuildingPlan, DoorsAndCeilingsAreWithinPublishedRanges) {
   });
 }
 
-TEST(BuildingPlan, HasTheAreaThatIsAsked) {
+TEST(InteriorPlan, HasTheAreaThatIsAsked) {
   const auto least = [](BuildingUse use, double area) {
     for (uint64_t seed = 0; seed < 8; ++seed) EXPECT_GE(PlanOf(use, seed).area_m2(), area) << kBuildingUses[static_cast<size_t>(use)];
   };
@@ -104,8 +104,8 @@ TEST(BuildingPlan, HasTheAreaThatIsAsked) {
 }
 
 // Rooms are joined by doors, passages and missing walls; storeys by stairs, ramps and escalators.
-TEST(BuildingPlan, EveryRoomIsReachedFromOutside) {
-  ForPlans([](const BuildingPlan& plan) {
+TEST(InteriorPlan, EveryRoomIsReachedFromOutside) {
+  ForPlans([](const InteriorPlan& plan) {
     std::set<int> reached;
     std::queue<int> next;
     const auto reach = [&](int room) {
@@ -139,8 +139,8 @@ TEST(BuildingPlan, EveryRoomIsReachedFromOutside) {
   });
 }
 
-TEST(BuildingPlan, OpeningsLieInTheirWallsAndApart) {
-  ForPlans([](const BuildingPlan& plan) {
+TEST(InteriorPlan, OpeningsLieInTheirWallsAndApart) {
+  ForPlans([](const InteriorPlan& plan) {
     for (const PlanWall& wall : plan.walls) {
       float at = 0;
       for (const PlanOpening& o : wall.openings) {
@@ -155,9 +155,9 @@ TEST(BuildingPlan, OpeningsLieInTheirWallsAndApart) {
   });
 }
 
-TEST(BuildingPlan, RampsAndEscalatorsAreAsSteepAsRealOnes) {
+TEST(InteriorPlan, RampsAndEscalatorsAreAsSteepAsRealOnes) {
   for (uint64_t seed = 0; seed < 4; ++seed) {
-    const BuildingPlan deck = PlanOf(BuildingUse::kCarPark, seed), mall = PlanOf(BuildingUse::kMall, seed);
+    const InteriorPlan deck = PlanOf(BuildingUse::kCarPark, seed), mall = PlanOf(BuildingUse::kMall, seed);
     ASSERT_EQ(deck.ramps.size(), deck.spec.storeys - 1);
     for (const PlanSlope& ramp : deck.ramps) EXPECT_LE((ramp.z1 - ramp.z0) / ramp.rect.depth(), 0.15f);  // most garage rules
     ASSERT_EQ(mall.escalators.size(), 2u);
@@ -166,8 +166,8 @@ TEST(BuildingPlan, RampsAndEscalatorsAreAsSteepAsRealOnes) {
   }
 }
 
-TEST(BuildingPlan, IsTheSameForTheSameSeedAndAnotherForAnother) {
-  const auto text = [](const BuildingPlan& plan) {
+TEST(InteriorPlan, IsTheSameForTheSameSeedAndAnotherForAnother) {
+  const auto text = [](const InteriorPlan& plan) {
     std::string all;
     for (const PlanRoom& r : plan.rooms) all += r.name + " " + std::to_string(r.cell.x0) + " " + std::to_string(r.cell.y1) + "\n";
     return all;
@@ -198,7 +198,7 @@ TEST(BuildingSpec, EveryAllowedSizeCanBePlanned) {
     for (const double side : {0.0, 66.0, 120.0})
       for (const uint64_t storeys : {1, 2, 6}) {
         BuildingSpec spec{.use = use, .width = side, .depth = side, .storeys = use == BuildingUse::kWarehouse ? 1 : storeys};
-        const BuildingPlan plan = PlanBuilding(spec, 1);
+        const InteriorPlan plan = PlanBuilding(spec, 1);
         EXPECT_GT(plan.rooms.size(), 5u);
       }
   }

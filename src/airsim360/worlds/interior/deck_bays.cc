@@ -2,7 +2,7 @@
 
 namespace airsim360::internal {
 
-std::vector<DeckBay> DeckBays(const BuildingPlan& plan, int storey) {
+std::vector<DeckBay> DeckBays(const InteriorPlan& plan, int storey) {
   std::vector<DeckBay> bays;
   const float d = plan.outline.y1, middle = d / 2;
   for (const PlanRoom& room : plan.rooms) {
@@ -25,7 +25,7 @@ std::vector<DeckBay> DeckBays(const BuildingPlan& plan, int storey) {
   return bays;
 }
 
-std::vector<PlanRect> DeckAisles(const BuildingPlan& plan) {
+std::vector<PlanRect> DeckAisles(const InteriorPlan& plan) {
   const PlanRect& r = plan.outline;
   const float middle = r.center().y;
   return {{r.x0 + 5, kBayDepth + 0.1f, r.x1 - 5, middle - kBayDepth}, {r.x0 + 5, middle + kBayDepth, r.x1 - 5, r.y1 - kBayDepth - 0.1f}};

@@ -15,8 +15,8 @@ struct DeckBay {
 inline constexpr float kBayDepth = 5.1f, kBayWidth = 2.5f;
 
 /// Bays of a storey: four rows between the columns of the deck, none where ramps begin and end.
-std::vector<DeckBay> DeckBays(const BuildingPlan& plan, int storey);
+std::vector<DeckBay> DeckBays(const InteriorPlan& plan, int storey);
 /// The two driving lanes along x; the same on all storeys.
-std::vector<PlanRect> DeckAisles(const BuildingPlan& plan);
+std::vector<PlanRect> DeckAisles(const InteriorPlan& plan);
 
 }  // namespace airsim360::internal

@@ -56,12 +56,12 @@ constexpr Vec3f kCarPaints[] = {{1, 1, 1}, {0.9f, 0.9f, 0.92f}, {0.95f, 0.93f, 0
 
 }  // namespace
 
-void FurnishHall(RoomSpace& s, const BuildingPlan&, double clutter) {
+void FurnishHall(RoomSpace& s, const InteriorPlan&, double clutter) {
   Racks(s);
   Staging(s, clutter);
 }
 
-void FurnishDecks(const BuildingPlan& plan, Furnisher& furnisher) {
+void FurnishDecks(const InteriorPlan& plan, Furnisher& furnisher) {
   RngStream rng(plan.seed, "parked cars");
   for (int storey = 0; storey < static_cast<int>(plan.spec.storeys); ++storey) {
     const float z = plan.StoreyZ(storey);
@@ -98,7 +98,7 @@ void FurnishDecks(const BuildingPlan& plan, Furnisher& furnisher) {
   }
 }
 
-void FurnishRooms(const BuildingPlan& plan, Furnisher& furnisher) {
+void FurnishRooms(const InteriorPlan& plan, Furnisher& furnisher) {
   const double clutter = plan.spec.clutter;
   for (int i = 0; i < static_cast<int>(plan.rooms.size()); ++i) {
     if (!plan.rooms[static_cast<size_t>(i)].has_floor) continue;

@@ -51,7 +51,7 @@ EntityId Furnisher::Hang(std::string_view kind, Vec3f p, float yaw, uint32_t var
   return Put(kind, {p.x, p.y, p.z - box.max.z + std::max(box.min.z, 0.0f)}, yaw, variant);
 }
 
-RoomSpace::RoomSpace(const BuildingPlan& plan, int room, Furnisher& furnisher)
+RoomSpace::RoomSpace(const InteriorPlan& plan, int room, Furnisher& furnisher)
     : plan_(plan),
       room_(plan.rooms[static_cast<size_t>(room)]),
       index_(room),

@@ -54,7 +54,7 @@ struct WallSpot {
 /// One room being furnished: what is taken, and by whom.
 class RoomSpace {
  public:
-  RoomSpace(const BuildingPlan& plan, int room, Furnisher& furnisher);
+  RoomSpace(const InteriorPlan& plan, int room, Furnisher& furnisher);
 
   const PlanRoom& room() const { return room_; }
   const PlanRect& rect() const { return room_.clear; }
@@ -100,7 +100,7 @@ class RoomSpace {
   WallSpot SpotAt(int side, float along) const;
   bool IsBlocked(int side, float along, float width, float height) const;
 
-  const BuildingPlan& plan_;
+  const InteriorPlan& plan_;
   const PlanRoom& room_;
   int index_;
   Furnisher& furnisher_;
@@ -119,10 +119,10 @@ class RoomSpace {
 void FurnishHome(RoomSpace& space, double clutter);
 void FurnishWork(RoomSpace& space, double clutter);
 void FurnishTrade(RoomSpace& space, double clutter);
-void FurnishHall(RoomSpace& space, const BuildingPlan& plan, double clutter);
-void FurnishDecks(const BuildingPlan& plan, Furnisher& furnisher);
-void FurnishRooms(const BuildingPlan& plan, Furnisher& furnisher);
-void InstallServices(const BuildingPlan& plan, Furnisher& furnisher);
+void FurnishHall(RoomSpace& space, const InteriorPlan& plan, double clutter);
+void FurnishDecks(const InteriorPlan& plan, Furnisher& furnisher);
+void FurnishRooms(const InteriorPlan& plan, Furnisher& furnisher);
+void InstallServices(const InteriorPlan& plan, Furnisher& furnisher);
 
 /// Uniform in [-by, by].
 inline float Jitter(RoomSpace& s, double by) { return static_cast<float>(s.rng().Uniform(-by, by)); }

@@ -43,18 +43,18 @@ struct RoomFinish {
   Finish floor, wall, ceiling;
   bool skirting;
 };
-RoomFinish FinishOf(const BuildingPlan& plan, int room);
+RoomFinish FinishOf(const InteriorPlan& plan, int room);
 /// Outside of the walls.
-Finish FacadeOf(const BuildingPlan& plan);
+Finish FacadeOf(const InteriorPlan& plan);
 
 /// Floors, ceilings, roof and walls with the frames and panes of their openings.
-void BuildShell(const BuildingPlan& plan, InteriorPen& pen);
-void BuildWalls(const BuildingPlan& plan, InteriorPen& pen);
+void BuildShell(const InteriorPlan& plan, InteriorPen& pen);
+void BuildWalls(const InteriorPlan& plan, InteriorPen& pen);
 /// The leaves of a door, as an entity "door 3 open"; a window or glazing with frame and panes.
-void BuildDoor(const BuildingPlan& plan, const PlanWall& wall, const PlanOpening& opening, InteriorPen& pen);
-void BuildWindow(const BuildingPlan& plan, const PlanWall& wall, const PlanOpening& opening, InteriorPen& pen);
+void BuildDoor(const InteriorPlan& plan, const PlanWall& wall, const PlanOpening& opening, InteriorPen& pen);
+void BuildWindow(const InteriorPlan& plan, const PlanWall& wall, const PlanOpening& opening, InteriorPen& pen);
 /// Stairs with railings, ramps, escalators, columns, beams.
-void BuildStairs(const BuildingPlan& plan, InteriorPen& pen);
-void BuildStructure(const BuildingPlan& plan, InteriorPen& pen);
+void BuildStairs(const InteriorPlan& plan, InteriorPen& pen);
+void BuildStructure(const InteriorPlan& plan, InteriorPen& pen);
 
 }  // namespace airsim360::internal

@@ -251,7 +251,7 @@ std::span<const std::string_view> CategoriesOf(std::string_view name) {
 }
 
 // A first viewpoint: in the middle of the room that the building is about, at 1.5 m.
-Vec3f SpawnOf(const BuildingPlan& plan) {
+Vec3f SpawnOf(const InteriorPlan& plan) {
   using T = RoomType;
   constexpr T kRooms[] = {T::kLivingRoom, T::kOpenOffice, T::kWarehouseHall, T::kAtrium, T::kParkingDeck};
   for (const T type : kRooms) {
@@ -269,7 +269,7 @@ Vec3f SpawnOf(const BuildingPlan& plan) {
 }
 
 std::shared_ptr<const Scene> Build(std::string_view name, const BuildingSpec& spec, const WorldOptions& options) {
-  const BuildingPlan plan = PlanBuilding(spec, options.seed);
+  const InteriorPlan plan = PlanBuilding(spec, options.seed);
   SceneBuilder builder{std::string(name)};
   builder.AddSky();
   builder.environment().sun_azimuth_deg = 195;
@@ -301,7 +301,7 @@ std::shared_ptr<const Scene> BuildNamed(std::string_view name, const WorldOption
 }
 
 // The clear opening: frames and leaves left out.
-RoomDoor DoorOf(const BuildingPlan& plan, const PlanWall& wall, const PlanOpening& o, const std::vector<uint32_t>& ids) {
+RoomDoor DoorOf(const InteriorPlan& plan, const PlanWall& wall, const PlanOpening& o, const std::vector<uint32_t>& ids) {
   const float frame = o.kind == OpeningKind::kPassage ? 0.0f : 0.045f, middle = wall.from + (o.from + o.to) / 2, height = o.head - frame;
   const auto id = [&](int room) { return room < 0 ? 0u : ids[static_cast<size_t>(room)]; };
   RoomDoor door{.id = static_cast<uint32_t>(o.lock),
@@ -321,7 +321,7 @@ RoomDoor DoorOf(const BuildingPlan& plan, const PlanWall& wall, const PlanOpenin
 std::optional<BuildingRooms> RoomsOfBuilding(std::string_view name, const WorldOptions& options) {
   const auto found = std::find_if(Buildings().begin(), Buildings().end(), [&](const Named& b) { return b.name == name; });
   if (found == Buildings().end()) return std::nullopt;
-  const BuildingPlan plan = PlanBuilding(name == "building" ? options.building : found->spec, options.seed);
+  const InteriorPlan plan = PlanBuilding(name == "building" ? options.building : found->spec, options.seed);
   BuildingRooms all;
   std::vector<uint32_t> ids;
   for (const PlanRoom& room : plan.rooms) {

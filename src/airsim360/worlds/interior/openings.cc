@@ -19,7 +19,7 @@ struct Place {
     return along_x ? Vec3f{from + along, at + across, z + height} : Vec3f{at + across, from + along, z + height};
   }
 };
-Place PlaceOf(const BuildingPlan& plan, const PlanWall& wall, const PlanOpening& o) {
+Place PlaceOf(const InteriorPlan& plan, const PlanWall& wall, const PlanOpening& o) {
   return {wall.along_x, wall.at, wall.from + o.from, wall.from + o.to, plan.StoreyZ(wall.storey)};
 }
 
@@ -60,7 +60,7 @@ void HangLeaf(InteriorPen& pen, const Place& place, float hinge, float dir, floa
   pen.mesh().SetTransform({});
 }
 
-Finish LeafOf(const BuildingPlan& plan, const PlanOpening& o) {
+Finish LeafOf(const InteriorPlan& plan, const PlanOpening& o) {
   if (o.outer) return plan.spec.use == BuildingUse::kApartment ? Finish::kDoorGrey : Finish::kDoorSteel;
   switch (plan.spec.use) {
     case BuildingUse::kApartment:
@@ -81,7 +81,7 @@ void BuildFrame(InteriorPen& pen, const Place& place, const PlanOpening& o, floa
   BoxAt(pen, place, kFrame, w - kFrame, -depth, depth, o.head - kFrame, o.head);
 }
 
-void BuildHinged(const BuildingPlan& plan, const PlanWall& wall, const Place& place, const PlanOpening& o, InteriorPen& pen) {
+void BuildHinged(const InteriorPlan& plan, const PlanWall& wall, const Place& place, const PlanOpening& o, InteriorPen& pen) {
   const bool glass =
       wall.kind == WallKind::kGlassPartition || (o.kind == OpeningKind::kDoubleDoor && plan.spec.use != BuildingUse::kApartment);
   const Finish face = wall.kind == WallKind::kGlassPartition ? Finish::kFrameDark : LeafOf(plan, o);
@@ -154,7 +154,7 @@ void BuildLift(const PlanWall& wall, const Place& place, const PlanOpening& o, I
 
 }  // namespace
 
-void BuildDoor(const BuildingPlan& plan, const PlanWall& wall, const PlanOpening& opening, InteriorPen& pen) {
+void BuildDoor(const InteriorPlan& plan, const PlanWall& wall, const PlanOpening& opening, InteriorPen& pen) {
   const Place place = PlaceOf(plan, wall, opening);
   pen.Start("door " + std::to_string(opening.lock) + (opening.open > 0.5f ? " open" : " closed"), "construction/door");
   switch (opening.kind) {
@@ -169,7 +169,7 @@ void BuildDoor(const BuildingPlan& plan, const PlanWall& wall, const PlanOpening
   }
 }
 
-void BuildWindow(const BuildingPlan& plan, const PlanWall& wall, const PlanOpening& o, InteriorPen& pen) {
+void BuildWindow(const InteriorPlan& plan, const PlanWall& wall, const PlanOpening& o, InteriorPen& pen) {
   const Place place = PlaceOf(plan, wall, o);
   const bool outer = wall.low < 0 || wall.high < 0, home = plan.spec.use == BuildingUse::kApartment;
   const float out = wall.low < 0 ? -1.0f : 1.0f, middle = outer ? out * 0.1f : 0.0f, t = 0.03f, f = home ? 0.065f : 0.05f,

@@ -194,7 +194,7 @@ void PlanPen::Gap(int a, int b, float from, float to) {
     wall->openings.push_back({.kind = OpeningKind::kPassage, .from = from - wall->from, .to = to - wall->from, .head = 2.2f});
 }
 
-BuildingPlan PlanPen::Finish() {
+InteriorPlan PlanPen::Finish() {
   plan_.outline = plan_.rooms.front().cell;
   std::map<std::string, int> uses;
   for (PlanRoom& r : plan_.rooms) {

@@ -40,10 +40,10 @@ class PlanPen {
   void Gap(int a, int b, float from, float to);
 
   RngStream& rng() { return rng_; }
-  BuildingPlan& plan() { return plan_; }
+  InteriorPlan& plan() { return plan_; }
   float height() const { return static_cast<float>(plan_.spec.storey_height); }
   /// Clear faces, names, numbers and states of doors.
-  BuildingPlan Finish();
+  InteriorPlan Finish();
 
  private:
   PlanWall* Find(int a, int b);
@@ -52,7 +52,7 @@ class PlanPen {
   void AddDoor(PlanWall* wall, float width, float place, OpeningKind kind, float height, bool outer);
   void AddSides(int room);
 
-  BuildingPlan plan_;
+  InteriorPlan plan_;
   RngStream rng_;
 };
 

@@ -16,7 +16,7 @@ F HomeWall(RngStream& rng) {
 
 }  // namespace
 
-RoomFinish FinishOf(const BuildingPlan& plan, int index) {
+RoomFinish FinishOf(const InteriorPlan& plan, int index) {
   const PlanRoom& room = plan.rooms[static_cast<size_t>(index)];
   RngStream rng(plan.seed, "room finish", static_cast<uint64_t>(index)), house(plan.seed, "house finish");
   const bool home = plan.spec.use == BuildingUse::kApartment;
@@ -86,7 +86,7 @@ RoomFinish FinishOf(const BuildingPlan& plan, int index) {
   return {F::kConcreteFloor, F::kPlasterWhite, F::kCeilingPlaster, false};
 }
 
-Finish FacadeOf(const BuildingPlan& plan) {
+Finish FacadeOf(const InteriorPlan& plan) {
   switch (plan.spec.use) {
     case BuildingUse::kWarehouse:
       return F::kFacadeRibbed;

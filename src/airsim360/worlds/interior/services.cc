@@ -15,7 +15,7 @@ struct Lighting {
   float drop = 0;  ///< metres below the ceiling
 };
 
-Lighting LightingOf(const BuildingPlan& plan, const PlanRoom& room) {
+Lighting LightingOf(const InteriorPlan& plan, const PlanRoom& room) {
   using T = RoomType;
   const bool home = plan.spec.use == BuildingUse::kApartment;
   switch (room.type) {
@@ -89,7 +89,7 @@ bool UnderSkylight(const PlanRoom& room, Vec2f p, float margin) {
   return std::any_of(room.skylights.begin(), room.skylights.end(), [&](const PlanRect& hole) { return hole.Inset(-margin).Contains(p); });
 }
 
-void HangLamps(const BuildingPlan& plan, const PlanRoom& room, float ceiling, Furnisher& furnisher) {
+void HangLamps(const InteriorPlan& plan, const PlanRoom& room, float ceiling, Furnisher& furnisher) {
   const Lighting lighting = LightingOf(plan, room);
   if (!lighting.lamp) return;
   const std::string_view lamp = lighting.lamp;
@@ -109,10 +109,10 @@ void HangLamps(const BuildingPlan& plan, const PlanRoom& room, float ceiling, Fu
   });
 }
 
-bool HasSprinklers(const BuildingPlan& plan) { return plan.spec.use != BuildingUse::kApartment; }
+bool HasSprinklers(const InteriorPlan& plan) { return plan.spec.use != BuildingUse::kApartment; }
 
 // Every 3 to 4 m, as EN 12845 asks of ordinary hazards, between the lamps.
-void HangSafety(const BuildingPlan& plan, const PlanRoom& room, float ceiling, Furnisher& furnisher) {
+void HangSafety(const InteriorPlan& plan, const PlanRoom& room, float ceiling, Furnisher& furnisher) {
   const bool big = room.clear.area() > 400;
   if (HasSprinklers(plan) && room.type != RoomType::kLiftShaft && room.type != RoomType::kStairwell)
     Grid(room.clear, big ? 5.0f : 3.4f, big ? 5.0f : 3.4f, [&](Vec2f p) {
@@ -149,7 +149,7 @@ void HangDucts(const PlanRoom& room, float ceiling, Furnisher& furnisher) {
 }
 
 // A sign above doors that lead out or to stairs, an extinguisher beside every second.
-void HangSigns(const BuildingPlan& plan, Furnisher& furnisher) {
+void HangSigns(const InteriorPlan& plan, Furnisher& furnisher) {
   if (plan.spec.use == BuildingUse::kApartment) return;
   int doors = 0;
   for (const PlanWall& wall : plan.walls) {
@@ -182,7 +182,7 @@ void HangSigns(const BuildingPlan& plan, Furnisher& furnisher) {
 
 }  // namespace
 
-void InstallServices(const BuildingPlan& plan, Furnisher& furnisher) {
+void InstallServices(const InteriorPlan& plan, Furnisher& furnisher) {
   for (const PlanRoom& room : plan.rooms) {
     if (!room.has_ceiling || room.type == RoomType::kLiftShaft) continue;
     // The lamps of a hall through several storeys hang below its roof.

@@ -27,7 +27,7 @@ std::vector<PlanRect> Without(const PlanRect& rect, const std::vector<PlanRect>&
   return pieces;
 }
 
-void LayFloor(const BuildingPlan& plan, int index, InteriorPen& pen) {
+void LayFloor(const InteriorPlan& plan, int index, InteriorPen& pen) {
   const PlanRoom& room = plan.rooms[static_cast<size_t>(index)];
   const bool parking = room.type == RoomType::kParkingDeck || room.type == RoomType::kRamp;
   pen.Start("floor " + room.name, parking ? "ground/parking" : "ground/floor");
@@ -60,7 +60,7 @@ void BuildSkylight(const PlanRect& hole, float ceiling_z, float roof_z, Interior
   pen.Level(hole, z + 0.005f, true);
 }
 
-void BuildRoof(const BuildingPlan& plan, InteriorPen& pen) {
+void BuildRoof(const InteriorPlan& plan, InteriorPen& pen) {
   const int top = static_cast<int>(plan.spec.storeys) - 1;
   const float z = plan.StoreyZ(top + 1), out = kOuterWall - kHalfWall;
   std::vector<PlanRect> holes;
@@ -76,7 +76,7 @@ void BuildRoof(const BuildingPlan& plan, InteriorPen& pen) {
 
 }  // namespace
 
-void BuildShell(const BuildingPlan& plan, InteriorPen& pen) {
+void BuildShell(const InteriorPlan& plan, InteriorPen& pen) {
   for (int i = 0; i < static_cast<int>(plan.rooms.size()); ++i) {
     const PlanRoom& room = plan.rooms[static_cast<size_t>(i)];
     if (room.has_floor) LayFloor(plan, i, pen);

@@ -34,7 +34,7 @@ void BuildRail(Vec3f a, Vec3f b, InteriorPen& pen) {
   }
 }
 
-void BuildStair(const BuildingPlan& plan, const PlanStair& stair, InteriorPen& pen) {
+void BuildStair(const InteriorPlan& plan, const PlanStair& stair, InteriorPen& pen) {
   const PlanRoom& room = plan.rooms[static_cast<size_t>(stair.room)];
   const PlanRect r = room.clear;
   const int risers = 2 * static_cast<int>(std::ceil(stair.rise / 0.175f / 2)), half = risers / 2;
@@ -125,7 +125,7 @@ void BuildEscalator(const PlanSlope& e, InteriorPen& pen) {
 
 }  // namespace
 
-void BuildStairs(const BuildingPlan& plan, InteriorPen& pen) {
+void BuildStairs(const InteriorPlan& plan, InteriorPen& pen) {
   for (const PlanStair& stair : plan.stairs) BuildStair(plan, stair, pen);
   for (const PlanSlope& ramp : plan.ramps) BuildRamp(ramp, pen);
   for (const PlanSlope& escalator : plan.escalators) BuildEscalator(escalator, pen);

@@ -7,7 +7,7 @@
 namespace airsim360::internal {
 namespace {
 
-void BuildColumns(const BuildingPlan& plan, InteriorPen& pen) {
+void BuildColumns(const InteriorPlan& plan, InteriorPen& pen) {
   const bool deck = plan.spec.use == BuildingUse::kCarPark, steel = plan.spec.use == BuildingUse::kWarehouse;
   for (const Vec2f& c : plan.columns) {
     for (int s = 0; s < static_cast<int>(plan.spec.storeys); ++s) {
@@ -33,7 +33,7 @@ void BuildColumns(const BuildingPlan& plan, InteriorPen& pen) {
 }
 
 // Along the lines of columns with the same x, from wall to wall.
-void BuildBeams(const BuildingPlan& plan, InteriorPen& pen) {
+void BuildBeams(const InteriorPlan& plan, InteriorPen& pen) {
   std::vector<float> lines;
   for (const Vec2f& c : plan.columns)
     if (std::none_of(lines.begin(), lines.end(), [&](float x) { return std::abs(x - c.x) < 0.01f; })) lines.push_back(c.x);
@@ -64,7 +64,7 @@ void BuildBeams(const BuildingPlan& plan, InteriorPen& pen) {
 void Stripe(InteriorPen& pen, const PlanRect& r, float z) { pen.Level(r, z + 0.004f, true); }
 
 // Lines between the bays of a deck, arrows in its aisles.
-void MarkDecks(const BuildingPlan& plan, InteriorPen& pen) {
+void MarkDecks(const InteriorPlan& plan, InteriorPen& pen) {
   for (int s = 0; s < static_cast<int>(plan.spec.storeys); ++s) {
     const float z = plan.StoreyZ(s);
     for (const DeckBay& bay : DeckBays(plan, s)) {
@@ -92,7 +92,7 @@ void MarkDecks(const BuildingPlan& plan, InteriorPen& pen) {
 }
 
 // Yellow lines along the ways of fork-lifts, hatched places before the docks.
-void MarkHall(const BuildingPlan& plan, InteriorPen& pen) {
+void MarkHall(const InteriorPlan& plan, InteriorPen& pen) {
   for (const PlanRoom& room : plan.rooms) {
     if (room.type != RoomType::kWarehouseHall) continue;
     const PlanRect r = room.clear;
@@ -113,7 +113,7 @@ void MarkHall(const BuildingPlan& plan, InteriorPen& pen) {
 
 }  // namespace
 
-void BuildStructure(const BuildingPlan& plan, InteriorPen& pen) {
+void BuildStructure(const InteriorPlan& plan, InteriorPen& pen) {
   BuildColumns(plan, pen);
   if (plan.spec.use == BuildingUse::kWarehouse || plan.spec.use == BuildingUse::kCarPark) BuildBeams(plan, pen);
   if (plan.spec.use == BuildingUse::kCarPark) MarkDecks(plan, pen);

@@ -13,7 +13,7 @@ constexpr float kApron = 3.0f, kVerge = 9.0f, kRoad = 7.5f, kWalk = 2.5f;
 
 class Outside {
  public:
-  Outside(const BuildingPlan& plan, InteriorPen& pen, Furnisher& furnisher)
+  Outside(const InteriorPlan& plan, InteriorPen& pen, Furnisher& furnisher)
       : plan_(plan),
         pen_(pen),
         furnisher_(furnisher),
@@ -155,7 +155,7 @@ class Outside {
     }
   }
 
-  const BuildingPlan& plan_;
+  const InteriorPlan& plan_;
   InteriorPen& pen_;
   Furnisher& furnisher_;
   Surfaces surfaces_;
@@ -165,6 +165,6 @@ class Outside {
 
 }  // namespace
 
-void BuildSurroundings(const BuildingPlan& plan, InteriorPen& pen, Furnisher& furnisher) { Outside(plan, pen, furnisher).Build(); }
+void BuildSurroundings(const InteriorPlan& plan, InteriorPen& pen, Furnisher& furnisher) { Outside(plan, pen, furnisher).Build(); }
 
 }  // namespace airsim360::internal

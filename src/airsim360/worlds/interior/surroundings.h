@@ -9,6 +9,6 @@ namespace airsim360::internal {
 inline constexpr float kOutsideZ = -0.15f;  ///< of the ground around the building
 
 /// Paths, lawn, a street with cars and trees, houses across it and to the horizon.
-void BuildSurroundings(const BuildingPlan& plan, InteriorPen& pen, Furnisher& furnisher);
+void BuildSurroundings(const InteriorPlan& plan, InteriorPen& pen, Furnisher& furnisher);
 
 }  // namespace airsim360::internal

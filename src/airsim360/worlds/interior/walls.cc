@@ -29,7 +29,7 @@ std::vector<Piece> PiecesOf(const PlanWall& wall, float from, float to, float z0
 
 class WallBuilder {
  public:
-  WallBuilder(const BuildingPlan& plan, InteriorPen& pen) : plan_(plan), pen_(pen) {}
+  WallBuilder(const InteriorPlan& plan, InteriorPen& pen) : plan_(plan), pen_(pen) {}
 
   void Build(const PlanWall& wall) {
     switch (wall.kind) {
@@ -239,13 +239,13 @@ class WallBuilder {
     }
   }
 
-  const BuildingPlan& plan_;
+  const InteriorPlan& plan_;
   InteriorPen& pen_;
 };
 
 }  // namespace
 
-void BuildWalls(const BuildingPlan& plan, InteriorPen& pen) {
+void BuildWalls(const InteriorPlan& plan, InteriorPen& pen) {
   WallBuilder builder(plan, pen);
   for (const PlanWall& wall : plan.walls) builder.Build(wall);
 }

@@ -37,7 +37,7 @@ struct AreaKind {
   std::string_view key, value, category;
   Surface surface;
 };
-constexpr AreaKind kAreas[] = {
+constexpr AreaKind kAreaKinds[] = {
     {"natural", "water", "water/lake", Surface::kWater},
     {"waterway", "riverbank", "water/river", Surface::kWater},
     {"waterway", "dock", "water/lake", Surface::kWater},
@@ -90,7 +90,7 @@ constexpr AreaKind kAreas[] = {
 };
 
 const AreaKind* KindOf(const OsmTags& tags) {
-  for (const AreaKind& kind : kAreas) {
+  for (const AreaKind& kind : kAreaKinds) {
     if (tags.Get(kind.key) != kind.value) continue;
     // Rings that are lines: a path around a lawn is no square.
     if (kind.key == "highway" && !tags.Is("area", "yes")) continue;

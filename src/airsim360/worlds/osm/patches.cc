@@ -1,4 +1,4 @@
-// Boost.Polygon's Booleans (sweep line on integers; BSL-1.0) lie behind this one file.
+// Boost.GridPolygon's Booleans (sweep line on integers; BSL-1.0) lie behind this one file.
 #include "airsim360/worlds/osm/patches.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 namespace gtl = boost::polygon;
 using namespace boost::polygon::operators;
 using Point = gtl::point_data<int>;
-using Polygon = gtl::polygon_with_holes_data<int>;
+using GridPolygon = gtl::polygon_with_holes_data<int>;
 using Set = gtl::polygon_set_data<int>;
 
 constexpr double kGrid = 1000;        // units a metre
@@ -62,10 +62,10 @@ Ring RingOf(const Corners& begin, const Corners& end) {
 }
 
 Patches PatchesOf(const Set& set) {
-  std::vector<Polygon> polygons;
+  std::vector<GridPolygon> polygons;
   set.get(polygons);
   Patches patches;
-  for (const Polygon& polygon : polygons) {
+  for (const GridPolygon& polygon : polygons) {
     Patch patch;
     patch.outer = RingOf(polygon.begin(), polygon.end());
     if (SignedArea(patch.outer) < 0) std::reverse(patch.outer.begin(), patch.outer.end());

@@ -1,6 +1,7 @@
 // Small maps written by tests: metres east and north of 45 N, 7 E in, OpenStreetMap XML out.
 #pragma once
 
+#include <cctype>
 #include <cstdio>
 #include <initializer_list>
 #include <string>
@@ -77,5 +78,12 @@ class TestMap {
   std::string text_, nodes_, ways_, relations_;
   int node_ = 0, way_ = 0, relation_ = 0;
 };
+
+/// "natural=water" as the name of a test.
+inline std::string TestName(const std::string& text) {
+  std::string name;
+  for (char c : text) name += std::isalnum(static_cast<unsigned char>(c)) ? std::string(1, c) : c == '-' ? "_dash_" : "_";
+  return name;
+}
 
 }  // namespace airsim360::internal

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "airsim360/math/angles.h"
+#include "airsim360/scene/luminance.h"
 #include "airsim360/worlds/props/billboards.h"
 #include "airsim360/worlds/props/portrait.h"
 
@@ -55,8 +56,6 @@ void Gradient(Canvas& c, Vec3f top, Vec3f bottom) {
     c.Rectangle({0, t * 47 / 48}, {1, t * 47 / 48 + 1.0f / 48}, top * (1 - t) + bottom * t);
   }
 }
-
-float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 // A sitter whose middle is at x, before what the canvas shows already. No face is shown: a suit from the neck down, or a
 // head against the light in grey.

@@ -9,7 +9,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kLawnZ = 0.05f, kWalkHalf = 1.6f;
+constexpr float kHillLawnZ = 0.05f, kWalkHalf = 1.6f;
 
 // Steps up the slope from x0 to x1 (downhill to uphill) along y = const: a rise of 15 cm each, as far apart as the ground asks.
 void BuildStairs(District& d, const Hills& hills, float x0, float x1, float y) {
@@ -43,9 +43,9 @@ void BuildStairs(District& d, const Hills& hills, float x0, float x1, float y) {
 void PlantLawn(District& d, const GroundRect& lawn, int index) {
   const EntityId grass = d.ground.Begin("lawn", "ground/grass", Surface::kLawn);
   const std::vector<Vec2f> outline = lawn.Outline();
-  d.ground.Rect(lawn, kLawnZ);
+  d.ground.Rect(lawn, kHillLawnZ);
   d.ground.Use(Surface::kKerb);
-  d.ground.mesh().Walls(outline, -0.05f, kLawnZ);
+  d.ground.mesh().Walls(outline, -0.05f, kHillLawnZ);
   RngStream rng(d.seed, "hill lawn", static_cast<uint64_t>(index));
   const auto spot = [&](float margin) {
     return Vec2f{static_cast<float>(rng.Uniform(lawn.x0 + margin, lawn.x1 - margin)),
@@ -56,18 +56,18 @@ void PlantLawn(District& d, const GroundRect& lawn, int index) {
     const Vec2f p = spot(2.5f);
     if (std::any_of(trees.begin(), trees.end(), [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 7.5f; })) continue;
     static constexpr const char* kKinds[] = {"tree_pine", "tree_generic", "tree_generic", "tree_narrowleaf"};
-    if (!d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.06f}, static_cast<float>(rng.Uniform(0, kTauF)),
+    if (!d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kHillLawnZ - 0.06f}, static_cast<float>(rng.Uniform(0, kTauF)),
                       static_cast<float>(rng.Uniform(0.8, 1.2))))
       continue;
     trees.push_back(p);
-    DropLeaves(d, grass, p, 2.8f, 8, kLawnZ);
+    DropLeaves(d, grass, p, 2.8f, 8, kHillLawnZ);
   }
   for (int i = 0; i < 26; ++i) {
     static constexpr const char* kKinds[] = {"shrub", "plant", "flower_bed", "rock"};
     const Vec2f p = spot(1.0f);
-    d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f}, static_cast<float>(rng.Uniform(0, kTauF)), 0.9f);
+    d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kHillLawnZ - 0.02f}, static_cast<float>(rng.Uniform(0, kTauF)), 0.9f);
   }
-  GrowGrass(d, grass, outline, kLawnZ, 2);
+  GrowGrass(d, grass, outline, kHillLawnZ, 2);
 }
 
 }  // namespace
@@ -97,9 +97,9 @@ void BuildHillPark(District& d, const Hills& hills, const Block& block) {
   for (float s = 8; s < area.width() - 6; s += 14)
     for (float side : {-1.0f, 1.0f}) d.placer.Try("hill_lamp", {area.x1 - s, c.y + side * (kWalkHalf + 1.2f), 0.02f});
   for (float s = 6; s < area.depth() - 4; s += 11) {
-    d.placer.Try("hill_lamp", {c.x + kWalkHalf + 0.5f, area.y0 + s, kLawnZ});
-    d.placer.Try("bench_wood", {c.x - kWalkHalf - 0.7f, area.y0 + s + 4, kLawnZ}, FacingYaw({1, 0}));
-    d.placer.Try("trash_can", {c.x + kWalkHalf + 0.6f, area.y0 + s + 5, kLawnZ});
+    d.placer.Try("hill_lamp", {c.x + kWalkHalf + 0.5f, area.y0 + s, kHillLawnZ});
+    d.placer.Try("bench_wood", {c.x - kWalkHalf - 0.7f, area.y0 + s + 4, kHillLawnZ}, FacingYaw({1, 0}));
+    d.placer.Try("trash_can", {c.x + kWalkHalf + 0.6f, area.y0 + s + 5, kHillLawnZ});
   }
   const float gap = kWalkHalf + 0.05f, across = kWalkHalf + 0.65f;
   const GroundRect lawns[] = {{c.x + gap, area.y0, area.x1, c.y - across}, {c.x + gap, c.y + across, area.x1, area.y1},
@@ -107,7 +107,7 @@ void BuildHillPark(District& d, const Hills& hills, const Block& block) {
                               {top.x1, top.y0, c.x - gap, c.y - across},   {top.x1, c.y + across, c.x - gap, top.y1}};
   const Vec2f play{(lawns[0].x0 + lawns[0].x1) / 2, (lawns[0].y0 + lawns[0].y1) / 2};
   for (uint32_t i = 0; i < 3; ++i)
-    d.placer.Try("playground", {play.x - 8 + 8 * static_cast<float>(i), play.y, kLawnZ - 0.05f}, 0.3f, 1, {1, 1, 1}, i);
+    d.placer.Try("playground", {play.x - 8 + 8 * static_cast<float>(i), play.y, kHillLawnZ - 0.05f}, 0.3f, 1, {1, 1, 1}, i);
   for (int i = 0; i < 6; ++i) PlantLawn(d, lawns[i], i);
   // A fence along the streets, open where the walks begin.
   const GroundRect rim = area.Inset(0.25f);

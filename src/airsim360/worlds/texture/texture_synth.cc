@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "airsim360/image/color.h"
+#include "airsim360/scene/luminance.h"
 #include "airsim360/worlds/texture/texture_maps.h"
 
 namespace airsim360 {
@@ -25,7 +26,6 @@ uint32_t HashCell(uint32_t seed, int x, int y, int period) {
 
 float ToUnit(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 float Smooth(float t) { return t * t * (3 - 2 * t); }
-float Luminance(Vec3f c) { return Dot(c, {0.2126f, 0.7152f, 0.0722f}); }
 uint8_t ToByte(float x) { return static_cast<uint8_t>(std::clamp(x, 0.0f, 1.0f) * 255 + 0.5f); }
 
 }  // namespace

@@ -12,6 +12,9 @@
 
 namespace airsim360::internal {
 
+/// Height of lawns, metres.
+inline constexpr float kLawnZ = 0.06f;
+
 struct District {
   SceneBuilder& builder;
   const Surfaces& surfaces;

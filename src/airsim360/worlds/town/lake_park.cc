@@ -10,8 +10,8 @@ namespace airsim360::internal {
 namespace {
 
 constexpr Vec2f kLakeHalf{28, 16.5f};
-constexpr float kWaterZ = -0.45f, kLawnZ = 0.06f, kBank = 1.10f, kWalkIn = 1.18f;
-constexpr int kSteps = 96;
+constexpr float kLakeZ = -0.45f, kBank = 1.10f, kWalkIn = 1.18f;
+constexpr int kShoreSteps = 96;
 
 // The shore at angle a, scaled: an ellipse with bays.
 Vec2f Shore(Vec2f c, float a, float scale) {
@@ -25,21 +25,21 @@ Vec2f Walk(Vec2f c, float a, float offset) {
 }
 
 void Ring(Ground& g, Vec2f c, float s0, float s1, float z0, float z1) {
-  for (int i = 0; i < kSteps; ++i) {
-    const float a0 = kTauF * static_cast<float>(i) / kSteps, a1 = kTauF * static_cast<float>(i + 1) / kSteps;
+  for (int i = 0; i < kShoreSteps; ++i) {
+    const float a0 = kTauF * static_cast<float>(i) / kShoreSteps, a1 = kTauF * static_cast<float>(i + 1) / kShoreSteps;
     const Vec2f p = Shore(c, a0, s0), q = Shore(c, a0, s1), r = Shore(c, a1, s1), t = Shore(c, a1, s0);
     g.Quad({p.x, p.y, z0}, {q.x, q.y, z1}, {r.x, r.y, z1}, {t.x, t.y, z0});
   }
 }
 
-void LayLake(District& d, Vec2f c) {
+void LayLakeOfPark(District& d, Vec2f c) {
   Ground& g = d.ground;
   g.Begin("lake", "water/lake", Surface::kWater);
   std::vector<Vec2f> shore;
-  for (int i = 0; i < kSteps; ++i) shore.push_back(Shore(c, kTauF * static_cast<float>(i) / kSteps, 1.0f));
-  g.Polygon(shore, kWaterZ);
+  for (int i = 0; i < kShoreSteps; ++i) shore.push_back(Shore(c, kTauF * static_cast<float>(i) / kShoreSteps, 1.0f));
+  g.Polygon(shore, kLakeZ);
   g.Begin("shore", "ground/dirt", Surface::kSoil);
-  Ring(g, c, 0.99f, 1.035f, kWaterZ - 0.06f, -0.22f);
+  Ring(g, c, 0.99f, 1.035f, kLakeZ - 0.06f, -0.22f);
   const EntityId bank = g.Begin("lake bank", "ground/grass", Surface::kLawn);
   Ring(g, c, 1.035f, kBank, -0.22f, kLawnZ);
   std::vector<Vec2f> in, out;
@@ -56,13 +56,13 @@ void LayLake(District& d, Vec2f c) {
   for (int i = 0; i < 46; ++i) {
     const float a = static_cast<float>(rng.Uniform(0, kTauF));
     const Vec2f p = Shore(c, a, static_cast<float>(rng.Uniform(0.965, 1.03)));
-    d.placer.Try("rock", {p.x, p.y, kWaterZ - 0.12f}, a, static_cast<float>(rng.Uniform(0.4, 1.0)));
+    d.placer.Try("rock", {p.x, p.y, kLakeZ - 0.12f}, a, static_cast<float>(rng.Uniform(0.4, 1.0)));
   }
   // The walk in eight segments.
   for (int k = 0; k < 8; ++k) {
     g.Begin("park walk", "ground/path/park_walkway", Surface::kPath);
-    for (int i = 0; i < kSteps / 8; ++i) {
-      const float a0 = kTauF * static_cast<float>(k * kSteps / 8 + i) / kSteps, a1 = a0 + kTauF / kSteps;
+    for (int i = 0; i < kShoreSteps / 8; ++i) {
+      const float a0 = kTauF * static_cast<float>(k * kShoreSteps / 8 + i) / kShoreSteps, a1 = a0 + kTauF / kShoreSteps;
       const Vec2f p = Walk(c, a0, 0), q = Walk(c, a0, 2.8f), r = Walk(c, a1, 2.8f), t = Walk(c, a1, 0);
       g.Quad({p.x, p.y, 0.03f}, {q.x, q.y, 0.03f}, {r.x, r.y, 0.03f}, {t.x, t.y, 0.03f});
     }
@@ -123,8 +123,8 @@ void PlantQuadrant(District& d, const std::vector<Vec2f>& outline, EntityId lawn
 void BuildLakePark(District& d, const Block& block) {
   const GroundRect area = block.inner();
   const Vec2f c = area.center();
-  LayLake(d, c);
-  RaiseIsland(d, "ground/grass", {c.x - 7, c.y + 1}, {6.4f, 4.6f}, kWaterZ);
+  LayLakeOfPark(d, c);
+  RaiseIsland(d, "ground/grass", {c.x - 7, c.y + 1}, {6.4f, 4.6f}, kLakeZ);
   BuildRedBridge(d, {c.x + 12, c.y}, 16.2f);
   // Four short walks from the ring to the pavements.
   for (int k = 0; k < 4; ++k) {
@@ -138,8 +138,8 @@ void BuildLakePark(District& d, const Block& block) {
   }
   // Soil under everything; only rims of it show.
   d.ground.Begin("park soil", "ground/dirt", Surface::kSoil);
-  for (int i = 0; i < kSteps; ++i) {
-    const float a0 = kTauF * static_cast<float>(i) / kSteps, a1 = kTauF * static_cast<float>(i + 1) / kSteps;
+  for (int i = 0; i < kShoreSteps; ++i) {
+    const float a0 = kTauF * static_cast<float>(i) / kShoreSteps, a1 = kTauF * static_cast<float>(i + 1) / kShoreSteps;
     const Vec2f p = Shore(c, a0, kBank + 0.01f), q = Walk(c, a0, 3.2f), r = Walk(c, a1, 3.2f), t = Shore(c, a1, kBank + 0.01f);
     d.ground.Quad({p.x, p.y, 0.0f}, {q.x, q.y, 0.0f}, {r.x, r.y, 0.0f}, {t.x, t.y, 0.0f});
   }

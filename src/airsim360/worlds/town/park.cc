@@ -8,7 +8,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kPond = 17.0f, kCoping = 17.6f, kRingIn = 18.9f, kRingOut = 22.5f, kPathHalf = 1.35f, kLawnZ = 0.06f, kWaterZ = -0.22f;
+constexpr float kPond = 17.0f, kCoping = 17.6f, kRingIn = 18.9f, kRingOut = 22.5f, kPathHalf = 1.35f, kWaterZ = -0.22f;
 constexpr int kPaths = 8, kSteps = 14;
 
 // One of the curved paths from the ring walk to the edge of the park.

@@ -8,8 +8,6 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kLawnZ = 0.06f;
-
 // A garden: lawn, slabs by the gate at its outer end (towards `out` in y), trees, shrubs and flowers along its fences.
 void LayGarden(District& d, const GroundRect& plot, float out, RngStream& rng) {
   const EntityId lawn = d.ground.Begin("garden lawn", "ground/terrain/landscape", Surface::kLawn);

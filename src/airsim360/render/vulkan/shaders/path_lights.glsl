@@ -10,7 +10,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Lam
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PathTables { GpuPath v; };
 #define tables push.frame.v.path.v
 
-const float kTau = 6.28318531, kHalfPi = 1.57079633, kPathSun = 0.004625;
+const float kTau = 6.28318531, kHalfPi = 1.57079633;
 const int kSkyCells = 256;
 
 /// A direction to a light, what it sends from there, its density per solid angle, how far it is.
@@ -24,12 +24,12 @@ float ArcCosine(float x) { return kHalfPi - asin_approx(clamp(x, -1.0, 1.0)); }
 
 float SunPdf(vec3 d) {
   const vec3 off = d - Vec(view.to_sun);
-  return tables.has_sun != 0 && dot(off, off) < kPathSun * kPathSun ? 2.0 / (kTau * kPathSun * kPathSun) : 0.0;
+  return tables.has_sun != 0 && dot(off, off) < SUN_RADIUS * SUN_RADIUS ? 2.0 / (kTau * SUN_RADIUS * SUN_RADIUS) : 0.0;
 }
 
 vec3 SunRadiance(vec3 p, vec3 d) {
   const vec3 off = d - Vec(view.to_sun);
-  const float x2 = dot(off, off) / (kPathSun * kPathSun);
+  const float x2 = dot(off, off) / (SUN_RADIUS * SUN_RADIUS);
   if (tables.has_sun == 0 || x2 >= 1.0) return vec3(0.0);
   return Vec(view.sun_radiance) * (1.25 * (0.4 + 0.6 * sqrt(1.0 - x2)) * CloudShadow(p));
 }
@@ -38,7 +38,7 @@ LightRay SampleSun(vec3 p, vec2 u) {
   const vec3 s = Vec(view.to_sun), reference = abs(s.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
   const vec3 right = normalize(cross(reference, s)), up = cross(s, right);
   // The chord to the disc's centre squared is even over solid angle.
-  const float chord = kPathSun * sqrt(u.x), turn = kTau * u.y, side = chord * sqrt(1.0 - 0.25 * chord * chord);
+  const float chord = SUN_RADIUS * sqrt(u.x), turn = kTau * u.y, side = chord * sqrt(1.0 - 0.25 * chord * chord);
   const vec3 d = normalize(s * (1.0 - 0.5 * chord * chord) + right * (side * Cosine(turn)) + up * (side * sin_approx(turn)));
   return LightRay(d, SunRadiance(p, d), SunPdf(d), 1e30);
 }

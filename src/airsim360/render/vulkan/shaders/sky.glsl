@@ -169,9 +169,9 @@ vec3 LookUpSky(vec3 o, vec3 d, bool sun_disc) {
   }
   if (sun_disc) {
     const vec3 off = d - Vec(view.to_sun);
-    const float x2 = dot(off, off) * (1.0 / (0.004625 * 0.004625));
+    const float x2 = dot(off, off) * (1.0 / (SUN_RADIUS * SUN_RADIUS));
     if (x2 < 1.0 && view.moon_gain > 0.0)
-      c += Vec(view.sun_radiance) * (moon_face(off * (1.0 / 0.004625), Vec(view.to_sun), Vec(view.moon_light)) * (view.moon_gain * view.sun_seen));
+      c += Vec(view.sun_radiance) * (moon_face(off * (1.0 / SUN_RADIUS), Vec(view.to_sun), Vec(view.moon_light)) * (view.moon_gain * view.sun_seen));
     else if (x2 < 1.0) c += Vec(view.sun_radiance) * ((0.4 + 0.6 * sqrt(max(1.0 - x2, 0.0))) * (1.25 * view.sun_seen));
   }
   return c;
