@@ -115,7 +115,11 @@ std::string UnknownArgumentMessage(const CLI::App& app, const CLI::ParseError& e
   for (const std::string& word : app.remaining(true)) {
     if (word == "--") continue;
     if (word.starts_with("-")) {
-      const std::string flag = word.substr(0, word.find('=')), question = DidYouMean(flag, FlagNames(*command));
+      const std::string flag = word.substr(0, word.find('='));
+      const std::vector<std::string> flags = FlagNames(*command);
+      if (!path.empty() && std::ranges::count(flags, flag) > 0)
+        return "'" + flag + "' stands after the command: airsim360 " + path + " " + flag;
+      const std::string question = DidYouMean(flag, flags);
       return of + "unknown flag '" + flag + "'" + question + (question.empty() ? "; " : " ") + HelpHint(*command);
     }
     // A command of commands: the word is a wrong one.

@@ -14,7 +14,7 @@ namespace {
 using internal::Candidate;
 
 constexpr size_t kMostCompetitors = 4;
-constexpr double kApart = 1.5;  // metres between one and the next on the way
+constexpr double kApart = 1.5;  // metres at least between one and the next on the way
 constexpr size_t kMostNamed = 3;
 
 std::string Text(double value) {
@@ -91,7 +91,7 @@ ProofStep KeepNearest(std::vector<Candidate>& candidates, const Viewpoint& view,
 }
 
 ProofStep KeepOrdinal(std::vector<Candidate>& candidates, const Viewpoint& view, int k, std::string& why) {
-  ProofStep step{"ordinal", "m ahead", static_cast<int>(candidates.size()), 1, 0, 1e9, kApart};
+  ProofStep step{"ordinal", "m ahead", static_cast<int>(candidates.size()), 1, 0, 1e9, 0};
   std::ranges::stable_sort(candidates, {}, [&](const Candidate& c) { return InHeading(view, c.thing->center()).x; });
   const auto place = static_cast<size_t>(k - 1);
   if (place >= candidates.size()) {
@@ -102,6 +102,8 @@ ProofStep KeepOrdinal(std::vector<Candidate>& candidates, const Viewpoint& view,
   }
   const auto ahead = [&](size_t i) { return InHeading(view, candidates[i].thing->center()).x; };
   step.value = ahead(place);
+  // Of two on either side of a way nobody sees from afar which comes first.
+  step.needed = std::max(kApart, NearestMargin(step.value));
   std::vector<Competitor> calls;
   for (size_t i = 0; i < candidates.size(); ++i) {
     // Also what comes before must be sure and well apart, or the count is not.
@@ -110,7 +112,7 @@ ProofStep KeepOrdinal(std::vector<Candidate>& candidates, const Viewpoint& view,
     if (i != place) calls.push_back({candidates[i].thing->entities.front(), candidates[i].thing->name, ahead(i)});
   }
   Keep(step, std::move(calls));
-  if (step.margin < kApart) why = NamesOf(step.competitors, "m ahead") + " are too close to each other to be counted";
+  if (step.margin < step.needed) why = NamesOf(step.competitors, "m ahead") + " are too close to each other to be counted";
   candidates = {candidates[place]};
   return step;
 }

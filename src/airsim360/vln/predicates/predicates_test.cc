@@ -227,6 +227,16 @@ TEST(Decide, TheSecondOnTheWayIsCountedAlongTheHeading) {
   EXPECT_EQ(Meant(scene, query, {{{40, 0, 3}, kPi}}), second);
 }
 
+TEST(Decide, WhichOfTwoOnEitherSideComesFirstIsNotSeenFromAfar) {
+  TestTown town;
+  town.Box("tree", kTree, {0, 3, 0}, {1, 1, 6});
+  const EntityId second = town.Box("tree", kTree, {2, -3, 0}, {1, 1, 6});
+  const Query query{Named("tree"), {{.kind = PredicateKind::kAlong, .width = 10}, {.kind = PredicateKind::kOrdinal, .k = 2}}};
+  const auto scene = town.Build();
+  EXPECT_EQ(Meant(scene, query, {{{-15, 0, 3}, 0}}), second);  // 2 m of 17
+  EXPECT_EQ(Meant(scene, query, {{{-30, 0, 3}, 0}}), kNoEntity);  // 2 m of 32
+}
+
 TEST(Decide, TheTallestAreThoseAboveAShareOfAll) {
   TestTown town;
   for (int i = 0; i < 9; ++i) town.Box("building", kBuilding, {40.0f * i, 50, 0}, {10, 10, 10.0f + i});
