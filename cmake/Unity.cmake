@@ -1,7 +1,6 @@
 # Sources of one library compiled together, up to 24 at a time in the order of their folders (tests: of one folder):
-# headers and templates are parsed once for them, which cuts a cold build to a third. Names in their unnamed namespaces
-# must differ. Off for those who edit one file often (-DAIRSIM360_UNITY=OFF) and under a compiler cache, which knows
-# single files better.
+# headers and templates are parsed once for them. Names in their unnamed namespaces must differ. Off for those who edit
+# one file often (-DAIRSIM360_UNITY=OFF) and under a compiler cache, which knows single files better.
 option(AIRSIM360_UNITY "compile sources of a library together" ${AIRSIM360_PARSE_ONCE})
 
 # airsim360_unity(TARGET KIND SOURCES...): the sources are absolute paths; those of two kinds are kept apart.
