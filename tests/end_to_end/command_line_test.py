@@ -36,7 +36,7 @@ class HelpTest(ProgramTest):
             (["world", "export", "box_room", "--output", "x.glb"], ["world export: ", "did you mean '--out'?", "'airsim360 world export --help'"]),
             (["collect", "--config", "x.yaml"], ["unknown flag '--config'; 'airsim360 collect --help'"]),
             (["world", "exprot"], ["did you mean 'export'?"]),
-            (["--json", "world", "info", "box_room"], ["'--json' stands after the command: airsim360 world info --json"]),
+            (["--json", "worlds"], ["'--json' stands after the command: airsim360 worlds --json"]),
         ]:
             error = self.run_bad(2, *arguments, says=says).stderr
             self.assertLess(len(error), 200, error)

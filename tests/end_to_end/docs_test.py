@@ -44,7 +44,7 @@ def script_of(page):
             continue
         # A server is ready when it says that it listens.
         text = re.sub(r"^(airsim360 (?:serve|agent)\b[^\n]*?) *&$",
-                      r"\1 > server.log 2>&1 &\nfor i in $(seq 300); do grep -q listening server.log && break; sleep 0.2; done",
+                      r"\1 > server.log 2>&1 &\nfor i in $(seq 1500); do grep -q listening server.log && break; sleep 0.2; done",
                       text, flags=re.M)
         parts.append(f"echo \"[$SECONDS s] {name_of(page)}:{line}\" >&2\n{text}")
     return "\n".join([*parts, 'echo "[$SECONDS s] end" >&2'])

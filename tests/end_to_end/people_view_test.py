@@ -58,7 +58,7 @@ class NearPeople(ProgramTest):
         out = self.folder / "out"
         report = json.loads(self.run_ok("render", *TOWN, "--json", "--out", out).stdout)
         self.assertGreaterEqual(report["people_seen_100px"], 1)
-        result = self.run_ok("render", *TOWN[:-1], "256x192", "--projection", "pinhole", "--out", self.folder / "narrow")
+        result = self.run_ok("render", *TOWN[:-1], "768x576", "--projection", "pinhole", "--out", self.folder / "narrow")
         self.assertRegex(result.stdout, r"people: [1-9]\d* of 24 have pixels, [1-9]")
 
     def test_a_dataset_without_people_to_be_seen_is_warned_of(self):
