@@ -9,6 +9,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/flight/control/attitude.h"
 #include "airsim360/flight/control/guidance.h"
+#include "airsim360/flight/control/mixer.h"
 #include "airsim360/flight/control/tracking.h"
 
 namespace airsim360 {
@@ -22,7 +23,6 @@ const std::vector<std::string>& KindNames() {
 // A rotor has failed when for this long it turns at less than this share of the speed it should have.
 constexpr double kFaultTime = 0.15, kFaultShare = 0.5;
 constexpr double kFaultFloor = 0.15;  // of its top speed: slower ones are not judged
-constexpr double kIdleShare = 0.05;   // of the top speed
 
 void CheckOption(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;

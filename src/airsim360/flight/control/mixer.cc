@@ -7,9 +7,6 @@
 namespace airsim360 {
 namespace {
 
-// Rotors idle rather than stop in flight: a share of their top speed.
-constexpr double kIdleSpeed = 0.05;
-
 /// Inverts a symmetric matrix of size n <= 4 in place by Gauss-Jordan with diagonal pivots; false when it is
 /// singular (a pivot falls below 1e-9 of its diagonal).
 bool InvertSymmetric(double (&a)[4][4], int n) {
@@ -53,7 +50,7 @@ Mixer::Mixer(const DroneModel& model, uint64_t failed) : n_(static_cast<int>(mod
     const Vec3d torque = Cross(rotor.p_B, rotor.axis_B) + rotor.axis_B * (rotor.direction * rotor.torque_ratio);
     effect_[i] = {torque.x, torque.y, torque.z, rotor.axis_B.z};
     max_[i] = ThrustAtSpeed(rotor, rotor.max_speed);
-    min_[i] = max_[i] * kIdleSpeed * kIdleSpeed;
+    min_[i] = max_[i] * kIdleShare * kIdleShare;
   }
 
   usable_ = Invert(false, loose_);

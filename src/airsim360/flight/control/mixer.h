@@ -10,6 +10,9 @@ namespace airsim360 {
 
 using RotorValues = std::array<double, kMaxRotors>;
 
+/// Rotors idle rather than stop in flight: a share of their top speed.
+inline constexpr double kIdleShare = 0.05;
+
 /// Torque about the axes of B (N m) and collective thrust along +Z of B (N).
 struct RotorWrench {
   Vec3d torque_B;

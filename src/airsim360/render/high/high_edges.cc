@@ -7,11 +7,11 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
+#include "airsim360/render/frame/antialias.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr int kEdgeSymmetries = 8;
 // Exposed luminance that a sample may have, nearly white: more would make pixels of a few samples sparkle.
 constexpr float kNearWhite = 3;
 
@@ -189,7 +189,7 @@ int RefineTile(const HighEdgeTask& task, const TileKernels& kernels, const std::
   for (int i = 0; i < tile.pixel_count(); ++i) {
     const uint64_t key = MixBits(static_cast<uint64_t>(tile.y(i)) * static_cast<uint64_t>(field.width) + static_cast<uint64_t>(tile.x(i)) +
                                  (task.seed << 40));
-    const PixelOffset* of_pixel = &offsets[(key & (kEdgeSymmetries - 1)) * static_cast<size_t>(task.samples - 1)];
+    const PixelOffset* of_pixel = SampleOffsets(offsets, key, task.samples);
     for (int s = 1; s < task.samples; ++s) {
       Vec3d direction;
       if (!task.rays->Direction(tile.x(i), tile.y(i), of_pixel[s - 1], direction)) continue;
@@ -202,25 +202,6 @@ int RefineTile(const HighEdgeTask& task, const TileKernels& kernels, const std::
 }
 
 }  // namespace
-
-std::vector<PixelOffset> MakeEdgeOffsets(const CameraRays& rays, int samples) {
-  // R2 low-discrepancy sequence (Roberts 2018) shifted so that sample 0 is the centre; its eight mirror
-  // images and rotations keep the centre and break up patterns between pixels.
-  constexpr double kPlastic = 1.32471795724474602596;
-  std::vector<PixelOffset> offsets;
-  for (int symmetry = 0; symmetry < kEdgeSymmetries; ++symmetry) {
-    for (int s = 1; s < samples; ++s) {
-      double dx = 0.5 + s / kPlastic, dy = 0.5 + s / (kPlastic * kPlastic);
-      dx -= std::floor(dx) + 0.5;
-      dy -= std::floor(dy) + 0.5;
-      if (symmetry & 1) dx = -dx;
-      if (symmetry & 2) dy = -dy;
-      if (symmetry & 4) std::swap(dx, dy);
-      offsets.push_back(rays.MakeOffset(dx, dy));
-    }
-  }
-  return offsets;
-}
 
 int64_t RefineEdges(const HighEdgeTask& task, const std::vector<PixelOffset>& offsets, HighBuffers& buffers) {
   const TileKernels kernels;

@@ -143,7 +143,9 @@ uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const 
                             request.seed,
                             &radiance,
                             shader.impl().indoor != nullptr};
-    count += static_cast<uint64_t>(RefineEdges(task, MakeEdgeOffsets(rays, samples), buffers));
+    std::vector<PixelOffset> offsets;
+    MakeSampleOffsets(rays, samples, offsets);
+    count += static_cast<uint64_t>(RefineEdges(task, offsets, buffers));
   }
   return count;
 }

@@ -12,10 +12,6 @@ SkyTableView ViewOf(const SkyTable& table) {
   return {table.texels.data(), static_cast<float>(table.width), static_cast<float>(table.height), table.stride()};
 }
 
-void Put(float (&to)[3], Vec3f from) {
-  for (int i = 0; i < 3; ++i) to[i] = from[i];
-}
-
 // What lies on the surfaces, and how many rooms are lit.
 void PutWeather(const Environment& environment, const Sky* sky, ShadeView& view) {
   const auto share = [](double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); };

@@ -56,3 +56,12 @@ SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 #undef SHADE_TABLE32
 
 }  // namespace airsim360::internal::scalar
+
+namespace airsim360::internal {
+
+/// As the structures of shading_data.h hold a vector.
+inline void Put(float (&to)[3], Vec3f from) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+}  // namespace airsim360::internal

@@ -22,10 +22,6 @@ constexpr float kFogShare = 0.6f;
 // Rain and snow mostly fall above the roofs, in the light that goes up and what clouds send back of it.
 constexpr Vec3f kStreetLight = kTownLight * (2.0f / kLuxPerUnit), kRoofLight = kTownLight * (0.5f / kLuxPerUnit);
 
-void PutColor(float (&to)[3], Vec3f from) {
-  for (int i = 0; i < 3; ++i) to[i] = from[i];
-}
-
 // Directions around the horizon.
 constexpr int kAround = 96, kHarmonics = 7;
 using Ring = std::array<Vec3f, kAround>;
@@ -94,9 +90,9 @@ void Sky::BakeAir(const Environment& environment) {
   const ClearAir clear(environment.turbidity);
   const auto haze = static_cast<float>(environment.haze);
   extinction_ = clear.rayleigh + clear.aerosol;
-  PutColor(air_.rayleigh, clear.rayleigh * haze);
-  PutColor(air_.aerosol, clear.aerosol * haze);
-  PutColor(air_.to_sun, to_sun_);
+  Put(air_.rayleigh, clear.rayleigh * haze);
+  Put(air_.aerosol, clear.aerosol * haze);
+  Put(air_.to_sun, to_sun_);
   air_.rayleigh_height = kRayleighHeight, air_.aerosol_height = kAerosolHeight;
   air_.base_z = place_.z;
 
@@ -131,11 +127,11 @@ void Sky::BakeWeather(const Environment& environment) {
                       (kRoofLight + (kStreetLight - kRoofLight) * (fog / std::max(air_.weather, 1e-9f))) * town_;
   const float depth = air_.weather * air_.weather_height / std::max(to_sun_.z, 0.05f);
   sun_irradiance_ *= std::exp(-depth);
-  PutColor(air_.weather_light, level * (kFogShare / kPiF));
+  Put(air_.weather_light, level * (kFogShare / kPiF));
   // A forward peak passes several times the direct light.
-  PutColor(air_.weather_glow, sun_irradiance_ * (std::exp(0.35f * std::min(depth, 10.0f)) / (4 * kPiF)));
+  Put(air_.weather_glow, sun_irradiance_ * (std::exp(0.35f * std::min(depth, 10.0f)) / (4 * kPiF)));
   air_.rain = static_cast<float>(environment.rain_mm_h), air_.snow = static_cast<float>(environment.snowfall_mm_h);
-  PutColor(air_.drop_light, level * (0.75f / kPiF));
+  Put(air_.drop_light, level * (0.75f / kPiF));
 }
 
 }  // namespace airsim360::internal

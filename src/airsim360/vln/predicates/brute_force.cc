@@ -407,7 +407,7 @@ std::vector<std::vector<EntityId>> BruteForce::AnswersOf(const Query& query, con
     const size_t place = predicate.kind == PredicateKind::kNearest ? 0 : static_cast<size_t>(predicate.k - 1);
     if (place >= values.size()) return {};
     // What is hardly farther or, on the way, nearer competes with it.
-    const double value = values[place], blur = std::max(NearestMargin(value) - kFuzz, kTie);
+    const double value = values[place], blur = NearestMargin(value) - kFuzz;
     std::erase_if(left, [&](const Shape* shape) { return std::abs(measure(shape) - value) > blur; });
   }
   std::vector<std::vector<EntityId>> answers;

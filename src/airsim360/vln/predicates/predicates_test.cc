@@ -233,7 +233,7 @@ TEST(Decide, WhichOfTwoOnEitherSideComesFirstIsNotSeenFromAfar) {
   const EntityId second = town.Box("tree", kTree, {2, -3, 0}, {1, 1, 6});
   const Query query{Named("tree"), {{.kind = PredicateKind::kAlong, .width = 10}, {.kind = PredicateKind::kOrdinal, .k = 2}}};
   const auto scene = town.Build();
-  EXPECT_EQ(Meant(scene, query, {{{-15, 0, 3}, 0}}), second);  // 2 m of 17
+  EXPECT_EQ(Meant(scene, query, {{{-15, 0, 3}, 0}}), second);     // 2 m of 17
   EXPECT_EQ(Meant(scene, query, {{{-30, 0, 3}, 0}}), kNoEntity);  // 2 m of 32
 }
 
