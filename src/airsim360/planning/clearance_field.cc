@@ -174,18 +174,28 @@ void TakeMin(const int16_t* in, int16_t add, int16_t* out, int n) {
   }
 }
 
-// Squared gaps along a line of `lines` rows that are `stride` apart: row l gets the least of all rows within
+// Rows of voxels and, for each, whether something is within reach: in open air most have nothing.
+struct Rows {
+  std::vector<int16_t> squared_gaps;
+  std::vector<uint8_t> near;
+};
+
+// Squared gaps across `lines` rows that are `stride` apart: row `at`, the one of number `line`, gets the least of all rows within
 // reach plus their squared gap (voxels between them).
-void CombineRows(const int16_t* in, int16_t* out, int line, int lines, size_t stride, int n) {
-  for (int d = -kReach; d <= kReach; ++d) {
-    if (line + d < 0 || line + d >= lines) continue;
+void CombineRows(const Rows& in, Rows& out, size_t at, int line, int lines, size_t stride, int n) {
+  int16_t* to = &out.squared_gaps[at * n];
+  std::fill(to, to + n, kFarSquared);
+  for (int d = std::max(-kReach, -line); d <= std::min(kReach, lines - 1 - line); ++d) {
+    const size_t other = at + stride * d;
+    if (in.near[other] == 0) continue;
+    out.near[at] = 1;
     const int gap = std::max(std::abs(d) - 1, 0);
-    TakeMin(in + static_cast<ptrdiff_t>(stride) * d, static_cast<int16_t>(gap * gap), out, n);
+    TakeMin(&in.squared_gaps[other * n], static_cast<int16_t>(gap * gap), to, n);
   }
 }
 
-// Squared gap to the nearest occupied cell of one row.
-void MeasureRow(const uint8_t* cells, int16_t* out, int n) {
+// Squared gap to the nearest occupied cell of one row; whether there is one.
+bool MeasureRow(const uint8_t* cells, int16_t* out, int n) {
   const auto squared_gap = [](int distance) {
     const int gap = std::min(std::max(distance - 1, 0), kReach);
     return static_cast<int16_t>(gap * gap);
@@ -200,29 +210,30 @@ void MeasureRow(const uint8_t* cells, int16_t* out, int n) {
     if (cells[x] == 0) last = x;
     out[x] = std::min(out[x], squared_gap(last - x));
   }
+  return last < n;
 }
 
 }  // namespace
 
 ClearanceField ClearanceFieldBuilder::Build() {
   const int nx = field_.size_[0], ny = field_.size_[1], nz = field_.size_[2];
-  const auto row = static_cast<size_t>(nx), slice = row * static_cast<size_t>(ny);
-  std::vector<int16_t> first(field_.cells_.size()), second(field_.cells_.size(), kFarSquared);
+  const auto rows = static_cast<size_t>(ny) * static_cast<size_t>(nz);
+  Rows first{std::vector<int16_t>(field_.cells_.size()), std::vector<uint8_t>(rows)}, second = first;
   ParallelFor(nz, [&](int64_t z) {
-    const size_t at = static_cast<size_t>(z) * slice;
-    for (int y = 0; y < ny; ++y) MeasureRow(&field_.cells_[at + row * y], &first[at + row * y], nx);
-    for (int y = 0; y < ny; ++y) CombineRows(&first[at + row * y], &second[at + row * y], y, ny, row, nx);
+    const size_t slice = static_cast<size_t>(z) * ny;
+    for (size_t row = slice; row < slice + ny; ++row)
+      first.near[row] = MeasureRow(&field_.cells_[row * nx], &first.squared_gaps[row * nx], nx);
+    for (int y = 0; y < ny; ++y) CombineRows(first, second, slice + y, y, ny, 1, nx);
   });
-  std::fill(first.begin(), first.end(), kFarSquared);
+  std::ranges::fill(first.near, 0);
   uint8_t bounds[kFarSquared + 1];
   for (int i = 0; i <= kFarSquared; ++i) bounds[i] = static_cast<uint8_t>(1 + std::floor(kSteps * std::sqrt(i) + 1e-9));
   ParallelFor(ny, [&](int64_t y) {
     for (int z = 0; z < nz; ++z) {
-      const size_t at = static_cast<size_t>(z) * slice + row * static_cast<size_t>(y);
-      CombineRows(&second[at], &first[at], z, nz, slice, nx);
-      for (int x = 0; x < nx; ++x) {
-        if (field_.cells_[at + x] != 0) field_.cells_[at + x] = bounds[first[at + x]];
-      }
+      const size_t row = static_cast<size_t>(z) * ny + static_cast<size_t>(y);
+      CombineRows(second, first, row, z, nz, static_cast<size_t>(ny), nx);
+      for (size_t at = row * nx; at < (row + 1) * nx; ++at)
+        if (field_.cells_[at] != 0) field_.cells_[at] = bounds[first.squared_gaps[at]];
     }
   });
   return std::move(field_);

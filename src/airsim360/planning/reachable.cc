@@ -1,29 +1,18 @@
 #include "airsim360/planning/reachable.h"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 
 namespace airsim360 {
 namespace {
 
 constexpr double kLook = 5;  // metres around the seed
 
-using Cell = std::array<int, 3>;
-
 }  // namespace
 
 ReachableSpace::ReachableSpace(const ClearanceField& field, Vec3d seed, double radius) : field_(field) {
   const int n[3] = {field.size(0), field.size(1), field.size(2)};
-  const auto index = [&](const Cell& c) { return (static_cast<size_t>(c[2]) * n[1] + c[1]) * n[0] + c[0]; };
-  reached_.assign(static_cast<size_t>(n[0]) * n[1] * n[2], false);
-  std::vector<Cell> open;
-  const auto visit = [&](const Cell& c) {
-    if (field.At(c[0], c[1], c[2]) < radius || reached_[index(c)]) return;
-    reached_[index(c)] = true;
-    ++count_;
-    open.push_back(c);
-  };
-
+  reached_.assign(static_cast<size_t>(n[0]) * n[1] * n[2], 0);
   // The free voxel nearest to the seed.
   Cell nearest{-1, -1, -1};
   double least = kLook;
@@ -43,16 +32,30 @@ ReachableSpace::ReachableSpace(const ClearanceField& field, Vec3d seed, double r
       }
     }
   }
-  if (nearest[0] >= 0) visit(nearest);
+  if (nearest[0] >= 0) Fill(nearest, radius);
+}
+
+// Run by run along x: rows lie together in memory, so that a voxel is looked at once for each of the four rows beside its own.
+void ReachableSpace::Fill(Cell first, double radius) {
+  const int nx = field_.size(0);
+  const auto row_of = [&](int y, int z) { return (static_cast<size_t>(z) * field_.size(1) + y) * nx; };
+  const auto is_open = [&](int x, int y, int z) { return reached_[row_of(y, z) + x] == 0 && field_.At(x, y, z) >= radius; };
+  std::vector<Cell> open = {first};
   while (!open.empty()) {
-    const Cell c = open.back();
+    const auto [x, y, z] = open.back();
     open.pop_back();
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const int step : {-1, 1}) {
-        Cell next = c;
-        next[axis] += step;
-        if (next[axis] >= 0 && next[axis] < n[axis]) visit(next);
-      }
+    if (!is_open(x, y, z)) continue;
+    int from = x, to = x + 1;
+    while (from > 0 && is_open(from - 1, y, z)) --from;
+    while (to < nx && is_open(to, y, z)) ++to;
+    const size_t row = row_of(y, z);
+    std::fill(reached_.begin() + row + from, reached_.begin() + row + to, 1);
+    count_ += to - from;
+    for (const auto& [dy, dz] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      if (y + dy < 0 || y + dy >= field_.size(1) || z + dz < 0 || z + dz >= field_.size(2)) continue;
+      // The first voxel of every run that touches this one.
+      for (int i = from; i < to; ++i)
+        if (is_open(i, y + dy, z + dz) && (i == from || !is_open(i - 1, y + dy, z + dz))) open.push_back({i, y + dy, z + dz});
     }
   }
 }
@@ -64,7 +67,7 @@ bool ReachableSpace::Contains(Vec3d p) const {
     const int c = std::min(static_cast<int>((p[i] - field_.box().min[i]) / field_.voxel()), field_.size(i) - 1);
     at = at * field_.size(i) + c;
   }
-  return reached_[at];
+  return reached_[at] != 0;
 }
 
 }  // namespace airsim360

@@ -1,6 +1,7 @@
 // The part of a mapped world that can be reached from a place.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -20,8 +21,12 @@ class ReachableSpace {
   double volume() const { return static_cast<double>(count_) * std::pow(field_.voxel(), 3); }
 
  private:
+  using Cell = std::array<int, 3>;
+
+  void Fill(Cell first, double radius);
+
   const ClearanceField& field_;
-  std::vector<bool> reached_;
+  std::vector<uint8_t> reached_;
   size_t count_ = 0;
 };
 
