@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kSideways = 2;        // m/s^2 in bends: comfortable
 constexpr double kVehicleWidth = 2.3;  // metres between the middles of two that just pass each other, 0.3 m apart
+constexpr double kFollowWidth = 3;     // the same, who turn away from each other: a bus is 3 m wide with its mirrors
 
 Vec3d PointOf(const Lane& lane, size_t i) { return VecCast<double>(lane.points[i]); }
 
@@ -35,12 +36,12 @@ std::vector<Vec3d> Samples(const LaneMap& map, LaneId id) {
   return samples;
 }
 
-// Metres along `b` to the last place where a vehicle on it is in the way of one on `a`; negative: nowhere.
-double LastOverlap(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+// Metres along `b` to the last place that is less than `width` from `a`; negative: none is.
+double LastOverlap(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b, double width) {
   for (size_t i = b.size(); i-- > 0;) {
     const auto near = [&](Vec3d q) {
       const double dx = b[i].x - q.x, dy = b[i].y - q.y;
-      return dx * dx + dy * dy < kVehicleWidth * kVehicleWidth && std::abs(b[i].z - q.z) < 3;
+      return dx * dx + dy * dy < width * width && std::abs(b[i].z - q.z) < 3;
     };
     if (std::ranges::any_of(a, near)) return kStep * static_cast<double>(i);
   }
@@ -79,10 +80,11 @@ void LaneMap::FindConflicts() {
     for (const LaneId way : junction) samples.push_back(Samples(*this, way));
     for (size_t a = 0; a < junction.size(); ++a) {
       for (size_t b = 0; b < junction.size(); ++b) {
-        // Those who come from the same lane follow each other.
-        if (a == b || SameOrigin(*this, junction[a], junction[b])) continue;
-        if (const double last = LastOverlap(samples[a], samples[b]); last >= 0)
-          tables_[junction[a]].conflicts.push_back({junction[b], last});
+        if (a == b) continue;
+        // Those who come from the same lane follow each other until their ways part.
+        const bool follows = SameOrigin(*this, junction[a], junction[b]);
+        const double last = LastOverlap(samples[a], samples[b], follows ? kFollowWidth : kVehicleWidth);
+        if (last >= 0) (follows ? tables_[junction[a]].diverging : tables_[junction[a]].conflicts).push_back({junction[b], last});
       }
     }
   }

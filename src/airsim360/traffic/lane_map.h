@@ -24,7 +24,7 @@ struct NearestLanePoint {
   double distance = 0;  ///< metres
 };
 
-/// Another way through the same junction that cannot be driven at the same time.
+/// Another way through the same junction that cannot be driven at the same time, or not beside this one.
 struct LaneConflict {
   LaneId other = kNoLane;
   double clear = 0;  ///< metres along `other` past which the rear of a vehicle on it is out of the way
@@ -48,6 +48,8 @@ class LaneMap {
   LanePoint At(LaneId id, double s) const;
   NearestLanePoint Nearest(LaneId id, Vec3d p) const;
   std::span<const LaneConflict> conflicts(LaneId id) const { return tables_[id].conflicts; }
+  /// Other ways that begin where this one does, and how far along them a rear must be to leave room for a vehicle on this one.
+  std::span<const LaneConflict> diverging(LaneId id) const { return tables_[id].diverging; }
   /// Lanes that end where this one begins.
   std::span<const LaneId> previous(LaneId id) const { return tables_[id].previous; }
   /// Of lanes without a signal: green.
@@ -57,7 +59,7 @@ class LaneMap {
   struct Table {
     std::vector<double> lengths;  // metres to each point
     double speed = 0, turn = 0;
-    std::vector<LaneConflict> conflicts;
+    std::vector<LaneConflict> conflicts, diverging;
     std::vector<LaneId> previous;
   };
 

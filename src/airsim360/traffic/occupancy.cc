@@ -56,14 +56,28 @@ const Occupant* Occupancy::Behind(LaneId lane, double s, uint32_t self) const {
   return last;
 }
 
+namespace {
+
+// The nearest whose front is farther than `s` on a lane, or on a way that has not parted from it where its rear is.
+const Occupant* AheadOnWays(const TrafficModel& model, const Occupancy& occupancy, LaneId lane, double s, uint32_t self) {
+  const Occupant* nearest = occupancy.Ahead(lane, s, self);
+  for (const LaneConflict& other : model.lanes.diverging(lane)) {
+    const Occupant* o = occupancy.Ahead(other.other, s, self);
+    if (o && o->rear < other.clear && (!nearest || o->rear < nearest->rear)) nearest = o;
+  }
+  return nearest;
+}
+
+}  // namespace
+
 InFront FindInFront(const TrafficModel& model, const TrafficState& state, const Occupancy& occupancy, uint32_t vehicle) {
   const DrivingVehicle& self = state.vehicles[vehicle];
-  if (const Occupant* o = occupancy.Ahead(self.lane, self.s, vehicle)) return {o->rear - self.s, state.vehicles[o->vehicle].v, o->vehicle};
+  const auto at = [&](const Occupant& o, double distance) { return InFront{distance + o.rear, state.vehicles[o.vehicle].v, o.vehicle}; };
+  if (const Occupant* o = AheadOnWays(model, occupancy, self.lane, self.s, vehicle)) return at(*o, -self.s);
   double distance = model.lanes.length(self.lane) - self.s;
   for (const LaneId lane : self.ahead) {
     if (lane == kNoLane || distance > kSight) break;
-    if (const Occupant* o = occupancy.Ahead(lane, -INFINITY, vehicle))
-      return {distance + o->rear, state.vehicles[o->vehicle].v, o->vehicle};
+    if (const Occupant* o = AheadOnWays(model, occupancy, lane, -INFINITY, vehicle)) return at(*o, distance);
     distance += model.lanes.length(lane);
   }
   return {};

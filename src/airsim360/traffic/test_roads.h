@@ -38,6 +38,25 @@ inline std::shared_ptr<const RoadNetwork> Street(double junction, std::vector<Si
   return roads;
 }
 
+/// A street from west to east at whose end, 100 m along, one way goes straight on (lane 1) and one turns right with a radius of
+/// 10 m (lane 2); both lead back far away.
+inline std::shared_ptr<const RoadNetwork> Fork() {
+  auto roads = std::make_shared<RoadNetwork>();
+  const auto at = [](double x, double y) { return Vec3f{static_cast<float>(x), static_cast<float>(y), 0}; };
+  Lane turn{.points = {}, .speed = 6, .next = {4}, .junction = 0};
+  for (int i = 0; i <= 16; ++i) {
+    const double a = std::numbers::pi / 2 * i / 16;
+    turn.points.push_back(at(100 + 10 * std::sin(a), -10 + 10 * std::cos(a)));
+  }
+  roads->lanes = {{.points = {at(0, 0), at(100, 0)}, .speed = 13.9f, .next = {1, 2}},
+                  {.points = {at(100, 0), at(130, 0)}, .speed = 13.9f, .next = {3}, .junction = 0},
+                  turn,
+                  {.points = {at(130, 0), at(2000, 0), at(2000, 3000), at(0, 3000), at(0, 0)}, .speed = 13.9f, .next = {0}},
+                  {.points = {at(110, -10), at(110, -2000), at(-500, -2000), at(-500, 0), at(0, 0)}, .speed = 13.9f, .next = {0}}};
+  roads->junctions = {{.center = at(110, 0), .radius = 20, .phases = {}}};
+  return roads;
+}
+
 inline TrafficModel ModelOf(std::shared_ptr<const RoadNetwork> roads, size_t count, uint64_t seed = 1) {
   return {.lanes = LaneMap(std::move(roads)), .vehicles = std::vector<TrafficVehicle>(count), .seed = seed};
 }

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
+#include "airsim360/traffic/near_misses.h"
 #include "airsim360/traffic/test_roads.h"
 
 namespace airsim360 {
@@ -109,6 +111,32 @@ TEST(Traffic, StopsForSomebodyInTheStreetAndNotForSomebodyBesideOrAboveIt) {
   EXPECT_TRUE(passes({200, 2.5, 0}));
   EXPECT_TRUE(passes({200, 0, 6}));
   EXPECT_FALSE(passes({200, 2.4, 0}, {0, -1.4, 0}));  // about to step into the lane
+}
+
+// A bus that turns waits for somebody on the street that it comes to; a car behind it wants to go straight on. It does where the
+// tail of the bus leaves room, and waits else; either way the two never touch.
+TEST(Traffic, WhoGoesAnotherWayWaitsUntilTheTailInFrontIsOutOfIt) {
+  TrafficModel model = ModelOf(Fork(), 2);
+  model.vehicles[0].shape.length = 12.2, model.vehicles[0].shape.width = 3;
+  const double way = model.lanes.length(2);
+  for (const double rear : {0.5, 3.0, 6.0, 9.0, 12.0}) {
+    const double front = rear + 12.2;
+    TrafficState state;
+    state.vehicles = {{.lane = 2, .ahead = {4, 0}, .behind = {0, 3, kNoLane}, .s = front}, {.lane = 0, .ahead = {1, 3}, .s = 20, .v = 10}};
+    if (front > way) state.vehicles[0] = {.lane = 4, .ahead = {0, 1}, .behind = {2, 0, 3}, .s = front - way};
+    const TrafficObstacle person{model.lanes.At(4, std::max(front - way, 0.0) + 1).p, {}};
+    for (int tick = 0; tick < 40 * 20; ++tick) {
+      TickTraffic(model, std::span(&person, 1), state);
+      std::array<internal::GroundBox, 2> boxes;
+      for (size_t i = 0; i < 2; ++i) {
+        const RigidTransform X = PoseOf(model, state, i, state.t_ns);
+        const VehicleShape& shape = model.vehicles[i].shape;
+        boxes[i] = {{X.p.x, X.p.y}, {X.R.column(0).x, X.R.column(0).y}, shape.length / 2, shape.width / 2};
+      }
+      ASSERT_FALSE(internal::ContactOf(boxes[0], boxes[1], {0, 0}).has_value()) << rear << ", tick " << tick;
+    }
+    EXPECT_EQ(state.vehicles[1].lane == 3, rear > 8) << rear;
+  }
 }
 
 // People do not look: somebody walks into a car that has stopped for them, through it and out at its tail.
