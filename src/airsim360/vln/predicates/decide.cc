@@ -14,7 +14,8 @@ namespace {
 using internal::Candidate;
 
 constexpr size_t kMostCompetitors = 4;
-constexpr double kApart = 1.5;  // metres at least between one and the next on the way
+constexpr double kApart = 1.5;     // metres at least between one and the next on the way
+constexpr double kLopsided = 0.1;  // of a box's longer side: as far is its middle from that of a crown that leans
 constexpr size_t kMostNamed = 3;
 
 std::string Text(double value) {
@@ -101,13 +102,14 @@ ProofStep KeepOrdinal(std::vector<Candidate>& candidates, const Viewpoint& view,
     return step;
   }
   const auto ahead = [&](size_t i) { return InHeading(view, candidates[i].thing->center()).x; };
+  const auto blur = [&](size_t i) { return kLopsided * std::max(candidates[i].thing->size().x, candidates[i].thing->size().y); };
   step.value = ahead(place);
   // Of two on either side of a way nobody sees from afar which comes first.
   step.needed = std::max(kApart, NearestMargin(step.value));
   std::vector<Competitor> calls;
   for (size_t i = 0; i < candidates.size(); ++i) {
     // Also what comes before must be sure and well apart, or the count is not.
-    if (i < place + 2 && i > 0) step.margin = std::min(step.margin, ahead(i) - ahead(i - 1));
+    if (i < place + 2 && i > 0) step.margin = std::min(step.margin, ahead(i) - ahead(i - 1) - blur(i) - blur(i - 1));
     if (i < place && !candidates[i].sure) why = "'" + candidates[i].thing->name + "' may or may not be one to count";
     if (i != place) calls.push_back({candidates[i].thing->entities.front(), candidates[i].thing->name, ahead(i)});
   }
