@@ -42,7 +42,7 @@ void MakeAlike(std::vector<BuildingPlan>& buildings, size_t first) {
     b.style = FacadeStyle::kClassicStone;
     b.floors = 5;
     b.palette = 1;
-    b.roof = RoofKind::kFlatGravel;
+    b.roof = RoofKind::kHipSlate;  // one each: under flat ones their fronts join to one
   }
 }
 
