@@ -6,42 +6,49 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kMargin = 0.35;  // metres beside the body
-constexpr double kHeight = 2.5;   // metres above or below the street that no longer concern it
+constexpr double kMargin = 0.35;        // metres beside the body
+constexpr double kTightMargin = -0.15;  // the same of those who stand, for who crawls: they turn a shoulder away
+constexpr double kStandsStill = 0.01;   // m^2/s^2
+constexpr double kHeight = 2.5;         // metres above or below the street that no longer concern it
 
 }  // namespace
 
 ObstacleGrid::ObstacleGrid(std::span<const TrafficObstacle> obstacles) {
   for (const TrafficObstacle& obstacle : obstacles) {
-    now_.Add(obstacle.p, obstacle.radius);
+    const bool stands = Dot(obstacle.v, obstacle.v) < kStandsStill;
+    (stands ? standing_ : walking_).Add(obstacle.p, obstacle.radius);
+    if (stands) continue;
     // Where it will be, too: those who step off the kerb are seen before.
-    for (const double seconds : {0.0, 0.8, 1.6}) {
-      discs_.Add(obstacle.p + obstacle.v * seconds, obstacle.radius);
-      if (Dot(obstacle.v, obstacle.v) < 0.01) break;
-    }
+    for (const double seconds : {0.0, 0.8, 1.6}) coming_.Add(obstacle.p + obstacle.v * seconds, obstacle.radius);
   }
-  discs_.Sort();
-  now_.Sort();
+  for (DiscGrid* grid : {&standing_, &walking_, &coming_}) grid->Sort();
 }
 
-bool ObstacleGrid::Touches(const TrafficModel& model, const DrivingVehicle& self, const VehicleShape& shape) const {
+InTheWay ObstacleGrid::Beside(const TrafficModel& model, const DrivingVehicle& self, const VehicleShape& shape) const {
+  InTheWay found;
   // Discs along the body that are as wide as it is, from nose to tail.
   const double r = shape.width / 2, first = -r, last = r - shape.length;
   const int steps = std::max(1, static_cast<int>(std::ceil((first - last) / r)));
-  for (int k = 0; k <= steps; ++k)
-    if (now_.Meets(AlongWay(model, self, first + (last - first) * k / steps).p, r, kHeight)) return true;
-  return false;
+  for (int k = 0; k <= steps; ++k) {
+    const Vec3d p = AlongWay(model, self, first + (last - first) * k / steps).p;
+    if (standing_.Meets(p, r + kMargin, kHeight)) found.beside = 0;
+    if (walking_.Meets(p, r, kHeight) || standing_.Meets(p, r + kTightMargin, kHeight)) return {0, 0};
+  }
+  return found;
 }
 
-double ObstacleGrid::GapAhead(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, double reach) const {
-  if (discs_.empty()) return INFINITY;
+InTheWay ObstacleGrid::Find(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, double reach) const {
+  if (coming_.empty() && standing_.empty()) return {};
   const DrivingVehicle& self = state.vehicles[vehicle];
   const VehicleShape& shape = model.vehicles[vehicle].shape;
   const double half_width = shape.width / 2;
-  if (Touches(model, self, shape)) return 0;
-  for (double ahead = 0.5; ahead <= reach; ahead += 1)
-    if (discs_.Meets(AlongWay(model, self, ahead + half_width).p, half_width + kMargin, kHeight)) return ahead - 0.5;
-  return INFINITY;
+  InTheWay found = Beside(model, self, shape);
+  for (double ahead = 0.5; ahead <= reach && ahead - 0.5 < found.gap; ahead += 1) {
+    const Vec3d p = AlongWay(model, self, ahead + half_width).p;
+    if (standing_.Meets(p, half_width + kMargin, kHeight)) found.beside = std::min(found.beside, ahead - 0.5);
+    if (coming_.Meets(p, half_width + kMargin, kHeight) || standing_.Meets(p, half_width + kTightMargin, kHeight)) found.gap = ahead - 0.5;
+  }
+  return found;
 }
 
 LanePoint AlongWay(const TrafficModel& model, const DrivingVehicle& vehicle, double ahead) {

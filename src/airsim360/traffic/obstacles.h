@@ -1,6 +1,7 @@
 // People and things in the street, found along the way of a vehicle.
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "airsim360/traffic/disc_grid.h"
@@ -8,18 +9,24 @@
 
 namespace airsim360::internal {
 
+/// Metres from the front of a vehicle to the nearest that it has to stop for, and to the nearest who stands so close beside its way
+/// that it goes past at a walking pace. 0: beside its body; infinite: nothing.
+struct InTheWay {
+  double gap = INFINITY, beside = INFINITY;
+};
+
 class ObstacleGrid {
  public:
   explicit ObstacleGrid(std::span<const TrafficObstacle> obstacles);
-  /// Metres from the front of a vehicle to the nearest in its way within `reach`, now or within the next 1.6 s; 0 if somebody
-  /// touches its body now: people walk into standing cars. Infinite: nothing.
-  double GapAhead(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, double reach) const;
+  /// What a vehicle meets within `reach`, now or within the next 1.6 s. People walk into standing cars: gap 0 if somebody touches
+  /// its body now.
+  InTheWay Find(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, double reach) const;
 
  private:
-  bool Touches(const TrafficModel& model, const DrivingVehicle& self, const VehicleShape& shape) const;
+  InTheWay Beside(const TrafficModel& model, const DrivingVehicle& self, const VehicleShape& shape) const;
 
-  DiscGrid discs_;  // now and soon
-  DiscGrid now_;
+  DiscGrid standing_, walking_;  // now
+  DiscGrid coming_;              // who walks, now and soon
 };
 
 /// The place `ahead` metres (negative: behind) of the front of a vehicle along its way.

@@ -28,9 +28,15 @@ constexpr double kStopBefore = 0.8;  // metres before a stop line
 constexpr double kStopGap = 1.5;     // metres before somebody in the way
 constexpr double kHaltBefore = 0.3;  // metres before a bus stop
 constexpr double kStands = 0.1;      // m/s
+constexpr double kWalkingPace = 1;   // m/s
 constexpr double kTick = static_cast<double>(kTrafficTickNs) * 1e-9;
 constexpr int64_t kLookForMisses = 2;  // ticks between looks at them
 constexpr double kSlot = 14;           // metres of lane for each vehicle at the start: a bus of 12
+
+// From which a driver is down to `v` in `distance` metres.
+double SlowedBy(const Driver& driver, double v, double distance) {
+  return std::sqrt(v * v + 2 * 0.7 * driver.braking * std::max(0.0, distance));
+}
 
 // The speed that a driver wants here: slower before bends that come.
 double WantedSpeed(const TrafficModel& model, uint32_t vehicle, const DrivingVehicle& own) {
@@ -39,7 +45,7 @@ double WantedSpeed(const TrafficModel& model, uint32_t vehicle, const DrivingVeh
   for (const LaneId lane : own.ahead) {
     if (lane == kNoLane) break;
     const double v = model.lanes.speed(lane) * driver.speed_factor;
-    wanted = std::min(wanted, std::sqrt(v * v + 2 * 0.7 * driver.braking * std::max(0.0, distance)));
+    wanted = std::min(wanted, SlowedBy(driver, v, distance));
     distance += model.lanes.length(lane);
   }
   return wanted;
@@ -64,7 +70,9 @@ struct Look {
 double Accelerate(const Look& look, uint32_t i, DrivingVehicle& own) {
   const Driver& driver = look.model.vehicles[i].driver;
   if (own.halts_until_ns >= 0) return -driver.braking;
-  const double v0 = WantedSpeed(look.model, i, own);
+  const double reach = own.v * own.v / (2 * driver.braking) + own.v * driver.headway + 3;
+  const internal::InTheWay way = look.obstacles.Find(look.model, look.state, i, reach);
+  const double v0 = std::min(WantedSpeed(look.model, i, own), SlowedBy(driver, kWalkingPace, way.beside));
   const InFront front = FindInFront(look.model, look.state, look.occupancy, i);
   double a = IdmAcceleration(driver, own.v, v0, front.gap, front.v);
 
@@ -77,9 +85,7 @@ double Accelerate(const Look& look, uint32_t i, DrivingVehicle& own) {
   if (goes_on && look.model.lanes.lane(own.ahead[0]).junction >= 0 && !look.right_of_way.MayEnter(i, to_line, front.gap > to_line, own))
     a = std::min(a, StopFor(driver, own.v, v0, to_line, kStopBefore));
 
-  const double reach = own.v * own.v / (2 * driver.braking) + own.v * driver.headway + 3;
-  if (const double gap = look.obstacles.GapAhead(look.model, look.state, i, reach); std::isfinite(gap))
-    a = std::min(a, StopFor(driver, own.v, v0, gap, kStopGap));
+  if (std::isfinite(way.gap)) a = std::min(a, StopFor(driver, own.v, v0, way.gap, kStopGap));
   return a;
 }
 

@@ -111,6 +111,21 @@ TEST(Traffic, StopsForSomebodyInTheStreetAndNotForSomebodyBesideOrAboveIt) {
   EXPECT_TRUE(passes({200, 2.5, 0}));
   EXPECT_TRUE(passes({200, 0, 6}));
   EXPECT_FALSE(passes({200, 2.4, 0}, {0, -1.4, 0}));  // about to step into the lane
+  EXPECT_TRUE(passes({200, 1.2, 0}));                 // close beside it: at a walking pace
+}
+
+TEST(Traffic, CrawlsPastSomebodyWhoStandsCloseBesideIt) {
+  const TrafficModel model = ModelOf(Street(900, {}), 1);
+  TrafficState state;
+  state.vehicles = {{.lane = 0, .ahead = {1, 2}, .s = 100, .v = 12}};
+  const TrafficObstacle person{{200, 1.2, 0}, {}};
+  const DrivingVehicle& car = state.vehicles[0];
+  while (state.t_ns < 60'000'000'000) {
+    TickTraffic(model, std::span(&person, 1), state);
+    const bool beside = car.s > 199 && car.s - model.vehicles[0].shape.length < 199;
+    EXPECT_TRUE(!beside || car.v < 2.5) << car.s;  // 12 before
+  }
+  EXPECT_GT(car.s, 250);
 }
 
 // A bus that turns waits for somebody on the street that it comes to; a car behind it wants to go straight on. It does where the
