@@ -22,6 +22,9 @@ concept PlainValue = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 /// Appends to `bytes()`. Takes plain values, strings, and vectors of plain values.
 class ArchiveWriter {
  public:
+  ArchiveWriter() = default;
+  /// With room for `expected` bytes, so that long runs are not copied while it grows.
+  explicit ArchiveWriter(size_t expected) { bytes_.reserve(expected); }
   template <class... Values>
   void operator()(const Values&... values) {
     (Put(values), ...);

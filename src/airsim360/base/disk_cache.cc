@@ -84,6 +84,21 @@ std::optional<CacheContent> MapFile(const fs::path& path, size_t skipped) {
   return CacheContent(static_cast<const std::byte*>(mapping), static_cast<size_t>(status.st_size), skipped);
 }
 
+// What a power cut leaves of an entry fails its hash: nobody waits for the disk, and a large content is not copied behind its head.
+void WriteEntry(const fs::path& path, std::string_view head, std::span<const std::byte> content) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  int error = file < 0 ? errno : 0;
+  for (std::span<const std::byte> rest : {std::as_bytes(std::span(head)), content}) {
+    while (!rest.empty() && error == 0) {
+      const ssize_t written = ::write(file, rest.data(), rest.size());
+      if (written > 0) rest = rest.subspan(static_cast<size_t>(written));
+      if (written < 0 && errno != EINTR) error = errno;
+    }
+  }
+  if (file >= 0 && ::close(file) != 0 && error == 0) error = errno;
+  if (error != 0) throw RuntimeError(path.string() + ": cannot write: " + std::generic_category().message(error));
+}
+
 bool IsWhole(const CacheContent& content) {
   const std::span<const std::byte> bytes = content.bytes();
   const std::span<const std::byte> head(bytes.data() - kHeader, kHeader);
@@ -150,18 +165,13 @@ std::optional<CacheContent> DiskCache::Load(const CacheKey& key) const {
 
 void DiskCache::Store(const CacheKey& key, std::span<const std::byte> content) const {
   if (folder_.empty() || content.size() + kHeader > limit_) return;
-  Bytes bytes;
-  bytes.reserve(kHeader + content.size());
-  const auto append = [&](std::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); };
-  append(AsBytes(kMagic));
-  append(AsBytes(HashOfBlocks(content) + "\n"));
-  append(content);
+  const std::string head = std::string(kMagic) + HashOfBlocks(content) + "\n";
   // A name of its own while it is written: another program may store the same entry at the same time.
   const fs::path path = folder_ / (key.Name() + kExtension);
   const fs::path own = path.string() + "." + std::to_string(::getpid());
   try {
     CreateWritableFolder(folder_);
-    WriteFileAtomically(own, bytes);
+    WriteEntry(own, head, content);
     fs::rename(own, path);
     Shrink();
   } catch (const std::exception& error) {

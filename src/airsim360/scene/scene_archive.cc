@@ -182,16 +182,30 @@ void VisitScene(Archive& archive, T& scene) {
   archive(scene.spawn_yaw_deg);
 }
 
+// About the bytes of its archive: of what is large in it, and room for the rest.
+size_t ArchiveSizeOf(const Scene& scene) {
+  size_t bytes = size_t{1} << 20;
+  for (const Texture& texture : scene.textures)
+    for (const auto& level : texture.levels) bytes += level.pixels().size_bytes();
+  const auto add = [&](const auto& list) { bytes += std::span(list).size_bytes(); };
+  for (const Mesh& mesh : scene.meshes) {
+    add(mesh.positions), add(mesh.normals), add(mesh.uvs), add(mesh.triangles), add(mesh.parts), add(mesh.colors);
+    bytes += 100;
+  }
+  add(scene.instances);
+  return bytes + 100 * scene.entities.size();
+}
+
 }  // namespace
 
 Bytes ArchivePictured(const Scene& scene) {
-  ArchiveWriter archive;
+  ArchiveWriter archive(ArchiveSizeOf(scene));
   VisitScene(archive, scene);
   return archive.Take();
 }
 
 Bytes ArchiveScene(const Scene& scene) {
-  ArchiveWriter archive;
+  ArchiveWriter archive(ArchiveSizeOf(scene));
   VisitScene(archive, scene);
   VisitRoads(archive, scene.roads);
   return archive.Take();

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <vector>
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/color.h"
@@ -67,6 +69,40 @@ std::string SmallLine(uint32_t i) {
   }
 }
 
+// TilingFbm(seed, u, v, 7, 3) from tables of its lattices, for the many texels of a sign; u and v in [0, 1).
+class SignClouds {
+ public:
+  explicit SignClouds(uint32_t seed) {
+    for (int octave = 0; octave < kOctaves; ++octave) {
+      const int cells = kCells << octave;
+      for (int y = 0; y <= cells; ++y)
+        for (int x = 0; x <= cells; ++x)
+          corners_[octave].push_back(
+              (TilingNoise(seed + static_cast<uint32_t>(octave), static_cast<float>(x), static_cast<float>(y), cells) + 1) / 2);
+    }
+  }
+  float operator()(float u, float v) const {
+    float sum = 0, amplitude = 0.6f;
+    for (int octave = 0; octave < kOctaves; ++octave) {
+      const int cells = kCells << octave;
+      const float x = u * static_cast<float>(cells), y = v * static_cast<float>(cells);
+      const int i = static_cast<int>(x), j = static_cast<int>(y);
+      const float* corner = &corners_[octave][static_cast<size_t>(j * (cells + 1) + i)];
+      const float right = Smooth(x - static_cast<float>(i)), down = Smooth(y - static_cast<float>(j));
+      const float low = corner[0] + (corner[1] - corner[0]) * right;
+      const float high = corner[cells + 1] + (corner[cells + 2] - corner[cells + 1]) * right;
+      sum += amplitude * (2 * (low + (high - low) * down) - 1);
+      amplitude *= 0.55f;
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr int kCells = 7, kOctaves = 3;
+  static float Smooth(float t) { return t * t * (3 - 2 * t); }
+  std::vector<float> corners_[kOctaves];
+};
+
 // How one sign is laid out; lengths in metres from its upper left corner, 5 x 0.8 in all.
 struct Board {
   Paints paints;
@@ -75,7 +111,14 @@ struct Board {
   float top;
   bool has_small, framed, plate;
   uint32_t id;
+  float fade;                  ///< what the sun took
+  std::vector<float> streaks;  ///< of rain from the upper edge: strength in each column
+  SignClouds clouds;
 };
+
+// Texels of a sign from left to right, and where they are, in metres.
+constexpr int kSignTexels = 512;
+float AlongSign(int texel) { return 5 * (static_cast<float>(texel) + 0.5f) / kSignTexels; }
 
 Board MakeBoard(int i) {
   const auto id = static_cast<uint32_t>(i);
@@ -90,7 +133,10 @@ Board MakeBoard(int i) {
           HashUnit(id, 13) < 0.45f,
           HashUnit(id, 14) < 0.35f,
           HashUnit(id, 15) < 0.30f,
-          id};
+          id,
+          0.06f + 0.22f * HashUnit(id, 19),
+          {},
+          SignClouds(id + 300)};
   const float spread = 0.85f + 0.45f * HashUnit(id, 16);  // narrow to wide letters
   b.high = b.has_small ? 0.30f : 0.30f + 0.12f * HashUnit(id, 17);
   b.wide = b.name.width() * b.high * spread;
@@ -100,6 +146,7 @@ Board MakeBoard(int i) {
   }
   b.left = HashUnit(id, 18) < 0.75f ? (5 - b.wide) / 2 : 0.4f;
   b.top = b.has_small ? 0.13f : (0.8f - b.high) / 2;
+  for (int x = 0; x < kSignTexels; ++x) b.streaks.push_back(std::max(0.0f, TilingFbm(id + 700, AlongSign(x) / 5, 0.5f, 61, 2)));
   return b;
 }
 
@@ -114,7 +161,8 @@ float Ink(const SignLettering& line, float x, float y, float left, float top, fl
   return ink;
 }
 
-Vec3f BoardColor(const Board& b, float x, float y) {
+Vec3f BoardColor(const Board& b, int texel, float y) {
+  const float x = AlongSign(texel);
   const float edge = std::min({x, 5 - x, y, 0.8f - y});
   Vec3f color = b.paints.ground;
   if (b.plate && edge > 0.1f && edge < 0.125f) color = b.paints.letters;
@@ -124,11 +172,17 @@ Vec3f BoardColor(const Board& b, float x, float y) {
   if (b.has_small) ink = std::max(ink, 0.85f * Ink(b.small, x, y, (5 - small_wide) / 2, 0.545f, small_wide, 0.11f));
   color = Mix(color, b.paints.letters, ink);
   // Sun fades, rain draws streaks from the upper edge, dust lies along the lower.
-  const float fade = 0.06f + 0.22f * HashUnit(b.id, 19), cloud = TilingFbm(b.id + 300, x / 5, y / 5, 7, 3);
-  const float streak = std::max(0.0f, TilingFbm(b.id + 700, x / 5, 0.5f, 61, 2)) * (1 - 0.5f * y / 0.8f);
+  const float cloud = b.clouds(x / 5, y / 5), streak = b.streaks[static_cast<size_t>(texel)] * (1 - 0.5f * y / 0.8f);
   const float grey = 0.2126f * color.x + 0.7152f * color.y + 0.0722f * color.z;
-  color = Mix(color, Vec3f{1, 1, 1} * (0.85f * grey + 0.05f), fade) * (1 + 0.07f * cloud - 0.22f * streak);
+  color = Mix(color, Vec3f{1, 1, 1} * (0.85f * grey + 0.05f), b.fade) * (1 + 0.07f * cloud - 0.22f * streak);
   return Mix(color, Vec3f{0.20f, 0.18f, 0.15f}, 0.22f * Step(0.62f, 0.8f, y));
+}
+
+// LinearToSrgb8 by table. The table's steps are rounded to floats: a value that is one of them is asked for itself.
+uint8_t SignByte(float linear) {
+  static const SrgbEncoder kEncode;
+  const uint8_t byte = kEncode(linear);
+  return linear > 0 && kEncode(std::bit_cast<float>(std::bit_cast<uint32_t>(linear) - 1)) != byte ? LinearToSrgb8(linear) : byte;
 }
 
 }  // namespace
@@ -149,16 +203,16 @@ std::string ShopName(int i) {
 }
 
 Texture MakeShopSigns() {
-  constexpr int kWide = 512, kRows = kSignCount / kSignColumns, kHigh = 4096;
-  Image<Rgba8> sheet(kWide * kSignColumns, kHigh);
+  constexpr int kRows = kSignCount / kSignColumns, kHigh = 4096;
+  Image<Rgba8> sheet(kSignTexels * kSignColumns, kHigh);
   ParallelFor(kSignCount, [&](int64_t i) {
     const Board board = MakeBoard(static_cast<int>(i));
     const int column = static_cast<int>(i) % kSignColumns, row = static_cast<int>(i) / kSignColumns;
     for (int y = (row * kHigh + kRows - 1) / kRows; y * kRows < (row + 1) * kHigh; ++y) {
       const float down = (static_cast<float>(y) + 0.5f) * kRows / kHigh - static_cast<float>(row);
-      for (int x = 0; x < kWide; ++x) {
-        const Vec3f c = BoardColor(board, 5 * (static_cast<float>(x) + 0.5f) / kWide, 0.8f * down);
-        sheet(column * kWide + x, y) = {LinearToSrgb8(c.x), LinearToSrgb8(c.y), LinearToSrgb8(c.z), 255};
+      for (int x = 0; x < kSignTexels; ++x) {
+        const Vec3f c = BoardColor(board, x, 0.8f * down);
+        sheet(column * kSignTexels + x, y) = {SignByte(c.x), SignByte(c.y), SignByte(c.z), 255};
       }
     }
   });

@@ -19,10 +19,21 @@ constexpr uint32_t Hash(uint32_t x) {
   return x ^ (x >> 16);
 }
 
-uint32_t HashCell(uint32_t seed, int x, int y, int period) {
-  const auto wrap = [period](int i) { return static_cast<uint32_t>((i % period + period) % period); };
-  return Hash(seed * 0x9e3779b9u ^ Hash(wrap(x) + Hash(wrap(y) + 0x51ed270bu)));
-}
+// Bits of the lattice cells of one tile: Hash of seed, column and row, the row's part of it made once for all columns.
+struct NoiseLattice {
+  NoiseLattice(uint32_t seed, int period) : salt(seed * 0x9e3779b9u), cells(period) {}
+  // Into [0, cells).
+  uint32_t Wrap(int i) const {
+    const int rest = i % cells;
+    return static_cast<uint32_t>(rest < 0 ? rest + cells : rest);
+  }
+  uint32_t Next(uint32_t wrapped) const { return wrapped + 1 == static_cast<uint32_t>(cells) ? 0 : wrapped + 1; }
+  static uint32_t Row(uint32_t y) { return Hash(y + 0x51ed270bu); }
+  uint32_t Cell(uint32_t x, uint32_t row) const { return Hash(salt ^ Hash(x + row)); }
+
+  uint32_t salt;
+  int cells;
+};
 
 float ToUnit(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 float Smooth(float t) { return t * t * (3 - 2 * t); }
@@ -36,8 +47,12 @@ float TilingNoise(uint32_t seed, float x, float y, int period) {
   const float fx = std::floor(x), fy = std::floor(y);
   const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
   const float u = Smooth(x - fx), v = Smooth(y - fy);
-  const auto at = [&](int dx, int dy) { return ToUnit(HashCell(seed, ix + dx, iy + dy, period)); };
-  const float low = at(0, 0) + (at(1, 0) - at(0, 0)) * u, high = at(0, 1) + (at(1, 1) - at(0, 1)) * u;
+  const NoiseLattice lattice(seed, period);
+  const uint32_t x0 = lattice.Wrap(ix), x1 = lattice.Next(x0), y0 = lattice.Wrap(iy);
+  const uint32_t row0 = NoiseLattice::Row(y0), row1 = NoiseLattice::Row(lattice.Next(y0));
+  const float a = ToUnit(lattice.Cell(x0, row0)), b = ToUnit(lattice.Cell(x1, row0));
+  const float c = ToUnit(lattice.Cell(x0, row1)), d = ToUnit(lattice.Cell(x1, row1));
+  const float low = a + (b - a) * u, high = c + (d - c) * u;
   return 2 * (low + (high - low) * v) - 1;
 }
 
@@ -55,10 +70,12 @@ float TilingFbm(uint32_t seed, float u, float v, int period, int octaves) {
 WorleyResult TilingWorley(uint32_t seed, float u, float v, int period) {
   const float x = u * static_cast<float>(period), y = v * static_cast<float>(period);
   const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
+  const NoiseLattice lattice(seed, period);
   WorleyResult result{9, 9, 0};
   for (int dy = -1; dy <= 1; ++dy) {
+    const uint32_t row = NoiseLattice::Row(lattice.Wrap(iy + dy));
     for (int dx = -1; dx <= 1; ++dx) {
-      const uint32_t cell = HashCell(seed, ix + dx, iy + dy, period);
+      const uint32_t cell = lattice.Cell(lattice.Wrap(ix + dx), row);
       const float px = static_cast<float>(ix + dx) + ToUnit(cell) - x;
       const float py = static_cast<float>(iy + dy) + ToUnit(Hash(cell)) - y;
       const float d = std::hypot(px, py);
