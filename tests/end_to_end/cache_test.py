@@ -33,6 +33,17 @@ class Cache(ProgramTest):
         self.assertEqual(self.shoot("second", world="sunlit_room"), fresh)
         self.assertEqual([entry.stat().st_ino for entry in self.entries()], times, "written again")
 
+    def test_a_sky_is_kept_whatever_stands_below_it(self):
+        model = self.folder / "field.obj"
+        model.write_text("v -50 0 50\nv 50 0 50\nv 50 0 -50\nv -50 0 -50\nf 1 2 3 4\n")
+        flags = "--pose", "0,0,2", "--clouds", "clear"
+        fresh = self.shoot("off", *flags, "--no-cache", world=model)
+        self.assertEqual(self.shoot("first", *flags, world=model), fresh)
+        kept = [(entry.name, entry.stat().st_ino) for entry in self.entries()]
+        self.assertEqual([name.split("-")[0] for name, _ in kept], ["sky"])
+        self.assertEqual(self.shoot("second", *flags, world=model), fresh)
+        self.assertEqual([(entry.name, entry.stat().st_ino) for entry in self.entries()], kept, "written again")
+
     def test_other_light_and_another_seed_are_other_entries(self):
         self.shoot("first")
         count = len(self.entries())

@@ -15,7 +15,7 @@
 namespace airsim360::internal {
 
 /// The results for one scene under one environment. Keeps nothing of scenes without a cache_key, and of those
-/// where something has moved.
+/// where something has moved. Or what is the same in every scene: all that `key` stands for.
 class LightCache {
  public:
   LightCache(const RayTracer& tracer, const Environment& environment)
@@ -26,7 +26,9 @@ class LightCache {
     AddToKey(key, environment);
     lit_scene_ = key.Name();
   }
+  explicit LightCache(CacheKey key) : enabled_(!disk_.folder().empty()), lit_scene_(key.AddProgram().Name()) {}
 
+  bool enabled() const { return enabled_; }
   /// make(), or what it gave in an earlier run. T is movable, is made empty by T(), and lists its fields in
   /// T::Visit(archive, self).
   template <class T, class Make>

@@ -51,6 +51,13 @@ std::string KeyOf(const Environment& environment) {
   return key.Name();
 }
 
+// Everything that a sky depends on.
+internal::LightCache SkyCache(const Environment& environment, Vec3f place, float town) {
+  CacheKey key("any_scene", 1);
+  AddToKey(key, LightPart(environment));
+  return internal::LightCache(key.Add(place.x).Add(place.y).Add(place.z).Add(town));
+}
+
 }  // namespace
 
 Shader::Impl::Impl(std::shared_ptr<const RayTracer> t, const Environment& environment)
@@ -73,8 +80,13 @@ void Shader::Impl::SetLight(const Environment& environment) {
     if (scene.sky_entity != kNoEntity) {
       const auto like = std::ranges::find(last_lights, table_key, &Light::table_key);
       const Sky* table = like == last_lights.end() ? nullptr : like->sky.get();
-      const auto make = [&] { return Sky(environment, scene.spawn.value_or(Vec3f{}), table, internal::TownLight(scene, lights)); };
-      light.sky = std::make_shared<const Sky>(cache.Get<Sky>("sky", make));
+      const Vec3f place = scene.spawn.value_or(Vec3f{});
+      const float town = internal::TownLight(scene, lights);
+      const auto make = [&] { return Sky(environment, place, table, town); };
+      // People, drones or a model of one's own change no sky. Where the scene is not kept only its first is: weather that
+      // changes all day would fill the disk.
+      const bool keeps = cache.enabled() || last_lights.empty();
+      light.sky = std::make_shared<const Sky>(keeps ? SkyCache(environment, place, town).Get<Sky>("sky", make) : make());
     }
     light.lamps = std::make_shared<const LampGrid>(*tracer, lights, light.sky ? light.sky->GroundIlluminance() : 0.0f);
     if (!scene.instances.empty()) {
