@@ -1,4 +1,5 @@
 """Help, completion, manual pages, and what is told of flags that there are not."""
+import functools
 import re
 import shutil
 import subprocess
@@ -7,9 +8,17 @@ import unittest
 from program import ProgramTest, run
 
 
+@functools.cache
+def said(*arguments):
+    """What the program prints, which is the same each time; it must not fail."""
+    result = run(*arguments)
+    assert result.returncode == 0, result.stderr
+    return result.stdout
+
+
 def commands():
     """Paths of all commands, as completion knows them."""
-    return [line.split("command='")[1].split("'")[0].split() for line in run("completion", "bash").stdout.splitlines() if ") command='" in line]
+    return [line.split("command='")[1].split("'")[0].split() for line in said("completion", "bash").splitlines() if ") command='" in line]
 
 
 class HelpTest(ProgramTest):
@@ -18,7 +27,7 @@ class HelpTest(ProgramTest):
         self.assertEqual(self.run_ok("help").stdout, top)
         self.assertEqual(self.run_ok("-h").stdout, top)
         for command in commands():
-            text = self.run_ok(*command, "--help").stdout
+            text = said(*command, "--help")
             self.assertEqual(self.run_ok("help", *command).stdout, text, command)
             self.assertIn("Usage: airsim360 " + " ".join(command), text)
         self.run_bad(2, "help", "colect", says=["did you mean 'collect'"])
@@ -69,7 +78,7 @@ class CompletionTest(ProgramTest):
     def complete(self, *words):
         """What bash offers for the last word of a line."""
         script = self.folder / "completion"
-        script.write_text(self.run_ok("completion", "bash").stdout)
+        script.write_text(said("completion", "bash"))
         # As readline splits it: = is a word of its own.
         split = [part for word in words for part in (re.split(r"(=)", word) if word.startswith("--") else [word]) if part or "=" not in word]
         quoted = " ".join("'" + word + "'" for word in split)
@@ -98,7 +107,7 @@ class CompletionTest(ProgramTest):
 
     def test_all_flags_of_help_are_completed_and_no_other(self):
         for command in commands():
-            help_flags = set(re.findall(r"^  (?:-\w,)*(--[a-z][a-z0-9-]*)", self.run_ok(*command, "--help").stdout, re.M))
+            help_flags = set(re.findall(r"^  (?:-\w,)*(--[a-z][a-z0-9-]*)", said(*command, "--help"), re.M))
             offered = {word for word in self.complete("airsim360", *command, "--")}
             self.assertEqual(offered, help_flags, command)
 
@@ -145,7 +154,7 @@ class ManTest(ProgramTest):
             page = pages / ("airsim360-" + "-".join(command) + ".1")
             shown = subprocess.run(["groff", "-man", "-Tascii", "-P-c", page], capture_output=True, text=True, timeout=60).stdout
             shown = " ".join(re.sub(".\x08", "", shown).split())
-            for flag in re.findall(r"^  (?:-\w,)*(--[a-z][a-z0-9-]*)", self.run_ok(*command, "--help").stdout, re.M):
+            for flag in re.findall(r"^  (?:-\w,)*(--[a-z][a-z0-9-]*)", said(*command, "--help"), re.M):
                 self.assertIn(flag, shown, command)
 
     def test_without_a_folder_the_page_of_the_program_is_printed(self):

@@ -2,10 +2,15 @@
 
 A page has a folder of its own with links to what a clone holds (build, data, examples, tools, docs), PATH has build/bin. Blocks
 marked ```sh slow or ```python slow run with AIRSIM360_SLOW_DOCS=1 alone. A command that ends with & is a server: it is waited for.
+
+    docs_test.py                 # all pages
+    docs_test.py 2/5             # every fifth page from the third on; what is asked of all pages goes with 0/5
+    docs_test.py guide/maps.md   # pages whose path ends so
 """
 import os
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -91,11 +96,22 @@ def run_page(page):
     return test
 
 
-for _page in PAGES:
-    if any(language in ("sh", "python") for language, *_ in blocks(_page)):
-        _name = re.sub(r"\W", "_", name_of(_page).removesuffix(".md").removeprefix("docs/").lower())
-        setattr(Docs, f"test_blocks_of_{_name}", run_page(_page))
+def chosen(pages, what):
+    """Those of some pages that are asked for: a share I/N, or ends of paths; none at all is an error."""
+    if len(what) == 1 and (share := re.fullmatch(r"(\d+)/(\d+)", what[0])):
+        return pages[int(share[1])::int(share[2])]
+    found = [page for page in pages if not what or name_of(page).endswith(tuple(what))]
+    if not found:
+        sys.exit(f"docs_test.py: no page of the docs with blocks ends with {' or '.join(what)}")
+    return found
 
 
 if __name__ == "__main__":
-    unittest.main()
+    _what = sys.argv[1:]
+    if _what and not _what[0].startswith("0/"):
+        for _name in [name for name in vars(Docs) if name.startswith("test_")]:
+            delattr(Docs, _name)
+    for _page in chosen([page for page in PAGES if any(language in ("sh", "python") for language, *_ in blocks(page))], _what):
+        _name = re.sub(r"\W", "_", name_of(_page).removesuffix(".md").removeprefix("docs/").lower())
+        setattr(Docs, f"test_blocks_of_{_name}", run_page(_page))
+    unittest.main(argv=sys.argv[:1])

@@ -3,12 +3,15 @@ import json
 import math
 import os
 import unittest
+import unittest.mock
 
 from program import ROOT, ProgramTest, run
 
 MAP = ROOT / "data/osm/crossing.osm"
 LATITUDE, LONGITUDE = 52.0, 5.0  # of its middle
 NORTH, EAST = 111267.0, 68677.9  # metres a degree there (WGS 84)
+
+BOX = 51.9997, 4.9996, 52.0003, 5.0008  # south, west, north and east of a piece
 
 
 def coast(folder):
@@ -25,6 +28,9 @@ def coast(folder):
 
 
 class MapTest(ProgramTest):
+    def entities(self, *world):
+        return json.loads(self.run_ok("world", "entities", *world, "--json").stdout)
+
     def size_of(self, *flags, world=MAP):
         report = json.loads(self.run_ok("world", "import", world, *flags, "--json").stdout)
         return report["extent_m"], report["origin"], report
@@ -32,23 +38,25 @@ class MapTest(ProgramTest):
     def test_a_piece_by_box_or_around_a_place_is_the_map_there(self):
         (width, depth), origin, whole = self.size_of()
         self.assertGreater(width, 180)
-        south, west, north, east = 51.9997, 4.9996, 52.0003, 5.0004
-        orders = [f"{south},{west},{north},{east}", f"{west},{south},{east},{north}"]  # ours and OpenStreetMap's
-        for box in orders:
-            (width, depth), origin, piece = self.size_of("--bbox", box)
-            self.assertAlmostEqual(width, (east - west) * EAST, delta=0.2)
-            self.assertAlmostEqual(depth, (north - south) * NORTH, delta=0.2)
-            self.assertAlmostEqual(origin["latitude_deg"], LATITUDE, delta=1e-6)
-            self.assertLess(piece["entities"], whole["entities"])
-        (width, depth), _, piece = self.size_of("--centre", "52.0,5.0", "--radius", "40")
-        self.assertAlmostEqual(width, 80, delta=0.1)
-        self.assertAlmostEqual(depth, 80, delta=0.1)
+        south, west, north, east = BOX
+        (width, depth), origin, piece = self.size_of("--bbox", f"{south},{west},{north},{east}")
+        self.assertAlmostEqual(width, (east - west) * EAST, delta=0.2)
+        self.assertAlmostEqual(depth, (north - south) * NORTH, delta=0.2)
+        self.assertAlmostEqual(origin["latitude_deg"], LATITUDE, delta=1e-6)
+        self.assertAlmostEqual(origin["longitude_deg"], (west + east) / 2, delta=1e-6)
+        self.assertLess(piece["entities"], whole["entities"])
+        # OpenStreetMap's order of the numbers names the same piece.
+        rows = self.entities(MAP, "--bbox", f"{west},{south},{east},{north}")
+        self.assertEqual(rows, self.entities(MAP, "--bbox", f"{south},{west},{north},{east}"))
+        self.assertEqual(len(rows), piece["entities"])
 
     def test_a_world_file_names_the_piece(self):
         out = self.folder / "piece.yaml"
-        self.run_ok("world", "import", MAP, "--centre", "52.0,5.0", "--radius", "40", "--out", out)
+        (width, depth), _, piece = self.size_of("--centre", "52.0,5.0", "--radius", "40", "--out", out)
+        self.assertAlmostEqual(width, 80, delta=0.1)
+        self.assertAlmostEqual(depth, 80, delta=0.1)
         def names(*world):
-            return {row["name"] for row in json.loads(self.run_ok("world", "entities", *world, "--json").stdout)}
+            return {row["name"] for row in self.entities(*world)}
         self.assertEqual(names(out), names(MAP, "--centre", "52.0,5.0", "--radius", "40"))
         self.assertNotEqual(names(out), names(MAP))
 
@@ -85,7 +93,7 @@ class MapTest(ProgramTest):
             self.assertAlmostEqual(y, 0.0003 * NORTH, delta=0.02)
             self.assertAlmostEqual(z, 30, delta=1e-6)
         # The same place of a piece, whose middle lies elsewhere.
-        x, y, _ = position("--bbox", "51.9997,4.9996,52.0003,5.0008", "--pose", "52.0003N,5.0004E,30,90")
+        x, y, _ = position("--bbox", ",".join(map(str, BOX)), "--pose", "52.0003N,5.0004E,30,90")
         self.assertAlmostEqual(x, 0.0002 * EAST, delta=0.02)
         bad = self.folder / "bad"
         self.run_bad(2, "render", "--world", "box_room", "--pose", "52N,5E,1", "--out", bad, says=["--pose", "box_room", "no place on the Earth"])
@@ -98,7 +106,7 @@ class MapTest(ProgramTest):
 
     def test_the_sea_is_water_and_nobody_plans_into_it(self):
         path = coast(self.folder)
-        rows = json.loads(self.run_ok("world", "entities", path, "--json").stdout)
+        rows = self.entities(path)
         sea = next(row for row in rows if row["name"] == "sea")
         self.assertEqual(sea["category_path"], "water/sea")
         self.assertLess(sea["box"]["min"][1], -1000)
@@ -108,8 +116,7 @@ class MapTest(ProgramTest):
         self.assertIn("sea", seen)
 
     def test_an_import_fills_the_cache_that_other_commands_use(self):
-        os.environ["AIRSIM360_CACHE"] = str(self.folder / "cache")
-        self.addCleanup(lambda: os.environ.update(AIRSIM360_CACHE=""))
+        self.enterContext(unittest.mock.patch.dict(os.environ, AIRSIM360_CACHE=str(self.folder / "cache")))
         self.run_ok("world", "import", MAP)
         def scenes():
             return [(entry.name, entry.stat().st_ino) for entry in sorted((self.folder / "cache").iterdir()) if entry.name.startswith("scene-")]

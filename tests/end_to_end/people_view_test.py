@@ -15,7 +15,7 @@ CACHE = tempfile.TemporaryDirectory()
 
 
 def setUpModule():
-    os.environ["AIRSIM360_CACHE"] = CACHE.name
+    os.environ["AIRSIM360_CACHE"] = os.environ.get("AIRSIM360_CACHE") or CACHE.name
 
 
 def tearDownModule():

@@ -371,10 +371,10 @@ class FreeFlights(ProgramTest):
 class WaypointSet(ProgramTest):
     def test_missing_worlds_are_told_and_unknown_ones_refused(self):
         out = self.folder / "set"
-        result = self.run_ok("plan", "--dataset", "waypoint", "--worlds", "new_york_city", "--routes", "1", "--out", out, "--json")
+        result = self.run_ok("plan", "--dataset", "waypoint", "--worlds", "downtown_west", "--routes", "1", "--out", out, "--json")
         report = json.loads(result.stdout)
         if report["worlds_missing"]:
-            self.assertEqual(report["worlds_missing"], ["new_york_city"])
+            self.assertEqual(report["worlds_missing"], ["downtown_west"])
             self.assertIn("does not exist yet", result.stderr)
         self.run_bad(2, "plan", "--dataset", "waypoints", "--out", out, says=["did you mean 'waypoint'"])
         self.run_bad(2, "plan", "--dataset", "waypoint", "--worlds", "city_prk", "--out", out, says=["did you mean 'city_park'"])

@@ -65,7 +65,7 @@ class OnDemand(unittest.TestCase):
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = Path(temporary.name)
         # The light of rooms takes half a minute a sky: solved once, kept as for users.
-        cls.enterClassContext(unittest.mock.patch.dict(os.environ, AIRSIM360_CACHE=str(cls.folder / "worlds")))
+        cls.enterClassContext(unittest.mock.patch.dict(os.environ, AIRSIM360_CACHE=os.environ.get("AIRSIM360_CACHE") or str(cls.folder / "worlds")))
         cls.recipe, cls.plan = cls.folder / "rooms.yaml", cls.folder / "plan.json"
         cls.recipe.write_text(RECIPE)
         run("dataset", "plan", cls.recipe, "--seed", 5, "--out", cls.plan)
