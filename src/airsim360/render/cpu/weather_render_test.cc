@@ -40,14 +40,20 @@ double Mean(const Image<Rgb8>& image) {
 
 const RigidTransform kPose = BodyPose({0.3, -0.2, 2}, 0.3, 0.2, 0.1) * CameraInBody();
 
+// What two tests look at.
+Renderer& UnderFoul() {
+  static const auto renderer = Under(Foul());
+  return *renderer;
+}
+
 TEST(WeatherRender, TurningTheRigRollsRainSnowAndFogByteForByte) {
-  const auto renderer = Under(Foul());
+  Renderer& renderer = UnderFoul();
   constexpr int kWidth = 200;
-  const Image<Rgb8> still = Picture(*renderer, kWidth, kPose);
+  const Image<Rgb8> still = Picture(renderer, kWidth, kPose);
   for (int k : {1, 37, kWidth - 1}) {
     RigidTransform X = kPose;
     X.R = ToMatrix(ToQuaternion(X.R * RotationY(2 * std::numbers::pi * k / kWidth)));
-    const Image<Rgb8> turned = Picture(*renderer, kWidth, X);
+    const Image<Rgb8> turned = Picture(renderer, kWidth, X);
     int different = 0;
     for (int y = 0; y < still.height(); ++y) {
       for (int x = 0; x < kWidth; ++x) different += !(turned(x, y) == still((x + k) % kWidth, y));
@@ -57,14 +63,14 @@ TEST(WeatherRender, TurningTheRigRollsRainSnowAndFogByteForByte) {
 }
 
 TEST(WeatherRender, OneAndManyThreadsGiveTheSameBytes) {
-  const auto renderer = Under(Foul());
-  const Image<Rgb8> many = Picture(*renderer, 160, kPose);
+  const Image<Rgb8> many = Picture(UnderFoul(), 160, kPose);
   const ThreadLimit limit(1);
-  EXPECT_EQ(Picture(*renderer, 160, kPose), many);
+  EXPECT_EQ(Picture(UnderFoul(), 160, kPose), many);
 }
 
 TEST(WeatherRender, DropsShowAndStandStillWhenNothingMoves) {
   Environment dry = Foul();
+  dry.cloud_cover = dry.cirrus_cover = 0;  // three skies
   dry.rain_mm_h = dry.snowfall_mm_h = 0;
   Environment wet = dry;
   wet.rain_mm_h = 20;
