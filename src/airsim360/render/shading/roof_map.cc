@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/render/indoor/ray_packet.h"
@@ -41,6 +42,31 @@ bool IsLeaf(const RayTracer& tracer, const SurfaceTables& tables, const RayHit16
   return tables.materials[triangle.material & ~kMirroredUv].kind == static_cast<float>(SurfaceKind::kFoliage);
 }
 
+struct FallingRay {
+  size_t texel;
+  Vec3f origin;
+};
+
+// Sends rays down and keeps the height of what they meet; those that met a leaf are left, to go on below it.
+void FollowRain(const RayTracer& tracer, const SurfaceTables& tables, std::vector<FallingRay>& falling, TableVector<float>& heights) {
+  const Vec3f down = Normalized(Vec3f{-kRainLean, 0, -1});
+  size_t left = 0;
+  for (size_t first = 0; first < falling.size(); first += 16) {
+    RayPacket packet(kMaskAll);
+    const int count = static_cast<int>(std::min<size_t>(16, falling.size() - first));
+    for (int i = 0; i < count; ++i) packet.Set(i, falling[first + static_cast<size_t>(i)].origin, down, INFINITY);
+    tracer.Intersect16(packet.valid, packet.rays, true);
+    for (int i = 0; i < count; ++i) {
+      const size_t texel = falling[first + static_cast<size_t>(i)].texel;
+      const Vec3f p = packet.Origin(i) + down * packet.rays.t_far[i];
+      const bool hit = packet.Hit(i), leaf = hit && IsLeaf(tracer, tables, packet.rays, i);
+      heights[texel] = hit && !leaf ? p.z : kOpenGround;
+      if (leaf) falling[left++] = {texel, p + down * kLeafStep};
+    }
+  }
+  falling.resize(left);
+}
+
 }  // namespace
 
 RoofMap::RoofMap(const RayTracer& tracer, const SurfaceTables& tables, int size) {
@@ -57,37 +83,44 @@ RoofMap::RoofMap(const RayTracer& tracer, const SurfaceTables& tables, int size)
   LeaveThinThings();
 }
 
-// Rays from above everything, in blocks of 4 x 4 texels.
+// Rays from above everything onto one texel of 2 x 2, and onto the others where heights differ about it, except under leaves, where
+// branches would differ everywhere: what is narrower than three texels does not count.
 void RoofMap::Bake(const RayTracer& tracer, const SurfaceTables& tables, float top) {
-  const Vec3f down = Normalized(Vec3f{-kRainLean, 0, -1});
-  ParallelFor(size_ / 4, [&](int64_t block_row) {
+  const auto size = static_cast<size_t>(size_);
+  std::vector<uint8_t> under_leaves(heights_.size());
+  const auto first_of_four = [](int i) { return i / 2 * 2; };
+  const auto at = [&](int x, int y) { return static_cast<size_t>(y) * size + static_cast<size_t>(x); };
+  // Of a strip of four rows, those that are wanted.
+  const auto look = [&](int64_t strip, const auto& wanted) {
     const FlushDenormals flush;
-    const int y = static_cast<int>(block_row) * 4;
-    for (int x = 0; x < size_; x += 4) {
-      RayPacket packet(kMaskAll);
-      for (int i = 0; i < 16; ++i) {
-        const float at_x = left_ + (static_cast<float>(x + (i & 3)) + 0.5f) * texel_,
-                    at_y = near_ + (static_cast<float>(y + (i >> 2)) + 0.5f) * texel_;
-        packet.Set(i, {at_x + top * kRainLean, at_y, top}, down, INFINITY);
-      }
-      for (int step = 0; step < kMostLeaves; ++step) {
-        tracer.Intersect16(packet.valid, packet.rays, true);
-        bool leaves = false;
-        for (int i = 0; i < 16; ++i) {
-          if (packet.valid[i] == 0) continue;
-          packet.valid[i] = 0;
-          if (packet.rays.geometry[i] == kMiss) continue;
-          const Vec3f p = packet.Origin(i) + down * packet.rays.t_far[i];
-          if (IsLeaf(tracer, tables, packet.rays, i)) {
-            packet.Set(i, p + down * kLeafStep, down, INFINITY);
-            leaves = true;
-          } else {
-            heights_[static_cast<size_t>(y + (i >> 2)) * static_cast<size_t>(size_) + static_cast<size_t>(x + (i & 3))] = p.z;
-          }
-        }
-        if (!leaves) break;
-      }
+    std::vector<FallingRay> falling;
+    for (int i = 0; i < 4 * size_; ++i) {
+      const int x = i / 16 * 4 + i % 4, y = static_cast<int>(strip) * 4 + i % 16 / 4;  // in blocks of 4 x 4
+      if (!wanted(x, y)) continue;
+      const float at_x = left_ + (static_cast<float>(x) + 0.5f) * texel_ + top * kRainLean;
+      const float at_y = near_ + (static_cast<float>(y) + 0.5f) * texel_;
+      falling.push_back({at(x, y), {at_x, at_y, top}});
     }
+    for (int step = 0; step < kMostLeaves && !falling.empty(); ++step) {
+      FollowRain(tracer, tables, falling, heights_);
+      for (const FallingRay& ray : falling) under_leaves[ray.texel] = 1;
+    }
+  };
+  ParallelFor(size_ / 4, [&](int64_t strip) { look(strip, [&](int x, int y) { return x == first_of_four(x) && y == first_of_four(y); }); });
+  ParallelFor(size_ / 4, [&](int64_t strip) {
+    look(strip, [&](int x, int y) {
+      const int first_x = first_of_four(x), first_y = first_of_four(y);
+      if (x == first_x && y == first_y) return false;
+      const size_t first = at(first_x, first_y);
+      float least = heights_[first], most = least;
+      for (int i = 0; i < 9; ++i) {
+        const size_t near = at(std::clamp(first_x + 2 * (i % 3 - 1), 0, size_ - 2), std::clamp(first_y + 2 * (i / 3 - 1), 0, size_ - 2));
+        if (under_leaves[near] != 0) continue;
+        least = std::min(least, heights_[near]), most = std::max(most, heights_[near]);
+      }
+      heights_[at(x, y)] = heights_[first];
+      return under_leaves[first] == 0 && most - least > ROOF_ABOVE;
+    });
   });
 }
 
