@@ -9,7 +9,7 @@
 #include "airsim360/render/indoor/light_solver.h"
 #include "airsim360/render/surface/surface_tables.h"
 #include "airsim360/scene/luminance.h"
-#include "airsim360/worlds/worlds.h"
+#include "built_worlds.h"
 
 namespace airsim360 {
 namespace {
@@ -68,7 +68,7 @@ TEST(InteriorLight, LampsGiveTheIlluminancesOfStandards) {
                           {"mall", "shop", -0.03f, 0.03f, 180, 1500, 0.25f},
                           {"car_park", "parking_deck", -0.03f, 0.03f, 45, 225, 0.25f}};
   for (const Place& place : places) {
-    const auto scene = BuildWorld(place.world, {});
+    const auto scene = Built(place.world);
     Environment night = scene->environment;
     night.lamps = Lamps::kOn;
     const RayTracer tracer(scene);
@@ -80,7 +80,7 @@ TEST(InteriorLight, LampsGiveTheIlluminancesOfStandards) {
     ASSERT_NE(room, rooms.rooms.end());
     const Box3f box = Part(*room);
     const auto pieces = PiecesIn(EnclosedPieces(world, Enclosure(tracer), Reflectance(tables)), box);
-    const LightSolver solver(world, pieces, {.cell = place.cell, .rays = 32, .lamp_rays = 32, .fine = false});
+    const LightSolver solver(world, pieces, {.cell = place.cell, .rays = 16, .lamp_rays = 16, .fine = false});
     const double lux = Lux(solver, box, place.low, place.high);
     RecordProperty(place.world, std::to_string(lux));
     EXPECT_GE(lux, place.least) << place.world;

@@ -11,6 +11,7 @@
 #include "airsim360/scene/scene_archive.h"
 #include "airsim360/trace/ray_tracer.h"
 #include "airsim360/worlds/worlds.h"
+#include "built_worlds.h"
 
 namespace airsim360 {
 namespace {
@@ -59,7 +60,7 @@ TEST(Interiors, AreFullOfThingsWithLabelsEverywhere) {
       {"apartment", 150}, {"office", 600}, {"warehouse", 2000}, {"mall", 3000}, {"car_park", 2500}};
   for (const char* name : kBuildings) {
     SCOPED_TRACE(name);
-    const auto scene = BuildWorld(name, {});
+    const auto scene = Built(name);
     const std::vector<std::string> categories = CategoriesOf(*scene);
     EXPECT_GE(categories.size(), 25u);
     EXPECT_GE(scene->entities.size(), 400u);
