@@ -135,7 +135,12 @@ class Moves(FlightTest):
         client = self.flying()
         self.assertTrue(client.moveByAngleRatesThrottleAsync(0, 0, 0.5, 0.59, 0.5).get())
         self.assertTrue(client.moveByMotorPWMsAsync(0.59, 0.59, 0.59, 0.59, 0.2).get())
+        # Then it hovers again: the rotors are asked while they are told, with the clock stopped.
+        told = client.moveByMotorPWMsAsync(0.59, 0.59, 0.59, 0.59, 0.5)
+        client.simPause(True)
         rotors = client.getRotorStates().rotors
+        client.simPause(False)
+        self.assertTrue(told.get())
         self.assertEqual(len(rotors), 4)
         self.assertAlmostEqual(rotors[0]["thrust"], 2.45, delta=0.3)
 
