@@ -35,7 +35,7 @@ ReachableSpace::ReachableSpace(const ClearanceField& field, Vec3d seed, double r
   if (nearest[0] >= 0) Fill(nearest, radius);
 }
 
-// Run by run along x: rows lie together in memory, so that a voxel is looked at once for each of the four rows beside its own.
+// Fills run by run along x: a row lies together in memory, and a voxel is looked at once from each of the four rows beside its own.
 void ReachableSpace::Fill(Cell first, double radius) {
   const int nx = field_.size(0);
   const auto row_of = [&](int y, int z) { return (static_cast<size_t>(z) * field_.size(1) + y) * nx; };

@@ -7,7 +7,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr double kMargin = 0.35;        // metres beside the body
-constexpr double kTightMargin = -0.15;  // the same of those who stand, for who crawls: they turn a shoulder away
+constexpr double kTightMargin = -0.15;  // beside those who stand, at a walking pace: they turn a shoulder away
 constexpr double kStandsStill = 0.01;   // m^2/s^2
 constexpr double kHeight = 2.5;         // metres above or below the street that no longer concern it
 

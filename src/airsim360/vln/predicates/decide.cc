@@ -15,7 +15,7 @@ using internal::Candidate;
 
 constexpr size_t kMostCompetitors = 4;
 constexpr double kApart = 1.5;     // metres at least between one and the next on the way
-constexpr double kLopsided = 0.1;  // of a box's longer side: as far is its middle from that of a crown that leans
+constexpr double kLopsided = 0.1;  // share of a box's longer side that its middle may be off the middle of a leaning crown
 constexpr size_t kMostNamed = 3;
 
 std::string Text(double value) {
