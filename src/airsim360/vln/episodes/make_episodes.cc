@@ -19,7 +19,7 @@ using internal::VlnGround;
 
 constexpr int kDraws = 6000, kWays = 12, kLooks = 60;  // starts drawn for an episode; ways and things in sight looked for
 constexpr double kSpacing = 2.5;                       // metres between points of the reference path, at most
-constexpr double kOpenRadius = 20, kRoomRadius = 1;    // metres around the goal that count as there
+constexpr double kOpenRadius = 20, kRoomRadius = 1.5;  // metres around the goal that count as there
 constexpr double kNearRadius = 6, kNearGoal = 3;       // the same, and metres from the goal to the thing, where flights begin nearer
 constexpr double kNearStart[2] = {9, 24};              // metres between start and thing there
 constexpr double kLeastWay = 1.25;                     // radii between start and goal
