@@ -12,7 +12,6 @@
 // Compare ratios, not milliseconds. --processor takes processor time of all threads instead of time, for a
 // machine that does other work, too. With --profile: frames of one kind (--kind) on one thread and nothing
 // else, for a profiler.
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -30,6 +29,7 @@
 #include "airsim360/scene/viewpoint.h"
 #include "airsim360/sensors/rig.h"
 #include "clock.h"
+#include "median.h"
 #include "ray_recorder.h"
 #include "scenes.h"
 
@@ -69,11 +69,6 @@ double Milliseconds(const Options& options, const std::function<void()>& job) {
   const double start = Now(options.processor);
   job();
   return Now(options.processor) - start;
-}
-
-double Median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
 }
 
 RenderRequest MakeRequest(const Options& options, const World& world, Tier tier, int edge_samples) {

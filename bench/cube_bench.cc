@@ -22,6 +22,8 @@
 #include "airsim360/image/codecs.h"
 #include "airsim360/opening/world_loader.h"
 #include "airsim360/render/renderer.h"
+#include "arguments.h"
+#include "median.h"
 
 namespace {
 
@@ -85,18 +87,6 @@ double Milliseconds(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-double Median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-const char* Argument(int argc, char** argv, const char* name, const char* value) {
-  for (int i = 1; i + 1 < argc; ++i) {
-    if (std::strcmp(argv[i], name) == 0) value = argv[i + 1];
-  }
-  return value;
 }
 
 }  // namespace

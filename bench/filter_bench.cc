@@ -13,6 +13,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
 #include "airsim360/render/filter/denoiser.h"
+#include "median.h"
 
 namespace {
 
@@ -66,11 +67,6 @@ double Milliseconds(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-double Median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "airsim360/sensors/rig.h"
 #include "airsim360/sim/fly_route.h"
 #include "clock.h"
+#include "median.h"
 
 namespace {
 
@@ -34,11 +35,6 @@ struct Row {
 
 // Of all threads of this process so far, ms.
 double ProcessorMilliseconds() { return 1e3 * SecondsOf(CLOCK_PROCESS_CPUTIME_ID); }
-
-double Median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
-}
 
 const char* Text(int argc, char** argv, const char* name, const char* value) {
   for (int i = 1; i + 1 < argc; ++i) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <memory>
 #include <string>
@@ -15,22 +14,13 @@
 #include "airsim360/render/relightable.h"
 #include "airsim360/scene/viewpoint.h"
 #include "airsim360/sensors/rig.h"
+#include "arguments.h"
 #include "clock.h"
+#include "median.h"
 
 namespace {
 
 using namespace airsim360;
-
-const char* Argument(int argc, char** argv, const char* name, const char* value) {
-  for (int i = 1; i + 1 < argc; ++i)
-    if (std::strcmp(argv[i], name) == 0) value = argv[i + 1];
-  return value;
-}
-
-double Median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
-}
 
 double Least(const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); }
 

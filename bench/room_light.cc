@@ -23,6 +23,7 @@
 #include "airsim360/projection/camera.h"
 #include "airsim360/render/renderer.h"
 #include "airsim360/scene/luminance.h"
+#include "arguments.h"
 
 namespace {
 
@@ -31,12 +32,6 @@ using namespace airsim360;
 enum Kind { kWalls, kFloor, kCeiling, kThings, kAll, kKinds };
 constexpr const char* kKindNames[] = {"walls", "floor", "ceiling", "things", "all"};
 constexpr int kNone = -1;
-
-const char* Argument(int argc, char** argv, const char* name, const char* value) {
-  for (int i = 1; i + 1 < argc; ++i)
-    if (std::strcmp(argv[i], name) == 0) value = argv[i + 1];
-  return value;
-}
 
 // By the square root of the area of rooms: halls count more than closets, but not all.
 Vec3d DrawPlace(const BuildingRooms& rooms, const RayTracer& tracer, RngStream& random) {

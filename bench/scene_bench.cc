@@ -23,6 +23,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/opening/world_loader.h"
 #include "airsim360/render/renderer.h"
+#include "median.h"
 
 namespace {
 
@@ -39,11 +40,6 @@ const char* Text(int argc, char** argv, const char* name, const char* value) {
 }
 
 double Since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
-
-double Median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
 
 // 150 instances spread over the scene, and up to 50 of the meshes of a body's size.
 struct Cast {

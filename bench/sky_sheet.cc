@@ -12,16 +12,11 @@
 #include "airsim360/render/relightable.h"
 #include "airsim360/scene/environment_sampler.h"
 #include "airsim360/sensors/rig.h"
+#include "arguments.h"
 
 namespace {
 
 using namespace airsim360;
-
-const char* Argument(int argc, char** argv, const char* name, const char* value) {
-  for (int i = 1; i + 1 < argc; ++i)
-    if (std::strcmp(argv[i], name) == 0) value = argv[i + 1];
-  return value;
-}
 
 // Nothing but a sky; what lies below the horizon is its far ground.
 std::shared_ptr<const Scene> OpenGround() {

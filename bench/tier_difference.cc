@@ -20,6 +20,7 @@
 #include "airsim360/projection/camera.h"
 #include "airsim360/render/renderer.h"
 #include "airsim360/scene/viewpoint.h"
+#include "arguments.h"
 
 namespace {
 
@@ -28,13 +29,6 @@ using namespace airsim360;
 struct Pose {
   double x = 0, y = 0, z = 0, yaw_deg = 0;
 };
-
-const char* Argument(int argc, char** argv, const char* name, const char* value) {
-  for (int i = 1; i + 1 < argc; ++i) {
-    if (std::strcmp(argv[i], name) == 0) value = argv[i + 1];
-  }
-  return value;
-}
 
 std::vector<Pose> Poses(int argc, char** argv, const Scene& scene) {
   std::vector<Pose> poses;

@@ -10,7 +10,6 @@
 // with ROBUST and the same build quality. Compare ratios, not milliseconds.
 #include <embree3/rtcore.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -22,6 +21,7 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/render/renderer.h"
+#include "median.h"
 #include "scenes.h"
 
 namespace {
@@ -198,11 +198,6 @@ double Milliseconds(const std::function<void()>& job) {
   const auto start = Clock::now();
   job();
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-double Median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
 }
 
 struct Row {

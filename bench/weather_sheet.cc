@@ -24,6 +24,7 @@
 #include "airsim360/scene/luminance.h"
 #include "airsim360/scene/viewpoint.h"
 #include "airsim360/sensors/rig.h"
+#include "arguments.h"
 #include "clock.h"
 
 namespace {
@@ -34,12 +35,6 @@ struct Time {
   const char *name, *sun;
 };
 constexpr Time kTimes[] = {{"dawn", "95,4"}, {"noon", "195,52"}, {"dusk", "290,-4"}, {"night", "330,-25"}};
-
-const char* Argument(int argc, char** argv, const char* name, const char* value) {
-  for (int i = 1; i + 1 < argc; ++i)
-    if (std::strcmp(argv[i], name) == 0) value = argv[i + 1];
-  return value;
-}
 
 std::vector<std::string> Words(const char* list) {
   std::vector<std::string> words;

@@ -123,7 +123,7 @@ TEST(Traffic, CrawlsPastSomebodyWhoStandsCloseBesideIt) {
   while (state.t_ns < 60'000'000'000) {
     TickTraffic(model, std::span(&person, 1), state);
     const bool beside = car.s > 199 && car.s - model.vehicles[0].shape.length < 199;
-    EXPECT_TRUE(!beside || car.v < 2.5) << car.s;  // 12 before
+    EXPECT_TRUE(!beside || car.v < 2.5) << car.s;  // from 12
   }
   EXPECT_GT(car.s, 250);
 }

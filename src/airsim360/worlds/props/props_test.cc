@@ -65,7 +65,7 @@ class EveryKind : public testing::TestWithParam<std::string> {
  protected:
   const PropKind& kind() const { return FindPropKind(GetParam()); }
   Model MakeAnew(int variant) const { return MakeProp(kind(), static_cast<uint32_t>(variant), 7, nullptr); }
-  // Made once for all tests: a board's picture takes a tenth of a second.
+  // Made once for all tests: the pictures of all boards take seconds.
   const Model& Make(int variant) const {
     static std::map<std::pair<std::string, int>, Model> made;
     const auto [place, is_new] = made.try_emplace({GetParam(), variant});
