@@ -219,6 +219,34 @@ TEST(PhotoTest, LampsOfARoomAreNotTakenForTheDuskOutside) {
   EXPECT_GT(inside[2], 2 * inside[0]);
 }
 
+TEST(PhotoTest, ShadeIsBalancedForTheSkyAndASunlitPictureForBoth) {
+  const Daylight noon = Noon();
+  const double height = noon.to_sun.z;
+  const Rgb32f both{static_cast<float>(noon.sun.r * height + noon.sky.r), static_cast<float>(noon.sun.g * height + noon.sky.g),
+                    static_cast<float>(noon.sun.b * height + noon.sky.b)};
+  // Grey of 0.2, its part `shade` lit by the sky alone and the rest by both; what of the shade's blue is left, in octaves.
+  const auto blue_left = [&](double shade) {
+    constexpr int kSide = 64;
+    LightCells cells(true, kSide, kSide / 2, 2 * kPi / kSide, 2 * kPi / kSide);
+    for (int y = 0; y < cells.height; ++y) {
+      for (int x = 0; x < cells.width; ++x) {
+        const Rgb32f& light = x < shade * kSide ? noon.sky : both;
+        const size_t i = cells.Index(x, y);
+        cells.planes[0][i] = static_cast<float>(0.2 / kPi * light.r);
+        cells.planes[1][i] = static_cast<float>(0.2 / kPi * light.g);
+        cells.planes[2][i] = static_cast<float>(0.2 / kPi * light.b);
+      }
+    }
+    const std::array<double, 3> gains = WhiteBalance(0.85, noon, LightHistogram(cells, 1, LightCells(), 0));
+    return std::log2(noon.sky.b / noon.sky.r * gains[2] / gains[0]);
+  };
+  const double of_sky = std::log2(noon.sky.b / noon.sky.r);
+  EXPECT_LT(blue_left(1), 0.35 * of_sky);
+  EXPECT_GT(blue_left(1), 0);
+  EXPECT_GT(blue_left(0.2), 0.9 * of_sky);  // beside the sun shade stays blue
+  for (double shade = 0.1; shade < 1; shade += 0.1) EXPECT_LE(blue_left(shade + 0.1), blue_left(shade) + 0.01) << shade;
+}
+
 TEST(PhotoTest, StopsComeOnTopOfTheMeter) {
   PhotoRequest request = Request();
   Image<Rgb32f> light = Scenery();

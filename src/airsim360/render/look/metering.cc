@@ -19,6 +19,13 @@ double Smooth(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
+// How far a camera takes the sky alone for what lights its picture, 0 … kMost: where most of it is darker than a grey of
+// 0.35 under the open sky. Sunlit grey is several times brighter, and so is the sky. Some blue is left in shade, as by eye.
+double ShareOfShade(const Daylight& day, const LightHistogram& picture) {
+  constexpr double kGrey = 0.35, kMost = 0.7;
+  return kMost * Smooth(0.4, 0.9, picture.ShareBelow(kGrey * day.sky.g / std::numbers::pi));
+}
+
 }  // namespace
 
 LightHistogram::LightHistogram(const LightCells& light, float kept, const LightCells& scattered, float share) {
@@ -76,6 +83,16 @@ double LightHistogram::BrighterThan(double share) const {
   return middle_[static_cast<size_t>(bin)];
 }
 
+double LightHistogram::ShareBelow(double limit) const {
+  double sum = 0, all = 0;
+  for (int i = 1; i < kBins; ++i) {
+    const double share = share_[1][static_cast<size_t>(i)];
+    all += share;
+    if (middle_[static_cast<size_t>(i)] < limit) sum += share;
+  }
+  return all > 0 ? sum / all : 0;
+}
+
 double LightHistogram::LogMean(int channel) const {
   double sum = 0, weight = 0;
   const auto& shares = share_[static_cast<size_t>(channel)];
@@ -91,7 +108,7 @@ std::array<double, 3> WhiteBalance(double strength, const Daylight& day, const L
   const std::array<double, 3> mean{picture.LogMean(0), picture.LogMean(1), picture.LogMean(2)};
   if (strength <= 0 || !(std::min({mean[0], mean[1], mean[2]}) > 0)) return gains;
   const double height = std::max(0.05, static_cast<double>(day.to_sun.z));
-  const std::array<double, 3> light{day.sun.r * height + day.sky.r, day.sun.g * height + day.sky.g, day.sun.b * height + day.sky.b};
+  std::array<double, 3> light{day.sun.r * height + day.sky.r, day.sun.g * height + day.sky.g, day.sun.b * height + day.sky.b};
   const bool is_day = std::min({light[0], light[1], light[2]}) > 0;
   // How far the picture is from what daylight would make of grey ground, in octaves.
   double by_day = 0;
@@ -101,6 +118,12 @@ std::array<double, 3> WhiteBalance(double strength, const Daylight& day, const L
     // Lamps of a room in the evening are as bright as what is outside, but far warmer than it makes anything.
     const double warmth = std::log2(mean[0] / mean[2] * light[2] / light[0]);
     by_day *= 1 - Smooth(1.2, 2.2, warmth);
+  }
+  if (by_day > 0) {
+    const std::array<double, 3> sky{day.sky.r, day.sky.g, day.sky.b};
+    const double shade = ShareOfShade(day, picture);
+    for (size_t k = 0; k < 3; ++k)
+      if (sky[k] > 0) light[k] *= std::pow(sky[k] / light[k], shade);
   }
   constexpr double kLowSun = 0.56;
   const double adapted = strength * (kLowSun + (1 - kLowSun) * Smooth(0.05, 0.42, height)) * by_day;

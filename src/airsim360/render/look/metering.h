@@ -20,6 +20,8 @@ class LightHistogram {
   double MeanEncoded(const std::vector<float>& curve, double clip, const std::array<double, 3>& scale) const;
   /// Light of green, which most of luminance is, that `share` of the solid angle is brighter than.
   double BrighterThan(double share) const;
+  /// Share of the solid angle whose green is below `limit`, of all but the darkest (below 2^-20).
+  double ShareBelow(double limit) const;
   /// Geometric mean of a channel, without the darkest (below 2^-20).
   double LogMean(int channel) const;
 
@@ -31,7 +33,7 @@ class LightHistogram {
 };
 
 /// Gains of the white balance without errors, green 1. By day what the sun and the sky bring is made neutral to a large
-/// part, less where the sun is low; part of what is left, and more indoors and by lamps, is by the mean of the picture.
+/// part, in a picture of shade what the sky brings, less where the sun is low; part of what is left, and more indoors and by lamps, is by the mean of the picture.
 std::array<double, 3> WhiteBalance(double strength, const Daylight& day, const LightHistogram& picture);
 
 /// Factor to light so that MeanEncoded is `aim`; within [low, high].
