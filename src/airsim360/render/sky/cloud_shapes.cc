@@ -134,6 +134,8 @@ CloudLayer SheetLayer(const SheetForm& form, float cover, Vec2f wind, uint32_t s
   const int s = static_cast<int>(seed & 0xffffff);
   const float extent = form.cell * kShapeCells;
   const int elements = std::max(4, static_cast<int>(extent / form.element));
+  // Little cloud stands in a few banks: spread evenly it would be the tips of heaps alone, round crumbs all over.
+  const float banks = 0.7f + 2.3f * (1 - SmoothStep(0.05f, 0.4f, cover));
   Columns columns(kShapeCells * kShapeCells);
   std::vector<float> field(columns.size());
   ParallelFor(kShapeCells, [&](int64_t j) {
@@ -145,7 +147,7 @@ CloudLayer SheetLayer(const SheetForm& form, float cover, Vec2f wind, uint32_t s
                   small = 1 - PointDistance(wx * twice, wy * twice, 2 * elements + 1, s + 1);
       const float fields = FractalNoise(x * 5, y * 5, 5, 4, s + 60), groups = FractalNoise(wx * 14, wy * 14, 14, 3, s + 70);
       const size_t k = static_cast<size_t>(j) * kShapeCells + i;
-      field[k] = 0.55f * heaps + 0.2f * small + 0.7f * fields + 0.5f * groups;
+      field[k] = 0.55f * heaps + 0.2f * small + banks * fields + 0.5f * groups;
       columns[k].base = 0.25f * form.thickness * FractalNoise(x * 20, y * 20, 20, 2, s + 80);
     }
   });
