@@ -1,11 +1,15 @@
 #include "airsim360/sim/living_world.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "airsim360/sim/people/people.h"
 #include "airsim360/sim/traffic/traffic.h"
+#include "airsim360/traffic/obstacles.h"
 
 namespace airsim360 {
 namespace {
@@ -33,19 +37,22 @@ void ReportNearMisses(const SimModel& model, std::span<const NearMiss> over, std
   }
 }
 
-void StepPeople(const SimModel& model, SimState& state, std::vector<SimEvent>* events) {
-  if (!state.people || !model.people) return;
-  const int64_t end_ns = state.t_ns + model.dt_ns + model.people->epoch_ns;
-  if (state.people->crowd.t_ns + kCrowdTickNs > end_ns) return;
+std::vector<CrowdDrone> DronesOf(const SimModel& model, const SimState& state) {
   std::vector<CrowdDrone> drones;
   for (size_t i = 0; i < state.vehicles.size(); ++i) {
     const Kinematics& motion = state.vehicles[i].motion;
     drones.push_back({motion.X_WB.p, motion.v_WB});
     if (i < model.drones.size()) drones.back().radius = model.drones[i]->radius();
   }
-  PeopleState& people = internal::OwnPeople(state);
+  return drones;
+}
+
+void TickPeople(const SimModel& model, SimState& state, std::vector<SimEvent>* events) {
+  const std::vector<CrowdDrone> drones = DronesOf(model, state);
+  std::vector<CrowdVehicle> vehicles;
+  if (state.traffic && model.traffic) vehicles = VehiclesNear(*model.traffic, *state.traffic, *state.people);
   std::vector<CrowdEvent> happened;
-  while (people.crowd.t_ns + kCrowdTickNs <= end_ns) TickPeople(*model.people, drones, people, &happened);
+  TickPeople(*model.people, drones, internal::OwnPeople(state), &happened, vehicles);
   if (events != nullptr) ReportNearPasses(model, happened, *events);
 }
 
@@ -61,16 +68,46 @@ std::vector<TrafficObstacle> ObstaclesOf(const SimModel& model, const SimState& 
   return obstacles;
 }
 
-void StepTraffic(const SimModel& model, SimState& state, std::vector<SimEvent>* events) {
-  if (!state.traffic || !model.traffic) return;
-  const int64_t end_ns = state.t_ns + model.dt_ns + model.traffic->epoch_ns;
-  if (state.traffic->t_ns + kTrafficTickNs > end_ns) return;
-  const std::vector<TrafficObstacle> obstacles = ObstaclesOf(model, state);
+void TickTraffic(const SimModel& model, SimState& state, std::vector<SimEvent>* events) {
   auto traffic = std::make_shared<TrafficState>(*state.traffic);
   std::vector<NearMiss> over;
-  while (traffic->t_ns + kTrafficTickNs <= end_ns) TickTraffic(model.traffic->model, obstacles, *traffic, &over);
+  TickTraffic(model.traffic->model, ObstaclesOf(model, state), *traffic, &over);
   state.traffic = std::move(traffic);
   if (events != nullptr) ReportNearMisses(model, over, *events);
+}
+
+// Where people are, in squares so large that nobody meets a vehicle before its way has left those around theirs.
+class AreasOfPeople {
+ public:
+  explicit AreasOfPeople(std::span<const PersonState> people) {
+    std::vector<Square> own;
+    for (const PersonState& person : people)
+      if (person.visible) own.push_back(SquareOf(person.p_WP));
+    std::ranges::sort(own);
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    for (const auto& [x, y] : own)
+      for (int64_t dx = -1; dx <= 1; ++dx)
+        for (int64_t dy = -1; dy <= 1; ++dy) around_.emplace_back(x + dx, y + dy);
+    std::ranges::sort(around_);
+  }
+  bool Near(Vec3d p) const { return std::ranges::binary_search(around_, SquareOf(p)); }
+
+ private:
+  using Square = std::pair<int64_t, int64_t>;
+  static Square SquareOf(Vec3d p) {
+    constexpr double kEdge = 40;  // metres: 1.5 s at 16 m/s, half a bus, and what somebody walks in 3 s
+    const auto index = [](double x) { return static_cast<int64_t>(std::floor(std::clamp(x, -1e9, 1e9) / kEdge)); };
+    return {index(p.x), index(p.y)};
+  }
+  std::vector<Square> around_;
+};
+
+// The time after which a vehicle at its speed has come as far as it comes in `seconds` if it goes on braking or, for a second,
+// accelerating as it does.
+int64_t SameWayNs(const DrivingVehicle& vehicle, double seconds) {
+  const double a = vehicle.a, time = a < 0 ? std::min(seconds, vehicle.v / -a) : std::min(seconds, 1.0);
+  const double way = vehicle.v * (a < 0 ? time : seconds) + a * time * time / 2 + (a < 0 ? 0 : a * time * (seconds - time));
+  return std::llround(way / std::max(vehicle.v, 0.01) * 1e9);
 }
 
 }  // namespace
@@ -88,6 +125,32 @@ std::vector<TrafficObstacle> ObstaclesOf(const PeopleState& people) {
     if (person.visible) obstacles.push_back({person.p_WP, person.v_WP, kPersonRadius, {RoadUser::Kind::kPerson, i}});
   }
   return obstacles;
+}
+
+std::vector<CrowdVehicle> VehiclesNear(const SimTraffic& traffic, const TrafficState& state, const PeopleState& people) {
+  constexpr double kLooksAhead = 3, kStands = 0.3;  // seconds, m/s
+  const AreasOfPeople areas(people.crowd.people);
+  std::vector<CrowdVehicle> vehicles;
+  for (size_t i = 0; i < state.vehicles.size(); ++i) {
+    const DrivingVehicle& driving = state.vehicles[i];
+    const VehicleShape& shape = traffic.model.vehicles[i].shape;
+    if (!areas.Near(internal::AlongWay(traffic.model, driving, shape, kLooksAhead / 2 * driving.v).p)) continue;
+    CrowdVehicle vehicle{.places = {}, .half_length = shape.length / 2, .half_width = shape.width / 2};
+    vehicle.stands = driving.v < kStands;
+    for (size_t k = 0; k < vehicle.places.size(); ++k) {
+      if (k > 0 && vehicle.stands) {
+        vehicle.places[k] = vehicle.places[0];
+        continue;
+      }
+      const int64_t later_ns = SameWayNs(driving, static_cast<double>(k) * kCrowdVehicleStep);
+      const RigidTransform X = PoseOf(traffic.model, state, i, state.t_ns + later_ns);
+      const Vec3d ahead = Normalized(Vec3d{X.R.column(0).x, X.R.column(0).y, 0});
+      vehicle.places[k] = {{X.p.x, X.p.y}, {ahead.x, ahead.y}};
+      if (k == 0) vehicle.z = X.p.z;
+    }
+    vehicles.push_back(vehicle);
+  }
+  return vehicles;
 }
 
 const std::string& NameOfRoadUser(const SimModel& model, const RoadUser& user) {
@@ -115,8 +178,19 @@ void StartLife(const SimModel& model, SimState& state) {
 }
 
 void StepLife(const SimModel& model, SimState& state, std::vector<SimEvent>* events) {
-  StepPeople(model, state, events);
-  StepTraffic(model, state, events);
+  const int64_t end_ns = state.t_ns + model.dt_ns;
+  constexpr int64_t kNever = INT64_MAX;
+  while (true) {
+    // People look at vehicles where they are, then vehicles at people.
+    const int64_t people_ns = state.people && model.people ? state.people->crowd.t_ns + kCrowdTickNs - model.people->epoch_ns : kNever;
+    const int64_t traffic_ns = state.traffic && model.traffic ? state.traffic->t_ns + kTrafficTickNs - model.traffic->epoch_ns : kNever;
+    if (std::min(people_ns, traffic_ns) > end_ns) return;
+    if (people_ns <= traffic_ns) {
+      TickPeople(model, state, events);
+    } else {
+      TickTraffic(model, state, events);
+    }
+  }
 }
 
 }  // namespace airsim360

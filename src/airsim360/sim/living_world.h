@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "airsim360/people/crowd/crowd.h"
 #include "airsim360/sim/step.h"
 #include "airsim360/traffic/traffic.h"
 
@@ -23,6 +24,9 @@ std::string TextOfNearMiss(const SimModel& model, const NearMiss& miss);
 
 /// The people as vehicles see them.
 std::vector<TrafficObstacle> ObstaclesOf(const PeopleState& people);
+
+/// The vehicles that people may meet soon, as people see them.
+std::vector<CrowdVehicle> VehiclesNear(const SimTraffic& traffic, const TrafficState& state, const PeopleState& people);
 
 namespace internal {
 /// The people of a state, to be changed: a copy if a snapshot has them too.

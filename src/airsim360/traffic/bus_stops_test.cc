@@ -100,16 +100,6 @@ TEST(BusStops, AHaltDoesNotHoldTheJunctionThatComes) {
   EXPECT_GE(halted, 8 * 20);
 }
 
-// Two lanes to the east, and ways back of their own.
-std::shared_ptr<const RoadNetwork> TwoLanes() {
-  auto roads = std::make_shared<RoadNetwork>();
-  roads->lanes = {{.points = {{0, 0, 0}, {600, 0, 0}}, .next = {2}, .right = 1},
-                  {.points = {{0, -3.2f, 0}, {600, -3.2f, 0}}, .next = {3}, .left = 0},
-                  {.points = {{600, 0, 0}, {600, 2000, 0}, {0, 2000, 0}, {0, 0, 0}}, .next = {0}},
-                  {.points = {{600, -3.2f, 0}, {600, -2000, 0}, {0, -2000, 0}, {0, -3.2f, 0}}, .next = {1}}};
-  return roads;
-}
-
 TEST(BusStops, ABusChangesToTheLaneOfItsStopAndACarDoesNot) {
   for (const bool bus : {true, false}) {
     TrafficModel model = WithStops(TwoLanes(), {{1, 400}});

@@ -9,6 +9,7 @@ namespace airsim360 {
 /// A driver's habits. Defaults: a car in town, after Treiber and Kesting, "Traffic Flow Dynamics", Springer 2013, table 11.2.
 struct Driver {
   double speed_factor = 1;    ///< of the limit
+  double top_speed = 70;      ///< m/s that the vehicle can do
   double headway = 1.5;       ///< seconds to the one in front
   double gap = 2;             ///< metres to the one in front when both stand
   double acceleration = 1.4;  ///< m/s^2

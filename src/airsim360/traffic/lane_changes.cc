@@ -14,6 +14,7 @@ constexpr int64_t kBetweenChangesNs = 8'000'000'000;  // of one vehicle
 constexpr double kRunIn = 12, kRunOut = 45;           // metres of lane before and behind
 constexpr double kLeastSpeed = 3;                     // m/s
 constexpr double kLeastGap = 3;                       // metres to those in front and behind
+constexpr double kToTheEdge = 1.5;                    // m/s^2 that a bicycle gives up to be on the lane on the right
 constexpr double kToTheStop = 1.5;                    // m/s^2 that a bus gives up to be on the lane of its next stop
 
 }  // namespace
@@ -28,7 +29,7 @@ bool LaneChanges::Allowed(uint32_t vehicle, const DrivingVehicle& own) const {
 // Acceleration of `follower` with its front at `s` of a lane behind `front`.
 double LaneChanges::Follow(uint32_t follower, LaneId lane, double s, const Occupant* front) const {
   const Driver& driver = model_.vehicles[follower].driver;
-  const double v0 = model_.lanes.speed(lane) * driver.speed_factor, v = state_.vehicles[follower].v;
+  const double v0 = std::min(model_.lanes.speed(lane) * driver.speed_factor, driver.top_speed), v = state_.vehicles[follower].v;
   if (front == nullptr) return IdmAcceleration(driver, v, v0, INFINITY, 0);
   return IdmAcceleration(driver, v, v0, front->rear - s, state_.vehicles[front->vehicle].v);
 }
@@ -53,7 +54,8 @@ bool LaneChanges::Pays(uint32_t vehicle, LaneId target, double s) const {
     c.old_follower_before = Follow(old_behind->vehicle, own.lane, old_behind->front, &here);
     c.old_follower_after = Follow(old_behind->vehicle, own.lane, old_behind->front, old_front);
   }
-  c.bias = kToTheStop * (ServesStopOn(model_, vehicle, target, s) - ServesStopOn(model_, vehicle, own.lane, own.s));
+  c.bias = (own.lane == model_.lanes.lane(target).left ? kToTheEdge * model_.vehicles[vehicle].shape.bicycle : 0) +
+           kToTheStop * (ServesStopOn(model_, vehicle, target, s) - ServesStopOn(model_, vehicle, own.lane, own.s));
   return PaysToChange(model_.vehicles[vehicle].driver, c);
 }
 
@@ -66,7 +68,8 @@ void LaneChanges::Consider(uint32_t vehicle, DrivingVehicle& own) {
   if (!Allowed(vehicle, own)) return;
   const Lane& lane = model_.lanes.lane(own.lane);
   for (const LaneId target : {lane.left, lane.right}) {
-    if (target == kNoLane || (model_.lanes.lane(target).bus && !model_.vehicles[vehicle].shape.bus)) continue;
+    const VehicleShape& shape = model_.vehicles[vehicle].shape;
+    if (target == kNoLane || (model_.lanes.lane(target).bus && !shape.bus) || (target == lane.left && shape.bicycle)) continue;
     const double s = own.s / model_.lanes.length(own.lane) * model_.lanes.length(target);
     if (TakenThisTick(target, s) || !Pays(vehicle, target, s)) continue;
     taken_.emplace_back(target, s);

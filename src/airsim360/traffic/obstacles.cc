@@ -30,7 +30,7 @@ InTheWay ObstacleGrid::Beside(const TrafficModel& model, const DrivingVehicle& s
   const double r = shape.width / 2, first = -r, last = r - shape.length;
   const int steps = std::max(1, static_cast<int>(std::ceil((first - last) / r)));
   for (int k = 0; k <= steps; ++k) {
-    const Vec3d p = AlongWay(model, self, first + (last - first) * k / steps).p;
+    const Vec3d p = AlongWay(model, self, shape, first + (last - first) * k / steps).p;
     if (standing_.Meets(p, r + kMargin, kHeight)) found.beside = 0;
     if (walking_.Meets(p, r, kHeight) || standing_.Meets(p, r + kTightMargin, kHeight)) return {0, 0};
   }
@@ -44,14 +44,14 @@ InTheWay ObstacleGrid::Find(const TrafficModel& model, const TrafficState& state
   const double half_width = shape.width / 2;
   InTheWay found = Beside(model, self, shape);
   for (double ahead = 0.5; ahead <= reach && ahead - 0.5 < found.gap; ahead += 1) {
-    const Vec3d p = AlongWay(model, self, ahead + half_width).p;
+    const Vec3d p = AlongWay(model, self, shape, ahead + half_width).p;
     if (standing_.Meets(p, half_width + kMargin, kHeight)) found.beside = std::min(found.beside, ahead - 0.5);
     if (coming_.Meets(p, half_width + kMargin, kHeight) || standing_.Meets(p, half_width + kTightMargin, kHeight)) found.gap = ahead - 0.5;
   }
   return found;
 }
 
-LanePoint AlongWay(const TrafficModel& model, const DrivingVehicle& vehicle, double ahead) {
+LanePoint AlongWay(const TrafficModel& model, const DrivingVehicle& vehicle, const VehicleShape& shape, double ahead) {
   double s = vehicle.s + ahead;
   LaneId lane = vehicle.lane;
   for (size_t k = 0; k < vehicle.ahead.size() && s > model.lanes.length(lane) && vehicle.ahead[k] != kNoLane; ++k) {
@@ -62,7 +62,9 @@ LanePoint AlongWay(const TrafficModel& model, const DrivingVehicle& vehicle, dou
     lane = vehicle.behind[k];
     s += model.lanes.length(lane);
   }
-  return model.lanes.At(lane, s);
+  LanePoint at = model.lanes.At(lane, s);
+  at.p = at.p + Vec3d{-at.direction.y, at.direction.x, 0} * shape.aside();
+  return at;
 }
 
 }  // namespace airsim360::internal

@@ -29,7 +29,7 @@ class ObstacleGrid {
   DiscGrid coming_;              // who walks, now and soon
 };
 
-/// The place `ahead` metres (negative: behind) of the front of a vehicle along its way.
-LanePoint AlongWay(const TrafficModel& model, const DrivingVehicle& vehicle, double ahead);
+/// The place `ahead` metres (negative: behind) of the front of a vehicle along its way, as far aside of its lanes as it keeps.
+LanePoint AlongWay(const TrafficModel& model, const DrivingVehicle& vehicle, const VehicleShape& shape, double ahead);
 
 }  // namespace airsim360::internal

@@ -57,6 +57,16 @@ inline std::shared_ptr<const RoadNetwork> Fork() {
   return roads;
 }
 
+/// Two lanes to the east, and ways back of their own.
+inline std::shared_ptr<const RoadNetwork> TwoLanes() {
+  auto roads = std::make_shared<RoadNetwork>();
+  roads->lanes = {{.points = {{0, 0, 0}, {600, 0, 0}}, .next = {2}, .right = 1},
+                  {.points = {{0, -3.2f, 0}, {600, -3.2f, 0}}, .next = {3}, .left = 0},
+                  {.points = {{600, 0, 0}, {600, 2000, 0}, {0, 2000, 0}, {0, 0, 0}}, .next = {0}},
+                  {.points = {{600, -3.2f, 0}, {600, -2000, 0}, {0, -2000, 0}, {0, -3.2f, 0}}, .next = {1}}};
+  return roads;
+}
+
 inline TrafficModel ModelOf(std::shared_ptr<const RoadNetwork> roads, size_t count, uint64_t seed = 1) {
   return {.lanes = LaneMap(std::move(roads)), .vehicles = std::vector<TrafficVehicle>(count), .seed = seed};
 }

@@ -41,7 +41,8 @@ double SlowedBy(const Driver& driver, double v, double distance) {
 // The speed that a driver wants here: slower before bends that come.
 double WantedSpeed(const TrafficModel& model, uint32_t vehicle, const DrivingVehicle& own) {
   const Driver& driver = model.vehicles[vehicle].driver;
-  double wanted = model.lanes.speed(own.lane) * driver.speed_factor, distance = model.lanes.length(own.lane) - own.s;
+  double wanted = std::min(model.lanes.speed(own.lane) * driver.speed_factor, driver.top_speed),
+         distance = model.lanes.length(own.lane) - own.s;
   for (const LaneId lane : own.ahead) {
     if (lane == kNoLane) break;
     const double v = model.lanes.speed(lane) * driver.speed_factor;
@@ -159,8 +160,8 @@ double ShiftAt(const DrivingVehicle& vehicle, int64_t t_ns, double late) {
   return vehicle.shift * (1 - u * u * (3 - 2 * u));
 }
 
-Vec3d AxleAt(const TrafficModel& model, const DrivingVehicle& vehicle, int64_t t_ns, double ahead, double late) {
-  const LanePoint at = AlongWay(model, vehicle, ahead);
+Vec3d AxleAt(const TrafficModel& model, const DrivingVehicle& vehicle, const VehicleShape& shape, int64_t t_ns, double ahead, double late) {
+  const LanePoint at = AlongWay(model, vehicle, shape, ahead);
   const double shift = ShiftAt(vehicle, t_ns, late);
   return at.p + Vec3d{-at.direction.y * shift, at.direction.x * shift, 0};
 }
@@ -210,7 +211,7 @@ RigidTransform PoseOf(const TrafficModel& model, const TrafficState& state, size
   const VehicleShape& shape = model.vehicles[vehicle].shape;
   const double moved = own.v * static_cast<double>(t_ns - state.t_ns) * 1e-9, front = moved - shape.front_overhang();
   const double late = shape.wheelbase() / std::max(own.v, 2.0);
-  const Vec3d f = AxleAt(model, own, t_ns, front, 0), r = AxleAt(model, own, t_ns, front - shape.wheelbase(), late);
+  const Vec3d f = AxleAt(model, own, shape, t_ns, front, 0), r = AxleAt(model, own, shape, t_ns, front - shape.wheelbase(), late);
   const Vec3d x = Normalized(f - r), left = Normalized(Vec3d{-x.y, x.x, 0});
   return {Mat3d::FromColumns(x, left, Cross(x, left)), f - x * (shape.length / 2 - shape.front_overhang())};
 }

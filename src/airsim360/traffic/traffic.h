@@ -21,6 +21,9 @@ inline constexpr int64_t kTrafficTickNs = 50'000'000;
 struct VehicleShape {
   double length = 4.5, width = 1.8, height = 1.5;  ///< metres
   bool bus = false;                                ///< may use lanes for buses
+  bool bicycle = false;                            ///< keeps to the right edge of its lane, and to the lane on the right
+  /// Metres to the left of the middle of its lane.
+  double aside() const { return bicycle ? -1.0 : 0.0; }
   /// Metres from the front to the front axle and between the axles.
   double front_overhang() const { return 0.19 * length; }
   double wheelbase() const { return 0.6 * length; }

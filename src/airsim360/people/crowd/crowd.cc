@@ -8,6 +8,7 @@
 #include "airsim360/base/state_hash.h"
 #include "airsim360/people/crowd/agent.h"
 #include "airsim360/people/crowd/appearance.h"
+#include "airsim360/people/crowd/dodging.h"
 
 namespace airsim360 {
 
@@ -77,7 +78,8 @@ void WatchDrones(CrowdTick& tick) {
   }
 }
 
-void RunTick(const CrowdModel& model, CrowdState& state, std::span<const CrowdDrone> drones, std::vector<CrowdEvent>* events) {
+void RunTick(const CrowdModel& model, CrowdState& state, std::span<const CrowdDrone> drones, std::span<const CrowdVehicle> vehicles,
+             std::vector<CrowdEvent>* events) {
   CrowdInternals& in = *state.internals;
   CrowdTick tick{model, *model.plan, state, in, drones, events, in.tick * kCrowdTickNs};
   const size_t first_event = events ? events->size() : 0;
@@ -97,7 +99,7 @@ void RunTick(const CrowdModel& model, CrowdState& state, std::span<const CrowdDr
   std::vector<internal::SteeringObstacle> obstacles;
   for (const CrowdDrone& drone : drones)
     obstacles.push_back({{drone.p_W.x, drone.p_W.y}, {drone.v_W.x, drone.v_W.y}, drone.p_W.z, drone.radius});
-  in.steering.Step(*model.navmesh, in.walkers, obstacles, kTickSeconds);
+  in.steering.Step(*model.navmesh, in.walkers, obstacles, kTickSeconds, internal::Vehicles(vehicles));
 
   // What is seen of it.
   WatchDrones(tick);
@@ -155,10 +157,10 @@ CrowdState StartCrowd(const CrowdModel& model) {
 }
 
 void StepCrowd(const CrowdModel& model, CrowdState& state, int64_t dt_ns, std::span<const CrowdDrone> drones,
-               std::vector<CrowdEvent>* events) {
+               std::vector<CrowdEvent>* events, std::span<const CrowdVehicle> vehicles) {
   if (dt_ns <= 0) throw InputError("a step of the crowd must be longer than nothing");
   state.t_ns += dt_ns;
-  while (state.internals->tick * kCrowdTickNs < state.t_ns) RunTick(model, state, drones, events);
+  while (state.internals->tick * kCrowdTickNs < state.t_ns) RunTick(model, state, drones, vehicles, events);
   Interpolate(model, state);
 }
 

@@ -2,6 +2,7 @@
 // docs/guide/people_behaviour.md describes trees, states, messages and the file that authors write.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -72,6 +73,19 @@ struct CrowdDrone {
   double radius = 0.3;  ///< metres
 };
 
+/// A vehicle as people see it: a box on the ground, now and every kCrowdVehicleStep seconds from now.
+inline constexpr double kCrowdVehicleStep = 0.5;
+struct CrowdVehicle {
+  struct Footprint {
+    Vec2d center;
+    Vec2d ahead{1, 0};  ///< unit vector along its length
+  };
+  std::array<Footprint, 7> places;
+  double half_length = 2.2, half_width = 0.9;  ///< metres
+  double z = 0;                                ///< of the ground below it
+  bool stands = false;
+};
+
 /// Something that happened. `person` did or suffered it; `text` says what and why.
 struct CrowdEvent {
   enum class Kind {
@@ -99,7 +113,7 @@ CrowdState StartCrowd(const CrowdModel& model);
 /// order of time, then person. The result depends neither on threads nor on how a span is cut into steps at
 /// multiples of kCrowdTickNs.
 void StepCrowd(const CrowdModel& model, CrowdState& state, int64_t dt_ns, std::span<const CrowdDrone> drones,
-               std::vector<CrowdEvent>* events = nullptr);
+               std::vector<CrowdEvent>* events = nullptr, std::span<const CrowdVehicle> vehicles = {});
 
 /// 64-bit hash of every number of the state.
 uint64_t HashCrowd(const CrowdState& state);

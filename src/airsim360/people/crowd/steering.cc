@@ -17,7 +17,7 @@ constexpr double kThrongHorizon = 0.5;  // the same in a dense crowd
 constexpr double kWallHorizon = 0.3;    // and for walls, which do not move
 constexpr double kSight = 3.0;          // metres; two cells
 constexpr double kDensityRadius = 1.5;  // metres, as NavMesh::OpenShare
-constexpr int kMaxNeighbours = 9, kMaxClose = 12, kMaxWalls = 6;
+constexpr int kMaxNeighbours = 9, kMaxClose = 12, kMaxWalls = 6, kMaxVehicles = 3;
 constexpr double kCloseRange = 2 * kBodyRadius + 0.35;
 constexpr double kShareSlope = 0.6;                     // how fast the work of avoiding goes over to who has the other in front
 constexpr double kNoShare = 0.05;                       // of avoiding: not worth a thought
@@ -25,6 +25,8 @@ constexpr double kArm = 2 * kBodyRadius + 0.036;        // metres: between the m
 constexpr double kYieldAfter = 0.4, kYieldSpeed = 0.3;  // seconds, m/s: who is stuck beside somebody nearer to a door
 constexpr double kLoosenAfter = 4, kLoosenUntil = 4.6;  // seconds
 constexpr double kSidestepAfter = 1;                    // seconds that someone who stands is in the way
+constexpr double kLookOnRoad = 3, kLookOnCrossing = 2;  // seconds ahead at vehicles; on crossings drivers stop
+constexpr double kPatience = 10;                        // seconds of waiting for them, then a smaller gap will do
 constexpr double kCorner = 0.02;                        // metres
 constexpr double kAcceleration = 4;                     // m/s^2
 constexpr double kLevel = 1.6;                          // metres of height beyond which people are on different floors
@@ -76,6 +78,7 @@ double WeidmannSpeed(double density) {
 
 struct Steering::Plan {
   Vec2d v;
+  bool waits = false;
   int close_count = 0;
   std::array<uint32_t, kMaxClose> close;  // walkers that may be touched within the step
 };
@@ -100,13 +103,14 @@ struct Steering::Company {
 
 /// What a walker's velocity must keep to, and what they notice on the way.
 struct Steering::Limits {
-  std::array<HalfPlane, kMaxWalls + kMaxNeighbours + 4> planes;
+  std::array<HalfPlane, kMaxWalls + kMaxVehicles + kMaxNeighbours + 4> planes;
   size_t hard = 0, used = 0;  // planes of walls come first
   double right = 0;           // share of the wanted velocity that goes to the right
   bool yields = false;
   Vec2d in_the_way;  // towards somebody who stands there; zero: nobody
 
   void AddWalls(const NavMesh& mesh, Vec2d p, double z, double range);
+  void AddVehicles(Vec2d p, std::span<const CrowdVehicle* const> near);
   void AddPeople(const Seen& self, const Company& company, Vec2d wanted, double throng, double dt);
   void AddObstacles(const Seen& self, std::span<const SteeringObstacle> obstacles, double dt);
 };
@@ -116,7 +120,8 @@ Steering::~Steering() = default;
 Steering::Steering(const Steering&) {}
 Steering& Steering::operator=(const Steering&) { return *this; }
 
-void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<const SteeringObstacle> obstacles, double dt) {
+void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<const SteeringObstacle> obstacles, double dt,
+                    const Vehicles& vehicles) {
   // Where everybody wants to go is known only now.
   for (Seen& seen : seen_) {
     const Walker& walker = walkers[seen.index];
@@ -131,7 +136,7 @@ void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<co
   const auto n = static_cast<int64_t>(walkers.size());
   const auto chunk = [&](int64_t c) {
     for (int64_t k = c * kChunk; k < std::min(n, (c + 1) * kChunk); ++k) {
-      if (static_cast<size_t>(k) < seen_.size()) Choose(mesh, walkers, obstacles, static_cast<uint32_t>(k), dt);
+      if (static_cast<size_t>(k) < seen_.size()) Choose(mesh, walkers, obstacles, vehicles, static_cast<uint32_t>(k), dt);
     }
   };
   const int64_t chunks = (n + kChunk - 1) / kChunk;
@@ -144,7 +149,9 @@ void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<co
     Walker& walker = walkers[i];
     if (!walker.present) continue;
     Advance(mesh, walkers, i, dt);
-    const bool stands = Dot(walker.v, walker.v) < 0.05 * 0.05 && Dot(walker.wanted, walker.wanted) > 0.01;
+    walker.waits = plans_[i].waits;
+    walker.waited = walker.waits ? walker.waited + dt : std::max(0.0, walker.waited - dt);
+    const bool stands = !walker.waits && Dot(walker.v, walker.v) < 0.05 * 0.05 && Dot(walker.wanted, walker.wanted) > 0.01;
     walker.blocked = stands ? walker.blocked + dt : std::max(0.0, walker.blocked - 2 * dt);
     if (walker.blocked > kLoosenUntil) walker.blocked = kSidestepAfter;
   }
@@ -250,6 +257,13 @@ void Steering::Limits::AddWalls(const NavMesh& mesh, Vec2d p, double z, double r
   used = hard;
 }
 
+void Steering::Limits::AddVehicles(Vec2d p, std::span<const CrowdVehicle* const> near) {
+  const size_t most = hard + kMaxVehicles;
+  for (const CrowdVehicle* vehicle : near)
+    if (hard < most && KeepOut(*vehicle, p, planes[hard])) ++hard;
+  used = hard;
+}
+
 void Steering::Limits::AddPeople(const Seen& self, const Company& company, Vec2d wanted, double throng, double dt) {
   const double space = kSpaceRadius - (kSpaceRadius - kBodyRadius - 0.003) * throng;
   const double horizon = kHorizon - (kHorizon - kThrongHorizon) * throng;
@@ -275,15 +289,18 @@ void Steering::Limits::AddObstacles(const Seen& self, std::span<const SteeringOb
   }
 }
 
-void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers, std::span<const SteeringObstacle> obstacles, uint32_t k,
-                      double dt) {
+void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers, std::span<const SteeringObstacle> obstacles,
+                      const Vehicles& vehicles, uint32_t k, double dt) {
   const Seen& self = seen_[k];
   const Walker& walker = walkers[self.index];
   Plan& plan = plans_[self.index];
   plan.close_count = 0;
   plan.v = {};
+  plan.waits = false;
   const Company company = LookAround(k, walker.still, plan);
-  if (walker.still) return;
+  const std::vector<const CrowdVehicle*> driving = vehicles.Near(self.p, self.z);
+  const bool sits = walker.aside.x != 0 || walker.aside.y != 0;
+  if (walker.still && (sits || driving.empty())) return;
 
   // Walkers slow down in a crowd, all by the same law.
   const double wanted_speed = Norm(walker.wanted);
@@ -297,6 +314,8 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers, std:
 
   Limits limits;
   limits.AddWalls(mesh, self.p, self.z, std::max(0.3, cap * kWallHorizon + 0.1));  // first, for they do not give way
+  limits.AddVehicles(self.p, driving);
+  for (size_t i = 0; i < limits.hard; ++i) cap = std::max(cap, Dot(limits.planes[i].point, limits.planes[i].normal));
   limits.AddPeople(self, company, wanted, throng, dt);
   limits.AddObstacles(self, obstacles, dt);
   limits.yields |= self.blocked > kLoosenAfter;  // nothing has helped: let go for a moment, each at another time
@@ -308,6 +327,14 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers, std:
     cap = std::max(cap, kYieldSpeed);
   } else {
     wanted = wanted + Vec2d{wanted.y, -wanted.x} * limits.right;
+  }
+  if (!driving.empty()) {
+    const double seconds = (mesh.CrossingAt(self.p) >= 0 ? kLookOnCrossing : kLookOnRoad) * (walker.waited > kPatience ? 0.5 : 1);
+    const Dodge dodge = DodgeVehicles(driving, mesh, {walker.at, self.p, walker.still ? Vec2d{} : wanted, walker.rest, seconds});
+    if (walker.still && !dodge.escapes) return;
+    wanted = dodge.wanted;
+    plan.waits = dodge.waits;
+    if (dodge.escapes) cap = std::max(cap, Norm(wanted));
   }
   Vec2d v = SolveVelocity({limits.planes.data(), limits.used}, limits.hard, wanted, std::max(cap, 0.05));
 

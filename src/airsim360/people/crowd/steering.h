@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "airsim360/people/crowd/dodging.h"
 #include "airsim360/people/navigation/navmesh.h"
 
 namespace airsim360::internal {
@@ -23,6 +24,8 @@ struct Walker {
   double pressed = 0;   ///< 0 … 1: how much they want through, after standing for a while; they squeeze past others
   double rest = 0;      ///< metres to where they go: who is nearer goes first at doors; 0 = unknown
   double blocked = 0;   ///< seconds that they have stood though they want on
+  double waited = 0;    ///< seconds for vehicles, since they last walked for long
+  bool waits = false;   ///< for a vehicle to pass
   Vec2d aside;          ///< of the body from `at`, metres: seats are beside the mesh
   bool present = true;  ///< in the world
   bool still = false;   ///< stands or sits and makes no way for others
@@ -64,7 +67,8 @@ class Steering {
     }
   }
   /// Advances all by dt seconds from the places that Sort saw. Does not depend on the number of threads.
-  void Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<const SteeringObstacle> obstacles, double dt);
+  void Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<const SteeringObstacle> obstacles, double dt,
+            const Vehicles& vehicles = Vehicles({}));
 
  private:
   struct Seen {
@@ -80,7 +84,8 @@ class Steering {
   /// Who is near number k of seen_; notes in the plan whom the next step may touch.
   Company LookAround(uint32_t k, bool only_close, Plan& plan) const;
   static bool YieldsTo(const Seen& self, const Seen& other, double d2);
-  void Choose(const NavMesh& mesh, std::span<const Walker> walkers, std::span<const SteeringObstacle> obstacles, uint32_t self, double dt);
+  void Choose(const NavMesh& mesh, std::span<const Walker> walkers, std::span<const SteeringObstacle> obstacles, const Vehicles& vehicles,
+              uint32_t self, double dt);
   void Advance(const NavMesh& mesh, std::span<Walker> walkers, uint32_t self, double dt);
 
   Vec2d min_;

@@ -177,7 +177,7 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
     ++agent.gate;
 
   // Progress: half a metre from the last place where there was some.
-  if (Norm(walker.at.p_W - agent.progress_p) > 0.5 || agent.hold || tick.plan.states[agent.state].stop || agent.group) {
+  if (Norm(walker.at.p_W - agent.progress_p) > 0.5 || agent.hold || walker.waits || tick.plan.states[agent.state].stop || agent.group) {
     agent.progress_p = walker.at.p_W;
     agent.progress_ns = tick.t_ns;
     return;
@@ -201,8 +201,8 @@ void WatchStuck(CrowdTick& tick, PersonIndex i) {
   const Vec3d& p = tick.in.walkers[i].at.p_W;
   // Whoever stands on purpose is not stuck; goals may have changed meanwhile.
   if (agent.walk == Walk::kOnTheWay || agent.walk == Walk::kWaitsForPath) agent.way_ns = tick.t_ns;
-  const bool stands = tick.t_ns - agent.way_ns > kSecond || agent.hold || agent.group || tick.plan.states[agent.state].stop ||
-                      agent.at_place || (agent.commanded && agent.walk != Walk::kOnTheWay);
+  const bool stands = tick.t_ns - agent.way_ns > kSecond || agent.hold || tick.in.walkers[i].waits || agent.group ||
+                      tick.plan.states[agent.state].stop || agent.at_place || (agent.commanded && agent.walk != Walk::kOnTheWay);
   if (stands || Norm(p - agent.stuck_p) > 0.5) {
     agent.stuck_p = p;
     agent.stuck_ns = tick.t_ns;

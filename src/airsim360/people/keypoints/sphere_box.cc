@@ -10,7 +10,7 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kLargest = 175 * kPi / 180;
+constexpr double kWidestView = 175 * kPi / 180;
 constexpr int kCentering = 16;  // each pass cuts what is left of the asymmetry about tenfold, less near the poles
 
 // Extents of directions along two axes of the tangent plane, as angles from its centre.
@@ -43,8 +43,8 @@ FieldOfView Center(FieldOfView view, std::span<const Vec3d> directions) {
   }
   // What is left of the asymmetry goes to both sides, so that everything is inside.
   const Extent e = ExtentOf(AxesOf(view), directions);
-  view.width = std::min(2 * std::max(-e.left, e.right), kLargest);
-  view.height = std::min(2 * std::max(-e.up, e.down), kLargest);
+  view.width = std::min(2 * std::max(-e.left, e.right), kWidestView);
+  view.height = std::min(2 * std::max(-e.up, e.down), kWidestView);
   return view;
 }
 
@@ -96,7 +96,7 @@ FieldOfView FitFieldOfView(std::span<const Vec3d> directions) {
 
 FieldOfView FitRotatedFieldOfView(std::span<const Vec3d> directions) {
   const FieldOfView upright = FitFieldOfView(directions);
-  if (directions.empty() || std::max(upright.width, upright.height) >= kLargest) return upright;
+  if (directions.empty() || std::max(upright.width, upright.height) >= kWidestView) return upright;
   // Lines of the tangent plane are great circles, so that its convex hull is that of the sphere.
   const ViewAxes axes = AxesOf(upright);
   std::vector<Vec2d> points;

@@ -79,9 +79,10 @@ std::shared_ptr<const PeopleState> StartPeople(const SimPeople& people) {
   return state;
 }
 
-void TickPeople(const SimPeople& people, std::span<const CrowdDrone> drones, PeopleState& state, std::vector<CrowdEvent>* events) {
+void TickPeople(const SimPeople& people, std::span<const CrowdDrone> drones, PeopleState& state, std::vector<CrowdEvent>* events,
+                std::span<const CrowdVehicle> vehicles) {
   const std::vector<PersonState> before = state.crowd.people;
-  StepCrowd(*people.crowd, state.crowd, kCrowdTickNs, drones, events);
+  StepCrowd(*people.crowd, state.crowd, kCrowdTickNs, drones, events, vehicles);
   MoveLimbs(people, before, state.crowd.people, state.crowd.t_ns, state.motions);
 }
 

@@ -38,7 +38,8 @@ struct PeopleState {
 std::shared_ptr<const PeopleState> StartPeople(const SimPeople& people);
 
 /// One tick of kCrowdTickNs.
-void TickPeople(const SimPeople& people, std::span<const CrowdDrone> drones, PeopleState& state, std::vector<CrowdEvent>* events = nullptr);
+void TickPeople(const SimPeople& people, std::span<const CrowdDrone> drones, PeopleState& state, std::vector<CrowdEvent>* events = nullptr,
+                std::span<const CrowdVehicle> vehicles = {});
 
 /// Hash of every number of the state.
 uint64_t HashPeople(const PeopleState& state);

@@ -9,6 +9,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
 #include "airsim360/scene/scene_additions.h"
+#include "airsim360/sim/traffic/riders.h"
 #include "airsim360/sim/traffic/vehicle_lamps.h"
 #include "airsim360/traffic/bus_stops.h"
 #include "airsim360/traffic/disc_grid.h"
@@ -18,7 +19,9 @@ namespace {
 
 constexpr double kMaxWarmUp = 3600;  // seconds
 constexpr size_t kMaxVehicles = 20000;
-constexpr float kInLane = 0.5f;  // of the width of a lane: nearer to its middle one stands in it
+constexpr double kBicycles = 0.08;     // share of the vehicles, where a world has any
+constexpr double kRiderHeight = 1.75;  // metres from the road to the top of the head
+constexpr float kInLane = 0.5f;        // of the width of a lane: nearer to its middle one stands in it
 
 // A vehicle of the scene that others can look like.
 struct Pattern {
@@ -82,6 +85,24 @@ std::vector<Pattern> FindPatterns(const Scene& scene, std::vector<uint32_t>& sta
   return patterns;
 }
 
+// Bicycles of the scene.
+std::vector<Pattern> FindBicycles(const Scene& scene) {
+  std::map<MeshId, Pattern> bicycles;
+  for (const Instance& instance : scene.instances) {
+    if (instance.entity == kNoEntity || bicycles.contains(instance.mesh)) continue;
+    const CategoryId category = scene.entity(instance.entity).category;
+    if (scene.tree[category].path != "vehicle/bicycle") continue;
+    const Box3f box = BoxOf(scene.meshes[instance.mesh]);
+    const float scale = Norm(instance.X_WM.A.column(2));
+    const Vec3f size = box.empty() ? Vec3f{} : (box.max - box.min) * scale;
+    if (size.y < 1.4f || size.y > 2.2f || size.x > 0.9f) continue;  // a rack, or one of many wheels
+    bicycles[instance.mesh] = {instance.mesh, category, instance.tint, instance.glow, scale, box, false};
+  }
+  std::vector<Pattern> patterns;
+  for (const auto& [mesh, pattern] : bicycles) patterns.push_back(pattern);
+  return patterns;
+}
+
 // Shelters and signs of bus stops.
 std::vector<Vec3d> BusStopPlaces(const Scene& scene) {
   std::vector<Vec3d> places;
@@ -116,8 +137,17 @@ AffineTransform PlaceOf(const TrafficBody& body, const RigidTransform& X_WB) {
   return {A, VecCast<float>(X_WB.p) - A * body.offset_M};
 }
 
+// Most speeds of cyclists in towns are 12 to 20 km/h (Allen, Rouphail, Hummer, Milazzo, Transp. Res. Rec. 1636, 1998).
+TrafficVehicle MakeCyclist(const Vec3f& size, RngStream& rng) {
+  TrafficVehicle vehicle;
+  vehicle.shape = {.length = size.y, .width = std::max(0.65f, size.x), .height = kRiderHeight, .bicycle = true};
+  vehicle.driver = {.top_speed = rng.Uniform(4, 5.6), .headway = 1.2, .acceleration = rng.Uniform(0.6, 1.0), .braking = 2};
+  return vehicle;
+}
+
 TrafficVehicle MakeVehicle(const Scene& scene, const Pattern& pattern, RngStream& rng) {
   const Vec3f size = (pattern.box.max - pattern.box.min) * pattern.scale;
+  if (scene.tree[pattern.category].path == "vehicle/bicycle") return MakeCyclist(size, rng);
   TrafficVehicle vehicle;
   vehicle.shape = {size.y, size.x, size.z, scene.tree[pattern.category].path.starts_with("vehicle/bus")};
   vehicle.driver = MakeDriver(rng, size.y > 6.5f);
@@ -155,10 +185,13 @@ TrafficScene AddTraffic(std::shared_ptr<const Scene> scene, const TrafficRequest
   const std::vector<Pattern> patterns = FindPatterns(*scene, traffic->standing);
   if (patterns.empty()) throw InputError("traffic: the world '" + scene->name + "' has no vehicles that others could look like");
 
+  const std::vector<Pattern> bicycles = FindBicycles(*scene);
   std::vector<const Pattern*> chosen;
   for (size_t i = 0; i < request.count; ++i) {
     RngStream rng(request.seed, "traffic vehicle", i);
     chosen.push_back(&patterns[rng.Index(static_cast<uint32_t>(patterns.size()))]);
+    if (RngStream rides(request.seed, "traffic bicycle", i); !bicycles.empty() && rides.Chance(kBicycles))
+      chosen.back() = &bicycles[rides.Index(static_cast<uint32_t>(bicycles.size()))];
     traffic->model.vehicles.push_back(MakeVehicle(*scene, *chosen.back(), rng));
   }
   traffic->model.bus_stops = BusStopsBeside(traffic->model.lanes, BusStopPlaces(*scene));
@@ -167,11 +200,12 @@ TrafficScene AddTraffic(std::shared_ptr<const Scene> scene, const TrafficRequest
   auto start = std::make_shared<TrafficState>(StartTraffic(traffic->model));
   while (start->t_ns < traffic->epoch_ns) TickTraffic(traffic->model, {}, *start);
 
-  const std::shared_ptr<Scene> own = OwnScene(std::move(scene));
+  std::shared_ptr<Scene> own = OwnScene(std::move(scene));
   own->cache_key.clear();  // what is kept on disk is of the scene without them
   traffic->bodies.resize(request.count);
   LampsOfMeshes lamps;
   for (size_t i = 0; i < request.count; ++i) AddBody(*chosen[i], i, traffic->model, *start, lamps, *own, traffic->bodies[i]);
+  own = internal::AddRiders(std::move(own), traffic->model, traffic->bodies);
   traffic->start = std::move(start);
   return {own, std::move(traffic)};
 }
@@ -193,6 +227,14 @@ void ShowTraffic(const SimTraffic& traffic, const TrafficState& state, int64_t t
     show(body.lamps.left, blinks && vehicle.indicator > 0);
     show(body.lamps.right, blinks && vehicle.indicator < 0);
   }
+  for (size_t i = 0; i < traffic.bodies.size(); ++i) {
+    if (traffic.bodies[i].rider == kNoRider) continue;
+    const RigidTransform X_WB = PoseOf(traffic.model, state, i, t_ns);
+    const AffineTransform X_WM{
+        Mat3f::FromColumns(VecCast<float>(X_WB.R.column(0)), VecCast<float>(X_WB.R.column(1)), VecCast<float>(X_WB.R.column(2))),
+        VecCast<float>(X_WB.p)};
+    scene_state.moved.push_back({traffic.bodies[i].rider, X_WM, false});
+  }
 }
 
 std::shared_ptr<const TrafficState> TrafficLater(const SimTraffic& traffic, std::shared_ptr<const TrafficState> state, int64_t t_ns) {
@@ -207,11 +249,16 @@ void HideTraffic(const SimTraffic& traffic, SceneState& scene_state) {
   for (const TrafficBody& body : traffic.bodies)
     for (const uint32_t instance : {body.instance, body.lamps.brake, body.lamps.left, body.lamps.right})
       if (instance != kNoLamp) scene_state.moved.push_back({instance, {}, true});
+  for (const TrafficBody& body : traffic.bodies)
+    if (body.rider != kNoRider) scene_state.moved.push_back({body.rider, {}, true});
 }
 
 std::optional<size_t> VehicleOf(const SimTraffic& traffic, EntityId entity) {
-  const auto found = std::ranges::lower_bound(traffic.bodies, entity, {}, &TrafficBody::entity);
-  if (found == traffic.bodies.end() || found->entity != entity) return std::nullopt;
+  if (entity == kNoEntity) return std::nullopt;
+  auto found = std::ranges::lower_bound(traffic.bodies, entity, {}, &TrafficBody::entity);
+  if (found == traffic.bodies.end() || found->entity != entity)
+    found = std::ranges::find(traffic.bodies, entity, &TrafficBody::rider_entity);
+  if (found == traffic.bodies.end()) return std::nullopt;
   return static_cast<size_t>(found - traffic.bodies.begin());
 }
 

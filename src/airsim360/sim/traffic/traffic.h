@@ -21,6 +21,8 @@ struct VehicleLamps {
   uint32_t brake = kNoLamp, left = kNoLamp, right = kNoLamp;
 };
 
+inline constexpr uint32_t kNoRider = UINT32_MAX;
+
 /// A vehicle in the scene.
 struct TrafficBody {
   std::string name;  ///< of its entity: traffic/000
@@ -29,6 +31,8 @@ struct TrafficBody {
   EntityId entity = kNoEntity;
   float scale = 1;
   VehicleLamps lamps = {};
+  uint32_t rider = kNoRider;  ///< instance of who sits on a bicycle
+  EntityId rider_entity = kNoEntity;
   Vec3f offset_M;  ///< from the origin of its mesh to the ground below the middle of its box, metres, unscaled
 };
 
@@ -67,7 +71,7 @@ std::shared_ptr<const TrafficState> TrafficLater(const SimTraffic& traffic, std:
 /// The scene without any vehicles of the traffic.
 void HideTraffic(const SimTraffic& traffic, SceneState& scene_state);
 
-/// Index of the vehicle of an entity; nullopt: it is none of the traffic.
+/// Index of the vehicle of an entity, which may be a rider's; nullopt: it is none of the traffic.
 std::optional<size_t> VehicleOf(const SimTraffic& traffic, EntityId entity);
 /// "left", "right" or "off".
 const char* IndicatorName(const DrivingVehicle& vehicle);

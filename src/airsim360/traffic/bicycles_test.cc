@@ -1,0 +1,91 @@
+// Bicycles among vehicles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "airsim360/traffic/near_misses.h"
+#include "airsim360/traffic/test_roads.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr TrafficVehicle kBicycle{.shape = {.length = 1.8, .width = 0.65, .height = 1.75, .bicycle = true},
+                                  .driver = {.top_speed = 5, .acceleration = 0.8}};
+
+TEST(Bicycles, RideAMetreRightOfTheMiddleAtTheirOwnSpeed) {
+  TrafficModel model = ModelOf(Street(900, {}), 1);
+  model.vehicles[0] = kBicycle;
+  TrafficState state;
+  state.vehicles = {{.lane = 0, .ahead = {1, 2}, .s = 20}};
+  Drive(model, 30, state);
+  EXPECT_NEAR(state.vehicles[0].v, 5, 0.1);  // the street allows 13.9
+  const RigidTransform X = PoseOf(model, state, 0, state.t_ns);
+  EXPECT_NEAR(X.p.y, -1, 1e-9);
+  EXPECT_NEAR(X.R.column(0).x, 1, 1e-9);
+}
+
+// Round a bend the way of a bicycle is a circle with another radius; it never turns on the spot.
+TEST(Bicycles, KeepTheirDistanceFromTheMiddleInBends) {
+  TrafficModel model = ModelOf(RingRoad(200, 13.9f), 1);
+  model.vehicles[0] = kBicycle;
+  TrafficState state;
+  state.vehicles = {{.lane = 0, .ahead = {1, 0}, .behind = {1, 0, 1}, .s = 20}};
+  for (int tick = 0; tick < 1000; ++tick) {
+    TickTraffic(model, {}, state);
+    const RigidTransform X = PoseOf(model, state, 0, state.t_ns);
+    EXPECT_NEAR(std::hypot(X.p.x, X.p.y), 200 / (2 * M_PI) + 1, 0.1);
+    EXPECT_GT(std::abs(X.R.column(0).x * X.p.y - X.R.column(0).y * X.p.x) / std::hypot(X.p.x, X.p.y), 0.99);
+  }
+}
+
+TEST(Bicycles, StopForWhoStandsAtTheEdgeAndNotForWhoStandsInTheMiddle) {
+  TrafficModel model = ModelOf(Street(900, {}), 1);
+  model.vehicles[0] = kBicycle;
+  const auto passes = [&](double y) {
+    TrafficState state;
+    state.vehicles = {{.lane = 0, .ahead = {1, 2}, .s = 100, .v = 5}};
+    const TrafficObstacle person{{150, y, 0}, {}};
+    Drive(model, 40, state, std::span(&person, 1));
+    return state.vehicles[0].s > 160;
+  };
+  EXPECT_FALSE(passes(-1));
+  EXPECT_TRUE(passes(0.2));
+}
+
+TEST(Bicycles, AreOvertakenWhereThereIsALaneForItAndFollowedElsewhere) {
+  for (const bool wide : {true, false}) {
+    TrafficModel model = ModelOf(wide ? TwoLanes() : Street(900, {}), 2);
+    model.vehicles[0] = kBicycle;
+    TrafficState state;
+    const LaneId lane = wide ? 1 : 0;
+    const std::array<LaneId, 2> ahead = wide ? std::array<LaneId, 2>{3, 1} : std::array<LaneId, 2>{1, 2};
+    state.vehicles = {{.lane = lane, .ahead = ahead, .s = 80, .v = 5}, {.lane = lane, .ahead = ahead, .s = 30, .v = 12}};
+    bool passed = false;
+    double least = INFINITY;
+    for (int tick = 0; tick < 60 * 20; ++tick) {
+      TickTraffic(model, {}, state);
+      const RigidTransform bicycle = PoseOf(model, state, 0, state.t_ns), car = PoseOf(model, state, 1, state.t_ns);
+      const double beside = std::abs(car.p.y - bicycle.p.y) - (1.8 + 0.65) / 2, along = std::abs(car.p.x - bicycle.p.x) - (4.5 + 1.8) / 2;
+      if (along < 0) least = std::min(least, beside);
+      passed |= car.p.x - bicycle.p.x > 10;
+    }
+    EXPECT_EQ(passed, wide);
+    EXPECT_GT(least, 1.0) << wide;  // a metre and more beside it, or never beside it
+  }
+}
+
+TEST(Bicycles, ChangeToTheLaneOnTheRightAndStayThere) {
+  TrafficModel model = ModelOf(TwoLanes(), 2);
+  model.vehicles = {kBicycle, kBicycle};
+  model.vehicles[1].driver.top_speed = 3.5;
+  TrafficState state;
+  state.vehicles = {{.lane = 0, .ahead = {2, 0}, .s = 30, .v = 5}, {.lane = 1, .ahead = {3, 1}, .s = 120, .v = 3.5}};
+  Drive(model, 60, state);
+  EXPECT_EQ(state.vehicles[0].lane, 1u);
+  EXPECT_LT(state.vehicles[0].s, state.vehicles[1].s);  // not past the slower one
+}
+
+}  // namespace
+}  // namespace airsim360
