@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "airsim360/worlds/city_park/layout.h"
@@ -45,10 +46,23 @@ void Curve::Index() {
   }
 }
 
+float Curve::Within(Vec2f p) const {
+  const Chunk* nearest = nullptr;
+  float least = std::numeric_limits<float>::max();
+  for (const Chunk& chunk : chunks_) {
+    const Vec2f to = p - chunk.center;
+    const float square = to.x * to.x + to.y * to.y;
+    if (square < least) least = square, nearest = &chunk;
+  }
+  // A little more, for what rounding takes.
+  return nearest == nullptr ? least : (std::sqrt(least) + nearest->radius) * 1.0001f + 1e-3f;
+}
+
 Curve::Nearest Curve::Find(Vec2f p) const {
   Nearest best{1e9f, 0, 0};
+  const float within = Within(p);
   for (const Chunk& chunk : chunks_) {
-    if (std::hypot(p.x - chunk.center.x, p.y - chunk.center.y) - chunk.radius >= best.distance) continue;
+    if (std::hypot(p.x - chunk.center.x, p.y - chunk.center.y) - chunk.radius >= std::min(best.distance, within)) continue;
     for (size_t i = chunk.first; i < chunk.last; ++i) {
       const Vec2f a = points_[i], v = points_[i + 1] - a, w = p - a;
       const float length2 = v.x * v.x + v.y * v.y;
@@ -67,9 +81,10 @@ float Curve::Distance(Vec2f p, float limit) const {
   float best = limit;
   const float outside_x = std::max({low_.x - p.x, 0.0f, p.x - high_.x}), outside_y = std::max({low_.y - p.y, 0.0f, p.y - high_.y});
   if (outside_x * outside_x + outside_y * outside_y >= best * best) return best;
+  const float within = Within(p);
   for (const Chunk& chunk : chunks_) {
     const Vec2f to = p - chunk.center;
-    const float reach = best + chunk.radius;
+    const float reach = std::min(best, within) + chunk.radius;
     if (to.x * to.x + to.y * to.y >= reach * reach) continue;
     for (size_t i = chunk.first; i < chunk.last; ++i) {
       const Vec2f a = points_[i], v = points_[i + 1] - a, w = p - a;

@@ -47,6 +47,8 @@ class Curve {
     size_t first, last;
   };
   void Index();
+  /// No less than the distance to p, by the circle whose middle is nearest: what lies farther off need not be looked at.
+  float Within(Vec2f p) const;
   size_t Segment(float s) const;
   std::vector<Vec2f> points_;
   std::vector<float> s_;

@@ -8,12 +8,50 @@
 #include <utility>
 
 #include "airsim360/base/random.h"
+#include "airsim360/worlds/city_park/noise.h"
 #include "airsim360/worlds/city_park/park.h"
 #include "airsim360/worlds/city_park/road_parts.h"
 #include "airsim360/worlds/vegetation/park_trees.h"
 
 namespace airsim360::internal::park {
 namespace {
+
+TEST(Fractal, IsTheSumOfItsOctavesOfNoise) {
+  RngStream rng(3, "fractal test");
+  for (int i = 0; i < 20000; ++i) {
+    const float x0 = static_cast<float>(rng.Uniform(-300, 300)), y0 = static_cast<float>(rng.Uniform(-300, 300));
+    const int octaves = 1 + i % 4, seed = i % 97;
+    float x = x0, y = y0, sum = 0, weight = 0.5f, total = 0;
+    for (int k = 0; k < octaves; ++k) {
+      sum += weight * Noise(x, y, seed + 7 * k);
+      total += weight;
+      weight *= 0.5f;
+      const float t = 1.6f * x - 1.2f * y + 3.1f;
+      y = 1.2f * x + 1.6f * y + 1.7f;
+      x = t;
+    }
+    ASSERT_EQ(Fractal(x0, y0, octaves, seed), sum / total) << x0 << " " << y0 << " " << octaves;
+  }
+}
+
+// Whatever is skipped, the distance is that of the nearest of all segments.
+TEST(Curve, DistanceIsTheLeastOfAllSegments) {
+  const Layout layout;
+  const std::vector<Vec2f>& points = layout.main().points();
+  RngStream rng(4, "curve test");
+  for (int i = 0; i < 2000; ++i) {
+    const double reach = i % 2 ? 60 : 900;
+    const Vec2f p{static_cast<float>(rng.Uniform(-reach, reach)), static_cast<float>(rng.Uniform(-reach, reach))};
+    float least = 1e9f;
+    for (size_t k = 0; k + 1 < points.size(); ++k) {
+      const Vec2f v = points[k + 1] - points[k], w = p - points[k];
+      const Vec2f d = w - v * std::clamp((w.x * v.x + w.y * v.y) / (v.x * v.x + v.y * v.y), 0.0f, 1.0f);
+      least = std::min(least, std::sqrt(d.x * d.x + d.y * d.y));
+    }
+    ASSERT_EQ(layout.main().Distance(p), least) << p.x << " " << p.y;
+    ASSERT_EQ(layout.main().Find(p).distance, least) << p.x << " " << p.y;
+  }
+}
 
 TEST(Curve, FindsThePointThatAtCameFrom) {
   const Layout layout;

@@ -62,7 +62,8 @@ Vec3f RoadColor(float s, float d, float half) {
   const float stone = Voronoi(s * 40, d * 40, 59).first;
   c = c * (0.84f + 0.36f * stone) * (0.88f + 0.24f * Fractal(s / 0.9f, d / 0.9f, 3, 62));
   // Dust blown in from the beds, more of it at the edges.
-  const float dust = Ramp(0.50f, 0.70f, Fractal(s / 14 + 4, d / 4, 4, 13)) * (0.55f + 0.9f * Fractal(s / 1.3f, d / 1.3f, 3, 54));
+  float dust = Ramp(0.50f, 0.70f, Fractal(s / 14 + 4, d / 4, 4, 13));
+  if (dust > 0) dust *= 0.55f + 0.9f * Fractal(s / 1.3f, d / 1.3f, 3, 54);
   const float edge = Ramp(half - 1.1f, half, across) * 0.5f;
   c = Mix(c, Vec3f{0.200f, 0.152f, 0.100f} * (0.75f + 0.4f * mottle + 0.2f * (fine - 0.5f)), std::min(0.8f, 0.62f * dust + edge));
   const float oil = Ramp(0.66f, 0.78f, Fractal(s / 3.2f + 60, d / 1.4f, 3, 15));

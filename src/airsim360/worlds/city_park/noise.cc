@@ -1,6 +1,38 @@
 #include "airsim360/worlds/city_park/noise.h"
 
 namespace airsim360::internal::park {
+namespace {
+
+// Four lanes, as GCC and Clang have them on any machine; every lane holds the very floats of Noise.
+using Floats __attribute__((vector_size(16))) = float;
+using Ints __attribute__((vector_size(16))) = int32_t;
+using Words __attribute__((vector_size(16))) = uint32_t;
+
+Words ScrambleLanes(Words h) {
+  h = (h ^ (h >> 16)) * 0x7feb352du;
+  h = (h ^ (h >> 15)) * 0x846ca68bu;
+  return h ^ (h >> 16);
+}
+Floats UnitLanes(Words h) { return __builtin_convertvector(reinterpret_cast<Ints>(h >> 8), Floats) * 0x1p-24f; }
+Floats MixLanes(Floats a, Floats b, Floats t) { return a + (b - a) * t; }
+Ints FloorLanes(Floats x) {
+  const Ints toward_zero = __builtin_convertvector(x, Ints);
+  return toward_zero + (__builtin_convertvector(toward_zero, Floats) > x);  // a lane that holds is -1
+}
+
+Floats NoiseLanes(Floats x, Floats y, Words seed) {
+  const Ints i = FloorLanes(x), j = FloorLanes(y);
+  Floats u = x - __builtin_convertvector(i, Floats), v = y - __builtin_convertvector(j, Floats);
+  u = u * u * (3 - 2 * u);
+  v = v * v * (3 - 2 * v);
+  const Words s = ScrambleLanes(seed * 83492791u + 17u), row = reinterpret_cast<Words>(j) * 19349663u;
+  const Words row0 = ScrambleLanes(row ^ s), row1 = ScrambleLanes((row + 19349663u) ^ s);
+  const Words c0 = reinterpret_cast<Words>(i) * 73856093u, c1 = c0 + 73856093u;
+  const Floats low = MixLanes(UnitLanes(ScrambleLanes(c0 ^ row0)), UnitLanes(ScrambleLanes(c1 ^ row0)), u);
+  return MixLanes(low, MixLanes(UnitLanes(ScrambleLanes(c0 ^ row1)), UnitLanes(ScrambleLanes(c1 ^ row1)), u), v);
+}
+
+}  // namespace
 
 float Noise(float x, float y, int seed) {
   const float fx = std::floor(x), fy = std::floor(y);
@@ -16,17 +48,22 @@ float Noise(float x, float y, int seed) {
 }
 
 float Fractal(float x, float y, int octaves, int seed) {
-  float sum = 0, weight = 0.5f, total = 0;
-  for (int i = 0; i < octaves; ++i) {
-    sum += weight * Noise(x, y, seed + 7 * i);
-    total += weight;
-    weight *= 0.5f;
-    // A turn of 37 degrees and a scale of 2.
-    const float t = 1.6f * x - 1.2f * y + 3.1f;
-    y = 1.2f * x + 1.6f * y + 1.7f;
-    x = t;
+  // Each octave is turned by 37 degrees and twice as fine. All four are made as lanes: three cost no more than two.
+  const auto turn = [](Vec2f p) { return Vec2f{1.6f * p.x - 1.2f * p.y + 3.1f, 1.2f * p.x + 1.6f * p.y + 1.7f}; };
+  const Vec2f a{x, y}, b = turn(a), c = turn(b), d = turn(c);
+  const auto s = static_cast<uint32_t>(seed);
+  const Floats n = NoiseLanes(Floats{a.x, b.x, c.x, d.x}, Floats{a.y, b.y, c.y, d.y}, Words{s, s + 7, s + 14, s + 21});
+  const float one = 0.5f * n[0], two = one + 0.25f * n[1], three = two + 0.125f * n[2];
+  switch (octaves) {
+    case 1:
+      return n[0];
+    case 2:
+      return two / 0.75f;
+    case 3:
+      return three / 0.875f;
+    default:
+      return (three + 0.0625f * n[3]) / 0.9375f;
   }
-  return sum / total;
 }
 
 Cells Voronoi(float x, float y, int seed) {

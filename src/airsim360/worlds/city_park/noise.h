@@ -31,7 +31,7 @@ inline float Ramp(float a, float b, float x) {
 
 /// In [0, 1], cells of 1.
 float Noise(float x, float y, int seed);
-/// `octaves` of Noise, each turned and twice as fine, weights halving; in [0, 1], mean 0.5.
+/// One to four `octaves` of Noise, each turned and twice as fine, weights halving; in [0, 1], mean 0.5.
 float Fractal(float x, float y, int octaves, int seed);
 /// Distances to the nearest and second nearest of random points, one a cell, and the nearest one's hash.
 struct Cells {

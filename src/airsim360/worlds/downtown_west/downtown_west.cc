@@ -7,6 +7,34 @@
 #include "airsim360/worlds/town/district.h"
 #include "airsim360/worlds/town/street_lanes.h"
 
+namespace airsim360 {
+
+StreetPlan PlanDowntownWest() {
+  StreetPlan plan;
+  plan.bike_lane_row = 2;
+  plan.north_south = {{-277, 6}, {-165, 6}, {-57, 5.6f}, {53, 7}, {165, 6}, {277, 6}};
+  plan.east_west = {{-273, 6}, {-161, 6}, {-53, 7}, {57, 5.6f}, {165, 6}, {277, 6}};
+  for (int row = 0; row < 5; ++row) {
+    for (int column = 0; column < 5; ++column) {
+      const StreetLine &west = plan.north_south[column], &east = plan.north_south[column + 1];
+      const StreetLine &south = plan.east_west[row], &north = plan.east_west[row + 1];
+      Block block;
+      block.column = column;
+      block.row = row;
+      block.kerb = {west.center + west.half_width, south.center + south.half_width, east.center - east.half_width,
+                    north.center - north.half_width};
+      const bool core = column >= 1 && column <= 3 && row >= 1 && row <= 3;
+      if (!core) block.kind = BlockKind::kBackdrop;
+      if (column == 2 && row == 2) block.kind = BlockKind::kPlaza;
+      if (column == 3 && row == 2) block.kind = BlockKind::kPark;
+      plan.blocks.push_back(block);
+    }
+  }
+  return plan;
+}
+
+}  // namespace airsim360
+
 namespace airsim360::internal {
 std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options) { return BuildDowntownWest(options, nullptr); }
 

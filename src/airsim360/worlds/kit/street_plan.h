@@ -59,12 +59,12 @@ struct StreetPlan {
 };
 
 /// The plan of downtown_west: 3 x 3 core blocks (plaza in the middle, park to its east) in a ring of backdrop
-/// blocks.
+/// blocks (worlds/downtown_west/).
 StreetPlan PlanDowntownWest();
 
 /// The plan of new_york_city: avenues 132 m apart, streets 84 m apart, 3 x 3 core blocks (the park is the
 /// middle one of the eastern column) in a ring of backdrop blocks. The boulevard and a street cross at the
-/// origin.
+/// origin (worlds/new_york_city/).
 StreetPlan PlanNewYorkCity();
 
 /// Height of the carriageway at distance `d` from the centre line: a crown of 1.8 % above gutters at -0.13 m.

@@ -5,6 +5,34 @@
 #include "airsim360/worlds/town/buildings.h"
 #include "airsim360/worlds/town/street_lanes.h"
 
+namespace airsim360 {
+
+StreetPlan PlanNewYorkCity() {
+  StreetPlan plan;
+  for (int i = -2; i <= 3; ++i) {
+    const float at = static_cast<float>(i);
+    plan.north_south.push_back({132 * at, 13, i == 0 ? StreetKind::kBoulevard : StreetKind::kAvenue});
+    plan.east_west.push_back({84 * at, 6.5f});
+  }
+  for (int row = 0; row < 5; ++row) {
+    for (int column = 0; column < 5; ++column) {
+      const auto c = static_cast<size_t>(column), r = static_cast<size_t>(row);
+      Block block;
+      block.column = column;
+      block.row = row;
+      block.kerb = {plan.north_south[c].center + 13, plan.east_west[r].center + 6.5f, plan.north_south[c + 1].center - 13,
+                    plan.east_west[r + 1].center - 6.5f};
+      const bool core = column >= 1 && column <= 3 && row >= 1 && row <= 3;
+      if (!core) block.kind = BlockKind::kBackdrop;
+      if (column == 3 && row == 2) block.kind = BlockKind::kPark;
+      plan.blocks.push_back(block);
+    }
+  }
+  return plan;
+}
+
+}  // namespace airsim360
+
 namespace airsim360::internal {
 
 std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options) { return BuildNewYorkCity(options, nullptr); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <vector>
 
 #include "airsim360/math/angles.h"
 #include "airsim360/scene/luminance.h"
@@ -97,39 +98,73 @@ constexpr Advert kAdverts[] = {{"NORTHFIELD", "THE LONG WAY HOME"},
                                {"BRIGHT & DAWE", "ATTORNEYS AT LAW"}};
 static_assert(std::size(kAdverts) == kVistaBoards);
 
-// A photographed country: sky with clouds, ridges one behind the other in haze, a near slope or water, and a line of print.
+// A photographed country: sky with clouds, ridges one behind the other in haze, a near slope or water.
+class Country {
+ public:
+  /// `high`: where the horizon lies, 0 … 1.
+  Country(const Canvas& canvas, uint32_t k, float high)
+      : k_(k),
+        water_(k % 4 == 1),
+        evening_(k % 3 == 0   ? 1.0f
+                 : k % 3 == 1 ? 0.25f
+                              : 0.0f),
+        horizon_(0.42f + 0.16f * high),
+        zenith_(Vec3f{0.10f, 0.20f, 0.42f} * (1 - 0.5f * evening_)),
+        low_(Vec3f{0.55f, 0.60f, 0.66f} * (1 - evening_) + Vec3f{0.66f, 0.36f, 0.17f} * evening_),
+        ground_(water_  ? Vec3f{0.05f, 0.10f, 0.13f}
+                : k % 2 ? Vec3f{0.09f, 0.12f, 0.035f}
+                        : Vec3f{0.20f, 0.15f, 0.07f}),
+        near_(canvas, [&](float u) { return horizon_ + 0.20f + 0.05f * TileFractal(u, 0.7f, 5, 2, 4, 441 + k); }) {
+    for (int layer = 0; layer < 3; ++layer) {
+      const auto l = static_cast<float>(layer);
+      ridges_.emplace_back(canvas, [&](float u) {
+        const float base = horizon_ + 0.05f * l, rough = TileFractal(u + 0.31f * l, 0.2f, 3 + 2 * layer, 2, 6, 421 + k_ * 5);
+        return base - (0.26f - 0.06f * l) * (rough - 0.22f);
+      });
+    }
+  }
+
+  Vec3f At(float u, float v) const {
+    const float du = u - 0.5f, dv = v - 0.5f;
+    return Unshaded(u, v) * (1.05f - 0.55f * (du * du + dv * dv));
+  }
+
+ private:
+  Vec3f Unshaded(float u, float v) const {
+    const float near = near_(u);
+    if (v > near) {
+      const float t = (v - near) / (1 - near), grain = TileFractal(u, v / (0.3f + t), water_ ? 6 : 40, 48, 4, 451 + k_);
+      return water_ ? ground_ * (0.5f + grain) + low_ * (0.28f * (1 - t) * grain) : ground_ * (0.45f + 1.1f * grain);
+    }
+    for (int layer = 2; layer >= 0; --layer) {
+      if (v < ridges_[static_cast<size_t>(layer)](u)) continue;
+      const float haze = 0.70f - 0.28f * static_cast<float>(layer), light = 0.6f + 0.8f * TileFractal(u, v, 24, 24, 4, 431 + k_);
+      return (ground_ * 0.6f + Vec3f{0.02f, 0.03f, 0.035f}) * light * (1 - haze) + low_ * (0.62f * haze);
+    }
+    const float up = std::clamp(v / horizon_, 0.0f, 1.0f),
+                cloud = std::clamp((TileFractal(u, v * 1.6f, 3, 4, 6, 411 + k_) - 0.50f) * 5, 0.0f, 1.0f);
+    const Vec3f clear = zenith_ * (1 - up * up) + low_ * (up * up);
+    return clear * (1 - 0.7f * cloud) +
+           (Vec3f{0.72f, 0.70f, 0.68f} * (1 - evening_) + Vec3f{0.62f, 0.34f, 0.22f} * evening_) * (0.7f * cloud);
+  }
+
+  uint32_t k_;
+  bool water_;
+  float evening_, horizon_;
+  Vec3f zenith_, low_, ground_;
+  Canvas::Columns near_;
+  std::vector<Canvas::Columns> ridges_;
+};
+
+// A country and a line of print.
 Texture Vista(uint32_t k) {
   constexpr Vec2f kSize{480, 288};
   Canvas c(static_cast<int>(kSize.x), static_cast<int>(kSize.y), kBlack);
   const auto dice = [&](uint32_t i) {
     return TileNoise(static_cast<float>(k) * 2.31f + 0.5f, static_cast<float>(i) * 1.7f + 0.3f, 64, 64, 401);
   };
-  const float evening = k % 3 == 0 ? 1.0f : k % 3 == 1 ? 0.25f : 0.0f, horizon = 0.42f + 0.16f * dice(1);
-  const bool water = k % 4 == 1;
-  const Vec3f zenith = Vec3f{0.10f, 0.20f, 0.42f} * (1 - 0.5f * evening),
-              low = Vec3f{0.55f, 0.60f, 0.66f} * (1 - evening) + Vec3f{0.66f, 0.36f, 0.17f} * evening;
-  const Vec3f ground = water ? Vec3f{0.05f, 0.10f, 0.13f} : k % 2 ? Vec3f{0.09f, 0.12f, 0.035f} : Vec3f{0.20f, 0.15f, 0.07f};
-  c.Paint([&](float u, float v, Vec3f) {
-    const float up = std::clamp(v / horizon, 0.0f, 1.0f),
-                cloud = std::clamp((TileFractal(u, v * 1.6f, 3, 4, 6, 411 + k) - 0.50f) * 5, 0.0f, 1.0f);
-    Vec3f color = zenith * (1 - up * up) + low * (up * up);
-    color =
-        color * (1 - 0.7f * cloud) + (Vec3f{0.72f, 0.70f, 0.68f} * (1 - evening) + Vec3f{0.62f, 0.34f, 0.22f} * evening) * (0.7f * cloud);
-    for (int layer = 0; layer < 3; ++layer) {
-      const float base = horizon + 0.05f * static_cast<float>(layer),
-                  rough = TileFractal(u + 0.31f * static_cast<float>(layer), 0.2f, 3 + 2 * layer, 2, 6, 421 + k * 5);
-      if (v < base - (0.26f - 0.06f * static_cast<float>(layer)) * (rough - 0.22f)) continue;
-      const float haze = 0.70f - 0.28f * static_cast<float>(layer), light = 0.6f + 0.8f * TileFractal(u, v, 24, 24, 4, 431 + k);
-      color = (ground * 0.6f + Vec3f{0.02f, 0.03f, 0.035f}) * light * (1 - haze) + low * (0.62f * haze);
-    }
-    const float near = horizon + 0.20f + 0.05f * TileFractal(u, 0.7f, 5, 2, 4, 441 + k);
-    if (v > near) {
-      const float t = (v - near) / (1 - near), grain = TileFractal(u, v / (0.3f + t), water ? 6 : 40, 48, 4, 451 + k);
-      color = water ? ground * (0.5f + grain) + low * (0.28f * (1 - t) * grain) : ground * (0.45f + 1.1f * grain);
-    }
-    const float du = u - 0.5f, dv = v - 0.5f;
-    return color * (1.05f - 0.55f * (du * du + dv * dv));
-  });
+  const Country country(c, k, dice(1));
+  c.Paint([&](float u, float v, Vec3f) { return country.At(u, v); });
   const Advert& advert = kAdverts[k];
   const bool above = dice(3) < 0.5f, panel = k % 5 == 2;
   const float y = above ? 0.16f : 0.78f, wide = 0.62f + 0.25f * dice(4);
@@ -302,12 +337,13 @@ static_assert(std::size(kBoardPainters) == kDrawnBoards);
 void PrintAndAge(Canvas& c, uint32_t seed, int sheets_x, int sheets_y) {
   const auto dice = [&](int k) { return TileNoise(static_cast<float>(seed % 61) + 0.37f * static_cast<float>(k), 0.5f, 64, 64, 301); };
   const float faded = 0.16f + 0.22f * dice(1), lift = 0.012f + 0.02f * dice(2);
+  const Canvas::Columns streaks(c, [&](float u) { return TileFractal(u, 0.3f, 37, 2, 2, 331 + seed); });
   c.Paint([&](float u, float v, Vec3f old) {
     const float su = u * static_cast<float>(sheets_x), sv = v * static_cast<float>(sheets_y), fu = su - std::floor(su),
                 fv = sv - std::floor(sv);
     const float sheet = TileNoise(std::floor(su) * 3.7f + 0.4f, std::floor(sv) * 5.3f + 0.6f, 64, 64, 311 + seed);
     const bool seam = (fu < 0.012f && su >= 1) || (fv < 0.016f && sv >= 1);
-    const float cloud = TileFractal(u, v, 4, 3, 4, 321 + seed), streak = TileFractal(u, 0.3f, 37, 2, 2, 331 + seed);
+    const float cloud = TileFractal(u, v, 4, 3, 4, 321 + seed), streak = streaks(u);
     const float grey = Luminance(old);
     Vec3f color = old * (1 - faded) + Vec3f{grey, grey, 1.04f * grey} * faded;
     color = color * (0.80f * (0.95f + 0.10f * sheet) * (0.92f + 0.16f * cloud)) + Vec3f{lift, lift, lift};

@@ -10,6 +10,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/image/color.h"
 #include "airsim360/worlds/texture/sign_lettering.h"
+#include "airsim360/worlds/texture/srgb_codes.h"
 
 namespace airsim360::internal {
 namespace {
@@ -19,19 +20,28 @@ float Lattice(int x, int y, uint64_t seed) {
   return static_cast<float>(key >> 40) * 0x1p-24f;
 }
 
-int Wrapped(int i, int period) { return ((i % period) + period) % period; }
+int Wrapped(int i, int period) { return i >= 0 && i < period ? i : ((i % period) + period) % period; }
 
-Rgba8 Encode(Vec3f c) { return {LinearToSrgb8(c.x), LinearToSrgb8(c.y), LinearToSrgb8(c.z), 255}; }
+// As std::floor, which is a call of a function where a processor of any age is asked for.
+int FloorToInt(float x) {
+  const int toward_zero = static_cast<int>(x);
+  return toward_zero - (static_cast<float>(toward_zero) > x);
+}
+
+Rgba8 Encode(Vec3f c) {
+  static const SrgbCodes code;
+  return {code(c.x), code(c.y), code(c.z), 255};
+}
 
 }  // namespace
 
 float TileNoise(float x, float y, int period_x, int period_y, uint64_t seed) {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
+  const int ix = FloorToInt(x), iy = FloorToInt(y);
   const auto ease = [](float t) { return t * t * (3 - 2 * t); };
-  const float s = ease(x - fx), t = ease(y - fy);
-  const auto at = [&](int dx, int dy) { return Lattice(Wrapped(ix + dx, period_x), Wrapped(iy + dy, period_y), seed); };
-  const float a = at(0, 0) + (at(1, 0) - at(0, 0)) * s, b = at(0, 1) + (at(1, 1) - at(0, 1)) * s;
+  const float s = ease(x - static_cast<float>(ix)), t = ease(y - static_cast<float>(iy));
+  const int x0 = Wrapped(ix, period_x), x1 = Wrapped(ix + 1, period_x), y0 = Wrapped(iy, period_y), y1 = Wrapped(iy + 1, period_y);
+  const float a0 = Lattice(x0, y0, seed), b0 = Lattice(x0, y1, seed);
+  const float a = a0 + (Lattice(x1, y0, seed) - a0) * s, b = b0 + (Lattice(x1, y1, seed) - b0) * s;
   return a + (b - a) * t;
 }
 
@@ -83,29 +93,54 @@ Texture NormalsFromHeight(std::string name, int width, int height, float aspect,
 Canvas::Canvas(int width, int height, Vec3f background)
     : width_(static_cast<float>(width)), height_(static_cast<float>(height)), image_(width, height, Encode(background)) {}
 
-void Canvas::Fill(Vec2f min_px, Vec2f max_px, const std::function<bool(float, float)>& inside, Vec3f color) {
+template <class Hits>
+void Canvas::ForPixels(Vec2f min_px, Vec2f max_px, const Hits& hits_of, Vec3f color) {
   const int x0 = std::max(0, static_cast<int>(std::floor(min_px.x))), x1 = std::min(image_.width(), static_cast<int>(std::ceil(max_px.x)));
   const int y0 = std::max(0, static_cast<int>(std::floor(min_px.y))), y1 = std::min(image_.height(), static_cast<int>(std::ceil(max_px.y)));
+  const Rgba8 whole = Encode(color);
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
-      int hits = 0;
-      for (int k = 0; k < 16; ++k) {
-        hits += inside(static_cast<float>(x) + (static_cast<float>(k % 4) + 0.5f) / 4,
-                       static_cast<float>(y) + (static_cast<float>(k / 4) + 0.5f) / 4);
-      }
+      const int hits = hits_of(x, y);
       if (hits == 0) continue;
+      Rgba8& pixel = image_(x, y);
+      if (hits == 16) {
+        pixel = whole;
+        continue;
+      }
       const float f = static_cast<float>(hits) / 16;
-      const Rgba8 old = image_(x, y);
-      const Vec3f under{SrgbToLinear(old.r), SrgbToLinear(old.g), SrgbToLinear(old.b)};
-      image_(x, y) = Encode(under * (1 - f) + color * f);
+      const Vec3f under{SrgbToLinear(pixel.r), SrgbToLinear(pixel.g), SrgbToLinear(pixel.b)};
+      pixel = Encode(under * (1 - f) + color * f);
     }
   }
 }
 
+void Canvas::Fill(Vec2f min_px, Vec2f max_px, const std::function<bool(float, float)>& inside, Vec3f color) {
+  ForPixels(
+      min_px, max_px,
+      [&](int x, int y) {
+        int hits = 0;
+        for (int k = 0; k < 16; ++k) {
+          hits += inside(static_cast<float>(x) + (static_cast<float>(k % 4) + 0.5f) / 4,
+                         static_cast<float>(y) + (static_cast<float>(k / 4) + 0.5f) / 4);
+        }
+        return hits;
+      },
+      color);
+}
+
 void Canvas::Rectangle(Vec2f min, Vec2f max, Vec3f color) {
   const Vec2f lo{min.x * width_, min.y * height_}, hi{max.x * width_, max.y * height_};
-  Fill(
-      lo, hi, [&](float x, float y) { return x >= lo.x && x < hi.x && y >= lo.y && y < hi.y; }, color);
+  // Of a pixel's 4x4 samples those inside are so many columns times so many rows.
+  const auto samples = [](int pixel, float from, float to) {
+    int inside = 0;
+    for (int k = 0; k < 4; ++k) {
+      const float at = static_cast<float>(pixel) + (static_cast<float>(k) + 0.5f) / 4;
+      inside += at >= from && at < to;
+    }
+    return inside;
+  };
+  ForPixels(
+      lo, hi, [&](int x, int y) { return samples(x, lo.x, hi.x) * samples(y, lo.y, hi.y); }, color);
 }
 
 void Canvas::Disc(Vec2f center, float r, Vec3f color) {
@@ -149,6 +184,10 @@ void Canvas::Letters(std::string_view text, Vec2f center, float size, Vec3f colo
   Fill(
       {x0, y0}, {x0 + line.width() * wide, y0 + high}, [&](float x, float y) { return line.Inked((x - x0) / wide, (y - y0) / high); },
       color);
+}
+
+Canvas::Columns::Columns(const Canvas& canvas, const std::function<float(float)>& value) : width_(canvas.width_) {
+  for (int x = 0; x < canvas.image_.width(); ++x) values_.push_back(value((static_cast<float>(x) + 0.5f) / width_));
 }
 
 void Canvas::Paint(const std::function<Vec3f(float, float, Vec3f)>& color) {

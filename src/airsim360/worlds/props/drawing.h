@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string_view>
+#include <vector>
 
 #include "airsim360/image/image.h"
 #include "airsim360/scene/material.h"
@@ -44,7 +45,23 @@ class Canvas {
 
   Texture Finish(std::string name);
 
+  /// What of a picture depends on u alone, once for each column.
+  class Columns {
+   public:
+    Columns(const Canvas& canvas, const std::function<float(float u)>& value);
+    /// `u`: of the middle of a column, as Paint gives it.
+    float operator()(float u) const { return values_[static_cast<size_t>(u * width_)]; }
+
+   private:
+    float width_;
+    std::vector<float> values_;
+  };
+
  private:
+  /// Blends `color` into pixels by `hits_of(x, y)` of their 16 samples.
+  template <class Hits>
+  void ForPixels(Vec2f min_px, Vec2f max_px, const Hits& hits_of, Vec3f color);
+
   float width_, height_;
   Image<Rgba8> image_;
 };

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -9,6 +10,7 @@
 #include "airsim360/math/angles.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/finishes.h"
+#include "airsim360/worlds/texture/srgb_codes.h"
 
 namespace airsim360::internal {
 namespace {
@@ -136,6 +138,40 @@ TEST(TileNoise, RepeatsAfterItsPeriodAndStaysWithinZeroAndOne) {
     EXPECT_LE(n, 1);
     EXPECT_NEAR(n, TileNoise(x + 8, y - 4, 8, 4, 5), 1e-5);
   }
+}
+
+// Also right before, on and right after the border of two codes.
+TEST(SrgbCodes, AreThoseOfTheFormula) {
+  const SrgbCodes code;
+  for (int k = 0; k < 255; ++k) {
+    const auto border = static_cast<float>(SrgbDecode((k + 0.5) / 255));
+    float c = border;
+    for (int i = 0; i < 8; ++i) c = std::nextafter(c, -1.0f);
+    for (int i = 0; i < 17; ++i, c = std::nextafter(c, 2.0f)) ASSERT_EQ(code(c), LinearToSrgb8(c)) << k << " " << c;
+  }
+  for (int i = -100; i < 4200; ++i) {
+    const float c = static_cast<float>(i) / 4096 + 1e-5f;
+    ASSERT_EQ(code(c), LinearToSrgb8(c)) << c;
+  }
+}
+
+TEST(Canvas, ARectangleIsWhatFillsItsInside) {
+  const Vec2f lo{0.123f, 0.27f}, hi{0.771f, 0.634f};
+  Canvas quick(37, 21, {0.2f, 0.3f, 0.1f}), asked(37, 21, {0.2f, 0.3f, 0.1f});
+  quick.Rectangle(lo, hi, {0.9f, 0.05f, 0.4f});
+  const Vec2f a{lo.x * 37, lo.y * 21}, b{hi.x * 37, hi.y * 21};
+  asked.Fill(a, b, [&](float x, float y) { return x >= a.x && x < b.x && y >= a.y && y < b.y; }, {0.9f, 0.05f, 0.4f});
+  const Texture x = quick.Finish("quick"), y = asked.Finish("asked");
+  EXPECT_TRUE(std::ranges::equal(x.levels[0].pixels(), y.levels[0].pixels()));
+}
+
+TEST(Canvas, ColumnsAreFoundByTheMiddlesThatPaintGives) {
+  Canvas canvas(480, 3, {0, 0, 0});
+  const Canvas::Columns columns(canvas, [](float u) { return u; });
+  canvas.Paint([&](float u, float, Vec3f) {
+    EXPECT_EQ(columns(u), u);
+    return Vec3f{};
+  });
 }
 
 TEST(Canvas, ADiscHasTheAreaOfACircle) {

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <vector>
 
 #include "airsim360/base/parallel.h"
-#include "airsim360/image/color.h"
 #include "airsim360/worlds/texture/recipe_shapes.h"
 #include "airsim360/worlds/texture/sign_lettering.h"
+#include "airsim360/worlds/texture/srgb_codes.h"
 #include "airsim360/worlds/texture/surfaces.h"
 
 namespace airsim360::internal {
@@ -178,13 +177,6 @@ Vec3f BoardColor(const Board& b, int texel, float y) {
   return Mix(color, Vec3f{0.20f, 0.18f, 0.15f}, 0.22f * Step(0.62f, 0.8f, y));
 }
 
-// LinearToSrgb8 by table. The table's steps are rounded to floats: a value that is one of them is asked for itself.
-uint8_t SignByte(float linear) {
-  static const SrgbEncoder kEncode;
-  const uint8_t byte = kEncode(linear);
-  return linear > 0 && kEncode(std::bit_cast<float>(std::bit_cast<uint32_t>(linear) - 1)) != byte ? LinearToSrgb8(linear) : byte;
-}
-
 }  // namespace
 
 std::string ShopName(int i) {
@@ -204,6 +196,7 @@ std::string ShopName(int i) {
 
 Texture MakeShopSigns() {
   constexpr int kRows = kSignCount / kSignColumns, kHigh = 4096;
+  const SrgbCodes code;
   Image<Rgba8> sheet(kSignTexels * kSignColumns, kHigh);
   ParallelFor(kSignCount, [&](int64_t i) {
     const Board board = MakeBoard(static_cast<int>(i));
@@ -212,7 +205,7 @@ Texture MakeShopSigns() {
       const float down = (static_cast<float>(y) + 0.5f) * kRows / kHigh - static_cast<float>(row);
       for (int x = 0; x < kSignTexels; ++x) {
         const Vec3f c = BoardColor(board, x, 0.8f * down);
-        sheet(column * kSignTexels + x, y) = {SignByte(c.x), SignByte(c.y), SignByte(c.z), 255};
+        sheet(column * kSignTexels + x, y) = {code(c.x), code(c.y), code(c.z), 255};
       }
     }
   });

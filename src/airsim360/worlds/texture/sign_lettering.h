@@ -16,10 +16,19 @@ class SignLettering {
   bool Inked(float x, float y) const;
 
  private:
-  struct Placed {
-    char letter;
-    float left, right;
+  /// A stroke in its letter's box, with all that does not depend on the point asked for.
+  struct Stroke {
+    bool arc, dot;
+    float x, y;                              ///< start of a line, or middle of an ellipse
+    float dx = 0, dy = 0, length = 0;        ///< of a line
+    float before = 0, beyond = 0;            ///< how far it is inked past its ends
+    float rx = 0, ry = 0, from = 0, to = 0;  ///< of an ellipse: radii, degrees
   };
+  struct Placed {
+    float left, right;
+    std::vector<Stroke> strokes;
+  };
+  bool OnStroke(const Stroke& stroke, float x, float y) const;
   std::vector<Placed> letters_;
   float half_, width_ = 0;
 };
