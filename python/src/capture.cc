@@ -7,6 +7,7 @@
 #include "airsim360/scene/parts.h"
 #include "handles.h"
 #include "keywords.h"
+#include "simulation.h"
 #include "tensor.h"
 
 namespace airsim360::python {
@@ -288,6 +289,30 @@ Pictures are views of this object's memory (no copies); one that the rig was not
   BindOtherPictures(capture);
   BindTrigger(capture);
   BindCudaCapture(m);
+}
+
+void BindCapturing(py::class_<Simulation>& sim) {
+  sim.def(
+      "capture",
+      [](Simulation& s, const Rig& rig, const py::object& drone, const std::string& memory) -> py::object {
+        const size_t i = s.Find(drone);
+        static const std::vector<std::string> kMemories = {"cpu", "cuda"};
+        if (std::ranges::count(kMemories, memory) == 0) throw InputError("memory: " + UnknownChoiceMessage("memory", memory, kMemories));
+        std::shared_ptr<Capture> on_cpu;
+        std::shared_ptr<CudaCapture> on_gpu;
+        {
+          const py::gil_scoped_release release;
+          if (memory == "cuda") {
+            on_gpu = s.TakeCuda(rig, i);
+          } else {
+            on_cpu = s.Take(rig, i);
+          }
+        }
+        return on_gpu ? py::cast(on_gpu) : py::cast(on_cpu);
+      },
+      py::arg_v("rig", DefaultRig(), "Rig()"), py::arg("drone") = 0, py::arg("memory") = "cpu",
+      "What the rig on a drone sees now; its own body is hidden. Changes nothing. memory=\"cuda\": a CudaCapture, whose pictures "
+      "stay on the GPU.");
 }
 
 }  // namespace airsim360::python

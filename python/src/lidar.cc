@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
-#include "handles.h"
+#include "simulation.h"
 
 namespace airsim360::python {
 namespace {
@@ -103,6 +103,26 @@ S: +X forward, +Y left, +Z up. Arrays are views of this object's memory (no copi
                          Seconds(s.t_ns));
            })
       .def("__len__", [](const LidarScan& s) { return s.points.size(); });
+}
+
+void BindScanning(py::class_<Simulation>& sim) {
+  sim.def(
+         "scan",
+         [](Simulation& s, const Lidar& lidar, const py::object& drone) {
+           const size_t i = s.Find(drone);
+           const py::gil_scoped_release release;
+           return s.Scan(lidar, i);
+         },
+         py::arg_v("lidar", Lidar{}, "Lidar()"), py::arg("drone") = 0,
+         "LidarScan of one turn now, with other drones and people in it; its own body is hidden. Changes nothing.")
+      .def(
+          "scan",
+          [](Simulation& s, const std::string& lidar, const py::object& drone) {
+            const size_t i = s.Find(drone);
+            const py::gil_scoped_release release;
+            return s.Scan(lidar, i);
+          },
+          py::arg("lidar"), py::arg("drone") = 0, "The same by the lidar of that name in the drone's sensor file.");
 }
 
 }  // namespace airsim360::python

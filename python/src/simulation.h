@@ -53,6 +53,9 @@ class Simulation {
 
 /// The commands of Simulation (simulation_commands.cc).
 void BindCommands(py::class_<Simulation>& simulation);
+/// What it sees: capture (capture.cc) and scan (lidar.cc).
+void BindCapturing(py::class_<Simulation>& simulation);
+void BindScanning(py::class_<Simulation>& simulation);
 /// Its missions (simulation_mission.cc).
 void BindMissions(py::class_<Simulation>& simulation);
 

@@ -116,50 +116,13 @@ void BindTime(py::class_<Simulation>& sim) {
 // What is seen and measured now.
 void BindSensing(py::class_<Simulation>& sim) {
   sim.def(
-         "state",
-         [](Simulation& s, const py::object& drone) {
-           return StateView{s.model(), s.loop().Snapshot(), s.Find(drone)};
-         },
-         py::arg("drone") = 0, "DroneState of a drone by number or name.")
-      .def(
-          "capture",
-          [](Simulation& s, const Rig& rig, const py::object& drone, const std::string& memory) -> py::object {
-            const size_t i = s.Find(drone);
-            static const std::vector<std::string> kMemories = {"cpu", "cuda"};
-            if (std::ranges::count(kMemories, memory) == 0)
-              throw InputError("memory: " + UnknownChoiceMessage("memory", memory, kMemories));
-            std::shared_ptr<Capture> on_cpu;
-            std::shared_ptr<CudaCapture> on_gpu;
-            {
-              const py::gil_scoped_release release;
-              if (memory == "cuda") {
-                on_gpu = s.TakeCuda(rig, i);
-              } else {
-                on_cpu = s.Take(rig, i);
-              }
-            }
-            return on_gpu ? py::cast(on_gpu) : py::cast(on_cpu);
-          },
-          py::arg_v("rig", DefaultRig(), "Rig()"), py::arg("drone") = 0, py::arg("memory") = "cpu",
-          "What the rig on a drone sees now; its own body is hidden. Changes nothing. memory=\"cuda\": a CudaCapture, whose pictures "
-          "stay on the GPU.")
-      .def(
-          "scan",
-          [](Simulation& s, const Lidar& lidar, const py::object& drone) {
-            const size_t i = s.Find(drone);
-            const py::gil_scoped_release release;
-            return s.Scan(lidar, i);
-          },
-          py::arg_v("lidar", Lidar{}, "Lidar()"), py::arg("drone") = 0,
-          "LidarScan of one turn now, with other drones and people in it; its own body is hidden. Changes nothing.")
-      .def(
-          "scan",
-          [](Simulation& s, const std::string& lidar, const py::object& drone) {
-            const size_t i = s.Find(drone);
-            const py::gil_scoped_release release;
-            return s.Scan(lidar, i);
-          },
-          py::arg("lidar"), py::arg("drone") = 0, "The same by the lidar of that name in the drone's sensor file.");
+      "state",
+      [](Simulation& s, const py::object& drone) {
+        return StateView{s.model(), s.loop().Snapshot(), s.Find(drone)};
+      },
+      py::arg("drone") = 0, "DroneState of a drone by number or name.");
+  BindCapturing(sim);
+  BindScanning(sim);
 }
 
 void BindHistory(py::class_<Simulation>& sim) {
