@@ -35,7 +35,7 @@ class Server:
         self.url = f"http://127.0.0.1:{self.http.server_port}/v1"
 
     def __enter__(self):
-        threading.Thread(target=self.http.serve_forever, daemon=True).start()
+        threading.Thread(target=self.http.serve_forever, args=(0.02,), daemon=True).start()
         return self
 
     def __exit__(self, *_):
@@ -110,7 +110,7 @@ class LlmTest(ProgramTest):
             with self.subTest(part=part):
                 self.refused(1, answer, part)
         with Server(drip) as server:
-            self.run_bad(1, "drone", WORDS, "--llm", server.url, says=["60 s"], env=self.env)
+            self.run_bad(1, "drone", WORDS, "--llm", server.url, "--llm-seconds", "2", says=["within 2 s"], env=self.env)
         self.run_bad(1, "drone", WORDS, "--llm", server.url, says=["cannot be asked"], env=self.env)
 
     def test_flags(self):
@@ -119,6 +119,7 @@ class LlmTest(ProgramTest):
             self.run_bad(2, "drone", "a quad", "--llm", "file:///etc/passwd", says=["--llm"])
             self.run_bad(2, "drone", "a quad", "--llm", server.url, "--llm-key-env", "NO_SUCH_KEY", says=["NO_SUCH_KEY"])
             self.run_bad(2, "drone", "--catalog", "--llm-model", "x", says=["--llm"])
+            self.run_bad(2, "drone", WORDS, "--llm", server.url, "--llm-seconds", "0", says=["--llm-seconds"])
             self.assertEqual(server.asked, [])
         schema = json.loads(self.run_ok("drone", "--form").stdout)
         self.assertEqual(schema["properties"]["mass"]["maximum"], 400)

@@ -66,4 +66,22 @@ inline Environment ClearSky(double sun_elevation_deg) {
   return environment;
 }
 
+/// A suite whose tests look at sunlit_room by day: its renderers are made once for all of them, since their sky and pipelines
+/// take longer than the pictures.
+class RoomByDaySuite : public testing::Test {
+ protected:
+  static Pair& Room(Tier tier) {
+    if (!kept_) kept_ = std::make_unique<Pair>(BuildWorld("sunlit_room", {.seed = 1}), ClearSky(40), tier);
+    return *kept_;
+  }
+  void TearDown() override {
+    if (!kept_) return;
+    for (const std::string& message : kept_->gpu->messages()) ADD_FAILURE() << message;
+  }
+  static void TearDownTestSuite() { kept_ = nullptr; }
+
+ private:
+  inline static std::unique_ptr<Pair> kept_;
+};
+
 }  // namespace airsim360::test

@@ -13,10 +13,10 @@ namespace {
 
 using namespace test;
 
-void ExpectTheCpus(const std::shared_ptr<const Scene>& scene, const Environment& environment, const std::string& what, int width = 128,
-                   bool has_leaves = false) {
-  Pair pair(scene, environment, Tier::kFast);
-  RenderRequest request = ColorRequest(*scene, width);
+class GpuColor : public RoomByDaySuite {};
+
+void ExpectTheCpus(Pair& pair, const std::string& what, int width = 128, bool has_leaves = false) {
+  RenderRequest request = ColorRequest(pair.tracer->scene(), width);
   for (const int samples : {1, 4}) {
     request.edge_samples = samples;
     Frame cpu, gpu;
@@ -38,22 +38,28 @@ void ExpectTheCpus(const std::shared_ptr<const Scene>& scene, const Environment&
   for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;
 }
 
-TEST(GpuColor, OfARoomByDayIsTheCpus) {
-  AIRSIM360_NEEDS_GPU();
-  ExpectTheCpus(BuildWorld("sunlit_room", {.seed = 1}), ClearSky(40), "sunlit_room by day");
+void ExpectTheCpus(const std::shared_ptr<const Scene>& scene, const Environment& environment, const std::string& what, int width = 128,
+                   bool has_leaves = false) {
+  Pair pair(scene, environment, Tier::kFast);
+  ExpectTheCpus(pair, what, width, has_leaves);
 }
 
-TEST(GpuColor, OfARoomByNightIsTheCpus) {
+TEST_F(GpuColor, OfARoomByDayIsTheCpus) {
+  AIRSIM360_NEEDS_GPU();
+  ExpectTheCpus(Room(Tier::kFast), "sunlit_room by day");
+}
+
+TEST_F(GpuColor, OfARoomByNightIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   ExpectTheCpus(BuildWorld("sunlit_room", {.seed = 1}), ClearSky(-12), "sunlit_room by night");
 }
 
-TEST(GpuColor, OfWindowsAndHeadLampsByNightIsTheCpus) {
+TEST_F(GpuColor, OfWindowsAndHeadLampsByNightIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   ExpectTheCpus(MakeNightStreet(true), ClearSky(-25), "street by night");
 }
 
-TEST(GpuColor, OfRainIsTheCpus) {
+TEST_F(GpuColor, OfRainIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   Environment rain = ClearSky(25);
   rain.wetness = 0.9, rain.rain_mm_h = 8;
@@ -61,7 +67,7 @@ TEST(GpuColor, OfRainIsTheCpus) {
   ExpectTheCpus(BuildWorld("sunlit_room", {.seed = 1}), rain, "sunlit_room in rain", 64);
 }
 
-TEST(GpuColor, OfSnowIsTheCpus) {
+TEST_F(GpuColor, OfSnowIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   Environment snow = ClearSky(25);
   snow.snow_depth = 0.6, snow.snowfall_mm_h = 3;
@@ -69,7 +75,7 @@ TEST(GpuColor, OfSnowIsTheCpus) {
   ExpectTheCpus(BuildWorld("sunlit_room", {.seed = 1}), snow, "sunlit_room in snow", 64);
 }
 
-TEST(GpuColor, OfFogBeforeAndBehindRoofsIsTheCpus) {
+TEST_F(GpuColor, OfFogBeforeAndBehindRoofsIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   Environment fog = ClearSky(25);
   fog.visibility_m = 30;
@@ -89,13 +95,13 @@ std::shared_ptr<const SceneState> BentState(const Scene& scene) {
   return state;
 }
 
-TEST(GpuColor, OfBentMeshesIsTheCpus) {
+TEST_F(GpuColor, OfBentMeshesIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
-  const auto scene = BuildWorld("sunlit_room", {.seed = 1});
-  Pair pair(scene, ClearSky(40), Tier::kFast);
-  RenderRequest request = ColorRequest(*scene, 64);
+  Pair& pair = Room(Tier::kFast);
+  const Scene& scene = pair.tracer->scene();
+  RenderRequest request = ColorRequest(scene, 64);
   request.edge_samples = 1;
-  request.state = BentState(*scene);
+  request.state = BentState(scene);
   ASSERT_FALSE(request.state->deformed.empty());
   Frame cpu, gpu;
   pair.cpu->Render(request, cpu);
@@ -105,22 +111,21 @@ TEST(GpuColor, OfBentMeshesIsTheCpus) {
               100 * d.off);
   EXPECT_LE(d.mean, 0.1);
   EXPECT_LE(d.off, 0.005);
-  for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;
 }
 
-TEST(GpuColor, OfWorldsAskedForIsTheCpus) {
+TEST_F(GpuColor, OfWorldsAskedForIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   const std::vector<std::string> worlds = WorldsAskedFor();
   if (worlds.empty()) GTEST_SKIP() << "AIRSIM360_GPU_WORLDS names no world";
   for (const std::string& world : worlds) ExpectTheCpus(WorldOf(world), {}, world, 128, true);
 }
 
-TEST(GpuColor, ManyCamerasAndEveryCurveAreWhatEachIsAlone) {
+TEST_F(GpuColor, ManyCamerasAndEveryCurveAreWhatEachIsAlone) {
   AIRSIM360_NEEDS_GPU();
-  const auto scene = BuildWorld("sunlit_room", {.seed = 1});
-  Pair pair(scene, ClearSky(40), Tier::kFast);
+  Pair& pair = Room(Tier::kFast);
+  const Scene& scene = pair.tracer->scene();
   for (const ToneCurve tone : {ToneCurve::kAgx, ToneCurve::kLinear}) {
-    std::vector<RenderRequest> requests(3, ColorRequest(*scene, 32));
+    std::vector<RenderRequest> requests(3, ColorRequest(scene, 32));
     for (size_t i = 0; i < requests.size(); ++i) {
       requests[i].tone = tone;
       requests[i].exposure_ev = static_cast<double>(i);
@@ -137,16 +142,15 @@ TEST(GpuColor, ManyCamerasAndEveryCurveAreWhatEachIsAlone) {
   }
 }
 
-TEST(GpuColor, ItsRaysCanBeTracedOnceMoreAlone) {
+TEST_F(GpuColor, ItsRaysCanBeTracedOnceMoreAlone) {
   AIRSIM360_NEEDS_GPU();
-  const auto scene = BuildWorld("sunlit_room", {.seed = 1});
-  Pair pair(scene, ClearSky(40), Tier::kFast);
-  RenderRequest request = ColorRequest(*scene, 32);
+  Pair& pair = Room(Tier::kFast);
+  const Scene& scene = pair.tracer->scene();
+  RenderRequest request = ColorRequest(scene, 32);
   request.edge_samples = 1;
   pair.gpu->TraceAloneMs(request);
   request.tier = Tier::kHigh;
   EXPECT_THROW(pair.gpu->TraceAloneMs(request), InputError);
-  for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;
 }
 
 }  // namespace

@@ -17,10 +17,23 @@ struct Two {
   RendererOptions options{.tier = Tier::kFast, .environment = ClearSky(40)};
   std::unique_ptr<GpuRenderer> shared = MakeVulkanRenderer(tracer, options);
   std::unique_ptr<GpuRenderer> discrete = MakeVulkanRenderer(tracer, options, {.validate = test::ValidationInstalled(), .discrete = true});
+};
 
-  ~Two() {
-    for (const std::string& message : discrete->messages()) ADD_FAILURE() << message;
+// Both are made once: most of the time goes into their pipelines.
+class GpuDiscrete : public testing::Test {
+ protected:
+  static Two& Both() {
+    if (!kept_) kept_ = std::make_unique<Two>();
+    return *kept_;
   }
+  void TearDown() override {
+    if (!kept_) return;
+    for (const std::string& message : kept_->discrete->messages()) ADD_FAILURE() << message;
+  }
+  static void TearDownTestSuite() { kept_ = nullptr; }
+
+ private:
+  inline static std::unique_ptr<Two> kept_;
 };
 
 // The room's mesh breathes.
@@ -33,9 +46,9 @@ std::shared_ptr<const SceneState> StateAt(const Scene& scene, int step) {
   return state;
 }
 
-TEST(GpuDiscrete, EveryTierIsTheSameByteForByte) {
+TEST_F(GpuDiscrete, EveryTierIsTheSameByteForByte) {
   AIRSIM360_NEEDS_GPU();
-  Two gpus;
+  Two& gpus = Both();
   for (const Tier tier : {Tier::kLabels, Tier::kFast, Tier::kHigh, Tier::kReference}) {
     RenderRequest request = ColorRequest(*gpus.scene, 32);
     request.tier = tier, request.samples = 2;
@@ -54,9 +67,9 @@ TEST(GpuDiscrete, EveryTierIsTheSameByteForByte) {
   }
 }
 
-TEST(GpuDiscrete, FramesInFlightDoNotTouchEachOther) {
+TEST_F(GpuDiscrete, FramesInFlightDoNotTouchEachOther) {
   AIRSIM360_NEEDS_GPU();
-  Two gpus;
+  Two& gpus = Both();
   RenderRequest request = ColorRequest(*gpus.scene, 32);
   std::vector<uint64_t> tickets;
   for (int i = 0; i < 9; ++i) {
@@ -73,9 +86,9 @@ TEST(GpuDiscrete, FramesInFlightDoNotTouchEachOther) {
   }
 }
 
-TEST(GpuDiscrete, PicturesStayOnTheGpuWhereNobodyReadsThem) {
+TEST_F(GpuDiscrete, PicturesStayOnTheGpuWhereNobodyReadsThem) {
   AIRSIM360_NEEDS_GPU();
-  Two gpus;
+  Two& gpus = Both();
   const RenderRequest request = ColorRequest(*gpus.scene, 32);
   for (const bool wanted : {false, true}) {
     gpus.discrete->ReadBack(wanted);
@@ -87,9 +100,9 @@ TEST(GpuDiscrete, PicturesStayOnTheGpuWhereNobodyReadsThem) {
   }
 }
 
-TEST(GpuDiscrete, PicturesLargerThanAPieceOfMemoryAreNamed) {
+TEST_F(GpuDiscrete, PicturesLargerThanAPieceOfMemoryAreNamed) {
   AIRSIM360_NEEDS_GPU();
-  Two gpus;
+  Two& gpus = Both();
   RenderRequest request = ColorRequest(*gpus.scene, 32);
   request.camera = Equirectangular{8192, 4096};
   request.tier = Tier::kHigh;

@@ -10,6 +10,9 @@ namespace {
 
 using namespace test;
 
+class GpuHigh : public RoomByDaySuite {};
+class GpuReference : public RoomByDaySuite {};
+
 double MeanOf(const Image<Rgb32f>& image) {
   double sum = 0;
   for (const Rgb32f& c : image.pixels()) sum += c.r + c.g + c.b;
@@ -34,24 +37,23 @@ void ExpectTheCpus(Pair& pair, RenderRequest request, const std::string& what, d
   EXPECT_EQ(Compare(cpu, gpu, true).far, 0);
 }
 
-TEST(GpuHigh, OfARoomByDayIsTheCpus) {
+TEST_F(GpuHigh, OfARoomByDayIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
-  const auto scene = BuildWorld("sunlit_room", {.seed = 1});
-  Pair pair(scene, ClearSky(40), Tier::kHigh);
-  RenderRequest request = ColorRequest(*scene, 128);
+  Pair& pair = Room(Tier::kHigh);
+  const Scene& scene = pair.tracer->scene();
+  RenderRequest request = ColorRequest(scene, 128);
   ExpectTheCpus(pair, request, "sunlit_room by day", 0.4, 0.02);
   request.denoise = false;
   ExpectTheCpus(pair, request, "sunlit_room by day, as sampled", 0.8, 0.08);
-  for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;
 }
 
-TEST(GpuHigh, LightKeptFromTheLastFramesIsTheCpus) {
+TEST_F(GpuHigh, LightKeptFromTheLastFramesIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
-  const auto scene = BuildWorld("sunlit_room", {.seed = 1});
-  Pair pair(scene, ClearSky(40), Tier::kHigh);
+  Pair& pair = Room(Tier::kHigh);
+  const Scene& scene = pair.tracer->scene();
   const Camera cameras[] = {Equirectangular{64, 32}, Pinhole{48, 32, 30, 28, 25, 15}};
   for (const Camera& camera : cameras) {
-    RenderRequest request = ColorRequest(*scene, 64);
+    RenderRequest request = ColorRequest(scene, 64);
     request.camera = camera;
     request.tier = Tier::kHigh;
     request.temporal = true;
@@ -75,10 +77,9 @@ TEST(GpuHigh, LightKeptFromTheLastFramesIsTheCpus) {
   RenderRequest two[2];
   two[0].temporal = two[1].temporal = true;
   EXPECT_THROW(pair.gpu->Submit(two), InputError);
-  for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;
 }
 
-TEST(GpuHigh, OfARoomByNightIsTheCpus) {
+TEST_F(GpuHigh, OfARoomByNightIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   const auto scene = BuildWorld("sunlit_room", {.seed = 1});
   Pair pair(scene, ClearSky(-12), Tier::kHigh);
@@ -87,10 +88,8 @@ TEST(GpuHigh, OfARoomByNightIsTheCpus) {
 }
 
 // Paths take the same random choices, so that most pixels agree; where rounding sends one another way it brings other light.
-void ExpectTheCpusPaths(const Environment& environment, const std::string& what, const Camera& camera = Equirectangular{64, 32}) {
-  const auto scene = BuildWorld("sunlit_room", {.seed = 1});
-  Pair pair(scene, environment, Tier::kReference);
-  RenderRequest request = ColorRequest(*scene, 64);
+void ExpectTheCpusPaths(Pair& pair, const std::string& what, const Camera& camera = Equirectangular{64, 32}) {
+  RenderRequest request = ColorRequest(pair.tracer->scene(), 64);
   request.camera = camera;
   request.tier = Tier::kReference;
   request.samples = 4;
@@ -108,23 +107,24 @@ void ExpectTheCpusPaths(const Environment& environment, const std::string& what,
   for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;
 }
 
-TEST(GpuReference, ThroughAFisheyeAndAPinholeIsTheCpus) {
+TEST_F(GpuReference, ThroughAFisheyeAndAPinholeIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
-  ExpectTheCpusPaths(ClearSky(40), "paths through a fisheye", Fisheye{48, 40, 14, 14, 24, 20, {0.02, -0.004, 0, 0}, 1.3});
-  ExpectTheCpusPaths(ClearSky(40), "paths through a pinhole", Pinhole{48, 32, 30, 28, 25, 15});
+  ExpectTheCpusPaths(Room(Tier::kReference), "paths through a fisheye", Fisheye{48, 40, 14, 14, 24, 20, {0.02, -0.004, 0, 0}, 1.3});
+  ExpectTheCpusPaths(Room(Tier::kReference), "paths through a pinhole", Pinhole{48, 32, 30, 28, 25, 15});
 }
 
-TEST(GpuReference, OfARoomByDayIsTheCpus) {
+TEST_F(GpuReference, OfARoomByDayIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
-  ExpectTheCpusPaths(ClearSky(40), "paths by day");
+  ExpectTheCpusPaths(Room(Tier::kReference), "paths by day");
 }
 
-TEST(GpuReference, OfARoomByNightIsTheCpus) {
+TEST_F(GpuReference, OfARoomByNightIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
-  ExpectTheCpusPaths(ClearSky(-12), "paths by night");
+  Pair night(BuildWorld("sunlit_room", {.seed = 1}), ClearSky(-12), Tier::kReference);
+  ExpectTheCpusPaths(night, "paths by night");
 }
 
-TEST(GpuHigh, OfWorldsAskedForIsTheCpus) {
+TEST_F(GpuHigh, OfWorldsAskedForIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   const std::vector<std::string> worlds = WorldsAskedFor();
   if (worlds.empty()) GTEST_SKIP() << "AIRSIM360_GPU_WORLDS names no world";
@@ -135,12 +135,12 @@ TEST(GpuHigh, OfWorldsAskedForIsTheCpus) {
   }
 }
 
-TEST(GpuHigh, TurningByColumnsRollsThePicture) {
+TEST_F(GpuHigh, TurningByColumnsRollsThePicture) {
   AIRSIM360_NEEDS_GPU();
-  const auto scene = BuildWorld("sunlit_room", {.seed = 1});
-  Pair pair(scene, ClearSky(40), Tier::kHigh);
+  Pair& pair = Room(Tier::kHigh);
+  const Scene& scene = pair.tracer->scene();
   constexpr int kWidth = 32, kColumns = 5;
-  RenderRequest request = ColorRequest(*scene, kWidth);
+  RenderRequest request = ColorRequest(scene, kWidth);
   request.tier = Tier::kHigh;
   Frame straight, turned;
   pair.gpu->Render(request, straight);

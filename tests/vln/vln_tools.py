@@ -90,7 +90,7 @@ class ChatServer:
                 pass
 
         self.http = Server(("127.0.0.1", 0), Handler)
-        threading.Thread(target=self.http.serve_forever, daemon=True).start()
+        threading.Thread(target=self.http.serve_forever, args=(0.02,), daemon=True).start()
         self.environment = {**os.environ, "AIRSIM360_VLN_BASE_URL": f"http://127.0.0.1:{self.http.server_port}/v1", "AIRSIM360_VLN_MODEL": "mock",
                             "AIRSIM360_VLN_KEY": "sk-secret-of-the-test", "no_proxy": "127.0.0.1"}
 

@@ -17,9 +17,8 @@ namespace fs = std::filesystem;
 using ParsedJson = nlohmann::json;
 
 constexpr uint64_t kMostAnswer = 1 << 20;  // bytes
-constexpr int kSeconds = 60;
-constexpr int kDeepest = 16;           // levels of the server's answer
-constexpr size_t kLongestShown = 200;  // bytes of the answer in a message
+constexpr int kDeepest = 16;               // levels of the server's answer
+constexpr size_t kLongestShown = 200;      // bytes of the answer in a message
 constexpr size_t kLongestWords = 1000;
 constexpr std::string_view kPath = "/chat/completions";
 
@@ -82,24 +81,24 @@ std::string RequestBody(const DroneChat& chat, const std::string& words) {
 std::string Written(const fs::path& file) { return fs::exists(file) ? ReadTextFile(file, kMostAnswer) : ""; }
 
 /// The body of the server's answer, of status 200.
-std::string Post(const std::string& address, const std::string& key, const std::string& body) {
+std::string Post(const std::string& address, const std::string& key, int seconds, const std::string& body) {
   const ScratchFolder folder("llm");
   const fs::path asked = folder.path() / "asked.json", config = folder.path() / "curl", answer = folder.path() / "answer",
                  complaints = folder.path() / "complaints";
   WriteFileAtomically(asked, body);
   // The key stands in a file that goes with its folder, which is this user's alone: never on a command line.
   std::string flags = "url = " + Quoted(address) + "\ngloboff\nsilent\nshow-error\nproto = \"=http,https\"\n" +
-                      "max-time = " + std::to_string(kSeconds) + "\nmax-filesize = " + std::to_string(kMostAnswer) +
+                      "max-time = " + std::to_string(seconds) + "\nmax-filesize = " + std::to_string(kMostAnswer) +
                       "\nheader = \"Content-Type: application/json\"\ndata-binary = " + Quoted("@" + asked.string()) +
                       "\nwrite-out = \"%{stderr}status=%{http_code}\\n\"\n";
   if (!key.empty()) flags += "header = " + Quoted("Authorization: Bearer " + key) + "\n";
   WriteFileAtomically(config, flags);
   const auto end = RunProgram({"curl", "--disable", "--config", config.string()},
-                              {.out = answer, .complaints = complaints, .seconds = kSeconds + 5, .most_bytes = kMostAnswer});
+                              {.out = answer, .complaints = complaints, .seconds = seconds + 5.0, .most_bytes = kMostAnswer});
   if (!end) throw InputError("--llm needs the program curl: sudo apt-get install curl");
   const std::string at = "--llm: the server at " + address;
   constexpr int kTooLate = 28, kTooLarge = 63, kEndedBySize = 128 + 25;
-  if (end->timed_out || end->status == kTooLate) throw RuntimeError(at + " did not answer within " + std::to_string(kSeconds) + " s");
+  if (end->timed_out || end->status == kTooLate) throw RuntimeError(at + " did not answer within " + std::to_string(seconds) + " s");
   if (end->status == kTooLarge || end->status == kEndedBySize || (end->status == 23 && fs::file_size(answer) >= kMostAnswer))
     throw RuntimeError(at + " answers with more than 1 MiB");
   const std::string said = Written(complaints);
@@ -141,7 +140,7 @@ std::string Content(const ParsedJson& answer, const std::string& text, const std
 DroneRequest AskForDrone(const DroneChat& chat, const std::string& words) {
   const std::string address = Endpoint(chat.url), key = Key(chat.key_environment);
   if (words.size() > kLongestWords) throw InputError("the description has " + std::to_string(words.size()) + " bytes, more than 1000");
-  const std::string text = Post(address, key, RequestBody(chat, words));
+  const std::string text = Post(address, key, chat.seconds, RequestBody(chat, words));
   const ParsedJson answer = ParseAnswer(text, address);
   DroneRequest request = ReadDroneForm(Content(answer, text, address), words);
   std::string model = chat.model;

@@ -194,6 +194,9 @@ void AddDroneCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--llm-model", options->chat.model, "name of the model, where the server has several")->needs(llm);
   command->add_option("--llm-key-env", options->chat.key_environment, "name of the environment variable that holds the server's key")
       ->needs(llm);
+  command->add_option("--llm-seconds", options->chat.seconds, "seconds that the answer may take (60)")
+      ->needs(llm)
+      ->check(CLI::Range(1, 3600));
   command->add_flag("--check", options->check, "fly it: hover and the standard lemniscate, untuned");
   command->callback([options, &globals] { RunDrone(*options, globals); });
 }

@@ -24,8 +24,8 @@ constexpr auto kGroups = std::to_array<FlagGroup>({
      " --world --labels --heights --no-fill --recipe --subset --settings --seed --episodes --bbox --centre "
      "--scale --up --offset --ground "},
     {"Drone",
-     " --drone --real --file --catalog --words --form --llm --llm-model --llm-key-env --check --controller "
-     "--sensors --wind "},
+     " --drone --real --file --catalog --words --form --llm --llm-model --llm-key-env --llm-seconds --check "
+     "--controller --sensors --wind "},
     {"Route",
      " --waypoints --route --plan --pose --script --mission --longest --from --to --avoid --clearance --area --height --spacing "
      "--heading --center --entity --radius --turns --length --yaw --origin --poses --start "},
