@@ -17,6 +17,7 @@
 #include "airsim360/base/hash.h"
 #include "airsim360/base/log.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/base/write_all.h"
 
 namespace airsim360 {
 
@@ -88,15 +89,10 @@ std::optional<CacheContent> MapFile(const fs::path& path, size_t skipped) {
 void WriteEntry(const fs::path& path, std::string_view head, std::span<const std::byte> content) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   int error = file < 0 ? errno : 0;
-  for (std::span<const std::byte> rest : {std::as_bytes(std::span(head)), content}) {
-    while (!rest.empty() && error == 0) {
-      const ssize_t written = ::write(file, rest.data(), rest.size());
-      if (written > 0) rest = rest.subspan(static_cast<size_t>(written));
-      if (written < 0 && errno != EINTR) error = errno;
-    }
-  }
+  for (const std::span<const std::byte> part : {std::as_bytes(std::span(head)), content})
+    if (error == 0) error = internal::WriteAll(file, part);
   if (file >= 0 && ::close(file) != 0 && error == 0) error = errno;
-  if (error != 0) throw RuntimeError(path.string() + ": cannot write: " + std::generic_category().message(error));
+  if (error != 0) internal::ThrowWriteError(path, error);
 }
 
 bool IsWhole(const CacheContent& content) {

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/write_all.h"
 
 namespace airsim360 {
 namespace fs = std::filesystem;
@@ -54,33 +55,35 @@ Bytes ReadFile(const fs::path& path, uint64_t max_size) {
 
 std::string ReadTextFile(const fs::path& path, uint64_t max_size) { return std::string(AsText(ReadFile(path, max_size))); }
 
-namespace {
+namespace internal {
 
-[[noreturn]] void ThrowWriteError(const fs::path& path, int error) {
-  throw RuntimeError(path.string() + ": cannot write: " + std::strerror(error));
+int WriteAll(int file, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written > 0) bytes = bytes.subspan(static_cast<size_t>(written));
+    if (written < 0 && errno != EINTR) return errno;
+  }
+  return 0;
 }
 
-}  // namespace
+void ThrowWriteError(const fs::path& path, int error) { throw RuntimeError(path.string() + ": cannot write: " + std::strerror(error)); }
+
+}  // namespace internal
 
 void WriteFileAtomically(const fs::path& path, std::span<const std::byte> bytes) {
   fs::path temporary = path;
   temporary += ".tmp";
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd < 0) ThrowWriteError(path, errno);
+  if (fd < 0) internal::ThrowWriteError(path, errno);
 
   // Write everything and make it durable before the rename makes it visible.
-  int error = 0;
-  for (size_t done = 0; done < bytes.size() && error == 0;) {
-    const ssize_t n = ::write(fd, bytes.data() + done, bytes.size() - done);
-    if (n > 0) done += static_cast<size_t>(n);
-    if (n < 0 && errno != EINTR) error = errno;
-  }
+  int error = internal::WriteAll(fd, bytes);
   if (error == 0 && ::fsync(fd) != 0) error = errno;
   if (::close(fd) != 0 && error == 0) error = errno;
   if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
   if (error != 0) {
     ::unlink(temporary.c_str());
-    ThrowWriteError(path, error);
+    internal::ThrowWriteError(path, error);
   }
 }
 
@@ -91,7 +94,7 @@ void CreateWritableFolder(const fs::path& path) {
   fs::create_directories(path, error);
   if (error) throw RuntimeError(path.string() + ": cannot create folder: " + error.message());
   if (!fs::is_directory(path)) throw RuntimeError(path.string() + ": not a folder");
-  if (::access(path.c_str(), W_OK) != 0) ThrowWriteError(path, errno);
+  if (::access(path.c_str(), W_OK) != 0) internal::ThrowWriteError(path, errno);
 }
 
 }  // namespace airsim360

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "airsim360/math/standard_atmosphere.h"
 #include "airsim360/math/transform.h"
 
 namespace airsim360 {
 
 inline constexpr int kMaxRotors = 8;
 inline constexpr double kSeaLevelAirDensity = 1.225;  ///< kg/m^3, ISA
-inline constexpr double kGravity = 9.80665;           ///< m/s^2, downwards along -Z of W
 
 /// One rotor. Coefficients hold at kSeaLevelAirDensity and scale with density.
 struct RotorModel {

@@ -6,9 +6,9 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kLapse = 0.0065;                                         // K/m
-constexpr double kGasConstant = 287.05287;                                // J/(kg K), of dry air
-constexpr double kExponent = kStandardGravity / (kLapse * kGasConstant);  // 5.2559
+constexpr double kLapse = 0.0065;                                 // K/m
+constexpr double kGasConstant = 287.05287;                        // J/(kg K), of dry air
+constexpr double kExponent = kGravity / (kLapse * kGasConstant);  // 5.2559
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// The International Standard Atmosphere (ISO 2533:1975) below 11 km.
+// The International Standard Atmosphere (ISO 2533:1975) below 11 km, and its gravity.
 #pragma once
 
 namespace airsim360 {
@@ -9,7 +9,7 @@ struct Air {
   double density;      ///< kg/m^3
 };
 
-inline constexpr double kStandardGravity = 9.80665;     ///< m/s^2 (ISO 80000-3), along -Z of W everywhere
+inline constexpr double kGravity = 9.80665;             ///< m/s^2 (ISO 80000-3), along -Z of W everywhere
 inline constexpr double kSeaLevelTemperature = 288.15;  ///< K
 inline constexpr double kSeaLevelPressure = 101325;     ///< Pa
 

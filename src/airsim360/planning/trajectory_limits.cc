@@ -6,6 +6,7 @@
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/standard_atmosphere.h"
 #include "airsim360/planning/bernstein.h"
 
 namespace airsim360 {
@@ -13,7 +14,6 @@ namespace {
 
 using internal::Bernstein;
 
-constexpr double kGravity = 9.80665;
 /// Relative width of a certified maximum, and of its square; rounding of the control values is below 1e-13 of
 /// the largest.
 constexpr double kWidth = 1e-11, kRounding = 1e-13;

@@ -74,7 +74,7 @@ airsim::EnvironmentState EnvironmentOf(const Snapshot& now, size_t vehicle) {
   airsim::EnvironmentState state;
   state.position = ToVector(NedFromWorld(X_WB.p - now.vehicles[vehicle].origin_W));
   state.geo_point = GeoPointOf(now, X_WB.p);
-  state.gravity = {0, 0, static_cast<float>(kStandardGravity)};
+  state.gravity = {0, 0, static_cast<float>(kGravity)};
   const Air air = StandardAir(state.geo_point.altitude, now.model->world.sea_level_pressure);
   state.air_pressure = static_cast<float>(air.pressure);
   state.temperature = static_cast<float>(air.temperature);

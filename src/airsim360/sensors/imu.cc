@@ -25,7 +25,7 @@ void ImuSpec::Visit(ConfigVisitor& v) {
 
 ImuReading IdealImu(const RigidTransform& X_BS, const BodyMotion& motion, int64_t t_ns) {
   const Vec3d w = motion.body.w_WB_B, r = X_BS.p;
-  const Vec3d a_B = motion.body.X_WB.R.transpose() * (motion.a_WB + Vec3d{0, 0, kStandardGravity});
+  const Vec3d a_B = motion.body.X_WB.R.transpose() * (motion.a_WB + Vec3d{0, 0, kGravity});
   const Vec3d f_B = a_B + Cross(motion.alpha_WB_B, r) + Cross(w, Cross(w, r));
   const Mat3d R_SB = X_BS.R.transpose();
   return {t_ns, R_SB * w, R_SB * f_B};

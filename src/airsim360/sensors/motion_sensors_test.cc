@@ -16,14 +16,14 @@ TEST(IdealImu, ReadsGravityUpwardsOnATiltedTableAndNothingInFreeFall) {
   BodyMotion motion;
   motion.body.X_WB = BodyPose({}, 0.3, 0.2, -0.4);
   const Vec3d f = IdealImu({}, motion, 0).specific_force;
-  ExpectNear(motion.body.X_WB.R * f, {0, 0, kStandardGravity});
-  motion.a_WB = {0, 0, -kStandardGravity};
+  ExpectNear(motion.body.X_WB.R * f, {0, 0, kGravity});
+  motion.a_WB = {0, 0, -kGravity};
   ExpectNear(IdealImu({}, motion, 0).specific_force, {});
 }
 
 TEST(IdealImu, OffTheCentreOfMassFeelsCentripetalAndTangentialAcceleration) {
   BodyMotion motion;
-  motion.a_WB = {0, 0, -kStandardGravity};
+  motion.a_WB = {0, 0, -kGravity};
   motion.body.w_WB_B = {0, 0, 5};
   motion.alpha_WB_B = {0, 0, 3};
   const RigidTransform X_BS{{}, {0.2, 0, 0}};
@@ -39,7 +39,7 @@ TEST(IdealImu, AgreesWithTheSecondDifferenceOfItsOwnPath) {
   const Vec3d a_WS = (sensor_place(h) - sensor_place(0) * 2.0 + sensor_place(-h)) / (h * h);
   const BodyMotion motion{start, a, {}};
   const Vec3d f = IdealImu({{}, r}, motion, 0).specific_force;
-  ExpectNear(start.X_WB.R * f - Vec3d{0, 0, kStandardGravity}, a_WS, 1e-5);
+  ExpectNear(start.X_WB.R * f - Vec3d{0, 0, kGravity}, a_WS, 1e-5);
 }
 
 TEST(SampleImu, ReadingsAreLimitedToTheirRange) {
@@ -103,7 +103,7 @@ TEST(SampleBarometer, WithoutNoiseShowsTheHeightOverSeaLevelInTheStandardAtmosph
   EXPECT_NEAR(state.last.pressure, StandardAir(250.1).pressure, 1e-9);
   // A low of 10 hPa reads as about 84 m more with the standard QNH.
   SampleBarometer(spec, {}, {}, 250, kSeaLevelPressure - 1000, 40'000'000, state);
-  EXPECT_NEAR(state.last.altitude - 250.1, 1000 / (1.2 * kStandardGravity), 2);
+  EXPECT_NEAR(state.last.altitude - 250.1, 1000 / (1.2 * kGravity), 2);
 }
 
 TEST(SampleMagnetometer, TurnsWithTheBodyAndKeepsItsStrength) {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/write_all.h"
 #include "airsim360/video/mp4_boxes.h"
 
 namespace airsim360::internal {
@@ -121,13 +122,8 @@ std::map<std::string, Extent> TopLevel(int file, uint64_t end) {
   return extents;
 }
 
-void WriteAll(int to, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(to, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw RuntimeError(std::strerror(errno));
-    bytes = bytes.subspan(static_cast<size_t>(n));
-  }
+void MustWriteAll(int to, std::span<const std::byte> bytes) {
+  if (const int error = WriteAll(to, bytes); error != 0) throw RuntimeError(std::strerror(error));
 }
 
 Bytes ReadExtent(int file, const Extent& extent) {
@@ -144,7 +140,7 @@ Bytes ReadExtent(int file, const Extent& extent) {
 void Copy(int from, const Extent& extent, int to) {
   constexpr uint64_t kPiece = uint64_t{4} << 20;
   for (uint64_t done = 0; done < extent.size; done += kPiece)
-    WriteAll(to, ReadExtent(from, {extent.begin + done, std::min(kPiece, extent.size - done)}));
+    MustWriteAll(to, ReadExtent(from, {extent.begin + done, std::min(kPiece, extent.size - done)}));
 }
 
 }  // namespace
@@ -205,10 +201,10 @@ void WriteMovie(int file, bool spherical, std::span<const int64_t> times_ns, int
   std::filesystem::path temporary = path;
   temporary += ".tmp";
   const int to = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (to < 0) throw RuntimeError(path.string() + ": cannot write: " + std::strerror(errno));
+  if (to < 0) ThrowWriteError(path, errno);
   try {
-    WriteAll(to, ReadExtent(file, type));
-    WriteAll(to, edited);
+    MustWriteAll(to, ReadExtent(file, type));
+    MustWriteAll(to, edited);
     Copy(file, media, to);
     if (::fsync(to) != 0 || ::rename(temporary.c_str(), path.c_str()) != 0) throw RuntimeError(std::strerror(errno));
   } catch (const RuntimeError& error) {

@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/write_all.h"
 
 namespace airsim360 {
 
@@ -14,9 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void ThrowWriteError(const fs::path& path, int error) {
-  throw RuntimeError(path.string() + ": cannot write: " + std::strerror(error));
-}
+using internal::ThrowWriteError;
 
 fs::path WithoutSlash(fs::path path) { return path.has_filename() ? path : path.parent_path(); }
 
@@ -53,12 +51,7 @@ void ExportFolder::Write(const std::string& path, std::span<const std::byte> byt
   const fs::path place = Place(path);
   const int fd = ::open(place.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (fd < 0) ThrowWriteError(target_ / path, errno);
-  int error = 0;
-  for (size_t done = 0; done < bytes.size() && error == 0;) {
-    const ssize_t n = ::write(fd, bytes.data() + done, bytes.size() - done);
-    if (n > 0) done += static_cast<size_t>(n);
-    if (n < 0 && errno != EINTR) error = errno;
-  }
+  int error = internal::WriteAll(fd, bytes);
   if (::close(fd) != 0 && error == 0) error = errno;
   if (error != 0) ThrowWriteError(target_ / path, error);
 }
