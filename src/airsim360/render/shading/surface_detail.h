@@ -146,7 +146,7 @@ constexpr float kAsphalt = 1, kCarriageway = 2, kPaving = 3, kLawn = 4, kGravel 
 
 /// Lanes of every kind of ground that the vector holds; see shading_ground.h and shading_marks.h.
 SEPARATE void WearGround(const Fetched& f, const Noises& s, real3 p, real u, real width, real3& color, real& roughness) {
-  const real ground = load(f.ground);
+  const real ground = sel(load(f.kind) == kFoliage, real(0.0f), load(f.ground));
   const real zero = real(0.0f), one = real(1.0f);
   const mask_t street = (ground == kCarriageway), asphalt = street || (ground == kAsphalt);
   if (stdx::any_of(asphalt)) {
@@ -289,8 +289,10 @@ KERNEL real OpenAbove(const ShadeView& view, real3 p, real3 facing) {
 SEPARATE void LieWeather(const ShadeView& view, const Fetched& f, const Noises& s, real3 p, real3 facing, real width, real u, Skin& k) {
   const real open = OpenAbove(view, p, facing), zero = real(0.0f), one = real(1.0f);
   const mask_t leaf = k.kind == kFoliage, solid = (k.kind != kGlass) && (k.kind != kWater);
-  const real up = sel(leaf, rabs(facing.z), facing.z), ground = load(f.ground);
+  const real ground = load(f.ground);
   const mask_t grass = (ground == kLawn) || (ground == kSoil);
+  // Blades stand, but they hold what falls on their lawn.
+  const real up = sel(leaf, rmax(rabs(facing.z), sel(grass, real(0.8f), zero)), facing.z);
   const mask_t street = (ground == kCarriageway);
   const real lane = (rabs(rabs(u * load(f.tile)) - 1.72f) - 0.78f) * (1.0f / 0.32f);
   const real track = sel(street, exp_approx(zero - lane * lane), zero);

@@ -169,7 +169,7 @@ KERNEL void TakeMaterials(const MaterialRecord* const* material, const MaterialR
   f.any_leaf = AnyIs(f.kind, kFoliage);
   f.any_blend = stdx::any_of(load(f.blend) != 0.0f);
   f.any_unit = stdx::any_of(load(f.columns) != 0.0f);
-  f.any_ground = stdx::any_of(load(f.ground) != 0.0f);
+  f.any_ground = stdx::any_of((load(f.ground) != 0.0f) && (load(f.kind) != kFoliage));  // blades wear nothing
   f.any_beam = stdx::any_of(load(f.beam) != 0.0f);
   f.any_picture = f.any_base || f.any_normal || f.any_roughness || f.any_emission || f.any_blend || f.any_unit;
 }

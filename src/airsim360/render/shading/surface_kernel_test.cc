@@ -266,6 +266,18 @@ TEST(Weather, DeepSnowWhitensWhatFacesUpAndLeavesWalls) {
   EXPECT_NEAR(MeanOver({wall, Plain(0.1f), Weather(0, 1)}, at).albedo, 0.1, 0.01);
 }
 
+TEST(Weather, SnowLiesOnStandingBladesOfLawnsAndNotOnStandingLeaves) {
+  const Mesh upright = Rectangle({-30, 0, 0}, {60, 0, 0}, {0, 0, 60});
+  const Vec3f at = Normalized(Vec3f{0.1f, 1, 0.1f});
+  Material leaf = Plain(0.1f), blade = leaf;
+  leaf.kind = blade.kind = SurfaceKind::kFoliage;
+  blade.ground = GroundWear::kLawn;
+  EXPECT_NEAR(MeanOver({upright, leaf, Weather(0, 0.5)}, at).albedo, 0.1, 0.01);
+  EXPECT_GT(MeanOver({upright, blade, Weather(0, 0.5)}, at).albedo, 0.6);
+  // Nothing of what mowers do to a lawn is done to its blades again.
+  EXPECT_EQ(MeanOver({upright, blade}, at).albedo, MeanOver({upright, leaf}, at).albedo);
+}
+
 TEST(Weather, DryAirChangesNothing) {
   const Mesh ground = Rectangle({-30, -30, 0}, {60, 0, 0}, {0, 60, 0});
   Material m = Plain(0.3f);

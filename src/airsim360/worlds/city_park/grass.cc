@@ -57,6 +57,7 @@ Vec2f OnDisc(float radius, RngStream& rng) {
 PlantLayer BladeLayer() {
   PlantLayer layer = LeafLayer(BladeAtlas(), 0.7f);
   layer.material.name = "lawn blade";
+  layer.material.ground = GroundWear::kLawn;
   const float one = 1 / kAtlasScale;
   layer.material.base_color = {one, one, one};
   layer.material.roughness = 0.6f;
@@ -103,6 +104,7 @@ Model MakeClover(uint64_t seed) {
   layers[1].material.name = "daisy petal";
   layers[2].material = Leaf({0.60f, 0.40f, 0.04f}, 0.2f);
   layers[2].material.name = "daisy heart";
+  for (PlantLayer& layer : layers) layer.material.ground = GroundWear::kLawn;
   for (int i = 0; i < 210; ++i) {
     const Vec2f p = OnDisc(0.40f, rng);
     const auto h = static_cast<float>(rng.Uniform(0.035, 0.085)), a = kTauF * static_cast<float>(rng.Uniform());

@@ -19,6 +19,12 @@ const Texture& GrassBlades() {
   return atlas;
 }
 
+PlantLayer GrassLayer() {
+  PlantLayer layer = LeafLayer(GrassBlades(), 0.7f);
+  layer.material.ground = GroundWear::kLawn;
+  return layer;
+}
+
 Vec3f OnDisc(float radius, RngStream& random) {
   const float r = radius * std::sqrt(static_cast<float>(random.Uniform())), a = kTauF * static_cast<float>(random.Uniform());
   return {r * std::cos(a), r * std::sin(a), 0};
@@ -28,7 +34,7 @@ Vec3f OnDisc(float radius, RngStream& random) {
 Model MakeGrassTuft(uint32_t variant, uint64_t seed) {
   RngStream random(seed, "grass_tuft");
   const bool tall = variant >= 2;
-  std::array<PlantLayer, 1> layers = {LeafLayer(GrassBlades(), 0.7f)};
+  std::array<PlantLayer, 1> layers = {GrassLayer()};
   for (int i = 0; i < 40; ++i) {
     const Vec3f p = OnDisc(tall ? 0.10f : 0.16f, random) - Vec3f{0, 0, 0.01f};
     const float height = static_cast<float>(tall ? random.Uniform(0.14, 0.34) : random.Uniform(0.05, 0.12));
@@ -45,7 +51,7 @@ constexpr Turf kMownTurf{.low = 0.035f, .high = 0.075f, .mown = 0.055f};
 // A round patch of mown lawn, lower towards its rim: for the borders of lawns.
 Model MakeLawnPatch(uint32_t, uint64_t seed) {
   RngStream random(seed, "lawn_patch");
-  std::array<PlantLayer, 1> layers = {LeafLayer(GrassBlades(), 0.7f)};
+  std::array<PlantLayer, 1> layers = {GrassLayer()};
   AddTurf(
       layers[0], kMownTurf, 3600,
       [&] {
@@ -58,7 +64,7 @@ Model MakeLawnPatch(uint32_t, uint64_t seed) {
 // A square of mown lawn: tiles meet edge to edge, so that a ray enters one of them where it would enter five patches.
 Model MakeLawnTile(uint32_t, uint64_t seed) {
   RngStream random(seed, "lawn_tile");
-  std::array<PlantLayer, 1> layers = {LeafLayer(GrassBlades(), 0.7f)};
+  std::array<PlantLayer, 1> layers = {GrassLayer()};
   const auto coordinate = [&] { return kLawnTile * static_cast<float>(random.Uniform(-0.5, 0.5)); };
   AddTurf(
       layers[0], kMownTurf, static_cast<int>(kLawnDensity * kLawnTile * kLawnTile),

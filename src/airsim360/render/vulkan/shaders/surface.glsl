@@ -154,7 +154,7 @@ Skin PaintSkin(Fetched f, uint instance, Meeting at, Sampled sampled, out Noises
   roughness *= sampled.texel[1].y, metallic *= sampled.texel[1].z;
   vec3 emission = Vec(m.emission) * sampled.texel[3];
   if (emission != vec3(0.0)) emission = Thrown(m, f.t, f.matrix, instance, f.pane, at.d, emission);
-  const bool wear = m.ground > 0.5, weather = LiesWeather();
+  const bool wear = m.ground > 0.5 && m.kind != kFoliage, weather = LiesWeather();
   if (m.macro_variation != 0.0 || wear || weather)
     noises = LookUpNoises(wear || weather, wall_share(m.macro_variation, m.ground, at.n.z), at.p, at.n, at.width);
   if (m.macro_variation != 0.0)

@@ -170,9 +170,9 @@ void LieWeather(GpuMaterial m, Noises s, vec3 p, vec3 facing, float width, float
       view.open_sky > 0.0 ? clamp01(luminance(SampleProbes(p, facing, above, above).front) * (1.0 / view.open_sky)) * (1.0 - roof_share(p))
                           : 0.0;
   const bool leaf = k.kind == kFoliage, solid = k.kind != kGlass && k.kind != kWater;
-  const float up = leaf ? abs(facing.z) : facing.z;
   const int ground = int(m.ground + 0.5);
   const bool grass = ground == 4 || ground == 6;
+  const float up = leaf ? max(abs(facing.z), grass ? 0.8 : 0.0) : facing.z;
   const float lane = (abs(abs(u * m.tile) - 1.72) - 0.78) * (1.0 / 0.32);
   const float track = ground == 2 ? exp_approx(-lane * lane) : 0.0;
   if (view.wetness > 0.0) {
