@@ -2,7 +2,7 @@
 BUILD ?= build
 JOBS ?= $(shell nproc)
 
-.PHONY: build demo people test bench bench-gpu wheel fuzz docs install-packages clean
+.PHONY: build demo people test bench bench-gpu wheel fuzz tidy docs install-packages clean
 
 build: install-packages
 	@tools/configure.sh $(BUILD)
@@ -33,6 +33,11 @@ bench-gpu: install-packages
 # longer fuzzing on demand: make fuzz SECONDS=3600
 fuzz: build
 	@tools/fuzz.sh $(BUILD) $(JOBS) $(or $(SECONDS),300)
+
+# clang-tidy over the sources; apart from `make test`, for it takes as long as compiling
+tidy: build
+	@tools/install_packages.sh clang-tidy-16
+	@tools/check_tidy.py $(BUILD) -j $(JOBS)
 
 # site/index.html, by Debian's mkdocs-material, with a gallery that the program renders
 docs: install-packages

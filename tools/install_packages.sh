@@ -1,9 +1,10 @@
 #!/bin/sh
-# Installs the Debian packages listed in tools/packages.txt that are missing; does nothing when all are present.
+# Installs the Debian packages listed in tools/packages.txt, and those named as arguments, that are missing; does nothing when all
+# are present.
 set -eu
 list="$(dirname "$0")/packages.txt"
 missing=""
-for package in $(sed 's/#.*//' "$list"); do
+for package in $(sed 's/#.*//' "$list") "$@"; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing="$missing $package"
 done
 [ -n "$missing" ] || exit 0
