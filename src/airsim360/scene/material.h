@@ -46,7 +46,7 @@ enum class SurfaceKind : uint8_t {
 };
 
 /// Which traces of use and weather the shader adds to a ground, in world space, where no texture could
-/// repeat. On foliage it names the ground whose blades these are: snow lies on them as on it, and nothing else is added.
+/// repeat. On foliage it names the ground whose blades these are: snow and rain lie on them as on it, nothing else is added.
 enum class GroundWear : uint8_t {
   kNone,
   kAsphalt,      ///< stains, cracks, sealed repairs

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <set>
+#include <string>
+#include <string_view>
 
 #include "airsim360/worlds/building/massing.h"
 #include "airsim360/worlds/new_york_city/manhattan.h"
@@ -90,8 +92,8 @@ constexpr std::array kSanFrancisco = {"construction/building",
 template <size_t N>
 double Present(const std::array<const char*, N>& categories, const WorldSurvey& survey) {
   double present = 0;
-  for (const std::string path : categories) {
-    const auto it = survey.categories.find(path);
+  for (const std::string_view path : categories) {
+    const auto it = survey.categories.find(std::string(path));
     present += it != survey.categories.end() && it->second >= (path == "sky" || path == "water/lake" ? 1 : 3);
   }
   return present;
