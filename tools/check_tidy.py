@@ -44,9 +44,12 @@ def main():
     with open(os.path.join(asked.build, "compile_commands.json")) as file:
         commands = json.load(file)
     here = os.path.join(ROOT, "src", "airsim360") + os.sep
-    entries = []
+    entries, seen = [], set()
     for entry in commands:
         files = [f for f in sources(entry["file"]) if f.startswith(here) and not f.endswith("_test.cc")]
+        if entry["file"] in seen:
+            continue  # kernels are compiled for several processors
+        seen.add(entry["file"])
         if files and (not asked.patterns or any(p in f for p in asked.patterns for f in files)):
             entries.append({"directory": entry["directory"], "file": entry["file"], "arguments": arguments(entry)})
     if not entries:

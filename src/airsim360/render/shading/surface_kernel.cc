@@ -265,7 +265,7 @@ uint32_t AskContact(const RaySet& rays, const SurfaceSet& s, int first, float fa
   uint32_t bits = 0;
   for (int k = 0; k < 16; ++k) {
     const int i = first + k;
-    bits |= (s.gz[i] >= 0.7f) & (rays.distance[i] <= farthest) & (s.kind[i] == 0) ? 1u << k : 0;
+    bits |= ((s.gz[i] >= 0.7f) & (rays.distance[i] <= farthest) & (s.kind[i] == 0)) ? 1u << k : 0;
   }
   return bits;
 }
