@@ -212,7 +212,7 @@ Bytes EncodeHdf5(const Image<float>& picture, const std::string& name) {
   file.U(name_at, 8), file.U(at.header, 8), file.Zeros(24);
   file.Zeros(at.header - file.size());
   file.Append(dataset_header(at.chunk_tree));
-  file.Append(TreeNode(1, chunks.size(), std::move(keys), at.chunks - at.chunk_tree));
+  file.Append(TreeNode(1, chunks.size(), keys, at.chunks - at.chunk_tree));
   for (const Bytes& chunk : chunks) {
     file.Append(chunk);
     file.Align();
