@@ -156,12 +156,12 @@ class OracleAgent : public VlnAgent {
       const Node from = nodes[static_cast<size_t>(at)];
       if (from.to_go < nodes[static_cast<size_t>(best)].to_go) best = at;
       if (from.to_go <= enough) break;
-      for (Node& next : StepsFrom(s, from, at, room)) {
+      for (const Node& next : StepsFrom(s, from, at, room)) {
         const auto [entry, is_new] = reached.try_emplace(CellOf(next), next.decisions);
         if (!is_new && entry->second <= next.decisions) continue;
         entry->second = next.decisions;
         open.push({next.decisions + kGreed * next.to_go / pace, static_cast<int>(nodes.size())});
-        nodes.push_back(std::move(next));
+        nodes.push_back(next);
       }
     }
     return nodes[static_cast<size_t>(best)].to_go < to_go - kBetter ? StepsTo(nodes, best) : std::vector<Preset>{};

@@ -55,7 +55,7 @@ ProofStep Filter(std::vector<Candidate>& candidates, const Predicate& predicate,
     }
     candidate.sure = candidate.sure && value >= step.needed;
     step.value = value;
-    kept.push_back(std::move(candidate));
+    kept.push_back(candidate);
   }
   candidates = std::move(kept);
   step.after = static_cast<int>(candidates.size());
