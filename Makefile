@@ -34,7 +34,7 @@ bench-gpu: install-packages
 fuzz: build
 	@tools/fuzz.sh $(BUILD) $(JOBS) $(or $(SECONDS),300)
 
-# clang-tidy over the sources; apart from `make test`, for it takes as long as compiling
+# clang-tidy over the sources; apart from `make test`, which it would make minutes longer
 tidy: build
 	@tools/install_packages.sh clang-tidy-16
 	@tools/check_tidy.py $(BUILD) -j $(JOBS)

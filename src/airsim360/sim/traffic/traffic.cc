@@ -137,7 +137,7 @@ AffineTransform PlaceOf(const TrafficBody& body, const RigidTransform& X_WB) {
   return {A, VecCast<float>(X_WB.p) - A * body.offset_M};
 }
 
-// Most speeds of cyclists in towns are 12 to 20 km/h (Allen, Rouphail, Hummer, Milazzo, Transp. Res. Rec. 1636, 1998).
+// 14 to 20 km/h, chosen by us for mixed traffic: FHWA-RD-98-108 (1998) takes 25 km/h where bicycles have lanes of their own.
 TrafficVehicle MakeCyclist(const Vec3f& size, RngStream& rng) {
   TrafficVehicle vehicle;
   vehicle.shape = {.length = size.y, .width = std::max(0.65f, size.x), .height = kRiderHeight, .bicycle = true};
