@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """What ingredients of our worlds are worth to a network that learns from them.
 
-    PYTHONPATH=build/python /usr/bin/python3 bench/usefulness.py segment --frames DIR --out RUNS [--steps 400] [--seeds 3]
+    PYTHONPATH=build/python /usr/bin/python3 bench/usefulness.py segment --frames DIR --out RUNS [--high DIR] [--steps 400] [--seeds 3]
     PYTHONPATH=build/python /usr/bin/python3 bench/usefulness.py attitude --frames DIR --out RUNS --photographs PANORAMA...
 
-DIR is of `airsim360 learn frames`. Each row trains with another choice of frames or randomisation, all with the same number of steps, once a
-seed, and is measured on the world that is held out (segment: mean IoU of seven classes) or on level panoramas that are turned
+DIR is of `airsim360 learn frames`, that of --high with `--tier high` and else the same flags. Each row trains with another choice of
+frames or randomisation, all with the same number of steps, once a seed, and is measured on the world that is held out (segment: mean IoU of seven classes) or on level panoramas that are turned
 (attitude: median error in degrees). Prints a Markdown table: mean over the seeds, and the half width of its 95 % interval by Student's
 t. The same command goes on after an interruption.
 """
@@ -17,19 +17,49 @@ import subprocess
 import sys
 from pathlib import Path
 
+import cv2
+import numpy as np
+
+from airsim360.learn.sphere import crop_rays, directions, rotation, sample
+
 STUDENT = {2: 12.71, 3: 4.30, 4: 3.18, 5: 2.78}  # 97.5 % of t with n - 1 degrees of freedom
 
 
-def rows(worlds, held):
+def stitched(frames, out):
+    """Frames whose labels went through the six faces of a cube, of a quarter of the panorama's width: there and back by the nearest
+    pixel, as stitched ground truth is made."""
+    out.mkdir(parents=True, exist_ok=True)
+    turns = [rotation(k * math.pi / 2, 0, 0) for k in range(4)] + [rotation(0, pitch, 0) for pitch in (math.pi / 2, -math.pi / 2)]
+    for path in sorted(frames.glob("*_[0-9][0-9][0-9][0-9][0-9].json")):
+        label = cv2.imread(str(path)[:-5] + ".png", cv2.IMREAD_UNCHANGED)
+        side, rays = label.shape[1] // 4, directions(label.shape[0])
+        back = np.zeros_like(label)
+        for turn in turns:
+            face = sample(label, crop_rays(side, side, math.pi / 2) @ turn.T, nearest=True)
+            x, y, z = np.moveaxis(rays @ turn, -1, 0)
+            seen = z >= np.maximum(np.abs(x), np.abs(y))
+            at = [np.clip(((v[seen] / z[seen] + 1) / 2 * side).astype(int), 0, side - 1) for v in (x, y)]
+            back[seen] = face[at[1], at[0]]
+        cv2.imwrite(str(out / path.with_suffix(".png").name), back)
+        for kind in (".jpg", ".json"):
+            link = out / path.with_suffix(kind).name
+            if not link.exists():
+                link.symlink_to(path.with_suffix(kind).resolve())
+    return out
+
+
+def rows(worlds, held, high=None, faces=None):
     """Name of a row -> flags of `train`."""
     rest = [w for w in worlds if w != held]
+    other = {"labels of six stitched faces": faces, "tier `high`": high}
+    more = {name: ["--without", held, "--frames", folder] for name, folder in other.items() if folder}
     return {f"all {len(rest)} other worlds": ["--without", held],
             "one of them": ["--worlds", rest[0]],
             "three of them": ["--worlds", ",".join(rest[:3])],
             "one sky in each": ["--without", held, "--skies", "1"],
             "nobody in the streets": ["--without", held, "--no-people"],
             "a quarter of the frames": ["--without", held, "--most", "QUARTER"],
-            "no domain randomisation": ["--without", held, "--augment", "none"]}
+            "no domain randomisation": ["--without", held, "--augment", "none"], **more}
 
 
 def learn(*words):
@@ -44,7 +74,7 @@ def measured(a, held, flags, out, seed):
     """The figure of one training."""
     kept = out / "figure.json"
     if not kept.exists():
-        learn(a.task, "train", "--out", out, "--frames", a.frames, "--steps", a.steps, "--size", a.size, "--seed", seed, "--threads", a.threads, *flags)
+        learn(a.task, "train", "--out", out, *([] if "--frames" in flags else ["--frames", a.frames]), "--steps", a.steps, "--size", a.size, "--seed", seed, "--threads", a.threads, *flags)
         if a.task == "segment":
             figure = learn("segment", "eval", "--frames", a.frames, "--worlds", held, "--model", out, "--threads", a.threads)["miou"]
         else:
@@ -64,6 +94,8 @@ def main():
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--photographs", nargs="*", default=[])
+    parser.add_argument("--high", type=Path, help="the same frames of tier high: a row more")
+    parser.add_argument("--only", default="", help="rows whose names have one of these words: word,word")
     a = parser.parse_args()
     a.size = a.size or {"segment": 128, "attitude": 32}[a.task]
     if a.task == "attitude" and not a.photographs:
@@ -74,7 +106,10 @@ def main():
         parser.error(f"--frames: needs {a.held} and three worlds more; there are {', '.join(worlds)}")
     quarter = sum(frame["world"] != a.held for frame in about) // 4
     print(f"| trained on | {'mean IoU' if a.task == 'segment' else 'median error'} | ± |\n|---|--:|--:|")
-    for k, (name, flags) in enumerate(rows(worlds, a.held).items()):
+    faces = stitched(a.frames, a.out / "stitched") if a.task == "segment" else None
+    chosen = {name: flags for name, flags in rows(worlds, a.held, a.high, faces).items() if not a.only or any(word in name for word in a.only.split(","))}
+    for name, flags in chosen.items():
+        k = name.replace(" ", "_").replace("`", "")
         flags = [str(quarter) if flag == "QUARTER" else flag for flag in flags]
         found = [measured(a, a.held, flags, a.out / f"{a.task}_{k}_{seed}", seed) for seed in range(a.seeds)]
         spread = STUDENT.get(len(found), 2.6) * statistics.stdev(found) / math.sqrt(len(found)) if len(found) > 1 else float("nan")

@@ -42,7 +42,7 @@ def _draw(a: argparse.Namespace, folder: Path) -> Frames:
     if a.skies_of < 1:
         raise ValueError(f"--skies-of: {a.skies_of}; give 1 or more")
     return draw(folder, worlds=a.draw_worlds.split(","), frames=a.draw, width=a.width, seed=a.seed, skies=a.skies_of, clean=a.clean,
-                threads=a.threads)
+                tier=a.tier, threads=a.threads)
 
 
 def _chosen(a: argparse.Namespace, folder: Path) -> Frames:

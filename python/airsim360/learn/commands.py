@@ -70,6 +70,7 @@ def _drawing(parser: argparse.ArgumentParser, width: int = 1280) -> None:
     parser.add_argument("--width", type=int, default=width, help=f"of the panoramas, pixels ({width})")
     parser.add_argument("--skies-of", type=int, default=16, help="consecutive frames that share a sky")
     parser.add_argument("--clean", action="store_true", help="without the look of a camera")
+    parser.add_argument("--tier", choices=("fast", "high"), default="fast", help="how frames are drawn (fast)")
     parser.add_argument("--seed", type=int, default=0, help="of everything random")
 
 

@@ -45,22 +45,22 @@ _SHARES = (("street", 0.5, "lowest: 1.6, highest: 2.4, clearance: 0.8"), ("above
            ("people", 0.3, "sampler: people, people: 24, width: 16, depth: 12, lowest: 1.6, highest: 2.2, pitch_deg: 0, interval: 2, view_frames: 1"))
 
 
-def recipe(world: str, row: str, frames: int, width: int, skies: int = 16, clean: bool = False) -> str:
+def recipe(world: str, row: str, frames: int, width: int, skies: int = 16, clean: bool = False, tier: str = "fast") -> str:
     """A recipe of `dataset plan`: the row "street" (at the height of eyes), "above" (2.4 to 30 m) or "people" of a world.
 
-    `skies` consecutive frames share a sky. `clean` leaves out the camera's look.
+    `skies` consecutive frames share a sky. `clean` leaves out the camera's look. `tier`: fast or high.
     """
     look = "exposure: auto" if clean else "look: photo, camera_look: {each_frame: true, white_error: 0.06}"
     exposure = "" if clean else ", settings: [{setting: exposure, low: -0.7, high: 0.7}]"
     keys = next(keys for name, _, keys in _SHARES if name == row)
-    return "\n".join(["name: learn", f"picture: {{size: {width}x{width // 2}, tier: fast, {look}, products: []}}", "skies:", "  - name: all",
+    return "\n".join(["name: learn", f"picture: {{size: {width}x{width // 2}, tier: {tier}, {look}, products: []}}", "skies:", "  - name: all",
                       f"    frames: {skies}", "    choices:", f"      - {{weight: 4, climate: true, latitude_deg: 42{exposure}}}",
                       f"      - {{weight: 1, weather: overcast{exposure}}}", "rows:",
                       f"  - {{name: {world}_{row}, world: {world}, frames: {frames}, skies: all, {keys}}}"]) + "\n"
 
 
 def draw(folder: Path, *, worlds: Sequence[str] = WORLDS, frames: int = 1000, width: int = 1280, seed: int = 0, skies: int = 16,
-         clean: bool = False, threads: int = 0) -> "Frames":
+         clean: bool = False, tier: str = "fast", threads: int = 0) -> "Frames":
     """Draws what is missing in a folder of frames; the same call goes on after an interruption. The same seed, the same frames.
 
     Of every world's frames half are at the height of eyes, a fifth higher, a third among people. One world is open at a time, in a
@@ -72,7 +72,7 @@ def draw(folder: Path, *, worlds: Sequence[str] = WORLDS, frames: int = 1000, wi
         raise ValueError(f"frames: {frames}; give 1 to 1000000")
     folder.mkdir(parents=True, exist_ok=True)
     each = frames / len(worlds)
-    rows = {f"{world}_{name}": recipe(world, name, max(1, round(each * share)), width, skies, clean)
+    rows = {f"{world}_{name}": recipe(world, name, max(1, round(each * share)), width, skies, clean, tier)
             for world in worlds for name, share, _ in _SHARES}
     wanted = {"rows": rows, "seed": seed}
     about = folder / "about.json"
