@@ -12,7 +12,7 @@
 #include "airsim360/planning/certificate.h"
 #include "airsim360/planning/polynomial_trajectory.h"
 #include "airsim360/planning/trajectory_limits.h"
-#include "airsim360/render/cuda/cuda_renderer.h"
+#include "airsim360/render/cuda/cuda_pictures.h"
 #include "airsim360/sensors/rig.h"
 #include "airsim360/sim/sim_loop.h"
 #include "airsim360/stage/stage.h"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "airsim360/render/cuda/cuda_renderer.h"
+#include "airsim360/render/cuda/cuda_pictures.h"
 #include "convert.h"
 
 namespace airsim360::python {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "airsim360/base/error.h"
-#include "airsim360/render/cuda/cuda_renderer.h"
+#include "airsim360/render/cuda/cuda_pictures.h"
 #include "airsim360/worlds/worlds.h"
 #include "fake_cuda.h"
 

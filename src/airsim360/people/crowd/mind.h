@@ -31,7 +31,7 @@ class Mind : public Leaves {
   Status FacePerson(PersonIndex other);
   Status Every(NodeMemory& memory, double period, double first);
 
-  // mind_walking.cc
+  // errands.cc
   Status OnTheWay();
   Status WanderTo(bool fresh, uint32_t area, double speed);
   Status GoTo(bool fresh, const Value& point, double speed);

@@ -1,7 +1,7 @@
 // Instructions in the style of the paper's for whatever a world has: its own categories and names, five lengths.
 #pragma once
 
-#include "airsim360/vln/episodes/instruction_template.h"
+#include "airsim360/vln/episodes/template_syntax.h"
 
 namespace airsim360 {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/vln/episodes/instruction_template.h"
+#include "airsim360/vln/episodes/template_syntax.h"
 #include "airsim360/vln/episodes/world_things.h"
 
 namespace airsim360 {

@@ -1,6 +1,6 @@
 // The instructions of the AirSim360 paper (appendix, "List of Prompts"), quoted word for word, and what each asks for.
 // Data: the text is the paper's, the binding is ours.
-#include "airsim360/vln/episodes/instruction_template.h"
+#include "airsim360/vln/episodes/template_syntax.h"
 
 namespace airsim360 {
 

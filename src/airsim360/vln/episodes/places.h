@@ -6,7 +6,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/tasks/agents/shortest_way.h"
 #include "airsim360/vln/episodes/ground.h"
-#include "airsim360/vln/episodes/instruction_template.h"
+#include "airsim360/vln/episodes/template_syntax.h"
 
 namespace airsim360::internal {
 

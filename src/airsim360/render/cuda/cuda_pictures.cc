@@ -1,4 +1,4 @@
-#include "airsim360/render/cuda/cuda_renderer.h"
+#include "airsim360/render/cuda/cuda_pictures.h"
 
 #include <algorithm>
 #include <atomic>

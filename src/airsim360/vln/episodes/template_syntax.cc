@@ -1,4 +1,4 @@
-#include "airsim360/vln/episodes/instruction_template.h"
+#include "airsim360/vln/episodes/template_syntax.h"
 
 #include <algorithm>
 #include <filesystem>
