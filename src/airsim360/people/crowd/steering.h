@@ -14,7 +14,7 @@ namespace airsim360::internal {
 /// Discs never overlap by more than rounding once they do not at the start.
 inline constexpr double kBodyRadius = 0.2;
 /// What people keep around themselves where there is room; walls are NavMeshOptions::person_radius away.
-inline constexpr double kSpaceRadius = 0.28;
+inline constexpr double kSpaceRadius = 0.24;
 
 struct Walker {
   NavPoint at;
