@@ -12,12 +12,15 @@
 #include "airsim360/people/body/anatomy.h"
 #include "airsim360/people/body/loft.h"
 #include "airsim360/people/body/seat_sockets.h"
+#include "layers.h"
+#include "picture.h"
+#include "rest_pose.h"
 
 namespace airsim360::bake {
 namespace {
 
 using internal::At;
-constexpr size_t kTrianglesOf[] = {26000, 6000, 1500, 300};
+constexpr size_t kTrianglesOf[] = {26000, 6000, 1250, 300};
 
 Vec3f ToPerson(Vec3f v) { return {0.1f * v.z, 0.1f * v.x, 0.1f * v.y}; }
 
@@ -48,14 +51,8 @@ Joint JointOf(const std::string& full) {
 }
 
 // Which end of which bone each of our joints is.
-std::array<Vec3d, kJointCount> Joints(const BaseHuman& base, const std::vector<Vec3f>& v) {
-  const auto mean = [&](const std::string& end) {
-    const auto found = base.joints.find(end);
-    if (found == base.joints.end()) throw InputError("base mesh has no joint '" + end + "'");
-    Vec3d sum{};
-    for (int i : found->second) sum += VecCast<double>(ToPerson(v[static_cast<size_t>(i)]));
-    return sum / static_cast<double>(found->second.size());
-  };
+std::array<Vec3d, kJointCount> Joints(const BaseHuman& base, const std::vector<Vec3f>& v, const std::vector<RigidTransform>& bones) {
+  const auto mean = [&](const std::string& end) { return VecCast<double>(ToPerson(VecCast<float>(PosedEnd(base, v, bones, end)))); };
   std::array<Vec3d, kJointCount> q;
   const auto set = [&](Joint j, const std::string& bone) { q[At(j)] = mean(bone + "____head"); };
   set(Joint::kPelvis, "spine05");
@@ -101,17 +98,6 @@ Influences Folded(const BaseHuman& base, const std::array<int, 4>& bones, const 
   return in;
 }
 
-// Triangles of one material, vertices split by uv.
-struct Piece {
-  Cloth cloth = Cloth::kOther;
-  uint32_t material = 0;
-  std::vector<Vec3f> positions;  // in P
-  std::vector<Vec2f> uvs;
-  std::vector<Influences> influences;
-  std::vector<uint32_t> source;  // vertex of the source mesh, for smooth normals over uv seams
-  std::vector<uint32_t> indices;
-};
-
 template <class Keep>
 Piece MakePiece(const BaseHuman& base, const SourceMesh& mesh, const std::vector<Vec3f>& at, const Keep& keep) {
   Piece piece;
@@ -129,7 +115,7 @@ Piece MakePiece(const BaseHuman& base, const SourceMesh& mesh, const std::vector
   };
   for (size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto &a = mesh.faces[f], &b = mesh.uv_faces[f];
-    if (!keep(a)) continue;
+    if (!keep(f)) continue;
     const uint32_t v[4] = {vertex(a[0], b[0]), vertex(a[1], b[1]), vertex(a[2], b[2]), vertex(a[3], b[3])};
     piece.indices.insert(piece.indices.end(), {v[0], v[1], v[2]});
     if (v[3] != v[2] && a[3] != a[2]) piece.indices.insert(piece.indices.end(), {v[0], v[2], v[3]});
@@ -137,124 +123,172 @@ Piece MakePiece(const BaseHuman& base, const SourceMesh& mesh, const std::vector
   return piece;
 }
 
-// Connected parts of a suit, each above or below the waist: shirts apart from trousers.
-std::vector<bool> FacesOfTop(const SourceMesh& mesh, const std::vector<Vec3f>& at, float waist) {
-  std::vector<int> root(at.size());
+// Heights that a connected part of a garment spans.
+struct Part {
+  float low = 1e9f, high = -1e9f;
+  double sum = 0;
+  int count = 0;
+  double mean() const { return sum / count; }
+  void Add(float y) {
+    low = std::min(low, y);
+    high = std::max(high, y);
+    sum += y;
+    ++count;
+  }
+};
+
+// By face, its part: faces are connected that share one of their `corners`.
+std::vector<Part> PartsBy(const std::vector<std::array<int, 4>>& corners, const SourceMesh& mesh, const std::vector<Vec3f>& at) {
+  int count = 0;
+  for (const auto& f : corners) count = std::max(count, std::ranges::max(f) + 1);
+  std::vector<int> root(static_cast<size_t>(count));
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int i) {
     while (root[static_cast<size_t>(i)] != i) i = root[static_cast<size_t>(i)] = root[static_cast<size_t>(root[static_cast<size_t>(i)])];
     return i;
   };
-  for (const auto& f : mesh.faces) {
-    for (int k = 1; k < 4; ++k) root[static_cast<size_t>(find(f[static_cast<size_t>(k)]))] = find(f[0]);
+  for (const auto& f : corners) {
+    for (size_t k = 1; k < 4; ++k) root[static_cast<size_t>(find(f[k]))] = find(f[0]);
   }
-  std::map<int, std::pair<double, int>> height;
-  for (size_t i = 0; i < at.size(); ++i) {
-    auto& [sum, count] = height[find(static_cast<int>(i))];
-    sum += at[i].y;
-    ++count;
+  std::map<int, Part> parts;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    for (const int v : mesh.faces[i]) parts[find(corners[i][0])].Add(at[static_cast<size_t>(v)].y);
   }
-  std::vector<bool> top(at.size());
-  for (size_t i = 0; i < at.size(); ++i) {
-    const auto& [sum, count] = height[find(static_cast<int>(i))];
-    top[i] = sum / count > waist;
-  }
-  return top;
+  std::vector<Part> of_face;
+  for (const auto& f : corners) of_face.push_back(parts[find(f[0])]);
+  return of_face;
 }
 
-// Simplifies every piece by the same share and joins them.
-BodyLevel MakeLevel(const std::vector<Piece>& pieces, size_t level) {
-  size_t all = 0;
-  for (const Piece& p : pieces) all += p.indices.size() / 3;
-  const double share = std::min(1.0, static_cast<double>(kTrianglesOf[level]) / static_cast<double>(all));
-  BodyLevel out;
-  for (const Piece& p : pieces) {
-    std::vector<uint32_t> indices = p.indices;
-    size_t target = static_cast<size_t>(static_cast<double>(p.indices.size() / 3) * share) * 3;
-    // Brows are for near views.
-    if (level >= 2 && p.cloth == Cloth::kOther) continue;
-    if (share < 1) {
-      std::vector<uint32_t> fewer(indices.size());
-      size_t count = meshopt_simplify(fewer.data(), indices.data(), indices.size(), &p.positions[0].x, p.positions.size(), sizeof(Vec3f), target, level == 1 ? 0.03f : 0.2f, 0, nullptr);
-      if (level >= 2 && count > target * 3 / 2) {
-        const size_t sloppy = meshopt_simplifySloppy(fewer.data(), indices.data(), indices.size(), &p.positions[0].x, p.positions.size(), sizeof(Vec3f), std::max<size_t>(target, 36), 1.0f, nullptr);
-        if (sloppy > 0) count = sloppy;
-        else count = meshopt_simplify(fewer.data(), indices.data(), indices.size(), &p.positions[0].x, p.positions.size(), sizeof(Vec3f), target, 1.0f, 0, nullptr);
-      }
-      fewer.resize(count);
-      indices = std::move(fewer);
-    }
-    if (indices.empty()) continue;
+// Connected parts of a garment, by face. A suit in one piece from the legs to the chest is parted at its seams, where
+// the map is cut.
+std::vector<Part> PartsOf(const SourceMesh& mesh, const std::vector<Vec3f>& at) {
+  constexpr float kOnePiece = 11;  // decimetres
+  std::vector<Part> parts = PartsBy(mesh.faces, mesh, at);
+  const bool whole = std::ranges::any_of(parts, [](const Part& p) { return p.high - p.low > kOnePiece; });
+  return whole && !mesh.uvs.empty() ? PartsBy(mesh.uv_faces, mesh, at) : parts;
+}
 
-    // Only vertices that are left.
-    std::vector<uint32_t> remap(p.positions.size());
-    meshopt_optimizeVertexFetchRemap(remap.data(), indices.data(), indices.size(), p.positions.size());
-    const auto first = static_cast<uint32_t>(out.mesh.positions.size());
-    uint32_t used = 0;
-    for (uint32_t r : remap) used = r == ~0u ? used : std::max(used, r + 1);
-    out.mesh.positions.resize(first + used);
-    out.mesh.uvs.resize(first + used);
-    out.influences.resize(first + used);
-    std::vector<uint32_t> source(used);
-    for (size_t v = 0; v < remap.size(); ++v) {
-      if (remap[v] == ~0u) continue;
-      out.mesh.positions[first + remap[v]] = p.positions[v];
-      out.mesh.uvs[first + remap[v]] = p.uvs[v];
-      out.influences[first + remap[v]] = p.influences[v];
-      source[remap[v]] = p.source[v];
-    }
-    // Normals are smooth over uv seams.
-    std::map<uint32_t, Vec3f> sums;
-    const auto start = static_cast<uint32_t>(out.mesh.triangles.size());
-    for (size_t i = 0; i + 2 < indices.size(); i += 3) {
-      const uint32_t t[3] = {remap[indices[i]], remap[indices[i + 1]], remap[indices[i + 2]]};
-      const Vec3f a = out.mesh.positions[first + t[0]], b = out.mesh.positions[first + t[1]], c = out.mesh.positions[first + t[2]];
-      const Vec3f area = Cross(b - a, c - a);
-      for (uint32_t k : t) sums[source[k]] += area;
-      out.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-    }
-    for (uint32_t k = 0; k < used; ++k) {
-      const Vec3f n = Normalized(sums[source[k]]);
-      out.mesh.normals.push_back(n == Vec3f{} ? Vec3f{0, 0, 1} : n);
-    }
-    out.mesh.parts.push_back({start, static_cast<uint32_t>(out.mesh.triangles.size()) - start, p.material, kNoEntity});
+// What each level may be off by at most, metres, and how far garments are kept from what they cover: further than
+// that, or skin shows through them.
+constexpr float kMostError[] = {0.004f, 0.02f, 0.035f, 0.06f};
+constexpr float kGap[] = {0.004f, 0.008f, 0.016f, 0.03f};
+constexpr float kCrumb[] = {0, 0.012f, 0.05f, 0.1f};
+
+// Hair and shoes are of many parts and seams, which simplifying does not get below a thousand triangles: far off they are
+// made anew on a grid.
+void MakeCoarse(size_t triangles, Piece& p) {
+  if (p.indices.size() / 3 <= triangles) return;
+  std::vector<uint32_t> fewer(p.indices.size());
+  const size_t count = meshopt_simplifySloppy(fewer.data(), p.indices.data(), p.indices.size(), &p.positions[0].x, p.positions.size(), sizeof(Vec3f), 3 * triangles, 1.0f, nullptr);
+  if (count == 0) return;
+  fewer.resize(count);
+  p.indices = std::move(fewer);
+  p.whole = true;
+}
+
+// Adds triangles of a piece to a level, with the vertices that are left.
+void Append(const Piece& p, const std::vector<uint32_t>& indices, BodyLevel& out) {
+  std::vector<uint32_t> remap(p.positions.size());
+  meshopt_optimizeVertexFetchRemap(remap.data(), indices.data(), indices.size(), p.positions.size());
+  const auto first = static_cast<uint32_t>(out.mesh.positions.size());
+  uint32_t used = 0;
+  for (uint32_t r : remap) used = r == ~0u ? used : std::max(used, r + 1);
+  out.mesh.positions.resize(first + used);
+  out.mesh.uvs.resize(first + used);
+  out.influences.resize(first + used);
+  std::vector<uint32_t> source(used);
+  for (size_t v = 0; v < remap.size(); ++v) {
+    if (remap[v] == ~0u) continue;
+    out.mesh.positions[first + remap[v]] = p.positions[v];
+    out.mesh.uvs[first + remap[v]] = p.uvs[v];
+    out.influences[first + remap[v]] = p.influences[v];
+    source[remap[v]] = p.source[v];
+  }
+  // Normals are smooth over uv seams.
+  std::map<uint32_t, Vec3f> sums;
+  const auto start = static_cast<uint32_t>(out.mesh.triangles.size());
+  for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+    const uint32_t t[3] = {remap[indices[i]], remap[indices[i + 1]], remap[indices[i + 2]]};
+    const Vec3f a = out.mesh.positions[first + t[0]], b = out.mesh.positions[first + t[1]], c = out.mesh.positions[first + t[2]];
+    const Vec3f area = Cross(b - a, c - a);
+    for (uint32_t k : t) sums[source[k]] += area;
+    out.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  for (uint32_t k = 0; k < used; ++k) {
+    const Vec3f n = Normalized(sums[source[k]]);
+    out.mesh.normals.push_back(n == Vec3f{} ? Vec3f{0, 0, 1} : n);
+  }
+  out.mesh.parts.push_back({start, static_cast<uint32_t>(out.mesh.triangles.size()) - start, p.material, kNoEntity});
+}
+
+// Simplifies the pieces together and joins them.
+BodyLevel MakeLevel(std::vector<Piece> pieces, size_t level) {
+  // Brows and eyes are for near views.
+  if (level >= 2) std::erase_if(pieces, [](const Piece& p) { return p.cloth == Cloth::kOther && p.layer == Layer::kLoose; });
+  for (Piece& piece : pieces) {
+    if (!piece.whole) DropCrumbs(kCrumb[level], piece);
+  }
+  std::erase_if(pieces, [](const Piece& p) { return p.indices.empty(); });
+  TuckIn(pieces, kGap[level]);
+  for (Piece& piece : pieces) {
+    if (level >= 2 && piece.cloth == Cloth::kHair) MakeCoarse(level == 2 ? 250 : 36, piece);
+    if (level >= 2 && piece.layer == Layer::kShoes) MakeCoarse(level == 2 ? 120 : 48, piece);
+  }
+  std::vector<std::vector<uint32_t>> simple = SimplifyTogether(pieces, kTrianglesOf[level], kMostError[level]);
+  size_t all = 0;
+  for (const auto& list : simple) all += list.size() / 3;
+  // Suits of many seams are still too many: on a grid too, as many as their share.
+  for (size_t k = 0; level >= 2 && all > kTrianglesOf[level] * 21 / 20 && k < pieces.size(); ++k) {
+    // A grid leaves gaps where garments are narrow; a plain shirt needs none.
+    constexpr size_t kPlain = 130;
+    if (pieces[k].whole || simple[k].size() / 3 <= kPlain) continue;
+    MakeCoarse(std::max(simple[k].size() / 3 * kTrianglesOf[level] / all, kPlain), pieces[k]);
+    if (pieces[k].whole) simple[k] = pieces[k].indices;
+  }
+  BodyLevel out;
+  for (size_t k = 0; k < pieces.size(); ++k) {
+    if (!simple[k].empty()) Append(pieces[k], simple[k], out);
   }
   out.body_vertices = static_cast<uint32_t>(out.mesh.positions.size());
   return out;
 }
 
-// Pictures of clothes that will be tinted keep their light and shade only.
-Bytes Picture(const std::filesystem::path& path, bool gray) {
-  Image<Rgba8> image = DecodeRgba8(ReadFile(path), path.string());
-  if (gray) {
-    double sum = 0;
-    int count = 0;
-    for (const Rgba8& p : image.pixels()) {
-      if (p.a < 128) continue;
-      sum += 0.3 * p.r + 0.59 * p.g + 0.11 * p.b;
-      ++count;
-    }
-    const double mean = count > 0 ? std::max(20.0, sum / count) : 128;
-    for (Rgba8& p : image.pixels()) {
-      const double light = 0.3 * p.r + 0.59 * p.g + 0.11 * p.b;
-      const auto v = static_cast<uint8_t>(std::clamp(light * 188 / mean, 0.0, 255.0));
-      p = {v, v, v, p.a};
-    }
-  }
-  return EncodePng(image);
-}
+// How a picture becomes one of the pack.
+struct Look {
+  bool gray = false;   // it will be tinted
+  bool plain = false;  // without its print
+  double spread = 10;
+  std::vector<std::array<Vec2f, 3>> uvs = {};  // what of it is used; empty: all
+};
 
-TextureId AddPicture(BodyPack& pack, const std::filesystem::path& path, bool gray) {
-  const std::string name = path.filename().string() + (gray ? " gray" : "");
+TextureId AddPicture(BodyPack& pack, const std::filesystem::path& path, const Look& look) {
+  const std::string name = path.filename().string() + (look.gray ? " gray" : "") + (look.plain ? " plain" : "");
   const auto found = std::ranges::find(pack.texture_names, name);
   if (found != pack.texture_names.end()) return static_cast<TextureId>(found - pack.texture_names.begin());
+  Image<Rgba8> image = DecodeRgba8(ReadFile(path), path.string());
+  if (look.gray) MakeTintable(look.spread, image);
+  if (look.plain) MakePlain(0.12, image);
+  if (!look.uvs.empty()) FillAround(look.uvs, image);
   pack.texture_names.push_back(name);
-  pack.textures.push_back(Picture(path, gray));
+  pack.textures.push_back(EncodePng(image));
   return static_cast<TextureId>(pack.textures.size() - 1);
 }
 
+std::vector<std::array<Vec2f, 3>> UsedUvs(const SourceMesh& mesh) {
+  std::vector<std::array<Vec2f, 3>> list;
+  if (mesh.uvs.empty()) return list;
+  for (const auto& f : mesh.uv_faces) {
+    const auto uv = [&](size_t k) { return mesh.uvs[static_cast<size_t>(f[k])]; };
+    list.push_back({uv(0), uv(1), uv(2)});
+    if (f[3] != f[2]) list.push_back({uv(0), uv(2), uv(3)});
+  }
+  return list;
+}
+
 // The sockets in the order of kSocketNames: vertices of the base mesh (MPFB2's picks), joints, ends of bones.
-std::vector<Socket> Sockets(const BaseHuman& base, const std::vector<Vec3f>& v, const std::array<Vec3d, kJointCount>& q, double stature) {
+// `v` are the vertices as modelled, `posed` those that are baked.
+std::vector<Socket> Sockets(const BaseHuman& base, const std::vector<Vec3f>& v, const std::vector<RigidTransform>& bones, const std::vector<Vec3f>& posed,
+                            const std::array<Vec3d, kJointCount>& q, double stature) {
   Body dummy;
   dummy.p_PJ = q;
   internal::Proportions proportions;
@@ -267,15 +301,10 @@ std::vector<Socket> Sockets(const BaseHuman& base, const std::vector<Vec3f>& v, 
   };
   const auto mean = [&](std::initializer_list<size_t> list) {
     Vec3d sum{};
-    for (size_t i : list) sum += VecCast<double>(ToPerson(v[i]));
+    for (size_t i : list) sum += VecCast<double>(ToPerson(posed[i]));
     return sum / static_cast<double>(list.size());
   };
-  const auto end = [&](const std::string& bone) {
-    Vec3d sum{};
-    const auto& list = base.joints.at(bone + "____tail");
-    for (int i : list) sum += VecCast<double>(ToPerson(v[static_cast<size_t>(i)]));
-    return sum / static_cast<double>(list.size());
-  };
+  const auto end = [&](const std::string& bone) { return VecCast<double>(ToPerson(VecCast<float>(PosedEnd(base, v, bones, bone + "____tail")))); };
   put("nose", mean({297, 7063}));
   put("left_eye", mean({14634, 14661}));
   put("right_eye", mean({14706, 14733}));
@@ -314,25 +343,48 @@ double StatureOf(const std::vector<Vec3f>& v) {
   return 0.1 * (high - low);
 }
 
-// An eyeball of our own: the package's are not on the list.
-void AddEyes(const std::vector<Socket>& sockets, const std::array<Vec3d, kJointCount>& q, double stature, std::vector<Piece>& pieces, uint32_t white, uint32_t iris) {
-  for (const size_t eye : {size_t{1}, size_t{2}}) {
-    const Vec3d center = q[At(Joint::kHead)] + sockets[eye].p_J;
-    const double r = 0.0072 * stature;
-    for (const bool ring : {false, true}) {
+// Vertices of the base mesh that mark the eyeballs, which its lids fit.
+constexpr size_t kEyeMarkers[2][2] = {{14598, 14670}, {14670, 14742}};
+
+struct Ball {
+  Vec3d center;
+  double radius = 0;
+};
+
+Ball EyeBall(const std::vector<Vec3f>& v, size_t eye) {
+  const auto [first, end] = kEyeMarkers[eye];
+  const auto count = static_cast<double>(end - first);
+  Ball ball;
+  for (size_t i = first; i < end; ++i) ball.center += VecCast<double>(ToPerson(v[i])) / count;
+  for (size_t i = first; i < end; ++i) ball.radius += Norm(VecCast<double>(ToPerson(v[i])) - ball.center) / count;
+  return ball;
+}
+
+// Eyeballs of our own, the package's are not on the list: white, iris and pupil, one ball before the other.
+void AddEyes(const std::vector<Vec3f>& v, std::vector<Piece>& pieces, const std::array<uint32_t, 3>& materials) {
+  struct Shell {
+    double forward, radius;
+  };
+  constexpr Shell kShells[] = {{0, 1}, {0.52, 0.595}, {0.74, 0.385}};
+  for (const size_t eye : {size_t{0}, size_t{1}}) {
+    const Ball ball = EyeBall(v, eye);
+    for (size_t k = 0; k < std::size(kShells); ++k) {
       internal::LoftMesh mesh;
-      const Vec3d c = ring ? center + Vec3d{0.52 * r, 0, 0} : center;
-      const double k = ring ? 0.60 * r : r;
-      mesh.Ellipsoid(c, {k, k, k}, Joint::kHead, 0, ring ? 8 : 12);
+      const double r = kShells[k].radius * ball.radius;
+      mesh.Ellipsoid(ball.center + Vec3d{kShells[k].forward * ball.radius, 0, 0}, {r, r, r}, Joint::kHead, 0, k == 0 ? 12 : 8);
       const BodyLevel level = mesh.Finish("eye");
       Piece piece;
-      piece.cloth = Cloth::kOther;
-      piece.material = ring ? iris : white;
+      piece.whole = true;
+      piece.material = materials[k];
       piece.positions = level.mesh.positions;
       piece.uvs = level.mesh.uvs;
       piece.influences = level.influences;
       for (uint32_t i = 0; i < piece.positions.size(); ++i) piece.source.push_back(i);
-      for (const Vec3u& t : level.mesh.triangles) piece.indices.insert(piece.indices.end(), {t.x, t.y, t.z});
+      for (const Vec3u& t : level.mesh.triangles) {
+        // Only what can look out between the lids.
+        const Vec3f middle = (piece.positions[t.x] + piece.positions[t.y] + piece.positions[t.z]) * (1.0f / 3);
+        if (middle.x > ball.center.x + 0.1 * ball.radius) piece.indices.insert(piece.indices.end(), {t.x, t.y, t.z});
+      }
       pieces.push_back(std::move(piece));
     }
   }
@@ -340,99 +392,208 @@ void AddEyes(const std::vector<Socket>& sockets, const std::array<Vec3d, kJointC
 
 }  // namespace
 
-void BakePerson(const Package& package, const Recipe& recipe, BodyPack& pack) {
-  const BaseHuman& base = package.base();
-  const bool male = recipe.spec.sex == Sex::kMale, child = recipe.spec.age < 16;
+namespace {
 
-  // The height slider whose body has the stature asked for.
-  Sliders sliders{AgeSlider(recipe.spec.age), male ? 1.0 : 0.0, std::clamp(0.5 + 0.3 * recipe.spec.build, 0.2, 0.95), male ? 0.58 : 0.5, 0.5, recipe.race};
-  double low = 0.2, high = 0.75;
-  std::vector<Vec3f> v;
-  for (int i = 0; i < 9; ++i) {
-    sliders.height = 0.5 * (low + high);
-    v = package.Morph(sliders);
-    (StatureOf(v) < recipe.spec.stature ? low : high) = sliders.height;
+// One person while being dressed.
+class Dressing {
+ public:
+  Dressing(const Package& package, const Recipe& recipe, BodyPack& pack) : package_(package), recipe_(recipe), pack_(pack) {
+    // The height slider whose body has the stature asked for.
+    Sliders sliders{AgeSlider(recipe.spec.age), male() ? 1.0 : 0.0, std::clamp(0.5 + 0.3 * recipe.spec.build, 0.2, 0.95), male() ? 0.58 : 0.5, 0.5, recipe.race};
+    double low = 0.2, high = 0.75;
+    for (int i = 0; i < 9; ++i) {
+      sliders.height = 0.5 * (low + high);
+      v_ = package.Morph(sliders);
+      (StatureOf(v_) < recipe.spec.stature ? low : high) = sliders.height;
+    }
+    bones_ = RelaxedBones(base(), v_);
+    posed_ = Posed(base().mesh, v_, bones_);
+    hidden_.resize(v_.size());
+    waist_ = static_cast<float>(BoneEnd(base(), v_, "spine05____head").y);
+    c.name = recipe.name;
+    c.spec = recipe.spec;
+    c.spec.stature = StatureOf(v_);
+    c.outfit = recipe.suit + ", " + recipe.bottom + ", " + recipe.shoes + ", " + recipe.hair;
   }
 
+  void Dress();
+  void Finish();
+
   PackCharacter c;
-  c.name = recipe.name;
-  c.spec = recipe.spec;
-  c.spec.stature = StatureOf(v);
-  c.outfit = recipe.suit + ", " + recipe.shoes + ", " + recipe.hair;
 
-  const auto add_material = [&](const std::string& name, Cloth cloth, const std::filesystem::path& picture, bool cutout, float roughness) {
-    Material m;
-    m.name = "person " + name;
-    m.base_color = {1, 1, 1};
-    m.roughness = roughness;
-    if (cutout) m.alpha_mode = AlphaMode::kMask, m.alpha_cutoff = 0.4f;
-    const bool gray = cloth != Cloth::kSkin && cloth != Cloth::kOther;
-    if (!picture.empty()) m.base_color_texture = AddPicture(pack, picture, gray);
-    c.materials.push_back(m);
-    c.cloths.push_back(cloth);
-    return static_cast<uint32_t>(c.materials.size() - 1);
-  };
+ private:
+  const BaseHuman& base() const { return package_.base(); }
+  bool male() const { return recipe_.spec.sex == Sex::kMale; }
 
-  // Clothes on the body, then the skin that they leave.
-  std::vector<Piece> pieces;
-  std::vector<bool> hidden(v.size(), false);
-  const auto wear = [&](const std::string& kind, const std::string& name, Cloth cloth, bool cutout) {
-    const Proxy proxy = package.ReadProxy(kind, name);
-    const std::vector<Vec3f> at = FitProxy(proxy, v, base.mesh.positions);
-    for (size_t i = 0; i < hidden.size(); ++i) hidden[i] = hidden[i] || proxy.hides[i];
-    if (cloth == Cloth::kTop) {
-      const float waist = v[static_cast<size_t>(base.joints.at("spine05____head")[0])].y;
-      const std::vector<bool> top = FacesOfTop(proxy.mesh, at, waist);
-      for (const bool upper : {true, false}) {
-        Piece piece = MakePiece(base, proxy.mesh, at, [&](const std::array<int, 4>& f) { return top[static_cast<size_t>(f[0])] == upper; });
-        if (piece.indices.empty()) continue;
-        piece.cloth = upper ? Cloth::kTop : Cloth::kBottom;
-        piece.material = add_material(name + (upper ? " top" : " bottom"), piece.cloth, proxy.picture, false, 0.9f);
-        pieces.push_back(std::move(piece));
-      }
-      return;
-    }
-    Piece piece = MakePiece(base, proxy.mesh, at, [](const std::array<int, 4>&) { return true; });
-    piece.cloth = cloth;
-    piece.material = add_material(name, cloth, proxy.picture, cutout, cloth == Cloth::kShoes ? 0.5f : 0.7f);
-    pieces.push_back(std::move(piece));
+  uint32_t AddMaterial(const std::string& name, Cloth cloth, const std::filesystem::path& picture, bool cutout, float roughness, const SourceMesh* mesh = nullptr);
+  // The parts of a proxy for which `keep` is true, as one piece.
+  template <class Keep>
+  void Wear(const Proxy& proxy, const std::string& name, Cloth cloth, Layer layer, bool cutout, const Keep& keep);
+  void WearSuit();
+  void WearShoes();
+  void WearSkin();
+
+  const Package& package_;
+  const Recipe& recipe_;
+  BodyPack& pack_;
+  std::vector<Vec3f> v_, posed_;  // as modelled, as baked
+  std::vector<RigidTransform> bones_;
+  std::vector<bool> hidden_;
+  float waist_ = 0, hem_ = 1e9f;  // in the package's axes, decimetres; of a skirt, in P
+  std::vector<Piece> pieces_;
+};
+
+// A skirt that legs walk in does not follow them closely: there are none in it above `height`.
+void DropLegs(float height, Piece& skin) {
+  const auto inside = [&](uint32_t v) {
+    const Influences& in = skin.influences[v];
+    const size_t most = static_cast<size_t>(std::ranges::max_element(in.weight) - in.weight.begin());
+    const auto joint = static_cast<Joint>(in.joint[most]);
+    return skin.positions[v].z > height && (joint == Joint::kLeftHip || joint == Joint::kRightHip || joint == Joint::kLeftKnee || joint == Joint::kRightKnee);
   };
-  wear("clothes", recipe.suit, Cloth::kTop, false);
-  wear("clothes", recipe.shoes, Cloth::kShoes, false);
-  wear("hair", recipe.hair, Cloth::kHair, true);
-  wear("eyebrows", male ? "eyebrow001" : "eyebrow003", Cloth::kOther, true);
-  Piece skin = MakePiece(base, base.mesh, v, [&](const std::array<int, 4>& f) {
-    return !std::ranges::all_of(f, [&](int i) { return hidden[static_cast<size_t>(i)]; });
+  std::vector<uint32_t> kept;
+  for (size_t i = 0; i + 2 < skin.indices.size(); i += 3) {
+    const uint32_t* t = &skin.indices[i];
+    if (!inside(t[0]) || !inside(t[1]) || !inside(t[2])) kept.insert(kept.end(), t, t + 3);
+  }
+  skin.indices = std::move(kept);
+}
+
+uint32_t Dressing::AddMaterial(const std::string& name, Cloth cloth, const std::filesystem::path& picture, bool cutout, float roughness, const SourceMesh* mesh) {
+  Material m;
+  m.name = "person " + name;
+  m.base_color = {1, 1, 1};
+  m.roughness = roughness;
+  if (cutout) m.alpha_mode = AlphaMode::kMask, m.alpha_cutoff = 0.4f;
+  if (!picture.empty()) {
+    Look look{.gray = cloth != Cloth::kSkin && cloth != Cloth::kOther};
+    // Dark hair is painted with strong lights, which would make fair hair spotted.
+    if (cloth == Cloth::kHair) look.spread = 0.22;
+    // Two in three wear no print: there is but one for each cut.
+    look.plain = cloth == Cloth::kTop && recipe_.spec.look % 3 != 0;
+    // Hair is cut out by its picture and stays as it is.
+    if (mesh != nullptr && !cutout) look.uvs = UsedUvs(*mesh);
+    m.base_color_texture = AddPicture(pack_, picture, look);
+  }
+  c.materials.push_back(m);
+  c.cloths.push_back(cloth);
+  return static_cast<uint32_t>(c.materials.size() - 1);
+}
+
+template <class Keep>
+void Dressing::Wear(const Proxy& proxy, const std::string& name, Cloth cloth, Layer layer, bool cutout, const Keep& keep) {
+  const std::vector<Vec3f> fitted = FitProxy(proxy, v_, base().mesh.positions);
+  const std::vector<Part> parts = PartsOf(proxy.mesh, fitted);
+  Piece piece = MakePiece(base(), proxy.mesh, Posed(proxy.mesh, fitted, bones_), [&](size_t f) { return keep(parts[f]); });
+  if (piece.indices.empty()) return;
+  piece.cloth = cloth;
+  piece.layer = layer;
+  piece.material = AddMaterial(name, cloth, proxy.picture, cutout, cloth == Cloth::kShoes ? 0.5f : cloth == Cloth::kTop || cloth == Cloth::kBottom ? 0.9f : 0.7f, &proxy.mesh);
+  pieces_.push_back(std::move(piece));
+}
+
+// A shirt or jacket of one suit, trousers or skirt of the same or of another one.
+void Dressing::WearSuit() {
+  const Proxy top = package_.ReadProxy("clothes", recipe_.suit), bottom = package_.ReadProxy("clothes", recipe_.bottom);
+  for (size_t i = 0; i < hidden_.size(); ++i) hidden_[i] = v_[i].y > waist_ ? top.hides[i] : bottom.hides[i];
+  Wear(top, recipe_.suit + " top", Cloth::kTop, Layer::kTop, false, [&](const Part& p) { return p.mean() > waist_; });
+  // Suits and jackets are darker than shirts.
+  const float dark = recipe_.suit == "male_elegantsuit01" ? 0.25f : recipe_.suit == "male_casualsuit05" ? 0.6f : 1;
+  c.materials.back().base_color = Vec3f{1, 1, 1} * dark;
+  Wear(bottom, recipe_.bottom + " bottom", Cloth::kBottom, Layer::kBottom, false, [&](const Part& p) { return p.mean() <= waist_; });
+  // A skirt is one cloth around both legs.
+  if (recipe_.bottom == "female_elegantsuit01" && pieces_.back().cloth == Cloth::kBottom) {
+    const auto hips = static_cast<float>(0.1 * BoneEnd(base(), v_, "upperleg01.L____head").y);
+    MakeTaut(pieces_.back(), hips);
+    HangFromHips(pieces_.back(), static_cast<float>(0.06 * c.spec.stature));
+    for (const Vec3f& p : pieces_.back().positions) hem_ = std::min(hem_, p.z);
+  }
+}
+
+// Shoes come with socks, which are parts of their own that reach far over the ankle.
+void Dressing::WearShoes() {
+  const Proxy shoes = package_.ReadProxy("clothes", recipe_.shoes);
+  for (size_t i = 0; i < hidden_.size(); ++i) hidden_[i] = hidden_[i] || shoes.hides[i];
+  const double ankle = BoneEnd(base(), v_, "foot.L____head").y;
+  const auto is_sock = [&](const Part& p) { return p.high > ankle + 0.06 * 10 * c.spec.stature / 1.7; };
+  Wear(shoes, recipe_.shoes, Cloth::kShoes, Layer::kShoes, false, [&](const Part& p) { return !is_sock(p); });
+  Proxy socks = shoes;
+  socks.picture.clear();
+  Wear(socks, "socks", Cloth::kOther, Layer::kSocks, false, is_sock);
+  constexpr Vec3f kSocks[] = {{0.55f, 0.54f, 0.52f}, {0.03f, 0.03f, 0.035f}, {0.10f, 0.10f, 0.11f}, {0.02f, 0.03f, 0.06f}};
+  c.materials.back().base_color = kSocks[recipe_.spec.look % std::size(kSocks)];
+  c.materials.back().roughness = 0.95f;
+}
+
+void Dressing::WearSkin() {
+  Piece skin = MakePiece(base(), base().mesh, posed_, [&](size_t f) {
+    return !std::ranges::all_of(base().mesh.faces[f], [&](int i) { return hidden_[static_cast<size_t>(i)]; });
   });
   skin.cloth = Cloth::kSkin;
-  const std::string age = recipe.spec.age < 36 ? "young" : recipe.spec.age < 60 ? "middleage" : "old";
+  skin.layer = Layer::kSkin;
+  DropLegs(hem_ + 0.05f, skin);
+  const std::string age = recipe_.spec.age < 36 ? "young" : recipe_.spec.age < 60 ? "middleage" : "old";
   const std::string races[] = {"caucasian", "african", "asian"};
-  skin.material = add_material("skin", Cloth::kSkin, package.Skin(age, races[recipe.race], male && !child), false, 0.55f);
-  pieces.push_back(std::move(skin));
+  skin.material = AddMaterial("skin", Cloth::kSkin, package_.Skin(age, races[recipe_.race], male() && recipe_.spec.age >= 16), false, 0.55f);
+  pieces_.push_back(std::move(skin));
+}
 
+void Dressing::Dress() {
+  const auto all = [](const Part&) { return true; };
+  WearSuit();
+  WearShoes();
+  WearSkin();
+  // What is seen between strands is the colour of the hair, not of a bald head.
+  // Only Europeans have fair hair by the wardrobe's chances; that of others is darkened, less so when it is grey.
+  const float dark = recipe_.race == 0 ? 1 : recipe_.spec.age < 60 ? 0.3f : 0.8f;
+  const Vec3f eyes = VecCast<float>(EyeBall(posed_, 0).center), top = ToPerson(posed_[881]);
+  Wear(package_.ReadProxy("hair", recipe_.hair), recipe_.hair, Cloth::kHair, Layer::kLoose, true, all);
+  c.materials.back().base_color = Vec3f{1, 1, 1} * dark;
+  Piece scalp = TakeScalp(pieces_[pieces_.size() - 2], pieces_.back(), eyes, top);
+  scalp.cloth = Cloth::kHair;
+  scalp.material = AddMaterial("scalp", Cloth::kHair, {}, false, 0.9f);
+  c.materials.back().base_color = Vec3f{0.3f, 0.3f, 0.3f} * dark;
+  if (!scalp.indices.empty()) pieces_.push_back(std::move(scalp));
+  const std::string brows = male() ? std::array{"eyebrow001", "eyebrow004", "eyebrow003"}[recipe_.spec.look % 3] : std::array{"eyebrow002", "eyebrow003"}[recipe_.spec.look % 2];
+  Wear(package_.ReadProxy("eyebrows", brows), brows, Cloth::kOther, Layer::kLoose, true, all);
+  const uint32_t white = AddMaterial("eye", Cloth::kOther, {}, false, 0.25f), iris = AddMaterial("iris", Cloth::kOther, {}, false, 0.15f), pupil = AddMaterial("pupil", Cloth::kOther, {}, false, 0.15f);
+  c.materials[white].base_color = {0.50f, 0.46f, 0.43f};
+  c.materials[iris].base_color = recipe_.race == 0 && recipe_.spec.look % 2 == 0 ? Vec3f{0.06f, 0.11f, 0.16f} : Vec3f{0.035f, 0.018f, 0.010f};
+  c.materials[pupil].base_color = {0.01f, 0.01f, 0.01f};
+  AddEyes(posed_, pieces_, {white, iris, pupil});
+}
+
+void Dressing::Finish() {
   // The lowest point of the shoes is the ground; the middle between the ankles stands over the origin.
-  c.p_PJ = Joints(base, v);
-  c.sockets = Sockets(base, v, c.p_PJ, c.spec.stature);
-  const uint32_t white = add_material("eye", Cloth::kOther, {}, false, 0.2f), iris = add_material("iris", Cloth::kOther, {}, false, 0.15f);
-  c.materials[white].base_color = {0.62f, 0.60f, 0.58f};
-  c.materials[iris].base_color = recipe.race == 0 && recipe.spec.look % 2 == 0 ? Vec3f{0.06f, 0.11f, 0.16f} : Vec3f{0.035f, 0.018f, 0.010f};
-  AddEyes(c.sockets, c.p_PJ, c.spec.stature, pieces, white, iris);
+  c.p_PJ = Joints(base(), v_, bones_);
+  c.sockets = Sockets(base(), v_, bones_, posed_, c.p_PJ, c.spec.stature);
   float floor = 1e9f;
-  for (const Piece& p : pieces) {
-    for (const Vec3f& x : p.positions) floor = std::min(floor, x.z);
+  for (const Piece& p : pieces_) {
+    for (const uint32_t i : p.indices) floor = std::min(floor, p.positions[i].z);
   }
   const Vec3d ankles = (c.p_PJ[At(Joint::kLeftAnkle)] + c.p_PJ[At(Joint::kRightAnkle)]) * 0.5;
   const Vec3d shift{-ankles.x - 0.006 * c.spec.stature, 0, -floor};
   for (Vec3d& p : c.p_PJ) p += shift;
-  for (Piece& p : pieces) {
+  for (Piece& p : pieces_) {
     for (Vec3f& x : p.positions) x += VecCast<float>(shift);
   }
   c.heel_length = 0.036 * c.spec.stature;
   c.radius = 0.155 * c.spec.stature;
-  for (size_t level = 0; level < std::size(kTrianglesOf); ++level) c.levels.push_back(MakeLevel(pieces, level));
+  // The farthest level is too coarse for garments that only just overlap.
+  std::vector<Piece> seen = pieces_;
+  DropHidden(seen);
+  for (size_t level = 0; level < std::size(kTrianglesOf); ++level) c.levels.push_back(MakeLevel(level < 3 ? seen : pieces_, level));
   // The picks lie on the naked skin, tips at its very end: inside what is seen, shoes and clothes too.
   SeatSockets(c.levels, c.p_PJ, 0.002, 0.03, c.sockets);
-  pack.characters.push_back(std::move(c));
+}
+
+}  // namespace
+
+void BakePerson(const Package& package, const Recipe& recipe, BodyPack& pack) {
+  Dressing dressing(package, recipe, pack);
+  dressing.Dress();
+  dressing.Finish();
+  pack.characters.push_back(std::move(dressing.c));
 }
 
 }  // namespace airsim360::bake

@@ -11,7 +11,9 @@ struct Recipe {
   std::string name;
   BodySpec spec;
   int race = 0;
-  std::string suit, shoes, hair;
+  std::string suit;    ///< whose upper part is worn
+  std::string bottom;  ///< whose lower part is worn
+  std::string shoes, hair;
 };
 
 /// Morphs, dresses and skins one person; appends pictures to the pack that it does not have yet.

@@ -75,7 +75,10 @@ Package::Package(std::filesystem::path folder) : folder_(std::move(folder)) {
   const Json j = ReadJson(folder_ / "public/data/models/human_full_size.json");
   base_.mesh = ReadMesh(j, true);
   if (base_.mesh.positions.size() != kVertices) throw InputError(folder_.string() + ": not the base mesh hm08");
-  for (const Json& bone : j.at("bones")) base_.bone_names.push_back(bone.at("name").get<std::string>());
+  for (const Json& bone : j.at("bones")) {
+    base_.bone_names.push_back(bone.at("name").get<std::string>());
+    base_.bone_parents.push_back(bone.at("parent").get<int>());
+  }
   for (const auto& [name, list] : j.at("metadata").at("joint_pos_idxs").items()) base_.joints[name] = list.get<std::vector<int>>();
 
   // Rows of the morphs are in the order of their sorted names.

@@ -24,6 +24,7 @@ struct SourceMesh {
 struct BaseHuman {
   SourceMesh mesh;
   std::vector<std::string> bone_names;            ///< with ____head
+  std::vector<int> bone_parents;                  ///< -1: none; parents come first
   std::map<std::string, std::vector<int>> joints; ///< bone end -> vertices whose mean it is
 };
 

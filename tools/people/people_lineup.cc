@@ -1,5 +1,7 @@
 // A line-up of people on a plain: what bodies and motions look like.
 //   build/bin/people_lineup OUT.png [--rest] [--seed N] [--count N] [--level N] [--turn DEGREES] [--width N]
+//                           [--zoom TIMES] [--aim METRES] [--high]    (--aim: the height in the picture's middle)
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -17,9 +19,9 @@ namespace {
 
 struct Options {
   std::string out = "lineup.png";
-  bool rest = false;
+  bool rest = false, high = false;
   int seed = 1, count = 8, level = 0, width = 1024, first = 0;
-  double turn = 0, time = 3.0, zoom = 1;
+  double turn = 0, time = 3.0, zoom = 1, aim = 0.95;
 };
 
 Options Parse(int argc, char** argv) {
@@ -28,6 +30,7 @@ Options Parse(int argc, char** argv) {
     const std::string a = argv[i];
     const auto value = [&] { return i + 1 < argc ? std::atof(argv[++i]) : 0; };
     if (a == "--rest") o.rest = true;
+    else if (a == "--high") o.high = true;
     else if (a == "--seed") o.seed = static_cast<int>(value());
     else if (a == "--count") o.count = static_cast<int>(value());
     else if (a == "--first") o.first = static_cast<int>(value());
@@ -35,6 +38,7 @@ Options Parse(int argc, char** argv) {
     else if (a == "--turn") o.turn = value();
     else if (a == "--time") o.time = value();
     else if (a == "--zoom") o.zoom = value();
+    else if (a == "--aim") o.aim = value();
     else if (a == "--width") o.width = static_cast<int>(value());
     else o.out = a;
   }
@@ -118,14 +122,15 @@ int main(int argc, char** argv) {
   AppendPeople(people, refs, shown, {}, *state);
 
   // The camera stands before the line.
-  const auto renderer = MakeCpuRenderer(std::make_shared<RayTracer>(scene), {.tier = Tier::kFast});
+  const Tier tier = o.high ? Tier::kHigh : Tier::kFast;
+  const auto renderer = MakeCpuRenderer(std::make_shared<RayTracer>(scene), {.tier = tier});
   const int height = static_cast<int>(o.width / (0.56 * o.count) > o.width ? o.width : o.width / (0.56 * o.count));
   const double distance = 14, f = o.zoom * o.width * distance / (spacing * (o.count + 0.3));
   RenderRequest request;
   request.camera = Pinhole{o.width, height, f, f, 0.5 * o.width, 0.5 * height + 0.0};
-  request.X_WC = BodyPose({0, -distance, 1.35}, 1.5707963, -0.03, 0) * CameraInBody();
+  request.X_WC = BodyPose({0, -distance, 1.35}, 1.5707963, std::atan2(o.aim - 1.35, distance), 0) * CameraInBody();
   request.state = state;
-  request.tier = Tier::kFast;
+  request.tier = tier;
   Frame frame;
   renderer->Render(request, frame);
   WriteFileAtomically(o.out, EncodePng(frame.rgb));

@@ -154,6 +154,12 @@ const PackCharacter& Nearest(const BodyPack& pack, const BodySpec& spec) {
   return *order[MixBits(spec.look) % good].second;
 }
 
+// Cloth in the street: four tenths of a colour's purity are gone by washing and light.
+Vec3f Worn(Vec3f color) {
+  const float light = 0.2126f * color.x + 0.7152f * color.y + 0.0722f * color.z;
+  return color + (Vec3f{light, light, light} - color) * 0.4f;
+}
+
 }  // namespace
 
 std::shared_ptr<const Body> MakePackBody(const BodyPack& pack, const BodySpec& spec, int finest_level) {
@@ -180,11 +186,14 @@ std::shared_ptr<const Body> MakePackBody(const BodyPack& pack, const BodySpec& s
       if (fresh) body->textures.push_back(DecodedTexture(pack, static_cast<size_t>(m.base_color_texture)));
       m.base_color_texture = slot->second;
     }
-    const auto tint = [&](Vec3f color, float lift) { m.base_color = m.base_color * (color * lift + Vec3f{0.02f, 0.02f, 0.02f}); };
-    if (c.cloths[k] == Cloth::kTop) tint(wear.top_color, 1.9f);
-    if (c.cloths[k] == Cloth::kBottom) tint(wear.bottom_color, 2.2f);
-    if (c.cloths[k] == Cloth::kShoes) tint(wear.shoe_color, 2.2f);
-    if (c.cloths[k] == Cloth::kHair) tint(wear.hair_color, 3.0f);
+    const auto tint = [&](Vec3f color, float lift) { m.base_color = m.base_color * (Worn(color) * lift + Vec3f{0.02f, 0.02f, 0.02f}); };
+    if (c.cloths[k] == Cloth::kTop) tint(wear.top_color, 1.7f);
+    if (c.cloths[k] == Cloth::kBottom) tint(wear.bottom_color, 2.0f);
+    if (c.cloths[k] == Cloth::kShoes) tint(wear.shoe_color, 1.6f);
+    if (c.cloths[k] == Cloth::kHair) {
+      const Vec3f hair = wear.hair_color * 2.0f + Vec3f{0.008f, 0.007f, 0.006f};
+      m.base_color = m.base_color * (hair * std::min(1.0f, 0.6f / std::max({hair.x, hair.y, hair.z})));
+    }
     body->materials.push_back(std::move(m));
   }
   internal::Wardrobe painted = wear;
