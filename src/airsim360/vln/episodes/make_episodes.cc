@@ -18,13 +18,13 @@ namespace {
 using internal::VlnGround;
 
 constexpr int kDraws = 6000, kWays = 12, kLooks = 60;  // starts drawn for an episode; ways and things in sight looked for
-constexpr double kSpacing = 2.5;                       // metres between points of the reference path, at most
+constexpr double kPathSpacing = 2.5;                   // metres between points of the reference path, at most
 constexpr double kOpenRadius = 20, kRoomRadius = 1.5;  // metres around the goal that count as there
 constexpr double kNearRadius = 6, kNearGoal = 3;       // the same, and metres from the goal to the thing, where flights begin nearer
 constexpr double kNearStart[2] = {9, 24};              // metres between start and thing there
 constexpr double kLeastWay = 1.25;                     // radii between start and goal
 constexpr double kEasy = 50, kHard = 100;              // metres: shorter, longer ways
-constexpr double kStraight = 1.08;                     // length of a flight by its straight line, that one can turn from by words
+constexpr double kNearlyStraight = 1.08;               // length of a flight by its straight line, that one can turn from by words
 
 double Milli(double value) { return std::round(value * 1000) / 1000; }
 Vec3d Milli(Vec3d p) { return {Milli(p.x), Milli(p.y), Milli(p.z)}; }
@@ -39,7 +39,7 @@ std::vector<Vec3d> MilliOf(std::vector<Vec3d> points) {
 std::vector<Vec3d> Spaced(const std::vector<Vec3d>& way) {
   std::vector<Vec3d> points = {Milli(way.front())};
   for (size_t i = 1; i < way.size(); ++i) {
-    const int parts = std::max(1, static_cast<int>(std::ceil(Norm(way[i] - way[i - 1]) / kSpacing)));
+    const int parts = std::max(1, static_cast<int>(std::ceil(Norm(way[i] - way[i - 1]) / kPathSpacing)));
     for (int k = 1; k <= parts; ++k) points.push_back(Milli(way[i - 1] + (way[i] - way[i - 1]) * (static_cast<double>(k) / parts)));
   }
   return points;
@@ -273,7 +273,7 @@ class Maker {
   std::string GoOn(Progress& at, const InstructionTemplate& wanted, const NextPart& part) {
     // Only a nearly straight flight has a direction that words can refer to.
     const Vec3d from = at.before.empty() ? at.stands.start.p_W : at.stands.turn->p_W, flown = at.goal - from;
-    if (PolylineLength(at.way) > kStraight * Norm(flown) + LengthBefore(at))
+    if (PolylineLength(at.way) > kNearlyStraight * Norm(flown) + LengthBefore(at))
       return "the way to '" + at.thing.name + "' is not straight enough to turn from";
     at.before.push_back({at.before.empty() ? at.stands.start : *at.stands.turn, at.query, at.thing.entities, at.thing.name, at.goal_kind,
                          at.goal, at.proof});
@@ -318,7 +318,7 @@ class Maker {
     }
     const auto is_counted = [](const Predicate& p) { return p.clear > 0; };
     if (std::ranges::any_of(wanted.query.predicates, is_counted) &&
-        PolylineLength(way.points) > kStraight * Norm(goal - stands.start.p_W)) {
+        PolylineLength(way.points) > kNearlyStraight * Norm(goal - stands.start.p_W)) {
       why = "the line to '" + verdict.answers[0].name + "' is not free";
       return std::nullopt;
     }
