@@ -10,11 +10,14 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kFirst = 1.2247f;   // pixels, standard deviation of the first pass
-constexpr float kLeast = 0.35f;     // below, an axis is left as it is
-constexpr float kOnePlane = 0.9f;   // least cosine between normals
-constexpr float kBeside = 0.3f;     // of the range, most difference
-constexpr int kMostTaps = 3;        // each way
+constexpr float kFirst = 1.2247f;  // pixels, standard deviation of the first pass
+constexpr float kLeast = 0.35f;    // below, an axis is left as it is
+constexpr float kOnePlane = 0.9f;  // least cosine between normals
+constexpr float kBeside = 0.3f;    // of the range, most difference
+constexpr int kMostTaps = 3;       // each way
+constexpr float kReach = 2.4f;     // deviations that its taps reach
+constexpr int kPasses = 4;
+constexpr float kLongest = 1.5f;    // steps of a pass, of the deviation that it finds
 constexpr float kMostStretch = 24;  // of columns towards the poles
 
 // Weights of 2 taps + 1 pixels `step` apart.
@@ -30,13 +33,27 @@ struct Axis {
     for (int k = 0; k < 5; ++k) axis.weight[k] = k % 4 == 0 ? 0.5f : 1.0f;
     return axis;
   }
-  // The second one makes up for what the first does not reach; (1 - t^2 / 7 s^2)^2 has the standard deviation s.
-  static Axis Second(float whole) {
+  // Pass `pass` of 1 … kPasses - 1 makes up for what those before do not reach. But for the last one no pass takes
+  // long steps: with them, images of a lamp that rays of different phases show beside each other would stay apart, as dots.
+  static Axis Later(float whole, int pass) {
+    float found = kFirst;
     Axis axis;
-    const float deviation = std::sqrt(std::max(0.0f, whole * whole - kFirst * kFirst));
-    if (deviation < kLeast) return axis;
+    for (int k = 1; k <= pass; ++k) {
+      const float most = kLongest * found * kMostTaps / kReach;
+      const float wanted = std::sqrt(std::max(0.0f, whole * whole - found * found));
+      const float deviation = k + 1 == kPasses ? wanted : std::min(wanted, most);
+      axis = deviation < kLeast ? Axis() : Spread(deviation);
+      found = std::sqrt(found * found + deviation * deviation);
+    }
+    return axis;
+  }
+
+ private:
+  // (1 - t^2 / 7 s^2)^2 has the standard deviation s.
+  static Axis Spread(float deviation) {
+    Axis axis;
     axis.taps = kMostTaps;
-    axis.step = std::max(1, static_cast<int>(std::lround(2.4f * deviation / kMostTaps)));
+    axis.step = std::max(1, static_cast<int>(std::lround(kReach * deviation / kMostTaps)));
     for (int k = -axis.taps; k <= axis.taps; ++k) {
       const float t = static_cast<float>(k * axis.step) / deviation, w = std::max(0.0f, 1 - t * t / 7);
       axis.weight[k + axis.taps] = w * w;
@@ -47,12 +64,12 @@ struct Axis {
 
 class Pass {
  public:
-  Pass(const Image<float>& range, const Image<EntityId>& entity, const Image<Vec3f>& normal, bool panorama, bool first,
+  Pass(const Image<float>& range, const Image<EntityId>& entity, const Image<Vec3f>& normal, bool panorama, int pass,
        const GlossPlanes& gloss)
-      : range_(range), entity_(entity), normal_(normal), panorama_(panorama), first_(first), gloss_(gloss) {}
+      : range_(range), entity_(entity), normal_(normal), panorama_(panorama), pass_(pass), gloss_(gloss) {}
 
   Rgb32f At(const Image<Rgb32f>& from, int x, int y, float stretch) const {
-    const auto axis = first_ ? &Axis::First : &Axis::Second;
+    const auto axis = [this](float deviation) { return pass_ == 0 ? Axis::First(deviation) : Axis::Later(deviation, pass_); };
     const Axis across = axis(gloss_.blur_x(x, y) * stretch), along = axis(gloss_.blur_y(x, y));
     Rgb32f sum{};
     float whole = 0;
@@ -81,7 +98,8 @@ class Pass {
   const Image<float>& range_;
   const Image<EntityId>& entity_;
   const Image<Vec3f>& normal_;
-  bool panorama_, first_;
+  bool panorama_;
+  int pass_;
   const GlossPlanes& gloss_;
 };
 
@@ -118,8 +136,8 @@ void GlossPlanes::AddTo(LightTerms& terms, const TileLayout& layout, int column,
 }
 
 void FilterGloss(const Image<float>& range, const Image<EntityId>& entity, const Image<Vec3f>& normal, bool panorama, GlossPlanes& gloss) {
-  for (const bool first : {true, false}) {
-    const Pass pass(range, entity, normal, panorama, first, gloss);
+  for (int k = 0; k < kPasses; ++k) {
+    const Pass pass(range, entity, normal, panorama, k, gloss);
     ParallelFor(range.height(), [&](int64_t row) {
       const int y = static_cast<int>(row);
       const float latitude = (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(range.height())) * 3.14159265f;

@@ -76,6 +76,18 @@ TEST(GlossFilter, HasTheWidthOfTheLobe) {
   }
 }
 
+TEST(GlossFilter, OneBrightRayBecomesOneHill) {
+  for (const float blur : {2.0f, 4.0f, 7.0f, 9.0f}) {
+    Plane plane(blur);
+    for (Rgb32f& c : plane.gloss.light.pixels()) c = {};
+    plane.gloss.light(32, 24) = {1, 1, 1};
+    plane.Filter();
+    const float top = plane.gloss.light(32, 24).g;
+    for (int x = 33; x < Plane::kWidth; ++x)
+      ASSERT_LT(plane.gloss.light(x, 24).g, plane.gloss.light(x - 1, 24).g + 0.02f * top) << blur << " " << x;
+  }
+}
+
 // A small room with a window of light and a floor of two halves that shine.
 constexpr float kRoughness[] = {0.2f, 0.4f};
 std::shared_ptr<const RayTracer> ShinyRoom() {
@@ -109,6 +121,13 @@ Frame Render(Tier tier, int width, double yaw = 0) {
   return frame;
 }
 
+// The half that is polished.
+EntityId FirstFloor() {
+  for (const Entity& entity : Room().tracer->scene().entities)
+    if (Room().tracer->scene().tree[entity.category].path == "ground/floor") return entity.id;
+  return kNoEntity;
+}
+
 TEST(HighGloss, FloorsMirrorAsMuchAsInTheReferenceAndWithoutSpecks) {
   const Frame high = Render(Tier::kHigh, 96), reference = Render(Tier::kReference, 96);
   int half = 0;
@@ -129,6 +148,21 @@ TEST(HighGloss, FloorsMirrorAsMuchAsInTheReferenceAndWithoutSpecks) {
     ++half;
   }
   EXPECT_EQ(half, 2);
+}
+
+// Tier fast sends one ray where a floor is polished: window and dark wall are seen in it where the reference sees them.
+TEST(FastGloss, PolishedFloorsMirrorTheirRoom) {
+  const Frame fast = Render(Tier::kFast, 96), reference = Render(Tier::kReference, 96);
+  double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+  for (int y = 26; y < 38; ++y)
+    for (int x = 0; x < 96; ++x) {
+      if (fast.entity(x, y) != FirstFloor()) continue;
+      const double u = fast.radiance(x, y).g, v = reference.radiance(x, y).g;
+      ++n, a += u, b += v, aa += u * u, bb += v * v, ab += u * v;
+    }
+  ASSERT_GT(n, 60);
+  EXPECT_NEAR(a / b, 1, 0.12);
+  EXPECT_GT((n * ab - a * b) / std::sqrt((n * aa - a * a) * (n * bb - b * b)), 0.7);
 }
 
 TEST(HighGloss, TurningByColumnsAndThreadsChangeNoByte) {

@@ -9,7 +9,8 @@ namespace {
 constexpr float kFacing = 0.35f;      // as in surfels.cc
 constexpr float kPlane = 0.6f;        // of a cell
 constexpr float kSlack = 0.004f;      // m
-constexpr float kHardly = 1e-5f;      // weight of a surfel in front or behind
+constexpr float kHardly = 1e-6f;      // weight of a surfel in front or behind
+constexpr float kFits = 0.005f;       // weight from which a surfel stands for a place: the bevel of a lamp's frame is no ceiling
 constexpr float kLastResort = 1e-9f;  // of one that something stands before
 constexpr float kCovered = 0.45f;     // share of the fine cells around from which the fine level counts alone
 
@@ -44,11 +45,12 @@ KERNEL void AddSurfel(const IndoorLevel& level, const IndoorSurfel& s, const Pla
   const real far = GatherFloats(clear, to_int(Sector(x, y)));
   const mask_t seen = facing && (x * x + y * y <= far * far);
   const real zero = real(0.0f);
-  const real fit = rmax(1.0f - e * e * 0.8f, zero) * ((c - kFacing) * (c - kFacing)) + kHardly;
+  const real facing2 = (c - kFacing) * (c - kFacing);
+  const real fit = rmax(1.0f - e * e * 0.8f, zero) * (facing2 * facing2 * facing2) + kHardly;
   const real weight = sel(facing, place * sel(seen, fit, real(kLastResort)), zero);
   const real bend =
       rmin(rmax(at.n.x * s.bend[1] + at.n.y * s.bend[2] + at.n.z * s.bend[3] + s.bend[0], real(kLeastBend)), real(kMostBend)) * weight;
-  met = met || seen;
+  met = met || (seen && (fit > kFits));
   sums.weight += weight;
   sums.share += weight * s.share;
   sums.r += bend * s.light[0], sums.g += bend * s.light[1], sums.b += bend * s.light[2];

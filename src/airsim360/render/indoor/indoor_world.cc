@@ -94,13 +94,21 @@ void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, 
   if (world.lights == nullptr || world.lights->empty() || rays == 0) return;
   const Vec2f shift = ShiftOf(seed * 2654435761ull + 1);
   const float first = ShiftOf(seed * 2654435761ull + 7).x;
+  // The lamp by numbers stratified apart: the sequence pairs them with points of the lamp evenly. One place chooses for all points.
+  constexpr int kMost = 256;
+  std::array<float, kMost> numbers;
+  std::array<LightTree::Choice, kMost> chosen;
   for (int k = 0; k < rays; ++k) {
+    const int in = k % kMost;
+    if (in == 0) {
+      const auto count = static_cast<size_t>(std::min(kMost, rays - k));
+      for (size_t i = 0; i < count; ++i)
+        numbers[i] = std::min((static_cast<float>(k + static_cast<int>(i)) + first) / static_cast<float>(rays), 0.9999999f);
+      world.lights->tree().ChooseAll(points[0], n, std::span(numbers).first(count), chosen);
+    }
     const Vec2f u = EvenPoint(static_cast<uint32_t>(k), shift);
-    // The lamp by numbers stratified apart: the sequence pairs them with points of the lamp evenly.
-    float w = (static_cast<float>(k) + first) / static_cast<float>(rays);
-    w = std::min(w, 0.9999999f);
     const Vec3f p = points[static_cast<size_t>(k) % points.size()];
-    const LightSample sample = world.lights->Sample(p, n, {w, u.x, u.y});
+    const LightSample sample = world.lights->PointOf(chosen[static_cast<size_t>(in)], p, u.x, u.y);
     if (!(sample.pdf > 0)) continue;
     const Vec3f to = sample.p - p;
     const float distance = Norm(to);

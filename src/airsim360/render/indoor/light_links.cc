@@ -28,14 +28,13 @@ void DimPacket(const IndoorWorld& world, const RayPacket& hit, const RayPacket& 
 }
 
 // Ends one ray, or turns it at a mirror; true: it goes on. lamps: for the first surface of an even ray, else nullptr.
-bool Land(const IndoorWorld& world, const Reflectance& reflectance, const SurfelSet& coarse, RayPacket& packet, int i, bool last,
-          const LampMix* lamps, Vec3f normal, Landing& out) {
+bool Land(const IndoorWorld& world, const Reflectance& reflectance, const SurfelSet& coarse, RayPacket& packet, int i,
+          const MetSurface& met, bool last, const LampMix* lamps, Vec3f normal, Landing& out) {
   out.direction = packet.Direction(i);
   if (!packet.Hit(i)) {
     out.target = LightLink::kSky;
     return false;
   }
-  const MetSurface met = SurfaceUnder(world, packet, i);
   if (lamps != nullptr) out.glow = GlowUnder(world, *lamps, packet, i, met, normal);
   if (met.mirror) {
     out.share *= Luminance(met.base);
@@ -54,13 +53,21 @@ bool Land(const IndoorWorld& world, const Reflectance& reflectance, const Surfel
 
 }  // namespace
 
-Vec3f PointToDirection(const Surfel& s, float u, float v) {
-  const float r = std::sqrt(u), angle = 6.2831853f * v;
-  return s.t * (r * std::cos(angle)) + s.b * (r * std::sin(angle)) + s.n * std::sqrt(std::max(0.0f, 1 - u));
+LinkTable::LinkTable() {
+  for (int i = 0; i < 256; ++i) {
+    const float x = (static_cast<float>(i) + 0.5f) / 256;
+    out[i] = std::sqrt(x), up[i] = std::sqrt(1 - x);
+    cosine[i] = std::cos(6.2831853f * x), sine[i] = std::sin(6.2831853f * x);
+  }
+}
+const LinkTable& LinkSteps() {
+  static const LinkTable table;
+  return table;
 }
 
 void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const SurfelSet& coarse, const Surfel& from,
               std::span<const Vec2f> points, const LampMix& lamps, std::vector<Landing>& landings) {
+  const LinkTable& steps = LinkSteps();
   landings.assign(points.size(), {});
   // Rays of a packet go about the same way.
   std::vector<std::pair<uint32_t, uint32_t>> order(points.size());
@@ -75,8 +82,7 @@ void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const Su
     for (int i = 0; i < count; ++i) {
       const Vec2f point = points[order[first + static_cast<size_t>(i)].second];
       // As far as the link will remember.
-      const auto kept = [](float x) { return (std::floor(std::min(x, 0.99999f) * 256) + 0.5f) / 256; };
-      packet.Set(i, from.p + from.n * kLinkLift, PointToDirection(from, kept(point.x), kept(point.y)), INFINITY);
+      packet.Set(i, from.p + from.n * kLinkLift, LinkDirection(steps, from, LinkStep(point.x), LinkStep(point.y)), INFINITY);
     }
     bool mirrored = false;
     for (int bounce = 0; bounce == 0 || mirrored; ++bounce) {
@@ -84,13 +90,20 @@ void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const Su
       world.tracer.Intersect16(packet.valid, packet.rays, bounce == 0);
       DimPacket(world, packet, sent, share);
       mirrored = false;
+      MetSurface met[16];
+      for (int i = 0; i < count; ++i) {
+        if (!packet.Hit(i)) continue;
+        met[i] = SurfaceUnder(world, packet, i);
+        coarse.Prefetch(met[i].point);
+      }
       for (int i = 0; i < count; ++i) {
         if (packet.valid[i] == 0) continue;
         const uint32_t ray = order[first + static_cast<size_t>(i)].second;
         Landing& landing = landings[ray];
         landing.share = share[i];
         const bool meets = bounce == 0 && static_cast<int>(ray) < lamps.even;
-        const bool turned = Land(world, reflectance, coarse, packet, i, bounce == kMostMirrors, meets ? &lamps : nullptr, from.n, landing);
+        const bool turned =
+            Land(world, reflectance, coarse, packet, i, met[i], bounce == kMostMirrors, meets ? &lamps : nullptr, from.n, landing);
         if (meets) landing.glow.radiance = landing.glow.radiance * share[i];
         if (turned) {
           share[i] = landing.share;

@@ -1,6 +1,7 @@
 // What every surfel sees: the ways that light takes between the surfaces of rooms, the sky and what is outside.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -17,7 +18,7 @@ struct OutsidePlace {
   Vec3f radiance;  ///< fixed part
 };
 
-/// A ray of a surfel. Its direction is PointToDirection of ((u + 0.5) / 256, (v + 0.5) / 256).
+/// A ray of a surfel, towards LinkDirection.
 struct LightLink {
   uint32_t target;  ///< surfel, then outside places; kSky, kNothing
   uint16_t weight;  ///< share of the hemisphere's cosine that it stands for, in steps of LightLinks::unit
@@ -25,8 +26,18 @@ struct LightLink {
   static constexpr uint32_t kSky = UINT32_MAX, kNothing = UINT32_MAX - 1;
 };
 
-/// Even density over (u, v) is a density as the cosine over the hemisphere of n.
-Vec3f PointToDirection(const Surfel& surfel, float u, float v);
+/// The steps of links, by which their directions are kept.
+struct LinkTable {
+  float out[256], up[256], cosine[256], sine[256];
+  LinkTable();
+};
+const LinkTable& LinkSteps();
+/// The step of a number in [0, 1).
+inline uint8_t LinkStep(float x) { return static_cast<uint8_t>(std::min(x, 0.99999f) * 256); }
+/// Of the point ((u + 0.5) / 256, (v + 0.5) / 256): even density over points is a density as the cosine over the hemisphere of n.
+inline Vec3f LinkDirection(const LinkTable& t, const Surfel& s, uint8_t u, uint8_t v) {
+  return s.t * (t.out[u] * t.cosine[v]) + s.b * (t.out[u] * t.sine[v]) + s.n * t.up[u];
+}
 
 /// Where rays end.
 struct Landing {

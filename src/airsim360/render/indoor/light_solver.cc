@@ -22,30 +22,13 @@ constexpr float kStratified = 0.6f;                     // of the variance of ra
 constexpr float kRefine = 1.5f;                         // ratio of neighbours
 constexpr double kMostFine = 300000;                    // surfels, about
 constexpr float kFinest = 1.0f / 3, kLeastFine = 0.6f;  // cells of the fine level, of the coarse one's
+constexpr float kTolerance = 10;                        // variances of light that are taken for noise
 constexpr float kOnePlane = 0.2f;                       // of a cell: what is farther off is another surface
-constexpr float kNear = 0.6f;                           // of a cell: something as near needs the fine level
+constexpr float kLampShare = 2.5f;                      // of all light, inverse: as much by lamps deserves all rays to them
+constexpr int kLeastLampRays = 12;
+constexpr float kNear = 0.6f;  // of a cell: something as near needs the fine level
 
-// Directions of links in the frame of a surfel.
-struct LinkTable {
-  float out[256], up[256], cosine[256], sine[256];
-  LinkTable() {
-    for (int i = 0; i < 256; ++i) {
-      const float x = (static_cast<float>(i) + 0.5f) / 256;
-      out[i] = std::sqrt(x), up[i] = std::sqrt(1 - x);
-      cosine[i] = std::cos(6.2831853f * x), sine[i] = std::sin(6.2831853f * x);
-    }
-  }
-};
-const LinkTable& Table() {
-  static const LinkTable table;
-  return table;
-}
-Vec3f DirectionOf(const Surfel& s, const LightLink& link) {
-  const LinkTable& t = Table();
-  return s.t * (t.out[link.u] * t.cosine[link.v]) + s.b * (t.out[link.u] * t.sine[link.v]) + s.n * t.up[link.u];
-}
-
-uint8_t Step(float x) { return static_cast<uint8_t>(std::min(255.0f, std::floor(std::min(x, 0.99999f) * 256))); }
+Vec3f DirectionOf(const Surfel& s, const LightLink& link) { return LinkDirection(LinkSteps(), s, link.u, link.v); }
 
 // Calls body(first, end, chunk) for chunks of surfels.
 template <class Body>
@@ -158,7 +141,8 @@ void LightSolver::TraceEven() {
     for (size_t k = 0; k < rays; ++k) {
       const size_t at = i * 2 * rays + k;
       if (landings[k].target == Landing::kOutside) outside[chunk].push_back({at, landings[k].outside});
-      links_[at] = {landings[k].target, WeightOf(landings[k].share / static_cast<float>(rays)), Step(points[k].x), Step(points[k].y)};
+      links_[at] = {landings[k].target, WeightOf(landings[k].share / static_cast<float>(rays)), LinkStep(points[k].x),
+                    LinkStep(points[k].y)};
     }
   });
   AddOutside(outside);
@@ -246,12 +230,12 @@ void LightSolver::Bounce(int most) {
   }
 }
 
-LightGuide LightSolver::GuideOf(const Surfel& s, uint32_t at) const {
+LightGuide LightSolver::GuideOf(const Surfel& s, uint32_t at, bool own) const {
   std::array<float, LightGuide::kCells> sum{}, count{};
   const auto rays = static_cast<size_t>(options_.rays);
   const Surfel& middle = coarse_.surfels()[at];
   ForNeighbours(coarse_, middle, 1, [&](uint32_t j, const Surfel& other) {
-    if (Dot(other.n, s.n) < 0.7f || (j != at && coarse_.Weight(other, middle.p, middle.n) <= 0)) return;
+    if (Dot(other.n, s.n) < 0.7f || (j == at && !own) || (j != at && coarse_.Weight(other, middle.p, middle.n) <= 0)) return;
     const bool same = other.n == s.n;
     for (size_t k = 0; k < rays; ++k) {
       const LightLink& link = links_[j * 2 * rays + k];
@@ -281,7 +265,9 @@ void LightSolver::TraceGuided() {
   });
   std::vector<std::vector<std::pair<size_t, OutsidePlace>>> outside(surfels.size() / kChunk + 1);
   ForSurfels(surfels.size(), [&](size_t i, size_t chunk) {
-    const LightGuide guide = GuideOf(surfels[i], static_cast<uint32_t>(i));
+    // Not of its own even rays: where one of them has met a small bright place its own weight would be less for that, and light
+    // would be lost.
+    const LightGuide guide = GuideOf(surfels[i], static_cast<uint32_t>(i), false);
     std::vector<Vec2f> points;
     std::vector<Landing> landings;
     guide.Sample(options_.rays, ShiftOf(i + 0x100000000ull), points);
@@ -294,7 +280,7 @@ void LightSolver::TraceGuided() {
       even.weight = WeightOf(kept * share({(even.u + 0.5f) / 256, (even.v + 0.5f) / 256}));
       const size_t at = i * 2 * rays + rays + k;
       if (landings[k].target == Landing::kOutside) outside[chunk].push_back({at, landings[k].outside});
-      const LightLink link{landings[k].target, 0, Step(points[k].x), Step(points[k].y)};
+      const LightLink link{landings[k].target, 0, LinkStep(points[k].x), LinkStep(points[k].y)};
       links_[at] = link;
       links_[at].weight = WeightOf(landings[k].share * share({(link.u + 0.5f) / 256, (link.v + 0.5f) / 256}));
     }
@@ -303,9 +289,9 @@ void LightSolver::TraceGuided() {
 }
 
 LightGuide LightSolver::KeptGuide(const Surfel& s, uint32_t at, std::unordered_map<uint32_t, LightGuide>& kept) const {
-  if (s.n != coarse_.surfels()[at].n) return GuideOf(s, at);
+  if (s.n != coarse_.surfels()[at].n) return GuideOf(s, at, true);
   const auto [it, fresh] = kept.try_emplace(at);
-  if (fresh) it->second = GuideOf(s, at);
+  if (fresh) it->second = GuideOf(s, at, true);
   return it->second;
 }
 
@@ -333,7 +319,7 @@ void LightSolver::Finish() {
       sum.whole += weight;
       if (link.target != LightLink::kNothing) sum.found += weight;
       if (link.target == LightLink::kSky) sum.open += weight / kPiF;
-      sum.Add(Seen(link.target, surfels[i], link), DirectionOf(surfels[i], link), Table().up[link.u], weight);
+      sum.Add(Seen(link.target, surfels[i], link), DirectionOf(surfels[i], link), LinkSteps().up[link.u], weight);
     }
     sum.Put(i, others_[i], coarse_light_);
   });
@@ -343,7 +329,7 @@ void LightSolver::Finish() {
     lost += link.target == LightLink::kNothing ? link.weight : 0;
   }
   lost_ = whole > 0 ? lost / whole : 0;
-  Smooth(coarse_, 2, coarse_light_);
+  Smooth(coarse_, 4, coarse_light_);
 }
 
 // Where coarse neighbours differ, or something stands close.
@@ -384,19 +370,29 @@ void LightSolver::MakeFine(std::span<const SurfacePiece> pieces) {
   Smooth(*fine_, 4, fine_light_);
 }
 
+// Where lamps bring little beside daylight their noise is little of all light, too.
+int LightSolver::FineLampRays(uint32_t near) const {
+  if (near == SurfelSet::kNone) return options_.lamp_rays;
+  const float lamps = Luminance(coarse_light_.lamps[near] + others_[near]);
+  const float all = Luminance(coarse_light_.lamps[near] + coarse_light_.light[near]);
+  const float share = all > 0 ? lamps / all : 1;
+  const auto wanted = static_cast<int>(std::ceil(kLampShare * share * static_cast<float>(options_.lamp_rays)));
+  return std::clamp(wanted, std::min(options_.lamp_rays, kLeastLampRays), options_.lamp_rays);
+}
+
 void LightSolver::LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& kept) {
   const Surfel& s = fine_->surfels()[i];
-  const LampMix lamps{&plain_, options_.lamp_rays, options_.fine_rays};
+  const uint32_t near = coarse_.Nearest(s.p, s.n);
+  const LampMix lamps{&plain_, FineLampRays(near), options_.fine_rays};
   DirectLight direct =
       LightFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, lamps, static_cast<uint32_t>(i) ^ 0x80000000u, 0);
-  const uint32_t near = coarse_.Nearest(s.p, s.n);
   const LightGuide guide = near == SurfelSet::kNone ? LightGuide() : KeptGuide(s, near, kept);
   std::vector<Vec2f> points;
   std::vector<Landing> landings;
   SampleEvenly(options_.fine_rays, ShiftOf(i + 0x200000000ull), points);
   guide.Sample(options_.fine_rays, ShiftOf(i + 0x300000000ull), points);
   SendRays(world_, reflectance_, coarse_, s, points, lamps, landings);
-  fine_light_.lamp_variance[i] = VarianceOf(direct, options_.lamp_rays);
+  fine_light_.lamp_variance[i] = VarianceOf(direct, lamps.to_lamps);
   AddGlow(landings, options_.fine_rays, direct.held, direct.others);
   fine_light_.lamps[i] = direct.held;
   Sum sum;
@@ -417,41 +413,68 @@ void LightSolver::LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& 
 
 namespace {
 
-// Calls each(j, weight) for the neighbours of a surfel in one plane that see it and differ from it by no more than their noise.
+// Calls each(j) for the neighbours of a surfel in one plane that see it.
 template <class Each>
-void ForAlike(const SurfelSet& set, size_t i, int pass, const std::vector<Vec3f>& light, const std::vector<float>& variance,
-              const Each& each) {
+void ForOnePlane(const SurfelSet& set, size_t i, int step, const Each& each) {
   const Surfel& s = set.surfels()[i];
-  const float own = Luminance(light[i]);
-  ForNeighbours(set, s, pass >= 2 ? 2 : 1, [&](uint32_t j, const Surfel& other) {
+  ForNeighbours(set, s, step, [&](uint32_t j, const Surfel& other) {
     if (j == i || Dot(other.n, s.n) < 0.9f || std::fabs(Dot(other.p - s.p, s.n)) > kOnePlane * set.cell()) return;
     if (set.Weight(s, other.p, other.n) <= 1e-5f || set.Weight(other, s.p, s.n) <= 1e-5f) return;
-    const float d = Luminance(light[j]) - own;
-    each(j, std::exp(-d * d / (4 * (variance[i] + variance[j]) + 4e-4f * own * own + 1e-20f)));
+    each(j);
   });
+}
+
+// Whether two differ by no more than their noise.
+float Alike(const std::vector<Vec3f>& light, const std::vector<float>& variance, size_t i, size_t j) {
+  const float own = Luminance(light[i]), other = Luminance(light[j]), d = other - own;
+  return std::exp(-d * d / (kTolerance * (variance[i] + variance[j]) + 2e-4f * (own * own + other * other) + 1e-20f));
 }
 
 }  // namespace
 
-// Means of neighbours, of the light of surfels and of that of lamps each by its own noise.
+// How many neighbours a surfel has in its plane, and the noise of all of them: those whose few rays missed a far window think that they
+// have none.
+LightSolver::Plane LightSolver::PlaneOf(const SurfelSet& set, int step, const LevelLight& light) const {
+  Plane plane;
+  const size_t count = set.surfels().size();
+  plane.neighbours.resize(count), plane.variance.resize(count), plane.lamp_variance.resize(count);
+  ForSurfels(count, [&](size_t i, size_t) {
+    float n = 0, sum = light.variance[i], of_lamps = light.lamp_variance[i];
+    ForOnePlane(set, i, step, [&](uint32_t j) { n += 1, sum += light.variance[j], of_lamps += light.lamp_variance[j]; });
+    plane.neighbours[i] = n, plane.variance[i] = sum / (n + 1), plane.lamp_variance[i] = of_lamps / (n + 1);
+  });
+  return plane;
+}
+
+// Neighbours exchange light, that of surfels and that of lamps each by its own noise: what one gives another one gets, so that none is
+// lost where few have found the light of all around.
 void LightSolver::Smooth(const SurfelSet& set, int passes, LevelLight& light) const {
+  Plane plane;
   for (int pass = 0; pass < passes; ++pass) {
+    const int step = pass >= 2 ? 2 : 1;
+    if (pass == 0 || pass == 2) {
+      plane = PlaneOf(set, step, light);
+      if (pass == 0) light.variance = plane.variance, light.lamp_variance = plane.lamp_variance;
+    }
     LevelLight next = light;
     ForSurfels(set.surfels().size(), [&](size_t i, size_t) {
-      Vec3f sum = light.light[i], bend = light.bend[i];
-      float mean = light.mean[i], weight = 1, variance = light.variance[i];
-      ForAlike(set, i, pass, light.light, light.variance, [&](uint32_t j, float w) {
+      float kept = 1, variance = 0, lamps_kept = 1, lamp_variance = 0;
+      Vec3f sum, bend, lamps;
+      float mean = 0;
+      const auto share = [&](uint32_t j) { return 1 / (1 + std::max(plane.neighbours[i], plane.neighbours[j])); };
+      ForOnePlane(set, i, step, [&](uint32_t j) {
+        float w = share(j) * Alike(light.light, light.variance, i, j);
         sum += light.light[j] * w, bend += light.bend[j] * w, mean += light.mean[j] * w;
-        weight += w, variance += w * w * light.variance[j];
+        kept -= w, variance += w * w * light.variance[j];
+        if (!(light.lamp_variance[i] > 0)) return;
+        w = share(j) * Alike(light.lamps, light.lamp_variance, i, j);
+        lamps += light.lamps[j] * w, lamps_kept -= w, lamp_variance += w * w * light.lamp_variance[j];
       });
-      next.light[i] = sum / weight, next.bend[i] = bend / weight, next.mean[i] = mean / weight;
-      next.variance[i] = variance / (weight * weight);
-      sum = light.lamps[i], weight = 1, variance = light.lamp_variance[i];
-      if (variance > 0) {
-        ForAlike(set, i, pass, light.lamps, light.lamp_variance,
-                 [&](uint32_t j, float w) { sum += light.lamps[j] * w, weight += w, variance += w * w * light.lamp_variance[j]; });
-      }
-      next.lamps[i] = sum / weight, next.lamp_variance[i] = variance / (weight * weight);
+      next.light[i] = sum + light.light[i] * kept, next.bend[i] = bend + light.bend[i] * kept;
+      next.mean[i] = mean + light.mean[i] * kept;
+      next.variance[i] = variance + kept * kept * light.variance[i];
+      next.lamps[i] = lamps + light.lamps[i] * lamps_kept;
+      next.lamp_variance[i] = lamp_variance + lamps_kept * lamps_kept * light.lamp_variance[i];
     });
     light = std::move(next);
   }

@@ -59,14 +59,20 @@ class LightSolver {
   void Finish();
   void MakeFine(std::span<const SurfacePiece> pieces);
   void LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& kept);
-  /// For a surfel near the coarse one `at`, of what its neighbours see.
-  LightGuide GuideOf(const Surfel& surfel, uint32_t at) const;
+  /// For a surfel near the coarse one `at`, of what its neighbours see; `own`: and of what that one sees.
+  LightGuide GuideOf(const Surfel& surfel, uint32_t at, bool own) const;
   /// The same. Those of surfels that face as the coarse one does are kept: many fine ones beside each other share one.
   LightGuide KeptGuide(const Surfel& surfel, uint32_t at, std::unordered_map<uint32_t, LightGuide>& kept) const;
   std::vector<uint8_t> NeedFine() const;
+  /// Rays to lamps of a fine surfel near a coarse one.
+  int FineLampRays(uint32_t near) const;
   Vec3f RadianceOutside(const OutsidePlace& place, size_t seed) const;
   Vec3f Seen(uint32_t target, const Surfel& from, const LightLink& link) const;
   Vec3f SkyAlong(Vec3f d) const;
+  struct Plane {
+    std::vector<float> neighbours, variance, lamp_variance;  ///< by surfel
+  };
+  Plane PlaneOf(const SurfelSet& set, int step, const LevelLight& light) const;
   void Smooth(const SurfelSet& set, int passes, LevelLight& light) const;
   uint16_t WeightOf(float share) const;
 

@@ -197,6 +197,91 @@ TEST(LightSolver, NoLightGetsThroughAWallOfThreeCentimetres) {
   EXPECT_LT(dark / of_dark, 2e-4 * bright / of_bright);
 }
 
+// A panel of light in a frame of 12 mm with a bevel of 4 mm towards it, as they hang in offices; its middle at (x, y).
+void HangPanel(RoomScene& room, float x, float y, float ceiling) {
+  const MaterialId frame = room.Paint({0.76f, 0.76f, 0.75f}), glow = room.Paint({0, 0, 0}, {12, 12, 12});
+  const float out = 0.3f, in = 0.286f, low = ceiling - 0.012f, lens = ceiling - 0.008f;
+  const auto at = [&](float a, float r, float z, int turn) {
+    const Vec2f q[4] = {{a, r}, {-r, a}, {-a, -r}, {r, -a}};
+    return Vec3f{x + q[turn].x, y + q[turn].y, z};
+  };
+  for (int k = 0; k < 4; ++k) {
+    room.Quad(at(-out, out, ceiling, k), at(out, out, ceiling, k), at(out, out, low, k), at(-out, out, low, k), frame);
+    room.Quad(at(-out, out, low, k), at(out, out, low, k), at(in, in, low, k), at(-in, in, low, k), frame);
+    room.Quad(at(-in, in, low, k), at(in, in, low, k), at(in - 0.004f, in - 0.004f, lens, k), at(-in + 0.004f, in - 0.004f, lens, k),
+              frame);
+  }
+  room.Quad({x - in, y + in, lens}, {x + in, y + in, lens}, {x + in, y - in, lens}, {x - in, y - in, lens}, glow);
+}
+
+// Light of the ceiling around such panels, at places of surfels in many ways.
+TEST(IndoorCache, CeilingsBesideLampsLookAsTheyDoElsewhere) {
+  constexpr float kHigh = 2.6f;
+  RoomScene room("panels");
+  room.Box({0, 0, 0}, {9.2f, 9.2f, kHigh}, room.Paint({0.6f, 0.6f, 0.6f}));
+  std::vector<Vec2f> middles;
+  for (int k = 0; k < 9; ++k) middles.push_back({1.5f + 3.03f * static_cast<float>(k % 3), 1.5f + 3.05f * static_cast<float>(k / 3)});
+  for (const Vec2f m : middles) HangPanel(room, m.x, m.y, kHigh);
+  const SolvedRoom solved(room.Build(), {.cell = 0.24f});
+  const IndoorCache cache(solved.solver);
+  static const auto look_up = AIRSIM360_SELECT_KERNEL(LookUpIndoors);
+  auto s = std::make_unique<internal::SurfaceSet>();
+  auto light = std::make_unique<internal::IndoorLight>();
+  for (const Vec2f m : middles) {
+    int count = 0;
+    double far = 0;
+    for (int k = 0; k < 64; ++k) {
+      // 16 places 0.7 m from the middle, then 48 at 2 to 8 cm from the frame.
+      const float along = -0.3f + 0.6f * (static_cast<float>(k / 4 % 4) + 0.5f) / 4;
+      const float across = k < 16 ? 0.7f : 0.32f + 0.03f * static_cast<float>((k - 16) / 16);
+      const Vec2f q[4] = {{along, across}, {-across, along}, {-along, -across}, {across, -along}};
+      const size_t i = static_cast<size_t>(count++);
+      s->px[i] = m.x + q[k % 4].x, s->py[i] = m.y + q[k % 4].y, s->pz[i] = kHigh;
+      s->nx[i] = s->gx[i] = s->ny[i] = s->gy[i] = 0, s->nz[i] = s->gz[i] = -1;
+    }
+    look_up(cache.view(), *s, count, *light);
+    for (int i = 0; i < 16; ++i) far += light->g[i] / 16;
+    for (int i = 16; i < count; ++i) EXPECT_NEAR(light->g[i] / far, 1, 0.3) << s->px[i] - m.x << " " << s->py[i] - m.y;
+  }
+}
+
+// What lies under a mat of 6 mm has no light, and the floor beside it does not count it as its own.
+TEST(LightSolver, WhatSomethingLiesOnIsNoPartOfTheFloorBesideIt) {
+  RoomScene room("mat");
+  room.Box({0, 0, 0}, {3, 3, 2.4f}, room.Paint({0.6f, 0.6f, 0.6f}));
+  room.Box({1, 1, 0.002f}, {2.1f, 1.8f, 0.006f}, room.Paint({0.2f, 0.2f, 0.2f}), false);
+  const SolvedRoom solved(room.Build(), {.cell = 0.2f, .rays = 16, .fine = false});
+  int looked = 0;
+  for (const Surfel& s : solved.solver.coarse().surfels()) {
+    if (s.n.z < 0.9f || s.p.z > 0.001f || !FacesInwards(s, {1.5f, 1.5f, 1.2f})) continue;
+    for (int k = 0; k < s.point_count; ++k, ++looked) {
+      const Vec3f p = s.points[k];
+      EXPECT_FALSE(p.z < 0.001f && p.x > 1.001f && p.x < 2.099f && p.y > 1.001f && p.y < 1.799f) << p.x << " " << p.y;
+    }
+  }
+  EXPECT_GT(looked, 500);
+}
+
+// A hall lit by one bright spot on a wall: what few rays find of it, its neighbours' rays have found for all of them.
+TEST(LightSolver, SmoothingLosesNoLight) {
+  RoomScene hall("hall");
+  hall.Box({0, 0, 0}, {14, 4, 3}, hall.Paint({0.5f, 0.5f, 0.5f}));
+  hall.Quad({0.3f, 1.8f, 1.3f}, {0.3f, 1.8f, 1.7f}, {0.3f, 2.2f, 1.7f}, {0.3f, 2.2f, 1.3f}, hall.Paint({0, 0, 0}, {200, 200, 200}));
+  const auto tracer = hall.Build();
+  const SolvedRoom few(tracer, {.cell = 0.25f, .rays = 64, .fine = false}), many(tracer, {.cell = 0.25f, .rays = 512, .fine = false});
+  double own = 0, right = 0, error = 0;
+  for (size_t i = 0; i < few.solver.coarse().surfels().size(); ++i) {
+    const Surfel& s = few.solver.coarse().surfels()[i];
+    if (s.p.x < 4 || !FacesInwards(s, {7, 2, 1.5f})) continue;
+    const double a = Luminance(few.solver.coarse_light().light[i]) * s.area, b = Luminance(many.solver.coarse_light().light[i]) * s.area;
+    own += a, right += b, error += std::fabs(a - b);
+  }
+  RecordProperty("share", std::to_string(own / right));
+  RecordProperty("error", std::to_string(error / right));
+  EXPECT_NEAR(own / right, 1, 0.02);
+  EXPECT_LT(error / right, 0.1);
+}
+
 Bytes BytesOf(const IndoorCache& cache) {
   ArchiveWriter archive;
   IndoorCache::Visit(archive, cache);

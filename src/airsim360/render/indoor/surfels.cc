@@ -16,6 +16,8 @@ constexpr size_t kMostSamples = 20;   // of a cell and direction
 constexpr float kFlat = 0.002f;       // m
 constexpr size_t kMostSurfels = 3;
 constexpr float kBuriedNear = 0.02f;  // m
+constexpr float kThin = 0.0005f;      // m: a sheet of paper hides nothing
+constexpr float kAgrees = 0.9f;       // least cosine between the normals of most of a cell's surface and its first surfel
 constexpr float kFacing = 0.35f;      // least cosine between the normals of a place and its surfel
 constexpr float kPlane = 0.6f;        // of a cell: thickness of the disc
 constexpr float kOffPlane = 24;       // how much farther a surfel is that lies in another plane
@@ -90,6 +92,24 @@ bool Sees(const IndoorWorld& world, const Surfel& surfel, const SurfaceSample& s
   return Norm(to - from) < 1e-4f || !world.tracer.Occluded(from, to);
 }
 
+// Which samples something lies on, closer than kBuriedNear: what is under panels, rugs and plates gets no light, but lies in one
+// plane with what does.
+std::vector<uint8_t> FindCovered(const IndoorWorld& world, std::span<const Sorted> samples) {
+  std::vector<uint8_t> covered(samples.size());
+  for (size_t first = 0; first < samples.size(); first += 16) {
+    const size_t count = std::min<size_t>(16, samples.size() - first);
+    RayPacket packet;
+    for (size_t k = 0; k < count; ++k) {
+      const SurfaceSample& s = samples[first + k].sample;
+      packet.Set(static_cast<int>(k), s.p + s.n * kThin, s.n, kBuriedNear);
+    }
+    alignas(64) bool occluded[16] = {};
+    world.tracer.Occluded16(packet.valid, packet.rays, occluded, true);
+    std::copy(occluded, occluded + count, covered.begin() + static_cast<int64_t>(first));
+  }
+  return covered;
+}
+
 void FindClear(const IndoorWorld& world, float cell, Surfel& surfel) {
   RayPacket packet;
   for (int i = 0; i < kClearSectors; ++i) {
@@ -103,24 +123,39 @@ void FindClear(const IndoorWorld& world, float cell, Surfel& surfel) {
   for (int i = 0; i < kClearSectors; ++i) surfel.clear[i] = packet.Hit(i) ? packet.rays.t_far[i] : 2 * cell;
 }
 
+// From near to the middle of what surface there is (cells are cut by edges) to far. First those that face as most of it does: the
+// bevel of a lamp's frame would speak for the ceiling else.
+void OrderSamples(std::span<Sorted> samples) {
+  Vec3f middle, facing;
+  float area = 0;
+  for (const Sorted& s : samples) {
+    middle += s.sample.p * s.sample.area, facing += s.sample.n * s.sample.area, area += s.sample.area;
+  }
+  middle = middle / std::max(area, 1e-20f);
+  const float agrees = kAgrees * Norm(facing);
+  const auto before = [&](const Sorted& a, const Sorted& b) {
+    const bool one = Dot(a.sample.n, facing) >= agrees, other = Dot(b.sample.n, facing) >= agrees;
+    if (one != other) return one;
+    return Dot(a.sample.p - middle, a.sample.p - middle) < Dot(b.sample.p - middle, b.sample.p - middle);
+  };
+  std::stable_sort(samples.begin(), samples.end(), before);
+}
+
 // The surfels of one cell and side.
 std::vector<Surfel> PlaceInCell(const IndoorWorld& world, float cell, std::span<Sorted> samples) {
   const uint64_t key = samples[0].key >> 3;
   const int32_t at[3] = {static_cast<int32_t>(key >> 40) - kFarCell, static_cast<int32_t>(key >> 20 & 0xfffff) - kFarCell,
                          static_cast<int32_t>(key & 0xfffff) - kFarCell};
-  // Of what surface there is: cells are cut by edges.
-  Vec3f middle;
-  float area = 0;
-  for (const Sorted& s : samples) middle += s.sample.p * s.sample.area, area += s.sample.area;
-  middle = middle / std::max(area, 1e-20f);
-  const auto far = [&](const Sorted& s) { return Dot(s.sample.p - middle, s.sample.p - middle); };
-  std::stable_sort(samples.begin(), samples.end(), [&](const Sorted& a, const Sorted& b) { return far(a) < far(b); });
+  OrderSamples(samples);
   std::vector<Surfel> out;
   // Of many samples some, from near to far.
   const size_t asked = std::min(samples.size(), kMostSamples);
   const float weight = static_cast<float>(samples.size()) / static_cast<float>(asked);
-  for (size_t k = 0; k < asked; ++k) {
-    const size_t i = k * samples.size() / asked;
+  for (size_t k = 0; k < asked; ++k) samples[k] = samples[k * samples.size() / asked];
+  samples = samples.first(asked);
+  const std::vector<uint8_t> covered = FindCovered(world, samples);
+  for (size_t i = 0; i < asked; ++i) {
+    if (covered[i] != 0) continue;
     SurfaceSample s = samples[i].sample;
     s.area *= weight;
     Surfel* seen = nullptr;
@@ -130,10 +165,10 @@ std::vector<Surfel> PlaceInCell(const IndoorWorld& world, float cell, std::span<
     if (seen != nullptr) {
       // In sight along one plane both are in the open.
       const bool flat = s.n == seen->n && std::fabs(Dot(s.p - seen->p, s.n)) < kFlat;
-      if (!flat && Buried(world, s, samples[0].key + i)) continue;
+      if (!flat && Buried(world, s, samples[i].key + i)) continue;
       seen->area += s.area, seen->albedo += s.albedo * s.area;
       if (seen->point_count < Surfel::kPoints) seen->points[seen->point_count++] = s.p;
-    } else if (out.size() < kMostSurfels && !Buried(world, s, samples[0].key + i)) {
+    } else if (out.size() < kMostSurfels && !Buried(world, s, samples[i].key + i)) {
       Surfel surfel;
       surfel.p = s.p, surfel.n = s.n, surfel.albedo = s.albedo * s.area, surfel.area = s.area;
       TangentFrame(s.n, surfel.t, surfel.b);
@@ -174,6 +209,7 @@ SurfelSet::SurfelSet(const IndoorWorld& world, std::span<const SurfacePiece> pie
 }
 
 void SurfelSet::MakeTable() {
+  for (const Surfel& surfel : surfels_) places_.push_back({surfel.p, surfel.n});
   const auto key = [&](size_t i) { return IndoorKey(surfels_[i].cell[0], surfels_[i].cell[1], surfels_[i].cell[2]); };
   size_t count = 0;
   for (size_t i = 0; i < surfels_.size(); ++i) count += i == 0 || key(i) != key(i - 1);
@@ -196,14 +232,23 @@ std::pair<uint32_t, uint32_t> SurfelSet::In(int x, int y, int z) const {
   }
 }
 
+namespace {
+
+// Whether nothing stands between a surfel and what is at d from it.
+bool ClearTo(const Surfel& surfel, Vec3f d) {
+  const float x = Dot(d, surfel.t), y = Dot(d, surfel.b);
+  const float far = surfel.clear[static_cast<int>(ClearSector(x, y))] + 0.004f;
+  return x * x + y * y <= far * far;
+}
+
+}  // namespace
+
 float SurfelSet::Weight(const Surfel& surfel, Vec3f p, Vec3f n) const {
   const float c = Dot(n, surfel.n);
   if (c < kFacing) return 0;
   const Vec3f d = p - surfel.p;
-  const float x = Dot(d, surfel.t), y = Dot(d, surfel.b), h = Dot(d, surfel.n);
-  const float far = surfel.clear[static_cast<int>(ClearSector(x, y))] + 0.004f;
-  if (x * x + y * y > far * far) return 0;
-  const float e = h / (kPlane * cell_);
+  if (!ClearTo(surfel, d)) return 0;
+  const float e = Dot(d, surfel.n) / (kPlane * cell_);
   return std::max(0.0f, 1 - e * e * 0.8f) * (c - kFacing) * (c - kFacing) + 1e-5f;
 }
 
@@ -215,16 +260,22 @@ uint32_t SurfelSet::Nearest(Vec3f p, Vec3f n) const {
   const auto look = [&](int cx, int cy, int cz) {
     const auto [first, count] = In(cx, cy, cz);
     for (uint32_t i = first; i < first + count; ++i) {
-      const Vec3f d = p - surfels_[i].p;
-      const float h = Dot(d, surfels_[i].n), c = Dot(n, surfels_[i].n);
+      const Place& at = places_[i];
+      const Vec3f d = p - at.p;
+      const float h = Dot(d, at.n), c = Dot(n, at.n);
       const float far = (Dot(d, d) + kOffPlane * h * h) * (2 - c);
-      if (c >= kFacing && far < least && Weight(surfels_[i], p, n) > 0) least = far, best = i;
+      if (c >= kFacing && far < least && ClearTo(surfels_[i], d)) least = far, best = i;
     }
   };
   look(x, y, z);
   if (best != kNone) return best;
   for (int k = 0; k < 27; ++k) look(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1);
   return best;
+}
+
+void SurfelSet::Prefetch(Vec3f p) const {
+  const Vec3f q = (p - origin_) / cell_;
+  __builtin_prefetch(&cells_[IndoorHash(IndoorKey(CellOf(q.x), CellOf(q.y), CellOf(q.z))) & (cells_.size() - 1)]);
 }
 
 }  // namespace airsim360::internal

@@ -23,12 +23,12 @@ inline float ClearSector(float x, float y) {
 }
 
 /// A disc of surface while light is computed.
-struct Surfel {
-  Vec3f p, n, t, b;  ///< frame: t, b, n
-  Vec3f albedo;      ///< share of even light given back
-  float area = 0;    ///< m^2 that it stands for
-  int32_t cell[3] = {};
+struct alignas(64) Surfel {
+  Vec3f p, n, t, b;            ///< frame: t, b, n
+  Vec3f albedo;                ///< share of even light given back
+  float area = 0;              ///< m^2 that it stands for
   float clear[kClearSectors];  ///< m, at most two cells
+  int32_t cell[3] = {};
   static constexpr int kPoints = 12;
   Vec3f points[kPoints];  ///< of the surface it stands for
   int point_count = 0;
@@ -53,15 +53,22 @@ class SurfelSet {
   float Weight(const Surfel& surfel, Vec3f p, Vec3f n) const;
   /// The surfel nearest to a place on a surface; kNone.
   uint32_t Nearest(Vec3f p, Vec3f n) const;
+  /// Gets what Nearest will read first on its way: in big scenes most of its time is waiting for memory.
+  void Prefetch(Vec3f p) const;
   static constexpr uint32_t kNone = UINT32_MAX;
 
  private:
   void MakeTable();
+  /// Where Nearest looks at surfels: what of them it needs of all.
+  struct Place {
+    Vec3f p, n;
+  };
 
   float cell_;
   Vec3f origin_;
   std::vector<Surfel> surfels_;
   std::vector<IndoorCell> cells_;  ///< hash table
+  std::vector<Place> places_;      ///< by surfel
 };
 
 }  // namespace airsim360::internal

@@ -110,18 +110,19 @@ bool LightTable::empty() const { return impl_->lamps.empty(); }
 size_t LightTable::size() const { return impl_->lamps.size(); }
 std::span<const Lamp> LightTable::lamps() const { return impl_->lamps; }
 
-LightSample LightTable::Sample(Vec3f p, Vec3f normal, Vec3f u) const {
-  const LightTree::Choice choice = impl_->tree.Choose(p, normal, u.x);
+LightSample LightTable::Sample(Vec3f p, Vec3f normal, Vec3f u) const { return PointOf(impl_->tree.Choose(p, normal, u.x), p, u.y, u.z); }
+
+LightSample LightTable::PointOf(const LightTree::Choice& choice, Vec3f p, float u, float v) const {
   if (!(choice.probability > 0)) return {};
 
-  // A triangle by area, with what is left of the first random number; a point of it.
+  // A triangle by area, with what is left of the random number of the choice; a point of it.
   const Lamp& lamp = impl_->lamps[choice.lamp];
   const Instance& instance = impl_->scene.instances[lamp.instance];
   const LampShape& shape = impl_->ShapeOf(choice.lamp);
   const auto at = std::upper_bound(shape.cumulative.begin(), shape.cumulative.end() - 1, choice.u);
   const uint32_t triangle = shape.triangles[static_cast<size_t>(at - shape.cumulative.begin())];
   const LampTriangle placed = PlaceTriangle(impl_->scene.meshes[instance.mesh], triangle, instance.X_WM);
-  const float root = std::sqrt(u.y), b1 = root * (1 - u.z), b2 = root * u.z;
+  const float root = std::sqrt(u), b1 = root * (1 - v), b2 = root * v;
   LightSample sample;
   sample.p = placed.corner[0] * (1 - root) + placed.corner[1] * b1 + placed.corner[2] * b2;
   sample.normal = placed.normal;

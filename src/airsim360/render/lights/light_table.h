@@ -51,6 +51,8 @@ class LightTable {
   /// Chooses by estimated contribution (power, distance, orientation); u in [0, 1)^3. A zero `normal` stands
   /// for surfaces that take light from all sides (leaves, fog).
   LightSample Sample(Vec3f p, Vec3f normal, Vec3f u) const;
+  /// A point, by (u, v), of a lamp that tree() has chosen for some place near p.
+  LightSample PointOf(const LightTree::Choice& choice, Vec3f p, float u, float v) const;
   /// Density, per area, with which Sample at (p, normal) gives a point of this triangle (Scene::instances and
   /// Mesh::triangles index); 0 if it is no lamp. For multiple importance sampling.
   float Pdf(Vec3f p, Vec3f normal, uint32_t instance, uint32_t triangle) const;

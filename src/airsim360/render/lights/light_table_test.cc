@@ -225,6 +225,39 @@ TEST(LightTable, TheEstimateEqualsTheSumOverAllLamps) {
   }
 }
 
+// Angles and their cosines choose alike, and one walk through the tree chooses as many single ones do.
+TEST(LightTable, ChoicesMadeTogetherAreThoseMadeOneByOne) {
+  TableWorld world;
+  RngStream rng(3, "choices");
+  for (int k = 0; k < 60; ++k) {
+    const Vec3f at = Random(rng) * 8, e = Direction(rng) * 0.3f, f = Direction(rng) * 0.3f;
+    world.Add(Rectangle(at, e, f), world.Emitter(Vec3f{1, 1, 1} * static_cast<float>(rng.Uniform(1, 50))));
+  }
+  world.Build();
+  const LightTree& tree = world.lights->tree();
+  int other = 0, none = 0, all = 0;
+  for (int place = 0; place < 200; ++place) {
+    const Vec3f p = Random(rng) * 10 - Vec3f{1, 1, 1}, n = place % 10 == 0 ? Vec3f{} : Direction(rng);
+    std::vector<float> u;
+    for (int k = 0; k < 40; ++k) u.push_back((static_cast<float>(k) + static_cast<float>(rng.Uniform())) / 40);
+    std::vector<LightTree::Choice> together(u.size());
+    tree.ChooseAll(p, n, u, together);
+    for (size_t k = 0; k < u.size(); ++k, ++all) {
+      const LightTree::Choice alone = tree.Choose(p, n, u[k]);
+      none += alone.probability == 0;
+      if (alone.lamp != together[k].lamp || alone.probability == 0) {
+        other += alone.lamp != together[k].lamp;
+        continue;
+      }
+      ASSERT_NEAR(together[k].probability, alone.probability, 2e-3f * alone.probability);
+      ASSERT_GE(together[k].u, 0);
+      ASSERT_LT(together[k].u, 1);
+    }
+  }
+  EXPECT_LT(other, all / 200);
+  EXPECT_LT(none, all / 2);
+}
+
 TEST(LightTable, EmissionTexturesAreSeenInSamplesAndInPower) {
   TableWorld world;
   Image<Rgba8> picture(2, 1);

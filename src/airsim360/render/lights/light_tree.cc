@@ -90,6 +90,7 @@ LightTree::LightTree(std::span<const LightBounds> lamps) {
   leaf_of_.resize(lamps.size());
   nodes_.reserve(2 * lamps.size());
   Build(order, lamps, 0);
+  for (const Node& node : nodes_) cone_.push_back({std::cos(node.bounds.spread), std::sin(node.bounds.spread)});
 }
 
 // Bins along every axis; the cheapest border between two bins wins, else the median.
@@ -158,6 +159,64 @@ LightTree::Choice LightTree::Choose(Vec3f p, Vec3f normal, float u) const {
   }
   choice.lamp = nodes_[at].lamp;
   return choice;
+}
+
+void LightTree::ChooseAll(Vec3f p, Vec3f normal, std::span<const float> u, std::span<Choice> choices) const {
+  const bool any = !nodes_.empty() && Reach(0, p, normal) > 0;
+  for (size_t k = 0; k < u.size(); ++k) choices[k] = any ? Choice{0, 1, u[k]} : Choice{};
+  if (any) Descend(p, normal, 0, choices.first(u.size()));
+}
+
+namespace {
+
+// CosineWithin of an angle and a cone given by cosines and sines; `whole`: the cone is all directions.
+float CosineOutside(float cosine, float cone_cosine, float cone_sine, bool whole) {
+  if (whole || cosine >= cone_cosine) return 1;
+  const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+  const float left = cosine * cone_cosine + sine * cone_sine;
+  return left < -kAngleMargin ? 0 : std::max(left, kLeastCosine);
+}
+
+}  // namespace
+
+float LightTree::Reach(uint32_t node, Vec3f p, Vec3f normal) const {
+  const LightBounds& bounds = nodes_[node].bounds;
+  const Vec3f to = bounds.box.center() - p;
+  const float radius2 = 0.25f * Dot(bounds.box.size(), bounds.box.size()), distance2 = Dot(to, to);
+  const float clamped2 = std::max(std::max(distance2, radius2), 1e-12f);
+  if (distance2 <= radius2) return bounds.power / clamped2;
+  const Vec3f w = to / std::sqrt(distance2);
+  const float sine2 = radius2 / distance2, sine = std::sqrt(sine2), cosine = std::sqrt(1 - sine2);  // of half of what it subtends
+  const Vec2f cone = cone_[node];
+  const float both = cone.x * cosine - cone.y * sine, both_sine = cone.y * cosine + cone.x * sine;
+  const float emitted = CosineOutside(-Dot(bounds.axis, w), both, both_sine, bounds.spread > kPiF / 2 && both_sine <= 0);
+  const float received = normal == Vec3f{} ? 1.0f : CosineOutside(Dot(normal, w), cosine, sine, false);
+  return bounds.power * emitted * received / clamped2;
+}
+
+// The same numbers as in Choose: those of choices that go the same way keep their order.
+void LightTree::Descend(Vec3f p, Vec3f normal, uint32_t at, std::span<Choice> choices) const {
+  while (nodes_[at].second != 0) {
+    const float first = Reach(at + 1, p, normal), second = Reach(nodes_[at].second, p, normal);
+    const float sum = first + second;
+    if (!(sum > 0)) {
+      for (Choice& choice : choices) choice = {};
+      return;
+    }
+    const float share = first / sum;
+    size_t to_first = 0;
+    for (Choice& choice : choices) {
+      const bool goes_first = choice.u < share;
+      choice.u = goes_first ? choice.u / share : (choice.u - share) / (1 - share);
+      choice.u = std::clamp(choice.u, 0.0f, 1 - 0x1p-24f);
+      choice.probability *= goes_first ? share : second / sum;
+      to_first += goes_first;
+    }
+    if (to_first > 0 && to_first < choices.size()) Descend(p, normal, at + 1, choices.first(to_first));
+    at = to_first == choices.size() ? at + 1 : nodes_[at].second;
+    if (to_first < choices.size()) choices = choices.subspan(to_first);
+  }
+  for (Choice& choice : choices) choice.lamp = nodes_[at].lamp;
 }
 
 float LightTree::Probability(Vec3f p, Vec3f normal, uint32_t lamp) const {

@@ -36,6 +36,9 @@ class LightTree {
   LightTree() = default;
   explicit LightTree(std::span<const LightBounds> lamps);
   Choice Choose(Vec3f p, Vec3f normal, float u) const;
+  /// Choose(p, normal, u[k]) for all k but for rounding; u ascends. Looks at every node once, where as many single choices would
+  /// each look at all nodes on their way.
+  void ChooseAll(Vec3f p, Vec3f normal, std::span<const float> u, std::span<Choice> choices) const;
   /// Probability of Choose for that lamp.
   float Probability(Vec3f p, Vec3f normal, uint32_t lamp) const;
 
@@ -50,10 +53,14 @@ class LightTree {
   std::span<const uint32_t> leaf_of() const { return leaf_of_; }
 
  private:
+  void Descend(Vec3f p, Vec3f normal, uint32_t at, std::span<Choice> choices) const;
+  /// Importance of a node to a surface, without angles.
+  float Reach(uint32_t node, Vec3f p, Vec3f normal) const;
   uint32_t Build(std::span<uint32_t> order, std::span<const LightBounds> lamps, uint32_t parent);
 
   std::vector<Node> nodes_;
   std::vector<uint32_t> leaf_of_;
+  std::vector<Vec2f> cone_;  ///< by node, cosine and sine of its spread
 };
 
 }  // namespace airsim360::internal

@@ -26,6 +26,13 @@ using internal::RaySet;
 using internal::SurfaceSet;
 static_assert(HitBatch::kCapacity == kBatch);
 
+// Of what is polished, in tier `fast`: reflectance of the skin from which the mirrored ray counts, and counts alone; roughness up to
+// which it counts alone, and from which it does not; radians of the lobe (to both sides of its middle) per alpha.
+constexpr float kLeastPolished = 0.05f, kWholePolished = 0.085f;
+constexpr float kPolished = 0.2f, kSatin = 0.3f;
+constexpr float kLobeWidth = 1.4f;
+constexpr float kMirroredThing = 0.35f;  // m: what a lobe as wide makes half as clear
+
 // Input of the tone curve for sunlit ground of reflectance 0.18.
 constexpr float kGreyLevel = 0.38f;
 // Irradiance to which pictures get brighter: far below a moonless night.
@@ -225,6 +232,75 @@ void Shader::Impl::FollowRays(const RaySet& rays, SurfaceSet& s, const SunNeighb
   });
 }
 
+namespace {
+
+// How much of what a surface mirrors is a ray's.
+float PolishedShare(const RaySet& rays, const SurfaceSet& s, int i) {
+  using namespace internal;
+  if (s.kind[i] > 0.5f || s.coat[i] > 0.05f || s.traced[i] != 0 || s.roughness[i] >= kSatin) return 0;
+  const scalar::Bsdf bsdf = scalar::bsdf_make(0.0f, {s.ar[i], s.ag[i], s.ab[i]}, s.metallic[i], s.roughness[i], 0.0f, 0.0f, 0.0f);
+  const float facing = -(s.nx[i] * rays.dx[i] + s.ny[i] * rays.dy[i] + s.nz[i] * rays.dz[i]);
+  const float skin = Luminance(scalar::bsdf_reflected(scalar::bsdf_side(bsdf, std::max(facing, 0.02f))));
+  const auto ramp = [](float x, float none, float all) { return std::clamp((x - none) / (all - none), 0.0f, 1.0f); };
+  return ramp(skin, kLeastPolished, kWholePolished) * ramp(s.roughness[i], kSatin, kPolished);
+}
+
+// Without those that `leave` names.
+template <class Leave>
+void LeaveOut(RaySet& set, const Leave& leave) {
+  int kept = 0;
+  for (int i = 0; i < set.count; ++i) {
+    if (leave(i)) continue;
+    set.ox[kept] = set.ox[i], set.oy[kept] = set.oy[i], set.oz[kept] = set.oz[i];
+    set.dx[kept] = set.dx[i], set.dy[kept] = set.dy[i], set.dz[kept] = set.dz[i];
+    set.distance[kept] = set.distance[i], set.width[kept] = set.width[i], set.u[kept] = set.u[i], set.v[kept] = set.v[i];
+    set.instance[kept] = set.instance[i], set.triangle[kept] = set.triangle[i], set.slot[kept] = set.slot[i], set.key[kept] = set.key[i];
+    ++kept;
+  }
+  set.count = kept;
+}
+
+}  // namespace
+
+void Shader::Impl::FollowPolished(const RaySet& rays, const internal::IndoorLight& room, SurfaceSet& s) const {
+  float share[kBatch];
+  bool any = false;
+  for (int i = 0; i < rays.count; ++i) {
+    share[i] = room.share[i] > 0.5f ? PolishedShare(rays, s, i) : 0;
+    any |= share[i] > 0;
+  }
+  if (!any) return;
+  for (int i = 0; i < rays.count; ++i) s.mirror[i] = share[i] > 0 ? 1.0f : 0.0f;
+  RaySet hits, misses;
+  internal::PaneTint tint{tables};
+  internal::TraceReflections(*tracer, rays, s, &tint, hits, misses);
+  // What one ray meets is blurred as far as that can be without more of them: textures, small things, and things far away.
+  const auto lobe = [&](int i) { return kLobeWidth * s.roughness[hits.slot[i]] * s.roughness[hits.slot[i]] * hits.distance[i]; };
+  // Lamps of the grid shine highlights as wide as the lobe.
+  LeaveOut(hits, [&](int i) {
+    const uint32_t lamp = lights.LampOf(hits.instance[i], hits.triangle[i]);
+    return lamp != internal::LightTable::kNoLamp && (lamps->Holds(lamp) || lights.lamps()[lamp].radius < lobe(i));
+  });
+  for (int i = 0; i < hits.count; ++i) {
+    const float width = lobe(i), relative = width / kMirroredThing;
+    hits.width[i] += width;
+    share[hits.slot[i]] /= 1 + relative * relative;
+  }
+  const auto put = [&](const RaySet& set, const LightSet& light) {
+    for (int i = 0; i < set.count; ++i) {
+      const uint32_t k = set.slot[i];
+      const Vec3f all = Vec3f{room.r[k], room.g[k], room.b[k]} * (1 / kPiF);
+      const Vec3f seen = all + (Vec3f{light.r[i], light.g[i], light.b[i]} * tint.of[k] - all) * share[k];
+      s.reflected_r[k] = seen.x, s.reflected_g[k] = seen.y, s.reflected_b[k] = seen.z;
+      s.traced[k] = 1;
+    }
+  };
+  LightSet light;
+  if (hits.count > 0) ShadeSurfaces(hits, 1, light), put(hits, light);
+  Pad(misses);
+  if (misses.count > 0) kernels.sky(view, misses, false, light), put(misses, light);
+}
+
 void Shader::Impl::LightByLamps(const RaySet& rays, int count, SurfaceSet& s) const {
   if (view.lamps.lamps == nullptr) return;
   internal::LampRays wanted;
@@ -264,6 +340,7 @@ void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light, cons
   if (bounce == 0) {
     internal::TraceContact(*tracer, rays, surfaces);
     FollowRays(rays, surfaces, around, sun);
+    if (indoors) FollowPolished(rays, room, surfaces);
   }
   if (indoors)
     kernels.light_indoors(view, rays, surfaces, room, light);

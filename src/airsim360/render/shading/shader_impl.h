@@ -57,6 +57,9 @@ struct Shader::Impl {
   /// `around` and `sun` as in Shader::Shade, for what is seen in panes.
   void FollowRays(const internal::RaySet& rays, internal::SurfaceSet& surfaces, const SunNeighbours* around = nullptr,
                   SunPixel* sun = nullptr) const;
+  /// One mirrored ray for floors and furniture in rooms that are polished: without it a ground stone floor looks like carpet. Rougher
+  /// ones mirror the light of all sides. To be called after FollowRays.
+  void FollowPolished(const internal::RaySet& rays, const internal::IndoorLight& room, internal::SurfaceSet& surfaces) const;
   /// Radiance of surfaces; `bounce` 0 = seen by the camera, 1 = seen in another surface. The rest as in
   /// Shader::Shade.
   void ShadeSurfaces(internal::RaySet& rays, int bounce, internal::LightSet& light, const SunNeighbours* around = nullptr,

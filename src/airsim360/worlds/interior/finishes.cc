@@ -6,6 +6,7 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/worlds/props/drawing.h"
+#include "airsim360/worlds/texture/texture_field.h"
 
 namespace airsim360::internal {
 namespace {
@@ -44,7 +45,7 @@ constexpr Row kRows[] = {
     {F::kCarpetBlue, "carpet blue", {0.10f, 0.135f, 0.19f}, 0.97f, W::kCarpet},
     {F::kTileWhite, "floor tiles pale", {0.62f, 0.60f, 0.56f}, 0.3f, W::kTiles60},
     {F::kTileGrey, "floor tiles grey", {0.30f, 0.295f, 0.285f}, 0.35f, W::kTiles60},
-    {F::kTerrazzo, "terrazzo", {0.58f, 0.55f, 0.50f}, 0.22f, W::kTerrazzo},
+    {F::kTerrazzo, "terrazzo", {0.40f, 0.375f, 0.34f}, 0.16f, W::kTerrazzo},
     {F::kStone, "stone floor", {0.55f, 0.50f, 0.43f}, 0.2f, W::kStone},
     {F::kEpoxy, "epoxy floor", {0.36f, 0.38f, 0.40f}, 0.28f, W::kConcrete},
     {F::kConcreteFloor, "concrete floor", {0.36f, 0.35f, 0.335f}, 0.4f, W::kConcrete},
@@ -105,7 +106,7 @@ float TileOf(Weave weave) {
     case W::kTiles20:
       return 0.8f;
     case W::kTerrazzo:
-      return 0.9f;
+      return 1.2f;
     case W::kStone:
       return 1.8f;
     case W::kConcrete:
@@ -158,6 +159,38 @@ Vec3f TilesAt(float u, float v, int n, int m, float bond, float grout, float siz
   return d < grout ? Vec3f{0.55f, 0.54f, 0.52f} : Vec3f{1, 1, 1} * tone;
 }
 
+// Chips of marble in cement, ground flat: broken stones of 4 to 11 mm and splinters of 3 mm between them, each of one colour.
+struct Chips {
+  CellPattern pattern;
+  float least, spread;  // of a chip's reach, in cells
+  int salt;
+  // Share of the chip at (u, v), 0 or 1, and its colour.
+  float At(float u, float v, Vec3f& color) const {
+    constexpr Vec3f kStones[] = {{1.20f, 1.19f, 1.16f}, {1.14f, 1.10f, 1.02f}, {0.86f, 0.83f, 0.80f}, {0.97f, 0.86f, 0.70f},
+                                 {1.17f, 1.16f, 1.15f}, {0.56f, 0.54f, 0.52f}, {1.10f, 1.08f, 1.04f}};
+    const CellPattern::Cell c = pattern.At(u, v);
+    const int id = static_cast<int>(c.id % 4093);
+    color = kStones[static_cast<size_t>(OfTile(id, salt) * 6.999f)];
+    return c.edge > 0.06f && c.nearest < least + spread * OfTile(id, salt + 1) ? 1.0f : 0.0f;
+  }
+};
+
+// Ground slabs of 0.6 m, no two of one batch, with joints of 4.5 mm. Its mean is about 1.
+Vec3f TerrazzoAt(float u, float v) {
+  static const Chips stones{CellPattern(100, 100, 0.9f, 21), 0.16f, 0.34f, 11}, splinters{CellPattern(260, 260, 0.9f, 22), 0.1f, 0.36f, 13};
+  const FinishCell c = CellOf(u, v, 2, 2, 0);
+  if (std::min(c.edge_u, c.edge_v) * 0.6f < 0.00225f) return Vec3f{0.40f, 0.39f, 0.37f};
+  const float cloud = TileFractal(u, v, 4, 4, 4, 23) - 0.5f;
+  Vec3f color, chip;
+  if (stones.At(u, v, chip) > 0)
+    color = chip;
+  else if (splinters.At(u, v, chip) > 0)
+    color = chip * 0.96f;
+  else
+    color = Vec3f{0.99f, 0.97f, 0.93f};
+  return color * (0.97f + 0.11f * (OfTile(c.tile, 7) - 0.5f) + 0.08f * cloud);
+}
+
 Vec3f ColorAt(Weave weave, float u, float v) {
   const Vec3f one{1, 1, 1};
   switch (weave) {
@@ -172,11 +205,8 @@ Vec3f ColorAt(Weave weave, float u, float v) {
       return TilesAt(u, v, 2, 2, 0, 0.0025f, 0.6f, 0.10f);
     case W::kTiles20:
       return TilesAt(u, v, 4, 8, 0.5f, 0.0018f, 0.15f, 0.03f);
-    case W::kTerrazzo: {
-      const float chip = TileNoise(u * 90, v * 90, 90, 90, 21), small = TileNoise(u * 220, v * 220, 220, 220, 22);
-      const float t = chip > 0.72f ? 1.22f : chip < 0.24f ? 0.55f : small > 0.8f ? 0.72f : 0.98f;
-      return Vec3f{1, 0.98f - 0.05f * small, 0.95f - 0.06f * chip} * t;
-    }
+    case W::kTerrazzo:
+      return TerrazzoAt(u, v);
     case W::kStone: {
       const FinishCell c = CellOf(u, v, 2, 3, 0.5f);
       const float vein = std::abs(2 * TileFractal(u, v, 3, 4, 5, 31 + static_cast<uint64_t>(c.tile)) - 1);
@@ -254,7 +284,8 @@ struct FinishPictures {
 
 Finishes::Finishes(SceneBuilder& builder) {
   constexpr auto kWeaves = static_cast<int64_t>(Weave::kCount);
-  constexpr int kSize = 512;
+  // Chips of terrazzo are finer than anything else.
+  const auto size = [](Weave weave) { return weave == W::kTerrazzo ? 1024 : 512; };
   std::vector<Texture> colors(kWeaves), normals(kWeaves);
   ParallelFor(2 * kWeaves, [&](int64_t job) {
     const auto weave = static_cast<Weave>(job / 2);
@@ -262,10 +293,12 @@ Finishes::Finishes(SceneBuilder& builder) {
     if (weave == Weave::kNone) return;
     const std::string name = "interior " + std::to_string(i);
     if (job % 2 == 0)
-      colors[i] = Texture::FromImage(name, Shade(kSize, kSize, [&](float u, float v) { return ColorAt(weave, u, v) * 0.8f; }), true);
+      colors[i] =
+          Texture::FromImage(name, Shade(size(weave), size(weave), [&](float u, float v) { return ColorAt(weave, u, v) * 0.8f; }), true);
     else if (HasRelief(weave)) {
       const float tile = TileOf(weave);
-      normals[i] = NormalsFromHeight(name + " normals", kSize, kSize, 1, [&](float u, float v) { return HeightAt(weave, u, v) / tile; });
+      normals[i] =
+          NormalsFromHeight(name + " normals", size(weave), size(weave), 1, [&](float u, float v) { return HeightAt(weave, u, v) / tile; });
     }
   });
   std::vector<FinishPictures> pictures(kWeaves);
