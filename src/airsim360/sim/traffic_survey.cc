@@ -67,7 +67,7 @@ class Looks {
     for (const DrivingVehicle& vehicle : state.vehicles) {
       ++count_;
       speed_ += vehicle.v;
-      if (vehicle.stopped_ns < 0) continue;
+      if (vehicle.stopped_ns < 0 || IsParked(vehicle)) continue;
       ++standing_;
       survey_.longest_standstill = std::max(survey_.longest_standstill, static_cast<double>(state.t_ns - vehicle.stopped_ns) * 1e-9);
     }

@@ -17,6 +17,9 @@ struct Driver {
   double politeness = 0.2;    ///< weight of what a lane change costs others
 };
 
+/// m/s that a driver wants where `limit` is allowed.
+inline double WantedSpeed(const Driver& driver, double limit) { return std::min(limit * driver.speed_factor, driver.top_speed); }
+
 /// m/s^2 that a driver never brakes harder than.
 inline constexpr double kHardestBraking = 8;
 

@@ -23,13 +23,13 @@ bool LaneChanges::Allowed(uint32_t vehicle, const DrivingVehicle& own) const {
   if ((state_.t_ns / kTrafficTickNs + vehicle) % kConsiderEvery != 0) return false;
   const double rest = model_.lanes.length(own.lane) - own.s, rear = own.s - model_.vehicles[vehicle].shape.length;
   return model_.lanes.lane(own.lane).junction < 0 && rear > kRunIn && rest > kRunOut && own.v > kLeastSpeed && !own.granted &&
-         state_.t_ns - own.changed_ns > kBetweenChangesNs;
+         own.parking == Parking::kNone && state_.t_ns - own.changed_ns > kBetweenChangesNs;
 }
 
 // Acceleration of `follower` with its front at `s` of a lane behind `front`.
 double LaneChanges::Follow(uint32_t follower, LaneId lane, double s, const Occupant* front) const {
   const Driver& driver = model_.vehicles[follower].driver;
-  const double v0 = std::min(model_.lanes.speed(lane) * driver.speed_factor, driver.top_speed), v = state_.vehicles[follower].v;
+  const double v0 = WantedSpeed(driver, model_.lanes.speed(lane)), v = state_.vehicles[follower].v;
   if (front == nullptr) return IdmAcceleration(driver, v, v0, INFINITY, 0);
   return IdmAcceleration(driver, v, v0, front->rear - s, state_.vehicles[front->vehicle].v);
 }
@@ -72,7 +72,7 @@ void LaneChanges::Consider(uint32_t vehicle, DrivingVehicle& own) {
     if (target == kNoLane || (model_.lanes.lane(target).bus && !shape.bus) || (target == lane.left && shape.bicycle)) continue;
     const double s = own.s / model_.lanes.length(own.lane) * model_.lanes.length(target);
     if (TakenThisTick(target, s) || !Pays(vehicle, target, s)) continue;
-    taken_.emplace_back(target, s);
+    Take(target, s);
     const LanePoint from = model_.lanes.At(own.lane, own.s), to = model_.lanes.At(target, s);
     own.shift = (from.p.x - to.p.x) * -to.direction.y + (from.p.y - to.p.y) * to.direction.x;
     own.left_lane = own.lane;

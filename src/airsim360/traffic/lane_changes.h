@@ -17,11 +17,14 @@ class LaneChanges {
   /// Moves `own`, vehicle `vehicle`, to a lane beside its own if that pays and is safe.
   void Consider(uint32_t vehicle, DrivingVehicle& own);
 
+  /// Whether somebody has come to this place of a lane in this tick, and that somebody has.
+  bool TakenThisTick(LaneId lane, double s) const;
+  void Take(LaneId lane, double s) { taken_.emplace_back(lane, s); }
+
  private:
   bool Allowed(uint32_t vehicle, const DrivingVehicle& own) const;
   bool Pays(uint32_t vehicle, LaneId target, double s) const;
   double Follow(uint32_t follower, LaneId lane, double s, const Occupant* front) const;
-  bool TakenThisTick(LaneId lane, double s) const;
 
   const TrafficModel& model_;
   const TrafficState& state_;

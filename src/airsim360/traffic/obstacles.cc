@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/traffic/parking.h"
+
 namespace airsim360::internal {
 namespace {
 
@@ -63,7 +65,8 @@ LanePoint AlongWay(const TrafficModel& model, const DrivingVehicle& vehicle, con
     s += model.lanes.length(lane);
   }
   LanePoint at = model.lanes.At(lane, s);
-  at.p = at.p + Vec3d{-at.direction.y, at.direction.x, 0} * shape.aside();
+  const double left = shape.aside() + ParkingShift(model, vehicle, shape, vehicle.s + ahead);
+  at.p = at.p + Vec3d{-at.direction.y, at.direction.x, 0} * left;
   return at;
 }
 

@@ -10,6 +10,7 @@ constexpr double kSight = 120;  // metres: more than anybody needs to stop
 // Calls body(lane, occupant) for all lanes that a vehicle is on.
 template <class Body>
 void VisitLanesOf(const TrafficModel& model, const DrivingVehicle& vehicle, uint32_t index, const Body& body) {
+  if (IsParked(vehicle)) return;
   const double length = model.vehicles[index].shape.length;
   Occupant here{vehicle.s, vehicle.s - length, index};
   body(vehicle.lane, here);

@@ -11,6 +11,7 @@
 #include "airsim360/traffic/lane_changes.h"
 #include "airsim360/traffic/near_misses.h"
 #include "airsim360/traffic/obstacles.h"
+#include "airsim360/traffic/parking.h"
 #include "airsim360/traffic/right_of_way.h"
 #include "airsim360/traffic/turns.h"
 
@@ -22,13 +23,15 @@ using internal::InFront;
 using internal::LaneChanges;
 using internal::ObstacleGrid;
 using internal::Occupancy;
+using internal::ParkingTick;
 using internal::RightOfWay;
 
 constexpr double kStopBefore = 0.8;  // metres before a stop line
 constexpr double kStopGap = 1.5;     // metres before somebody in the way
-constexpr double kHaltBefore = 0.3;  // metres before a bus stop
+constexpr double kHaltBefore = 0.3;  // metres before a bus stop, and before the end of a bay
 constexpr double kStands = 0.1;      // m/s
 constexpr double kWalkingPace = 1;   // m/s
+constexpr double kParkingSpeed = 3;  // m/s into a bay and out of it
 constexpr double kTick = static_cast<double>(kTrafficTickNs) * 1e-9;
 constexpr int64_t kLookForMisses = 2;  // ticks between looks at them
 constexpr double kSlot = 14;           // metres of lane for each vehicle at the start: a bus of 12
@@ -38,17 +41,16 @@ double SlowedBy(const Driver& driver, double v, double distance) {
   return std::sqrt(v * v + 2 * 0.7 * driver.braking * std::max(0.0, distance));
 }
 
-// The speed that a driver wants here: slower before bends that come.
-double WantedSpeed(const TrafficModel& model, uint32_t vehicle, const DrivingVehicle& own) {
+// The speed that a driver wants here: slower before bends that come, and before its bay.
+double SpeedHere(const TrafficModel& model, uint32_t vehicle, const DrivingVehicle& own) {
   const Driver& driver = model.vehicles[vehicle].driver;
-  double wanted = std::min(model.lanes.speed(own.lane) * driver.speed_factor, driver.top_speed),
-         distance = model.lanes.length(own.lane) - own.s;
+  double wanted = WantedSpeed(driver, model.lanes.speed(own.lane)), distance = model.lanes.length(own.lane) - own.s;
   for (const LaneId lane : own.ahead) {
     if (lane == kNoLane) break;
-    const double v = model.lanes.speed(lane) * driver.speed_factor;
-    wanted = std::min(wanted, SlowedBy(driver, v, distance));
+    wanted = std::min(wanted, SlowedBy(driver, WantedSpeed(driver, model.lanes.speed(lane)), distance));
     distance += model.lanes.length(lane);
   }
+  if (own.parking != Parking::kNone) wanted = std::min(wanted, SlowedBy(driver, kParkingSpeed, internal::ToParkingTurn(model, own)));
   return wanted;
 }
 
@@ -73,11 +75,11 @@ double Accelerate(const Look& look, uint32_t i, DrivingVehicle& own) {
   if (own.halts_until_ns >= 0) return -driver.braking;
   const double reach = own.v * own.v / (2 * driver.braking) + own.v * driver.headway + 3;
   const internal::InTheWay way = look.obstacles.Find(look.model, look.state, i, reach);
-  const double v0 = std::min(WantedSpeed(look.model, i, own), SlowedBy(driver, kWalkingPace, way.beside));
+  const double v0 = std::min(SpeedHere(look.model, i, own), SlowedBy(driver, kWalkingPace, way.beside));
   const InFront front = FindInFront(look.model, look.state, look.occupancy, i);
   double a = IdmAcceleration(driver, own.v, v0, front.gap, front.v);
 
-  const double to_stop = internal::GapToBusStop(look.model, i, own);
+  const double to_stop = std::min(internal::GapToBusStop(look.model, i, own), internal::GapToBay(look.model, own));
   if (std::isfinite(to_stop)) a = std::min(a, StopFor(driver, own.v, v0, to_stop, kHaltBefore));
 
   // Who halts before the line does not hold the junction meanwhile.
@@ -107,6 +109,8 @@ void EnterNextLanes(const TrafficModel& model, uint32_t i, DrivingVehicle& own) 
 int8_t IndicatorOf(const TrafficModel& model, const DrivingVehicle& own, int64_t t_ns) {
   constexpr double kTurns = 0.6, kSoon = 30;  // radians, metres
   if (own.halts_until_ns >= 0) return -1;
+  if (own.parking == Parking::kArriving && internal::ToParkingTurn(model, own) < kSoon) return -1;
+  if (own.parking == Parking::kLeaving) return 1;
   const auto side = [](double left) { return static_cast<int8_t>(left > 0 ? 1 : -1); };
   if (t_ns - own.changed_ns < kLaneChangeNs) return side(-own.shift);
   const double here = model.lanes.turn(own.lane), next = model.lanes.turn(own.ahead[0]);
@@ -193,15 +197,21 @@ void TickTraffic(const TrafficModel& model, std::span<const TrafficObstacle> obs
   const ObstacleGrid grid(obstacles);
   RightOfWay right_of_way(model, before, occupancy);
   LaneChanges lane_changes(model, before, occupancy);
+  ParkingTick parking(model, before, occupancy, lane_changes);
   const Look look{model, before, occupancy, grid, right_of_way};
   const int64_t t_ns = state.t_ns + kTrafficTickNs;
   if (before.t_ns % (kTrafficTickNs * kLookForMisses) == 0)
     internal::UpdateEncounters(internal::CriticalPairs(model, before, occupancy, obstacles), before.t_ns, state.encounters, over);
   for (uint32_t i = 0; i < state.vehicles.size(); ++i) {
     DrivingVehicle& own = state.vehicles[i];
+    if (IsParked(own)) {
+      parking.Stay(i, t_ns, own);
+      continue;
+    }
     own.a = Accelerate(look, i, own);
     lane_changes.Consider(i, own);
     Advance(model, i, t_ns, own);
+    parking.Consider(i, t_ns, own);
   }
   state.t_ns = t_ns;
 }
@@ -225,8 +235,9 @@ uint64_t HashTraffic(const TrafficState& state) {
   hasher.Add(state.t_ns);
   for (const DrivingVehicle& v : state.vehicles) {
     for (const LaneId lane : {v.lane, v.ahead[0], v.ahead[1], v.behind[0], v.behind[1], v.behind[2], v.left_lane}) hasher.Add(lane);
-    for (const double value : {v.s, v.v, v.a, v.shift, v.served_s}) hasher.Add(value);
-    for (const int64_t value : {v.changed_ns, v.stopped_ns, v.halts_until_ns, int64_t{v.indicator}}) hasher.Add(value);
+    for (const double value : {v.s, v.v, v.a, v.shift, v.served_s, v.leaves_s}) hasher.Add(value);
+    for (const int64_t value : {v.changed_ns, v.stopped_ns, v.halts_until_ns, v.parks_until_ns, int64_t{v.indicator}}) hasher.Add(value);
+    hasher.Add(uint64_t{v.bay} << 8 | static_cast<uint8_t>(v.parking));
     for (const bool value : {v.granted, v.braking}) hasher.Add(value);
     hasher.Add(v.choices);
   }

@@ -40,11 +40,23 @@ struct BusStop {
   double s = 0;
 };
 
+/// Room at the kerb where one may park, between others that stand there. Who has driven in has its front `s` metres from the beginning
+/// of the lane and its middle `aside` metres to the left of the lane's; `run` metres behind its front are free.
+struct ParkingBay {
+  LaneId lane = 0;
+  double s = 0, aside = 0, run = 0;
+};
+inline constexpr uint32_t kNoBay = UINT32_MAX;
+
+/// How far one is with parking.
+enum class Parking : uint8_t { kNone, kArriving, kStanding, kBacking, kWaiting, kLeaving };
+
 /// What never changes.
 struct TrafficModel {
   LaneMap lanes;
   std::vector<TrafficVehicle> vehicles;
   std::vector<BusStop> bus_stops = {};  ///< by lane, then by s
+  std::vector<ParkingBay> bays = {};    ///< by lane, then by s
   uint64_t seed = 0;
   int64_t signal_ns = 0;  ///< time of the signals at traffic time 0
 };
@@ -63,11 +75,20 @@ struct DrivingVehicle {
   int64_t stopped_ns = -1;                                  ///< since when it has stood; -1: it moves
   int64_t halts_until_ns = -1;                              ///< a bus at a stop; -1: it does not halt
   double served_s = -1;                                     ///< of its lane's bus stops: served up to here, m
-  uint32_t choices = 0;                                     ///< turns chosen so far: key of the next random number
-  bool granted = false;                                     ///< the junction ahead, or around it, is held free for it
-  bool braking = false;                                     ///< brake lamps
-  int8_t indicator = 0;                                     ///< +1 left, -1 right
+  uint32_t bay = kNoBay;                                    ///< where it parks
+  Parking parking = Parking::kNone;
+  int64_t parks_until_ns = -1;  ///< while it stands in its bay
+  double leaves_s = 0;          ///< where its front was when it left its bay, m
+  uint32_t choices = 0;         ///< turns chosen so far: key of the next random number
+  bool granted = false;         ///< the junction ahead, or around it, is held free for it
+  bool braking = false;         ///< brake lamps
+  int8_t indicator = 0;         ///< +1 left, -1 right
 };
+
+/// Whether it is in a bay and out of the way of those who drive.
+inline bool IsParked(const DrivingVehicle& vehicle) {
+  return vehicle.parking == Parking::kStanding || vehicle.parking == Parking::kBacking || vehicle.parking == Parking::kWaiting;
+}
 
 struct TrafficState {
   int64_t t_ns = 0;

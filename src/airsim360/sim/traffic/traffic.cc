@@ -13,6 +13,7 @@
 #include "airsim360/sim/traffic/vehicle_lamps.h"
 #include "airsim360/traffic/bus_stops.h"
 #include "airsim360/traffic/disc_grid.h"
+#include "airsim360/traffic/parking.h"
 
 namespace airsim360 {
 namespace {
@@ -101,6 +102,37 @@ std::vector<Pattern> FindBicycles(const Scene& scene) {
   std::vector<Pattern> patterns;
   for (const auto& [mesh, pattern] : bicycles) patterns.push_back(pattern);
   return patterns;
+}
+
+// Finds bays between parked cars where nothing else stands (of a plant the stem counts), and takes cars away where there are too few.
+void AddBays(const Scene& scene, SimTraffic& traffic) {
+  constexpr float kStem = 0.5f;           // metres
+  constexpr size_t kVehiclesForABay = 6;  // of the traffic
+  std::vector<bool> in_lane(scene.entities.size() + 1);
+  for (const uint32_t instance : traffic.standing) in_lane[scene.instances[instance].entity] = true;
+  std::vector<EntityId> parked;
+  std::vector<Box3f> cars, others;
+  for (const Entity& entity : scene.entities) {
+    const std::string& path = scene.tree[entity.category].path;
+    if (entity.bounds.empty() || in_lane[entity.id]) continue;
+    const auto is = [&](const char* kind) { return path.starts_with(kind); };
+    if (is("vehicle/car") || is("vehicle/van")) {
+      parked.push_back(entity.id);
+      cars.push_back(entity.bounds);
+    } else if (is("vegetation")) {
+      const Vec3f middle = entity.bounds.center(), half{kStem, kStem, entity.bounds.size().z / 2};
+      others.push_back({middle - half, middle + half});
+    } else if (!is("ground") && !is("sky") && !is("nature") && !is("construction")) {
+      others.push_back(entity.bounds);
+    }
+  }
+  TrafficModel& model = traffic.model;
+  ParkingBays found = ParkingBaysBeside(model.lanes, cars, others, model.vehicles.size() / kVehiclesForABay, model.seed);
+  model.bays = std::move(found.bays);
+  std::vector<bool> away(scene.entities.size() + 1);
+  for (const uint32_t car : found.away) away[parked[car]] = true;
+  for (uint32_t i = 0; i < scene.instances.size(); ++i)
+    if (scene.instances[i].entity != kNoEntity && away[scene.instances[i].entity]) traffic.standing.push_back(i);
 }
 
 // Shelters and signs of bus stops.
@@ -195,6 +227,7 @@ TrafficScene AddTraffic(std::shared_ptr<const Scene> scene, const TrafficRequest
     traffic->model.vehicles.push_back(MakeVehicle(*scene, *chosen.back(), rng));
   }
   traffic->model.bus_stops = BusStopsBeside(traffic->model.lanes, BusStopPlaces(*scene));
+  AddBays(*scene, *traffic);
   traffic->epoch_ns = std::llround(request.warm_up * 1e9) / kTrafficTickNs * kTrafficTickNs;
   traffic->model.signal_ns = people_epoch_ns - traffic->epoch_ns;
   auto start = std::make_shared<TrafficState>(StartTraffic(traffic->model));

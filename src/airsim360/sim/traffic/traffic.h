@@ -42,7 +42,7 @@ struct SimTraffic {
 
   TrafficModel model;
   std::vector<TrafficBody> bodies;
-  std::vector<uint32_t> standing;             ///< instances of the scene's own vehicles that stand where others drive: not shown
+  std::vector<uint32_t> standing;             ///< instances of the scene's own vehicles where others drive or park: not shown
   std::shared_ptr<const TrafficState> start;  ///< at simulation time 0
   int64_t epoch_ns = 0;                       ///< traffic time at simulation time 0
 };
