@@ -15,12 +15,6 @@ using internal::GroundBox;
 
 constexpr double kGap = 14.5, kRow = -2.8;  // metres between the two parked cars; to the right of the lane
 
-GroundBox BoxOf(const TrafficModel& model, const TrafficState& state, size_t vehicle) {
-  const RigidTransform X = PoseOf(model, state, vehicle, state.t_ns);
-  const VehicleShape& shape = model.vehicles[vehicle].shape;
-  return {{X.p.x, X.p.y}, {X.R.column(0).x, X.R.column(0).y}, shape.length / 2, shape.width / 2};
-}
-
 bool Overlap(const GroundBox& a, const GroundBox& b) { return ContactOf(a, b, {0, 0}).has_value(); }
 
 Box3f CarAt(double rear, double aside) {
@@ -111,7 +105,7 @@ TEST(Parking, ACarDrivesInStandsStraightAndComesOutWithoutTouchingItsNeighbours)
   int64_t stood = 0;
   double fastest_back = 0, steepest = 0;
   ASSERT_TRUE(street.DriveUntilParkedAndGone(300, state, [&](const TrafficState& now) {
-    const GroundBox own = BoxOf(street.model, now, 0);
+    const GroundBox own = FootprintOf(street.model, now, 0);
     for (const GroundBox& other : street.parked) ASSERT_FALSE(Overlap(own, other)) << own.center.x << " " << own.center.y;
     const DrivingVehicle& car = now.vehicles[0];
     fastest_back = std::min(fastest_back, car.v);
@@ -162,8 +156,8 @@ TEST(Parking, LeavesIntoAGapAlone) {
     for (int tick = 0; tick < 2400; ++tick) {
       TickTraffic(street.model, {}, state, &misses);
       for (size_t i = 1; i < 12; ++i) hardest = std::min(hardest, state.vehicles[i].a);
-      const GroundBox own = BoxOf(street.model, state, 0);
-      for (size_t i = 1; i < 12; ++i) ASSERT_FALSE(Overlap(own, BoxOf(street.model, state, i))) << apart;
+      const GroundBox own = FootprintOf(street.model, state, 0);
+      for (size_t i = 1; i < 12; ++i) ASSERT_FALSE(Overlap(own, FootprintOf(street.model, state, i))) << apart;
     }
     EXPECT_EQ(state.vehicles[0].parking, Parking::kNone) << apart;
     EXPECT_GT(hardest, -3.5) << apart;

@@ -12,15 +12,31 @@ constexpr int64_t kPatienceNs = 25'000'000'000;  // after so long at the line ot
 constexpr double kAtLine = 6;                    // metres
 constexpr double kLeftTurn = 0.6;                // radians
 constexpr double kFirmBraking = 3;               // m/s^2
+constexpr double kLong = 9;                      // metres
 
 bool Stops(const DrivingVehicle& own, double distance, double braking) { return own.v * own.v / (2 * braking) < distance; }
 
 }  // namespace
 
 RightOfWay::RightOfWay(const TrafficModel& model, const TrafficState& state, const Occupancy& occupancy)
-    : model_(model), state_(state), occupancy_(occupancy), granted_(model.lanes.size()) {
-  for (uint32_t i = 0; i < state.vehicles.size(); ++i)
+    : model_(model), state_(state), occupancy_(occupancy), granted_(model.lanes.size()), swung_in_(model.lanes.roads().junctions.size()) {
+  for (uint32_t i = 0; i < state.vehicles.size(); ++i) {
     if (state.vehicles[i].granted) granted_[state.vehicles[i].ahead[0]].push_back(i);
+    if (const int32_t junction = JunctionItSwingsIn(i); junction >= 0) swung_in_[static_cast<size_t>(junction)] = true;
+  }
+}
+
+bool RightOfWay::SwingsOut(uint32_t vehicle, LaneId way) const {
+  return model_.vehicles[vehicle].shape.length > kLong && model_.lanes.lane(way).junction >= 0 &&
+         std::abs(model_.lanes.turn(way)) > kLeftTurn;
+}
+
+int32_t RightOfWay::JunctionItSwingsIn(uint32_t vehicle) const {
+  const DrivingVehicle& own = state_.vehicles[vehicle];
+  if (SwingsOut(vehicle, own.lane)) return model_.lanes.lane(own.lane).junction;
+  if (own.granted && SwingsOut(vehicle, own.ahead[0])) return model_.lanes.lane(own.ahead[0]).junction;
+  const bool comes_out = own.behind[0] != kNoLane && own.s < model_.vehicles[vehicle].shape.length;
+  return comes_out && SwingsOut(vehicle, own.behind[0]) ? model_.lanes.lane(own.behind[0]).junction : -1;
 }
 
 bool RightOfWay::IsBusy(LaneId way) const {
@@ -106,6 +122,12 @@ bool RightOfWay::MayEnter(uint32_t vehicle, double distance, bool first, Driving
   if (!first) return true;                                               // held by the one in front
   if (stops && distance > kAsk * std::max(own.v, 3.0) + 2) return true;  // too early to ask
   if (IsBusy(way) || MustYield(vehicle, way) || !HasRoomBehind(vehicle)) return false;
+  // Two that turn side by side would touch, on whichever ways.
+  if (SwingsOut(vehicle, way)) {
+    const auto junction = static_cast<size_t>(model_.lanes.lane(way).junction);
+    if (swung_in_[junction]) return false;
+    swung_in_[junction] = true;
+  }
   own.granted = true;
   granted_[way].push_back(vehicle);
   return true;

@@ -18,6 +18,9 @@ class RightOfWay {
 
  private:
   bool IsBusy(LaneId way) const;
+  /// Whether a vehicle is so long that turning through a junction it comes out of its lane, as buses do.
+  bool SwingsOut(uint32_t vehicle, LaneId way) const;
+  int32_t JunctionItSwingsIn(uint32_t vehicle) const;
   bool MustYield(uint32_t vehicle, LaneId way) const;
   bool HasRoomBehind(uint32_t vehicle) const;
   int Rank(LaneId way) const;
@@ -35,6 +38,7 @@ class RightOfWay {
   const TrafficState& state_;
   const Occupancy& occupancy_;
   std::vector<std::vector<uint32_t>> granted_;  // by way: those who may enter and have not
+  std::vector<bool> swung_in_;                  // by junction: one who swings out may enter or is in it
 };
 
 }  // namespace airsim360::internal

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "airsim360/traffic/near_misses.h"
 #include "airsim360/traffic/traffic.h"
 
 namespace airsim360 {
@@ -69,6 +70,13 @@ inline std::shared_ptr<const RoadNetwork> TwoLanes() {
 
 inline TrafficModel ModelOf(std::shared_ptr<const RoadNetwork> roads, size_t count, uint64_t seed = 1) {
   return {.lanes = LaneMap(std::move(roads)), .vehicles = std::vector<TrafficVehicle>(count), .seed = seed};
+}
+
+/// What a vehicle covers of a level street.
+inline internal::GroundBox FootprintOf(const TrafficModel& model, const TrafficState& state, size_t vehicle) {
+  const RigidTransform X = PoseOf(model, state, vehicle, state.t_ns);
+  const VehicleShape& shape = model.vehicles[vehicle].shape;
+  return {{X.p.x, X.p.y}, {X.R.column(0).x, X.R.column(0).y}, shape.length / 2, shape.width / 2};
 }
 
 inline void Drive(const TrafficModel& model, double seconds, TrafficState& state, std::span<const TrafficObstacle> obstacles = {}) {
