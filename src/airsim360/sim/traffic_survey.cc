@@ -52,7 +52,7 @@ int64_t CountHit(const std::vector<PlacedBox>& boxes, const TrafficState& state,
   int64_t count = 0;
   for (const TrafficObstacle& person : ObstaclesOf(people))
     for (size_t i = 0; i < boxes.size(); ++i)
-      count += state.vehicles[i].v > 0.5 && std::abs(boxes[i].z - person.p.z) < kStoryHeight &&
+      count += std::abs(state.vehicles[i].v) > 0.5 && std::abs(boxes[i].z - person.p.z) < kStoryHeight &&
                Distance(boxes[i], {person.p.x, person.p.y}) < boxes[i].box.half_length + 1 &&
                ContactOf(boxes[i].box, {person.p.x, person.p.y}, 0, {0, 0}).has_value();
   return count;

@@ -26,13 +26,15 @@ ObstacleGrid::ObstacleGrid(std::span<const TrafficObstacle> obstacles) {
   for (DiscGrid* grid : {&standing_, &walking_, &coming_}) grid->Sort();
 }
 
-InTheWay ObstacleGrid::Beside(const TrafficModel& model, const DrivingVehicle& self, const VehicleShape& shape) const {
+InTheWay ObstacleGrid::Beside(const TrafficModel& model, const TrafficState& state, uint32_t vehicle) const {
   InTheWay found;
-  // Discs along the body that are as wide as it is, from nose to tail.
-  const double r = shape.width / 2, first = -r, last = r - shape.length;
+  // Discs along the body that are as wide as it is, from nose to tail: in bends a long one is not where its way is.
+  const VehicleShape& shape = model.vehicles[vehicle].shape;
+  const RigidTransform X_WB = PoseOf(model, state, vehicle, state.t_ns);
+  const double r = shape.width / 2, first = shape.length / 2 - r, last = -first;
   const int steps = std::max(1, static_cast<int>(std::ceil((first - last) / r)));
   for (int k = 0; k <= steps; ++k) {
-    const Vec3d p = AlongWay(model, self, shape, first + (last - first) * k / steps).p;
+    const Vec3d p = X_WB.p + X_WB.R.column(0) * (first + (last - first) * k / steps);
     if (standing_.Meets(p, r + kMargin, kHeight)) found.beside = 0;
     if (walking_.Meets(p, r, kHeight) || standing_.Meets(p, r + kTightMargin, kHeight)) return {0, 0};
   }
@@ -44,7 +46,7 @@ InTheWay ObstacleGrid::Find(const TrafficModel& model, const TrafficState& state
   const DrivingVehicle& self = state.vehicles[vehicle];
   const VehicleShape& shape = model.vehicles[vehicle].shape;
   const double half_width = shape.width / 2;
-  InTheWay found = Beside(model, self, shape);
+  InTheWay found = Beside(model, state, vehicle);
   for (double ahead = 0.5; ahead <= reach && ahead - 0.5 < found.gap; ahead += 1) {
     const Vec3d p = AlongWay(model, self, shape, ahead + half_width).p;
     if (standing_.Meets(p, half_width + kMargin, kHeight)) found.beside = std::min(found.beside, ahead - 0.5);

@@ -23,7 +23,7 @@ class ObstacleGrid {
   InTheWay Find(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, double reach) const;
 
  private:
-  InTheWay Beside(const TrafficModel& model, const DrivingVehicle& self, const VehicleShape& shape) const;
+  InTheWay Beside(const TrafficModel& model, const TrafficState& state, uint32_t vehicle) const;
 
   DiscGrid standing_, walking_;  // now
   DiscGrid coming_;              // who walks, now and soon

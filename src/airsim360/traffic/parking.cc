@@ -18,15 +18,16 @@ constexpr double kInFront = 1;  // metres from the end of a bay to the car in fr
 namespace internal {
 namespace {
 
-constexpr double kChance = 0.4;                      // of a car that comes to a lane with a free bay
-constexpr double kLeastStay = 30, kMostStay = 180;   // seconds
-constexpr double kSpare = 8.5;                       // metres of a bay beyond the length of a car, to turn in and out
-constexpr double kBehind = 0.5, kMostBack = 8;       // metres to the car behind, backed up; of backing up
-constexpr double kBeforeTurn = 1, kPastTurn = 1;     // metres beside the cars behind and in front, where the way begins and ends to bend
-constexpr double kInPlace = 0.6, kStandstill = 0.1;  // metres, m/s
+constexpr double kChance = 0.4;                     // of a car that comes to a lane with a free bay
+constexpr double kLeastStay = 30, kMostStay = 180;  // seconds
+constexpr double kSpare = 8.5;                      // metres of a bay beyond the length of a car, to turn in and out
+constexpr double kBehind = 0.5, kMostBack = 8;      // metres to the car behind, backed up; of backing up
+constexpr double kBeforeTurn = 1, kPastTurn = 1;    // metres beside the cars behind and in front, where the way begins and ends to bend
+constexpr double kInPlace = 0.6, kBackedUp = 0.1;   // metres to where it stands, forwards and backwards
+constexpr double kStandstill = 0.1;                 // m/s
 constexpr double kBackingSpeed = 1, kBackingAcceleration = 0.7;
 constexpr double kTickSeconds = static_cast<double>(kTrafficTickNs) * 1e-9;
-constexpr double kWidestCar = 2.1;  // metres
+constexpr double kWidestCar = 2.1, kLongestCar = 6;  // metres
 
 double Smooth(double x) {
   const double u = std::clamp(x, 0.0, 1.0);
@@ -74,7 +75,7 @@ ParkingTick::ParkingTick(const TrafficModel& model, const TrafficState& state, c
 
 void ParkingTick::Choose(uint32_t vehicle, DrivingVehicle& own) {
   const TrafficVehicle& car = model_.vehicles[vehicle];
-  if (car.shape.bus || car.shape.bicycle || car.shape.width > kWidestCar) return;
+  if (car.shape.bus || car.shape.bicycle || car.shape.width > kWidestCar || car.shape.length > kLongestCar) return;
   const auto on_lane = std::ranges::equal_range(model_.bays, own.lane, {}, &ParkingBay::lane);
   const double least = own.s + own.v * own.v / car.driver.braking + kBeforeTurn;
   std::vector<uint32_t> free;
@@ -117,7 +118,7 @@ void ParkingTick::Stay(uint32_t vehicle, int64_t t_ns, DrivingVehicle& own) {
   } else if (own.parking == Parking::kBacking) {
     const double rest = own.s - BacksTo(model_.bays[own.bay], shape), step = kBackingAcceleration * kTickSeconds, before = own.v;
     const double wanted = -std::min(kBackingSpeed, std::sqrt(kBackingAcceleration * std::max(0.0, rest)));
-    own.v = rest > kStandstill ? std::clamp(wanted, own.v - step, own.v + step) : 0;
+    own.v = rest > kBackedUp ? std::clamp(wanted, own.v - step, own.v + step) : 0;
     own.a = (own.v - before) / kTickSeconds;
     own.s += (before + own.v) / 2 * kTickSeconds;
     own.stopped_ns = -1;

@@ -169,5 +169,29 @@ TEST(Traffic, WaitsUntilWhoeverWalkedIntoItIsOutAgain) {
   EXPECT_GT(state.vehicles[0].v, 2);
 }
 
+// Its rear axle cuts the bend: who stands where the way of its middle is, beside the body, holds it up no longer. Behind, its tail swings out.
+TEST(Traffic, ABusInABendGoesOnPastWhoStandsBesideItsBody) {
+  TrafficModel model = ModelOf(Fork(), 1);
+  model.vehicles[0].shape = {.length = 12.1, .width = 2.5, .height = 3.2, .bus = true};
+  TrafficState state;
+  state.vehicles = {{.lane = 2, .ahead = {4, 0}, .behind = {0, kNoLane, kNoLane}, .s = 14}};
+  const internal::GroundBox body = FootprintOf(model, state, 0);
+  int beside = 0;
+  for (double back = 4; back <= 6.5; back += 0.5) {
+    for (double out = -3; out <= 3; out += 0.1) {
+      const LanePoint at = model.lanes.At(2, 14 - back);
+      const Vec3d p = at.p + Vec3d{-at.direction.y, at.direction.x, 0} * out;
+      // Clear of the body by more than a shoulder, yet nearer to the middle of the way than half of its width.
+      if (internal::ContactOf(body, {p.x, p.y}, 0.35, {0, 0}) || std::abs(out) > 1.25) continue;
+      ++beside;
+      const TrafficObstacle person{.p = p, .v = {}};
+      TrafficState driven = state;
+      Drive(model, 20, driven, {&person, 1});
+      EXPECT_EQ(driven.vehicles[0].lane, 4u) << back << " " << out;
+    }
+  }
+  EXPECT_GT(beside, 0);
+}
+
 }  // namespace
 }  // namespace airsim360
