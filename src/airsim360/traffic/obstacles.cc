@@ -41,6 +41,17 @@ InTheWay ObstacleGrid::Beside(const TrafficModel& model, const TrafficState& sta
   return found;
 }
 
+bool ObstacleGrid::IsBehind(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, double reach) const {
+  const VehicleShape& shape = model.vehicles[vehicle].shape;
+  const RigidTransform X_WB = PoseOf(model, state, vehicle, state.t_ns);
+  const double r = shape.width / 2;
+  for (double back = 0; back <= reach; back += r / 2) {
+    const Vec3d p = X_WB.p - X_WB.R.column(0) * (shape.length / 2 - r + back);
+    if (standing_.Meets(p, r, kHeight) || coming_.Meets(p, r, kHeight)) return true;
+  }
+  return false;
+}
+
 InTheWay ObstacleGrid::Find(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, double reach) const {
   if (coming_.empty() && standing_.empty()) return {};
   const DrivingVehicle& self = state.vehicles[vehicle];

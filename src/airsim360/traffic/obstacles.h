@@ -21,6 +21,8 @@ class ObstacleGrid {
   /// What a vehicle meets within `reach`, now or within the next 1.6 s. People walk into standing cars: gap 0 if somebody touches
   /// its body now.
   InTheWay Find(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, double reach) const;
+  /// Whether somebody is, or soon will be, up to `reach` metres behind a vehicle.
+  bool IsBehind(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, double reach) const;
 
  private:
   InTheWay Beside(const TrafficModel& model, const TrafficState& state, uint32_t vehicle) const;

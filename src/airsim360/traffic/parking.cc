@@ -25,7 +25,7 @@ constexpr double kBehind = 0.5, kMostBack = 8;      // metres to the car behind,
 constexpr double kBeforeTurn = 1, kPastTurn = 1;    // metres beside the cars behind and in front, where the way begins and ends to bend
 constexpr double kInPlace = 0.6, kBackedUp = 0.1;   // metres to where it stands, forwards and backwards
 constexpr double kStandstill = 0.1;                 // m/s
-constexpr double kBackingSpeed = 1, kBackingAcceleration = 0.7;
+constexpr double kBackingSpeed = 1, kBackingAcceleration = 0.7, kLooksBack = 1.5;  // m/s, m/s^2, metres
 constexpr double kTickSeconds = static_cast<double>(kTrafficTickNs) * 1e-9;
 constexpr double kWidestCar = 2.1, kLongestCar = 6;  // metres
 
@@ -67,8 +67,9 @@ double GapToBay(const TrafficModel& model, const DrivingVehicle& own) {
   return own.parking == Parking::kArriving ? model.bays[own.bay].s - own.s : INFINITY;
 }
 
-ParkingTick::ParkingTick(const TrafficModel& model, const TrafficState& state, const Occupancy& occupancy, LaneChanges& lane_changes)
-    : model_(model), state_(state), occupancy_(occupancy), lane_changes_(lane_changes), taken_(model.bays.size()) {
+ParkingTick::ParkingTick(const TrafficModel& model, const TrafficState& state, const Occupancy& occupancy, const ObstacleGrid& obstacles,
+                         LaneChanges& lane_changes)
+    : model_(model), state_(state), occupancy_(occupancy), obstacles_(obstacles), lane_changes_(lane_changes), taken_(model.bays.size()) {
   for (const DrivingVehicle& vehicle : state.vehicles)
     if (vehicle.bay != kNoBay) taken_[vehicle.bay] = true;
 }
@@ -116,6 +117,10 @@ void ParkingTick::Stay(uint32_t vehicle, int64_t t_ns, DrivingVehicle& own) {
     if (own.stopped_ns < 0) own.stopped_ns = t_ns;
     if (t_ns >= own.parks_until_ns) own.parking = Parking::kBacking;
   } else if (own.parking == Parking::kBacking) {
+    if (obstacles_.IsBehind(model_, state_, vehicle, kLooksBack)) {
+      own.v = own.a = 0;
+      return;
+    }
     const double rest = own.s - BacksTo(model_.bays[own.bay], shape), step = kBackingAcceleration * kTickSeconds, before = own.v;
     const double wanted = -std::min(kBackingSpeed, std::sqrt(kBackingAcceleration * std::max(0.0, rest)));
     own.v = rest > kBackedUp ? std::clamp(wanted, own.v - step, own.v + step) : 0;

@@ -6,6 +6,7 @@
 
 #include "airsim360/math/box.h"
 #include "airsim360/traffic/lane_changes.h"
+#include "airsim360/traffic/obstacles.h"
 #include "airsim360/traffic/occupancy.h"
 #include "airsim360/traffic/traffic.h"
 
@@ -39,12 +40,13 @@ double GapToBay(const TrafficModel& model, const DrivingVehicle& own);
 class ParkingTick {
  public:
   /// `lane_changes` knows who comes to which place of a lane in this tick.
-  ParkingTick(const TrafficModel& model, const TrafficState& state, const Occupancy& occupancy, LaneChanges& lane_changes);
+  ParkingTick(const TrafficModel& model, const TrafficState& state, const Occupancy& occupancy, const ObstacleGrid& obstacles,
+              LaneChanges& lane_changes);
 
   /// Of one who has driven on: a car that has come to another lane may choose a free bay there; who has come to rest in its bay stays;
   /// who is out of it drives on as others.
   void Consider(uint32_t vehicle, int64_t t_ns, DrivingVehicle& own);
-  /// Of one who is in its bay: it stands, backs up to have room to turn, and leaves when nobody comes.
+  /// Of one who is in its bay: it stands, backs up to have room to turn unless somebody is behind it, and leaves when nobody comes.
   void Stay(uint32_t vehicle, int64_t t_ns, DrivingVehicle& own);
 
  private:
@@ -54,6 +56,7 @@ class ParkingTick {
   const TrafficModel& model_;
   const TrafficState& state_;
   const Occupancy& occupancy_;
+  const ObstacleGrid& obstacles_;
   LaneChanges& lane_changes_;
   std::vector<bool> taken_;  // by bay
 };

@@ -139,6 +139,22 @@ TEST(Parking, WhoStandsInABayIsInNobodysWay) {
   EXPECT_DOUBLE_EQ(metres_in(true), metres_in(false));
 }
 
+TEST(Parking, NobodyBacksUpIntoWhoStandsBehind) {
+  const StreetWithABay street(1);
+  const ParkingBay& bay = street.model.bays[0];
+  for (const double behind : {0.6, 1.2}) {
+    TrafficState state;
+    state.vehicles = {{.lane = 2, .ahead = {0, 1}, .s = bay.s, .bay = 0, .parking = Parking::kStanding, .parks_until_ns = 0}};
+    const GroundBox own = FootprintOf(street.model, state, 0);
+    const TrafficObstacle person{.p = {own.center.x - own.half_length - behind, kRow + 0.4, 0}, .v = {}};
+    Drive(street.model, 60, state, {&person, 1});
+    EXPECT_EQ(state.vehicles[0].s, bay.s) << behind;
+    EXPECT_EQ(state.vehicles[0].parking, Parking::kBacking) << behind;
+    Drive(street.model, 60, state);
+    EXPECT_EQ(state.vehicles[0].parking, Parking::kNone) << behind;
+  }
+}
+
 // One drives by every few seconds; nobody has to brake hard for the one that comes out.
 TEST(Parking, LeavesIntoAGapAlone) {
   StreetWithABay street(12);

@@ -197,7 +197,7 @@ void TickTraffic(const TrafficModel& model, std::span<const TrafficObstacle> obs
   const ObstacleGrid grid(obstacles);
   RightOfWay right_of_way(model, before, occupancy);
   LaneChanges lane_changes(model, before, occupancy);
-  ParkingTick parking(model, before, occupancy, lane_changes);
+  ParkingTick parking(model, before, occupancy, grid, lane_changes);
   const Look look{model, before, occupancy, grid, right_of_way};
   const int64_t t_ns = state.t_ns + kTrafficTickNs;
   if (before.t_ns % (kTrafficTickNs * kLookForMisses) == 0)
