@@ -5,9 +5,9 @@
     PYTHONPATH=build/python /usr/bin/python3 bench/usefulness.py attitude --frames DIR --out RUNS --photographs PANORAMA...
 
 DIR is of `airsim360 learn frames`, that of --high with `--tier high` and else the same flags. Each row trains with another choice of
-frames or randomisation, all with the same number of steps, once a seed, and is measured on the world that is held out (segment: mean IoU of seven classes) or on level panoramas that are turned
-(attitude: median error in degrees). Prints a Markdown table: mean over the seeds, and the half width of its 95 % interval by Student's
-t. The same command goes on after an interruption.
+frames or randomisation, all with the same number of steps, once a seed, and is measured on the world that is held out (segment: mean
+IoU of seven classes) or on level panoramas that are turned (attitude: median error in degrees). Prints a Markdown table: mean over the
+seeds, and the half width of its 95 % interval by Student's t. The same command goes on after an interruption.
 """
 import argparse
 import json

@@ -65,18 +65,9 @@ std::vector<BusStop> BusStopsBeside(const LaneMap& lanes, std::span<const Vec3d>
   constexpr double kFarthest = 9, kPastTheSign = 2, kLongestBus = 13, kToTheEnd = 2;  // metres
   std::vector<BusStop> stops;
   for (const Vec3d p : places) {
-    NearestLanePoint best{.distance = kFarthest};
-    LaneId beside = kNoLane;
-    for (LaneId id = 0; id < lanes.size(); ++id) {
-      if (lanes.lane(id).junction >= 0) continue;
-      const NearestLanePoint at = lanes.Nearest(id, p);
-      if (at.distance >= best.distance) continue;
-      const LanePoint there = lanes.At(id, at.s);
-      const Vec3d away = p - there.p;
-      if (there.direction.x * away.y - there.direction.y * away.x > 0) continue;  // on the left
-      best = at;
-      beside = id;
-    }
+    const auto between_junctions = [](const Lane& lane) { return lane.junction < 0; };
+    const auto on_the_right = [&](LaneId id, const NearestLanePoint& at) { return internal::LeftOfLane(lanes, id, at.s, p) <= 0; };
+    const auto [beside, best] = internal::NearestLane(lanes, p, kFarthest, between_junctions, on_the_right);
     if (beside == kNoLane) continue;
     const double s = std::min(best.s + kPastTheSign, lanes.length(beside) - kToTheEnd);
     if (s > kLongestBus) stops.push_back({beside, s});

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "airsim360/scene/road_network.h"
@@ -69,4 +70,27 @@ class LaneMap {
   std::vector<Table> tables_;
 };
 
+namespace internal {
+
+/// The lane whose middle is nearest to `p`, nearer than `farthest` metres, of those for which counts(lane) and then
+/// fits(lane, its nearest place); kNoLane: none.
+template <class Counts, class Fits>
+std::pair<LaneId, NearestLanePoint> NearestLane(const LaneMap& lanes, Vec3d p, double farthest, const Counts& counts, const Fits& fits) {
+  std::pair<LaneId, NearestLanePoint> best{kNoLane, {.distance = farthest}};
+  for (LaneId id = 0; id < lanes.size(); ++id) {
+    if (!counts(lanes.lane(id))) continue;
+    const NearestLanePoint at = lanes.Nearest(id, p);
+    if (at.distance < best.second.distance && fits(id, at)) best = {id, at};
+  }
+  return best;
+}
+
+/// Metres that `p` is to the left of a lane's middle at `s`.
+inline double LeftOfLane(const LaneMap& lanes, LaneId id, double s, Vec3d p) {
+  const LanePoint at = lanes.At(id, s);
+  const Vec3d away = p - at.p;
+  return at.direction.x * away.y - at.direction.y * away.x;
+}
+
+}  // namespace internal
 }  // namespace airsim360

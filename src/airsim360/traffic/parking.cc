@@ -177,18 +177,12 @@ std::map<LaneId, std::vector<KerbCar>> CarsBeside(const LaneMap& lanes, std::spa
   for (uint32_t i = 0; i < cars.size(); ++i) {
     const Box3f& box = cars[i];
     const Vec3d middle = VecCast<double>(box.center());
-    NearestLanePoint best{.distance = kFarthest};
-    LaneId beside = kNoLane;
-    for (LaneId id = 0; id < lanes.size(); ++id) {
-      const Lane& lane = lanes.lane(id);
-      if (lane.junction >= 0 || lane.bus || lane.right != kNoLane) continue;
-      const NearestLanePoint at = lanes.Nearest(id, middle);
-      if (at.distance < best.distance) best = at, beside = id;
-    }
+    const auto at_the_kerb = [](const Lane& lane) { return lane.junction < 0 && !lane.bus && lane.right == kNoLane; };
+    const auto [beside, best] =
+        internal::NearestLane(lanes, middle, kFarthest, at_the_kerb, [](LaneId, const NearestLanePoint&) { return true; });
     if (beside == kNoLane) continue;
     const LanePoint at = lanes.At(beside, best.s);
-    const Vec3d away = middle - at.p;
-    const double left = at.direction.x * away.y - at.direction.y * away.x;
+    const double left = internal::LeftOfLane(lanes, beside, best.s, middle);
     if (left > -kNearest) continue;
     const double half = (std::abs(at.direction.x) * box.size().x + std::abs(at.direction.y) * box.size().y) / 2;
     rows[beside].push_back({best.s - half, best.s + half, left, i});
