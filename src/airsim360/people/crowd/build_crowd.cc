@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -39,6 +40,7 @@ class Builder {
 
   std::shared_ptr<const CrowdModel> Run() {
     if (!request_.file.empty()) file_ = ParsePeople(ReadTextFile(request_.file, 1 << 20), request_.file.string());
+    if (!mesh_) mesh_ = NavMesh::Build(scene_, {.also = PlacesOfFile()});
     if (file_.areas.empty()) {
       AreaEntry all;
       all.name = {"around the spawn", "the default area"};
@@ -59,6 +61,23 @@ class Builder {
   }
 
  private:
+  /// What the file's areas and people need of the world.
+  Box3f PlacesOfFile() const {
+    Box3f places;
+    const auto add = [&](std::span<const Vec2d> points, const std::string& where) {
+      for (const Vec2d p : points) places.Add(VecCast<float>(Vec3d{p.x, p.y, 0}));
+      try {
+        NavMeshRegion(scene_, {.also = places});
+      } catch (const InputError& error) {
+        throw InputError(where + ": " + error.what());
+      }
+    };
+    for (const AreaEntry& entry : file_.areas) add(entry.polygon, entry.polygon_where);
+    for (const PersonEntry& entry : file_.people)
+      if (entry.at) add(std::array{Vec2d{entry.at->x, entry.at->y}}, entry.at_where);
+    return places;
+  }
+
   /// A circle around the world's spawn with about 80 m2 of ground a person, so that they meet; empty
   /// (= everywhere) where that is not to be had.
   std::vector<Vec2d> AroundSpawn(size_t count) const {

@@ -170,7 +170,8 @@ struct CrowdRequest {
 };
 /// The people of a world: from a file, or `count` people over everything that can be reached from the world's
 /// spawn, mostly on pavements. InputError file:line for what is wrong: an area outside the world or without a
-/// place to walk, more people than fit, an unknown behaviour, tree, state or message, malformed XML.
+/// place to walk, more people than fit, an unknown behaviour, tree, state or message, malformed XML. Without a
+/// `navmesh` it builds one of what the default region and the file's areas and people need.
 std::shared_ptr<const CrowdModel> BuildCrowd(const Scene& scene, std::shared_ptr<const NavMesh> navmesh, const CrowdRequest& request);
 
 }  // namespace airsim360

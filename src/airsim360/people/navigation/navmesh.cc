@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "airsim360/base/archive.h"
 #include "airsim360/base/disk_cache.h"
@@ -32,29 +33,13 @@ struct NavMesh::Impl {
 
 namespace {
 
-// Worlds larger than that get a mesh around their spawn or middle, unless a region is given.
+// Worlds larger than that get a mesh around their spawn or middle, unless more of them is asked for.
 constexpr double kLargest = 400;
+constexpr double kMaxArea = 1500.0 * 1500;        // square metres: a minute of a processor
 constexpr double kStepUp = 0.4, kStepDown = 0.6;  // metres: from where someone stands to where a foot may come
 
 internal::TileGrid GridOf(const Scene& scene, const NavMeshOptions& options) {
-  Box3f box = options.region.value_or(scene.bounds);
-  if (box.empty()) throw InputError("people need ground to walk on: the world '" + scene.name + "' is empty");
-  box.min = Max(box.min, scene.bounds.min);
-  box.max = Min(box.max, scene.bounds.max);
-  if (box.min.x >= box.max.x || box.min.y >= box.max.y)
-    throw InputError("people need ground to walk on: the region lies outside the world '" + scene.name + "'");
-  const Vec3f middle = scene.spawn.value_or(box.center());
-  const auto half = static_cast<float>(kLargest / 2);
-  if (!options.region && box.size().x > kLargest) {
-    const float x = std::clamp(middle.x, box.min.x + half, box.max.x - half);
-    box.min.x = x - half;
-    box.max.x = x + half;
-  }
-  if (!options.region && box.size().y > kLargest) {
-    const float y = std::clamp(middle.y, box.min.y + half, box.max.y - half);
-    box.min.y = y - half;
-    box.max.y = y + half;
-  }
+  const Box3f box = NavMeshRegion(scene, options);
   // A whole number of cells a tile.
   internal::TileGrid grid;
   grid.edge = std::max(1.0, std::round(options.tile / options.cell)) * options.cell;
@@ -66,21 +51,47 @@ internal::TileGrid GridOf(const Scene& scene, const NavMeshOptions& options) {
 }
 
 // Everything that the mesh depends on: the scene's key leaves out labels that were changed since.
-CacheKey KeyOf(const Scene& scene, const NavMeshOptions& options) {
-  CacheKey key("navmesh", 1);
+CacheKey KeyOf(const Scene& scene, const internal::TileGrid& grid, const NavMeshOptions& options) {
+  CacheKey key("navmesh", 2);
   key.AddProgram().Add(scene.cache_key);
   for (const double value :
        {options.cell, options.person_radius, options.person_height, options.step_height, options.steepest_deg, options.tile})
     key.Add(value);
-  const Box3f region = options.region.value_or(Box3f{});
-  key.Add(options.region.has_value());
-  for (int k = 0; k < 3; ++k) key.Add(region.min[k]).Add(region.max[k]);
+  key.Add(grid.x0).Add(grid.y0).Add(grid.edge).Add(grid.columns).Add(grid.rows);
   std::string categories;
   for (const Entity& entity : scene.entities) categories += scene.tree[entity.category].path + '\n';
   return key.Add(categories);
 }
 
 }  // namespace
+
+Box3f NavMeshRegion(const Scene& scene, const NavMeshOptions& options) {
+  if (scene.bounds.empty()) throw InputError("people need ground to walk on: the world '" + scene.name + "' is empty");
+  Box3f box = options.region.value_or(scene.bounds);
+  if (!options.region) {
+    const Vec3f middle = scene.spawn.value_or(box.center());
+    const auto half = static_cast<float>(kLargest / 2);
+    for (int k = 0; k < 2; ++k) {
+      if (box.size()[k] <= kLargest) continue;
+      const float at = std::clamp(middle[k], box.min[k] + half, box.max[k] - half);
+      box.min[k] = at - half;
+      box.max[k] = at + half;
+    }
+    box.Add(options.also);
+  }
+  box.min = Max(box.min, scene.bounds.min);
+  box.max = Min(box.max, scene.bounds.max);
+  if (box.min.x >= box.max.x || box.min.y >= box.max.y)
+    throw InputError("people need ground to walk on: the region lies outside the world '" + scene.name + "'");
+  const Vec3f size = box.size();
+  if (static_cast<double>(size.x) * size.y > kMaxArea) {
+    char text[160];
+    std::snprintf(text, sizeof(text), "people would walk over %.0f m x %.0f m of the world; %.2f km2 is the most that they can", size.x,
+                  size.y, kMaxArea / 1e6);
+    throw InputError(text);
+  }
+  return box;
+}
 
 NavMesh::NavMesh(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 NavMesh::~NavMesh() = default;
@@ -92,7 +103,7 @@ std::shared_ptr<const NavMesh> NavMesh::Build(const Scene& scene, const NavMeshO
 std::shared_ptr<const NavMesh> NavMesh::Build(const Scene& scene, const NavMeshOptions& options, const DiskCache& cache) {
   const internal::TileGrid grid = GridOf(scene, options);
   const bool keeps = !scene.cache_key.empty() && !cache.folder().empty();
-  const CacheKey key = KeyOf(scene, options);
+  const CacheKey key = KeyOf(scene, grid, options);
   std::unique_ptr<Impl> impl;
   if (keeps)
     if (const auto kept = cache.Load(key)) impl = FromArchive(scene, grid, options, kept->bytes());

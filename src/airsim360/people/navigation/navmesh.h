@@ -29,15 +29,20 @@ double GroundCost(GroundKind kind);
 GroundKind GroundKindOf(const SemanticTree& tree, CategoryId category);
 
 struct NavMeshOptions {
-  double cell = 0.1;            ///< metres: raster of the ground
-  double person_radius = 0.2;   ///< the mesh keeps that far from everything solid
-  double person_height = 1.9;   ///< of free space that is needed
-  double step_height = 0.28;    ///< highest step
-  double steepest_deg = 38;     ///< slope
-  double tile = 24;             ///< metres: edge of what is rastered at a time, which bounds memory
-  std::optional<Box3f> region;  ///< only this part of the world (x and y count); default: up to 400 m around
-                                ///< its spawn or its middle
+  double cell = 0.1;                 ///< metres: raster of the ground
+  double person_radius = 0.2;        ///< the mesh keeps that far from everything solid
+  double person_height = 1.9;        ///< of free space that is needed
+  double step_height = 0.28;         ///< highest step
+  double steepest_deg = 38;          ///< slope
+  double tile = 24;                  ///< metres: edge of what is rastered at a time, which bounds memory
+  std::optional<Box3f> region = {};  ///< only this part of the world (x and y count); default: up to 400 m around
+                                     ///< its spawn or its middle
+  Box3f also = {};                   ///< with the default region, what it is widened to hold (x and y count)
 };
+
+/// What of the world NavMesh::Build covers (x and y count). InputError if the region lies outside the world or has
+/// more than 2.25 km2.
+Box3f NavMeshRegion(const Scene& scene, const NavMeshOptions& options);
 
 /// A place on the mesh.
 struct NavPoint {
@@ -71,7 +76,7 @@ struct NavArea {
 
 class NavMesh {
  public:
-  /// InputError if no ground of the scene (within the region) can be walked on. Scenes with a cache_key have
+  /// InputError of NavMeshRegion, or if no ground of the region can be walked on. Scenes with a cache_key have
   /// their meshes kept in the disk cache of the user, or in `cache`; the mesh is the same either way.
   static std::shared_ptr<const NavMesh> Build(const Scene& scene, const NavMeshOptions& options = {});
   static std::shared_ptr<const NavMesh> Build(const Scene& scene, const NavMeshOptions& options, const DiskCache& cache);

@@ -42,8 +42,8 @@ PopulatedScene Populate(std::shared_ptr<const Scene> scene, const PeopleRequest&
   if (!request.any()) return {std::move(scene), nullptr};
   people->seed = request.seed;
   people->epoch_ns = std::llround(request.warm_up * 1e9) / kCrowdTickNs * kCrowdTickNs;
-  people->crowd = BuildCrowd(*scene, request.navmesh ? request.navmesh : NavMesh::Build(*scene),
-                             {.file = request.file, .count = request.count, .reserve = request.reserve, .seed = request.seed});
+  people->crowd =
+      BuildCrowd(*scene, request.navmesh, {.file = request.file, .count = request.count, .reserve = request.reserve, .seed = request.seed});
 
   const std::vector<PersonTraits>& traits = people->crowd->people;
   const int level = request.level >= 0 ? request.level : FinestLevelFor(traits.size());
