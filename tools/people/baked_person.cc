@@ -1,18 +1,18 @@
 #include "baked_person.h"
 
-#include <meshoptimizer.h>
-
 #include <algorithm>
 #include <map>
-#include <numbers>
-#include <numeric>
 
 #include "airsim360/base/error.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/people/body/anatomy.h"
 #include "airsim360/people/body/loft.h"
 #include "airsim360/people/body/seat_sockets.h"
+#include "connected.h"
+#include "eyes.h"
+#include "joints.h"
 #include "layers.h"
+#include "levels.h"
 #include "picture.h"
 #include "rest_pose.h"
 
@@ -20,83 +20,6 @@ namespace airsim360::bake {
 namespace {
 
 using internal::At;
-constexpr size_t kTrianglesOf[] = {26000, 6000, 1250, 300};
-
-Vec3f ToPerson(Vec3f v) { return {0.1f * v.z, 0.1f * v.x, 0.1f * v.y}; }
-
-// The joint of ours that a bone of MakeHuman follows; its own children follow it by name.
-Joint JointOf(const std::string& full) {
-  const std::string bone = full.substr(0, full.find("____"));
-  const bool left = bone.ends_with(".L");
-  const std::string b = bone.substr(0, bone.find('.'));
-  const auto side = [&](Joint l, Joint r) { return left ? l : r; };
-  const auto is = [&](std::string_view prefix) { return b.starts_with(prefix); };
-  if (b == "root" || b == "spine05" || b == "pelvis") return Joint::kPelvis;
-  if (b == "spine04") return Joint::kSpine1;
-  if (b == "spine03") return Joint::kSpine2;
-  if (is("spine") || b == "breast") return Joint::kSpine3;
-  if (is("neck")) return Joint::kNeck;
-  if (b == "clavicle" || b == "shoulder01") return side(Joint::kLeftClavicle, Joint::kRightClavicle);
-  if (is("upperarm")) return side(Joint::kLeftShoulder, Joint::kRightShoulder);
-  if (is("lowerarm")) return side(Joint::kLeftElbow, Joint::kRightElbow);
-  if (b == "wrist" || is("metacarpal")) return side(Joint::kLeftWrist, Joint::kRightWrist);
-  if (b == "finger1-1") return side(Joint::kLeftThumb1, Joint::kRightThumb1);
-  if (is("finger1")) return side(Joint::kLeftThumb2, Joint::kRightThumb2);
-  if (is("finger")) return b.ends_with("-1") ? side(Joint::kLeftFingers1, Joint::kRightFingers1) : side(Joint::kLeftFingers2, Joint::kRightFingers2);
-  if (is("upperleg")) return side(Joint::kLeftHip, Joint::kRightHip);
-  if (is("lowerleg")) return side(Joint::kLeftKnee, Joint::kRightKnee);
-  if (b == "foot") return side(Joint::kLeftAnkle, Joint::kRightAnkle);
-  if (is("toe")) return side(Joint::kLeftToes, Joint::kRightToes);
-  return Joint::kHead;  // head, jaw, eyes, face, tongue
-}
-
-// Which end of which bone each of our joints is.
-std::array<Vec3d, kJointCount> Joints(const BaseHuman& base, const std::vector<Vec3f>& v, const std::vector<RigidTransform>& bones) {
-  const auto mean = [&](const std::string& end) { return VecCast<double>(ToPerson(VecCast<float>(PosedEnd(base, v, bones, end)))); };
-  std::array<Vec3d, kJointCount> q;
-  const auto set = [&](Joint j, const std::string& bone) { q[At(j)] = mean(bone + "____head"); };
-  set(Joint::kPelvis, "spine05");
-  set(Joint::kSpine1, "spine04");
-  set(Joint::kSpine2, "spine03");
-  set(Joint::kSpine3, "spine02");
-  set(Joint::kNeck, "neck01");
-  set(Joint::kHead, "head");
-  const std::pair<Joint, std::string> sides[] = {
-      {Joint::kLeftClavicle, "clavicle"}, {Joint::kLeftShoulder, "upperarm01"}, {Joint::kLeftElbow, "lowerarm01"}, {Joint::kLeftWrist, "wrist"},
-      {Joint::kLeftHip, "upperleg01"}, {Joint::kLeftKnee, "lowerleg01"}, {Joint::kLeftAnkle, "foot"}, {Joint::kLeftToes, "toe2-1"},
-      {Joint::kLeftThumb1, "finger1-1"}, {Joint::kLeftThumb2, "finger1-2"}, {Joint::kLeftFingers1, "finger3-1"}, {Joint::kLeftFingers2, "finger3-2"}};
-  for (const auto& [joint, bone] : sides) {
-    set(joint, bone + ".L");
-    set(internal::MirrorOf(joint), bone + ".R");
-  }
-  return q;
-}
-
-// Weights of the package folded onto our joints. A third of what lies on the lower forearm goes to the wrist,
-// so that the turn of the hand is spread.
-Influences Folded(const BaseHuman& base, const std::array<int, 4>& bones, const std::array<float, 4>& weights) {
-  std::array<double, kJointCount> sum{};
-  for (size_t k = 0; k < 4; ++k) {
-    if (weights[k] <= 0 || bones[k] < 0 || static_cast<size_t>(bones[k]) >= base.bone_names.size()) continue;
-    const std::string& name = base.bone_names[static_cast<size_t>(bones[k])];
-    const Joint joint = JointOf(name);
-    const double share = name.starts_with("lowerarm02") ? 0.35 : 0;
-    sum[At(joint)] += weights[k] * (1 - share);
-    if (share > 0) sum[At(joint == Joint::kLeftElbow ? Joint::kLeftWrist : Joint::kRightWrist)] += weights[k] * share;
-  }
-  std::array<size_t, kJointCount> order;
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::ranges::stable_sort(order, [&](size_t a, size_t b) { return sum[a] > sum[b]; });
-  Influences in;
-  double total = 0;
-  for (size_t k = 0; k < 4; ++k) total += sum[order[k]];
-  if (total <= 0) return internal::Bone(Joint::kHead);
-  for (size_t k = 0; k < 4 && sum[order[k]] > 0; ++k) {
-    in.joint[k] = static_cast<uint8_t>(order[k]);
-    in.weight[k] = static_cast<float>(sum[order[k]] / total);
-  }
-  return in;
-}
 
 template <class Keep>
 Piece MakePiece(const BaseHuman& base, const SourceMesh& mesh, const std::vector<Vec3f>& at, const Keep& keep) {
@@ -141,21 +64,13 @@ struct Part {
 std::vector<Part> PartsBy(const std::vector<std::array<int, 4>>& corners, const SourceMesh& mesh, const std::vector<Vec3f>& at) {
   int count = 0;
   for (const auto& f : corners) count = std::max(count, std::ranges::max(f) + 1);
-  std::vector<int> root(static_cast<size_t>(count));
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int i) {
-    while (root[static_cast<size_t>(i)] != i) i = root[static_cast<size_t>(i)] = root[static_cast<size_t>(root[static_cast<size_t>(i)])];
-    return i;
-  };
-  for (const auto& f : corners) {
-    for (size_t k = 1; k < 4; ++k) root[static_cast<size_t>(find(f[k]))] = find(f[0]);
-  }
-  std::map<int, Part> parts;
+  const std::vector<uint32_t> part = ConnectedParts(static_cast<size_t>(count), corners);
+  std::vector<Part> parts(part.size());
   for (size_t i = 0; i < corners.size(); ++i) {
-    for (const int v : mesh.faces[i]) parts[find(corners[i][0])].Add(at[static_cast<size_t>(v)].y);
+    for (const int v : mesh.faces[i]) parts[part[static_cast<size_t>(corners[i][0])]].Add(at[static_cast<size_t>(v)].y);
   }
   std::vector<Part> of_face;
-  for (const auto& f : corners) of_face.push_back(parts[find(f[0])]);
+  for (const auto& f : corners) of_face.push_back(parts[part[static_cast<size_t>(f[0])]]);
   return of_face;
 }
 
@@ -166,91 +81,6 @@ std::vector<Part> PartsOf(const SourceMesh& mesh, const std::vector<Vec3f>& at) 
   std::vector<Part> parts = PartsBy(mesh.faces, mesh, at);
   const bool whole = std::ranges::any_of(parts, [](const Part& p) { return p.high - p.low > kOnePiece; });
   return whole && !mesh.uvs.empty() ? PartsBy(mesh.uv_faces, mesh, at) : parts;
-}
-
-// What each level may be off by at most, metres, and how far garments are kept from what they cover: further than
-// that, or skin shows through them.
-constexpr float kMostError[] = {0.004f, 0.02f, 0.035f, 0.06f};
-constexpr float kGap[] = {0.004f, 0.008f, 0.016f, 0.03f};
-constexpr float kCrumb[] = {0, 0.012f, 0.05f, 0.1f};
-
-// Hair and shoes are of many parts and seams, which simplifying does not get below a thousand triangles: far off they are
-// made anew on a grid.
-void MakeCoarse(size_t triangles, Piece& p) {
-  if (p.indices.size() / 3 <= triangles) return;
-  std::vector<uint32_t> fewer(p.indices.size());
-  const size_t count = meshopt_simplifySloppy(fewer.data(), p.indices.data(), p.indices.size(), &p.positions[0].x, p.positions.size(), sizeof(Vec3f), 3 * triangles, 1.0f, nullptr);
-  if (count == 0) return;
-  fewer.resize(count);
-  p.indices = std::move(fewer);
-  p.whole = true;
-}
-
-// Adds triangles of a piece to a level, with the vertices that are left.
-void Append(const Piece& p, const std::vector<uint32_t>& indices, BodyLevel& out) {
-  std::vector<uint32_t> remap(p.positions.size());
-  meshopt_optimizeVertexFetchRemap(remap.data(), indices.data(), indices.size(), p.positions.size());
-  const auto first = static_cast<uint32_t>(out.mesh.positions.size());
-  uint32_t used = 0;
-  for (uint32_t r : remap) used = r == ~0u ? used : std::max(used, r + 1);
-  out.mesh.positions.resize(first + used);
-  out.mesh.uvs.resize(first + used);
-  out.influences.resize(first + used);
-  std::vector<uint32_t> source(used);
-  for (size_t v = 0; v < remap.size(); ++v) {
-    if (remap[v] == ~0u) continue;
-    out.mesh.positions[first + remap[v]] = p.positions[v];
-    out.mesh.uvs[first + remap[v]] = p.uvs[v];
-    out.influences[first + remap[v]] = p.influences[v];
-    source[remap[v]] = p.source[v];
-  }
-  // Normals are smooth over uv seams.
-  std::map<uint32_t, Vec3f> sums;
-  const auto start = static_cast<uint32_t>(out.mesh.triangles.size());
-  for (size_t i = 0; i + 2 < indices.size(); i += 3) {
-    const uint32_t t[3] = {remap[indices[i]], remap[indices[i + 1]], remap[indices[i + 2]]};
-    const Vec3f a = out.mesh.positions[first + t[0]], b = out.mesh.positions[first + t[1]], c = out.mesh.positions[first + t[2]];
-    const Vec3f area = Cross(b - a, c - a);
-    for (uint32_t k : t) sums[source[k]] += area;
-    out.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-  for (uint32_t k = 0; k < used; ++k) {
-    const Vec3f n = Normalized(sums[source[k]]);
-    out.mesh.normals.push_back(n == Vec3f{} ? Vec3f{0, 0, 1} : n);
-  }
-  out.mesh.parts.push_back({start, static_cast<uint32_t>(out.mesh.triangles.size()) - start, p.material, kNoEntity});
-}
-
-// Simplifies the pieces together and joins them.
-BodyLevel MakeLevel(std::vector<Piece> pieces, size_t level) {
-  // Brows and eyes are for near views.
-  if (level >= 2) std::erase_if(pieces, [](const Piece& p) { return p.cloth == Cloth::kOther && p.layer == Layer::kLoose; });
-  for (Piece& piece : pieces) {
-    if (!piece.whole) DropCrumbs(kCrumb[level], piece);
-  }
-  std::erase_if(pieces, [](const Piece& p) { return p.indices.empty(); });
-  TuckIn(pieces, kGap[level]);
-  for (Piece& piece : pieces) {
-    if (level >= 2 && piece.cloth == Cloth::kHair) MakeCoarse(level == 2 ? 250 : 36, piece);
-    if (level >= 2 && piece.layer == Layer::kShoes) MakeCoarse(level == 2 ? 120 : 48, piece);
-  }
-  std::vector<std::vector<uint32_t>> simple = SimplifyTogether(pieces, kTrianglesOf[level], kMostError[level]);
-  size_t all = 0;
-  for (const auto& list : simple) all += list.size() / 3;
-  // Suits of many seams are still too many: on a grid too, as many as their share.
-  for (size_t k = 0; level >= 2 && all > kTrianglesOf[level] * 21 / 20 && k < pieces.size(); ++k) {
-    // A grid leaves gaps where garments are narrow; a plain shirt needs none.
-    constexpr size_t kPlain = 130;
-    if (pieces[k].whole || simple[k].size() / 3 <= kPlain) continue;
-    MakeCoarse(std::max(simple[k].size() / 3 * kTrianglesOf[level] / all, kPlain), pieces[k]);
-    if (pieces[k].whole) simple[k] = pieces[k].indices;
-  }
-  BodyLevel out;
-  for (size_t k = 0; k < pieces.size(); ++k) {
-    if (!simple[k].empty()) Append(pieces[k], simple[k], out);
-  }
-  out.body_vertices = static_cast<uint32_t>(out.mesh.positions.size());
-  return out;
 }
 
 // How a picture becomes one of the pack.
@@ -285,54 +115,6 @@ std::vector<std::array<Vec2f, 3>> UsedUvs(const SourceMesh& mesh) {
   return list;
 }
 
-// The sockets in the order of kSocketNames: vertices of the base mesh (MPFB2's picks), joints, ends of bones.
-// `v` are the vertices as modelled, `posed` those that are baked.
-std::vector<Socket> Sockets(const BaseHuman& base, const std::vector<Vec3f>& v, const std::vector<RigidTransform>& bones, const std::vector<Vec3f>& posed,
-                            const std::array<Vec3d, kJointCount>& q, double stature) {
-  Body dummy;
-  dummy.p_PJ = q;
-  internal::Proportions proportions;
-  proportions.stature = stature;
-  std::vector<Socket> sockets = internal::ProceduralSockets(dummy, proportions);
-  const auto put = [&](const std::string& name, Vec3d p) {
-    const auto s = std::ranges::find(sockets, name, &Socket::name);
-    if (s == sockets.end()) throw InputError("no socket '" + name + "'");
-    s->p_J = p - q[At(s->joint)];
-  };
-  const auto mean = [&](std::initializer_list<size_t> list) {
-    Vec3d sum{};
-    for (size_t i : list) sum += VecCast<double>(ToPerson(posed[i]));
-    return sum / static_cast<double>(list.size());
-  };
-  const auto end = [&](const std::string& bone) { return VecCast<double>(ToPerson(VecCast<float>(PosedEnd(base, v, bones, bone + "____tail")))); };
-  put("nose", mean({297, 7063}));
-  put("left_eye", mean({14634, 14661}));
-  put("right_eye", mean({14706, 14733}));
-  put("left_ear", mean({12106, 12195}));
-  put("right_ear", mean({5507, 5598}));
-  put("left_knee", mean({11227, 17607}));
-  put("right_knee", mean({4609, 16278}));
-  put("left_heel", mean({12910, 17981}));
-  put("right_heel", mean({6314, 16611}));
-  put("neck", mean({1528, 3780}));
-  put("head_top", mean({881}));
-  put("chin", end("jaw"));
-  put("head_center", (mean({881}) + end("jaw")) * 0.5);
-  put("mid_hip", (q[At(Joint::kLeftHip)] + q[At(Joint::kRightHip)]) * 0.5);
-  for (const char side : {'L', 'R'}) {
-    const std::string name = side == 'L' ? "left_" : "right_", dot = std::string(".") + side;
-    put(name + "big_toe", end("toe1-2" + dot));
-    put(name + "small_toe", end("toe5-3" + dot));
-    put(name + "thumb_tip", end("finger1-3" + dot));
-    put(name + "finger_tip", end("finger3-3" + dot));
-  }
-  for (const Socket& s : sockets) {
-    const double y = q[At(s.joint)].y + s.p_J.y;
-    if ((s.name.starts_with("left") && y <= 0) || (s.name.starts_with("right") && y >= 0)) throw InputError("socket '" + s.name + "' is on the wrong side");
-  }
-  return sockets;
-}
-
 // Height of the skin without hair, metres.
 double StatureOf(const std::vector<Vec3f>& v) {
   float low = 1e9f, high = -1e9f;
@@ -342,57 +124,6 @@ double StatureOf(const std::vector<Vec3f>& v) {
   }
   return 0.1 * (high - low);
 }
-
-// Vertices of the base mesh that mark the eyeballs, which its lids fit.
-constexpr size_t kEyeMarkers[2][2] = {{14598, 14670}, {14670, 14742}};
-
-struct Ball {
-  Vec3d center;
-  double radius = 0;
-};
-
-Ball EyeBall(const std::vector<Vec3f>& v, size_t eye) {
-  const auto [first, end] = kEyeMarkers[eye];
-  const auto count = static_cast<double>(end - first);
-  Ball ball;
-  for (size_t i = first; i < end; ++i) ball.center += VecCast<double>(ToPerson(v[i])) / count;
-  for (size_t i = first; i < end; ++i) ball.radius += Norm(VecCast<double>(ToPerson(v[i])) - ball.center) / count;
-  return ball;
-}
-
-// Eyeballs of our own, the package's are not on the list: white, iris and pupil, one ball before the other.
-void AddEyes(const std::vector<Vec3f>& v, std::vector<Piece>& pieces, const std::array<uint32_t, 3>& materials) {
-  struct Shell {
-    double forward, radius;
-  };
-  constexpr Shell kShells[] = {{0, 1}, {0.52, 0.595}, {0.74, 0.385}};
-  for (const size_t eye : {size_t{0}, size_t{1}}) {
-    const Ball ball = EyeBall(v, eye);
-    for (size_t k = 0; k < std::size(kShells); ++k) {
-      internal::LoftMesh mesh;
-      const double r = kShells[k].radius * ball.radius;
-      mesh.Ellipsoid(ball.center + Vec3d{kShells[k].forward * ball.radius, 0, 0}, {r, r, r}, Joint::kHead, 0, k == 0 ? 12 : 8);
-      const BodyLevel level = mesh.Finish("eye");
-      Piece piece;
-      piece.whole = true;
-      piece.material = materials[k];
-      piece.positions = level.mesh.positions;
-      piece.uvs = level.mesh.uvs;
-      piece.influences = level.influences;
-      for (uint32_t i = 0; i < piece.positions.size(); ++i) piece.source.push_back(i);
-      for (const Vec3u& t : level.mesh.triangles) {
-        // Only what can look out between the lids.
-        const Vec3f middle = (piece.positions[t.x] + piece.positions[t.y] + piece.positions[t.z]) * (1.0f / 3);
-        if (middle.x > ball.center.x + 0.1 * ball.radius) piece.indices.insert(piece.indices.end(), {t.x, t.y, t.z});
-      }
-      pieces.push_back(std::move(piece));
-    }
-  }
-}
-
-}  // namespace
-
-namespace {
 
 // One person while being dressed.
 class Dressing {
@@ -582,7 +313,7 @@ void Dressing::Finish() {
   // The farthest level is too coarse for garments that only just overlap.
   std::vector<Piece> seen = pieces_;
   DropHidden(seen);
-  for (size_t level = 0; level < std::size(kTrianglesOf); ++level) c.levels.push_back(MakeLevel(level < 3 ? seen : pieces_, level));
+  for (size_t level = 0; level < kBakedLevels; ++level) c.levels.push_back(MakeLevel(level < 3 ? seen : pieces_, level));
   // The picks lie on the naked skin, tips at its very end: inside what is seen, shoes and clothes too.
   SeatSockets(c.levels, c.p_PJ, 0.002, 0.03, c.sockets);
 }

@@ -6,6 +6,7 @@
 
 #include "airsim360/math/angles.h"
 #include "layers.h"
+#include "levels.h"
 #include "picture.h"
 #include "rest_pose.h"
 

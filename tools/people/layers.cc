@@ -1,7 +1,5 @@
 #include "layers.h"
 
-#include <meshoptimizer.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -252,64 +250,6 @@ Piece TakeScalp(Piece& skin, const Piece& hair, Vec3f eyes, Vec3f head_top) {
   }
   skin.indices = std::move(kept);
   return scalp;
-}
-
-std::vector<std::vector<uint32_t>> SimplifyTogether(std::span<const Piece> pieces, size_t triangles, float most) {
-  std::vector<std::vector<uint32_t>> out;
-  const auto with = [&](float error) {
-    out.clear();
-    size_t sum = 0;
-    for (const Piece& p : pieces) {
-      std::vector<uint32_t> fewer = p.indices;
-      if (!p.whole && error > 0) {
-        const float scale = meshopt_simplifyScale(&p.positions[0].x, p.positions.size(), sizeof(Vec3f));
-        fewer.resize(meshopt_simplify(fewer.data(), p.indices.data(), p.indices.size(), &p.positions[0].x, p.positions.size(),
-                                      sizeof(Vec3f), 0, error / scale, 0, nullptr));
-      }
-      sum += fewer.size() / 3;
-      out.push_back(std::move(fewer));
-    }
-    return sum;
-  };
-  if (with(0) <= triangles) return out;
-  float low = 1e-5f, high = most;
-  if (with(high) >= triangles) return out;
-  for (int i = 0; i < 12; ++i) {
-    const float middle = std::sqrt(low * high);
-    (with(middle) > triangles ? low : high) = middle;
-  }
-  with(high);
-  return out;
-}
-
-void DropCrumbs(float size, Piece& piece) {
-  const Sources sources(piece);
-  std::vector<uint32_t> part(sources.first.size(), ~0u), stack;
-  std::vector<Box3f> boxes;
-  for (uint32_t s = 0; s < part.size(); ++s) {
-    if (part[s] != ~0u) continue;
-    const auto id = static_cast<uint32_t>(boxes.size());
-    boxes.emplace_back();
-    part[s] = id;
-    stack.push_back(s);
-    while (!stack.empty()) {
-      const uint32_t k = stack.back();
-      stack.pop_back();
-      boxes[id].Add(piece.positions[sources.first[k]]);
-      for (const uint32_t n : sources.neighbours[k]) {
-        if (part[n] != ~0u) continue;
-        part[n] = id;
-        stack.push_back(n);
-      }
-    }
-  }
-  std::vector<uint32_t> kept;
-  for (size_t i = 0; i + 2 < piece.indices.size(); i += 3) {
-    const Box3f& box = boxes[part[sources.of_vertex[piece.indices[i]]]];
-    const Vec3f d = box.max - box.min;
-    if (std::max({d.x, d.y, d.z}) >= size) kept.insert(kept.end(), &piece.indices[i], &piece.indices[i] + 3);
-  }
-  piece.indices = std::move(kept);
 }
 
 void HangFromHips(Piece& piece, float band) {

@@ -1,7 +1,7 @@
 // Garments over skin: nothing of what lies under shows through, near or far.
 #pragma once
 
-#include <span>
+#include <vector>
 
 #include "piece.h"
 
@@ -21,14 +21,6 @@ void DropHidden(std::vector<Piece>& pieces);
 
 /// Takes the skin under the hair, the face excepted, out of `skin`; the result has its own vertices.
 Piece TakeScalp(Piece& skin, const Piece& hair, Vec3f eyes, Vec3f head_top);
-
-/// Indices of each piece with at most `triangles` in all where that can be had with an error of less than
-/// `most` metres: every piece is simplified with the same error, so that none falls to pieces for another.
-std::vector<std::vector<uint32_t>> SimplifyTogether(std::span<const Piece> pieces, size_t triangles, float most);
-
-/// Drops connected parts of a piece that are shorter than `size` metres in every direction: buttons and tufts that nobody
-/// sees from where a coarse level is shown, but that no simplification gets below two triangles.
-void DropCrumbs(float size, Piece& piece);
 
 /// Cloth that hangs from the hips, as a skirt does: its front and back go over from one thigh to the other within
 /// `band` metres, and nothing of it follows knees.
