@@ -4,14 +4,12 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/render/shared/shading_constants.h"
 
 namespace airsim360::internal {
 namespace {
 
 enum : uint8_t { kStays = 0, kMoves = 1, kVanishes = 2 };
-
-// A surface this much nearer than the point hides it: far above rounding, far below things worth seeing.
-constexpr float kRelativeTolerance = 1e-4f, kTolerance = 1e-4f;
 
 const MovedInstance* FindMoved(const RayTracer& tracer, uint32_t instance) {
   const auto found = std::ranges::lower_bound(tracer.moved(), instance, {}, &MovedInstance::instance);
@@ -134,7 +132,7 @@ void FlowTracer::Occlude(const HitBatch& hits, int first, const int* valid, Lane
     }
     const SurfaceRef seen = next_->Resolve(rays.geometry[k], rays.instance[k], rays.primitive[k]);
     const bool itself = seen.instance == hits.instance[first + k] && seen.triangle == hits.triangle[first + k];
-    if (!itself && rays.t_far[k] < flow.range * (1 - kRelativeTolerance) - kTolerance) flow.occluded = 1;
+    if (!itself && rays.t_far[k] < flow.range * (1 - kFlowRelative) - kFlowMetres) flow.occluded = 1;
   }
 }
 

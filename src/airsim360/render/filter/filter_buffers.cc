@@ -7,13 +7,11 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/render/filter/filter_kernels.h"
+#include "airsim360/render/shared/shading_constants.h"
 
 namespace airsim360::internal {
 namespace {
 
-// Tolerances of the plane test, in pixel widths a pixel of step: flat surfaces need none, a shading normal
-// leans away from its plane.
-constexpr float kGeometricSlope = 0.05f, kShadingSlope = 0.15f;
 constexpr int kFillRadius = 24;
 
 // Planes a whole number of pages apart would fight for the same few lines of the cache: each starts three
@@ -64,7 +62,7 @@ void FilterBuffers::Load(const FilterGuides& guides, const LightSignal& signal, 
   f.wrap = f.sphere ? f.width : f.width + std::max(max_step, kFilterPad);
   f.stride = (f.wrap + kFilterPad + 15) / 16 * 16;
   f.cone_angle = static_cast<float>(rays_.cone_angle());
-  f.plane_slope = guides.geometric_normal != nullptr ? kGeometricSlope : kShadingSlope;
+  f.plane_slope = guides.geometric_normal != nullptr ? kFilterFlatSlope : kFilterSlope;
   Resize(guides.geometric_normal != nullptr);
   across_.resize(f.height);
   for (int y = 0; y < f.height; ++y) {

@@ -6,13 +6,6 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-// No more than so many frames count: what has changed since fades away.
-constexpr float kMaxFrames = 16;
-// A point is the same if it lies within so many pixel widths of the plane and its normal within 37 degrees.
-constexpr float kThickness = 2, kMinCosine = 0.8f;
-// Less than this share of the four pixels around says too little.
-constexpr float kMinShare = 0.1f;
-
 KERNEL mask_t AsMask(ireal::mask_type m) { return stdx::__proposed::static_simd_cast<mask_t>(m); }
 
 struct Place {
@@ -64,7 +57,7 @@ KERNEL void AddTap(const FilterPlanes& f, const FilterPast& past, ireal x, ireal
   mask_t same = inside && SameId(stdx::__proposed::simd_bit_cast<ureal>(place.w), sum.id) && rabs(dot3(sum.g, away)) <= sum.thickness;
   if (stdx::none_of(same)) return;
   const real4 normal = quad(1), light = quad(2);
-  same = same && dot3(Rgb(normal), sum.n) >= kMinCosine;
+  same = same && dot3(Rgb(normal), sum.n) >= kHistoryCosine;
   sum.share = sum.share + If(same, w);
   sum.light = sum.light + make3(If(same, light.x * w), If(same, light.y * w), If(same, light.z * w));
   sum.samples = sum.samples + If(same, normal.w * w);
@@ -75,10 +68,10 @@ KERNEL void Mix(const FilterPlanes& f, int64_t i, const Recall& sum) {
   const real inverse = 1.0f / sum.share;
   const real3 past = sum.light * inverse;
   const real seen = sum.samples / sum.share;
-  const mask_t mixed = sum.share >= kMinShare && seen > 0.0f;
+  const mask_t mixed = sum.share >= kHistoryShare && seen > 0.0f;
   if (stdx::none_of(mixed)) return;
   const real fresh = At(f.samples, i);
-  const real kept = sel(fresh > 0.0f, rmin(seen, (kMaxFrames - 1) * fresh), seen);
+  const real kept = sel(fresh > 0.0f, rmin(seen, (kHistoryFrames - 1) * fresh), seen);
   const real weight = fresh / (fresh + kept);
   const real3 light = At3(f.light[0], i);
   const real3 mean = sel3(mixed, past + (light - past) * weight, light);
@@ -96,7 +89,7 @@ KERNEL void RecallVector(const FilterPlanes& f, const FilterPast& past, int64_t 
   FetchAhead(f, {i - x, 0}, x, {f.g[0], f.g[1], f.g[2], f.light[0][0], f.light[0][1], f.light[0][2]});
   Recall sum;
   sum.id = Ids(f.id, i), sum.p = At3(f.p, i), sum.g = At3(f.g, i), sum.n = At3(f.n, i);
-  sum.thickness = kThickness * f.cone_angle * rroot(dot3(sum.p, sum.p));
+  sum.thickness = kHistoryThickness * f.cone_angle * rroot(dot3(sum.p, sum.p));
   const float* o = past.offset;
   const Place at =
       past.x == nullptr ? Reproject(f, past, make3(sum.p.x + o[0], sum.p.y + o[1], sum.p.z + o[2])) : Place{At(past.x, x), At(past.y, x)};

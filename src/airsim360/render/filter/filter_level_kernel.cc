@@ -5,12 +5,6 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-// x_light = difference^2 / (2 (kSigmas sigma)^2).
-constexpr float kSigmas = 3.1f;
-// A pixel's own weight beside taps of 0.125 and 0.0625: below 0.25, so that four levels leave nothing of a
-// firefly.
-constexpr float kOwnWeight = 0.22f;
-
 KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step, int step_x, int in) {
   if (NoSurface(f, i)) return uids(0u).copy_to(f.data_id[1 - in] + i, stdx::element_aligned);
   FetchAhead(f, rows[2], x, {f.data_id[in], f.light[in][0], f.light[in][1], f.light[in][2]});
@@ -19,10 +13,10 @@ KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
   const mask_t known = SameId(own_id, c.id);
   const real3 base = At3(f.light[in], i);
   const real l = luminance(base), variance = At(f.variance, i);
-  const real sharpness = If(known, 1.0f / (variance * (16 * kSigmas * kSigmas) + 1e-20f));
+  const real sharpness = If(known, 1.0f / (variance * (16 * kFilterSigmas * kFilterSigmas) + kFilterTiny));
   // Means of more samples count for more; after the first level all are mixed.
   const bool by_samples = step == 1;
-  real weight = If(known, real(kOwnWeight) * (by_samples ? At(f.samples, i) : real(1.0f)));
+  real weight = If(known, real(kFilterOwn) * (by_samples ? At(f.samples, i) : real(1.0f)));
   real squares = weight * weight;
   real3 sum = make3(real(0.0f), real(0.0f), real(0.0f));
   ForNeighbours(
@@ -31,19 +25,19 @@ KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
         if (stdx::none_of(same)) return;
         const real3 light = At3(f.light[in], j);
         const real d = luminance(light) - l;
-        real w = If(same, Power8(Likeness(f, c, j) - d * d * sharpness) * (corner ? 0.0625f : 0.125f));
+        real w = If(same, Power8(Likeness(f, c, j) - d * d * sharpness) * (corner ? kFilterCorner : kFilterSide));
         if (by_samples) w = w * At(f.samples, j);
         sum = sum + (light - base) * w;
         weight = weight + w;
         squares = squares + w * w;
       });
-  const real inverse = 1.0f / rmax(weight, real(1e-10f));
+  const real inverse = 1.0f / rmax(weight, real(kFilterLeastWeight));
   const real3 mean = base + sum * inverse;
   Put(f.light[1 - in][0], i, mean.x);
   Put(f.light[1 - in][1], i, mean.y);
   Put(f.light[1 - in][2], i, mean.z);
   Put(f.variance, i, variance * rmin(squares * (inverse * inverse), real(1.0f)));
-  DataIds(weight > 1e-3f, c.id, own_id).copy_to(f.data_id[1 - in] + i, stdx::element_aligned);
+  DataIds(weight > kFilterFound, c.id, own_id).copy_to(f.data_id[1 - in] + i, stdx::element_aligned);
 }
 
 }  // namespace

@@ -5,15 +5,6 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-// A neighbourhood whose samples all agree has still an uncertain mean (rule of succession): variance of a
-// pixel of n samples, about l^2 / (9 n) / n, halved.
-constexpr float kAgreement = 0.5f / 9;
-// A harmonic mean of variances of nine values is too small by (9 - 1 - 2) / (9 - 1).
-constexpr float kHarmonicBias = 8.0f / 6.0f;
-// The noise is never taken for less than this part of the mean variance around: where light is rare (a sunlit wall at the end of a dark
-// street, windows by night) most windows met none and agree. With a 64th such pixels stayed as specks, and the rest as dark blotches.
-constexpr float kLeastShare = 1.0f / 14;
-
 KERNEL void GatherVector(const FilterPlanes& f, int64_t row, int x, int columns) {
   const int64_t i = row + x;
   if (NoSurface(f, i)) return;
@@ -31,8 +22,8 @@ KERNEL void GatherVector(const FilterPlanes& f, int64_t row, int x, int columns)
     sum = sum + (At3(f.light[0], j) - base) * w;
     weight = weight + w;
   }
-  const real3 mean = base + sum * (1.0f / rmax(weight, real(1e-20f)));
-  const mask_t found = weight > 1e-3f;
+  const real3 mean = base + sum * (1.0f / rmax(weight, real(kFilterTiny)));
+  const mask_t found = weight > kFilterFound;
   Put(f.light[1][0], i, mean.x);
   Put(f.light[1][1], i, mean.y);
   Put(f.light[1][2], i, mean.z);
@@ -88,12 +79,12 @@ KERNEL void WindowVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
         low = sel(same, rmin(low, m), low);
         high = sel(same, rmax(high, m), high);
       });
-  const mask_t enough = like.n > 2.5f;
-  const real variance = sel(enough, like.Variance(), sel(entity.n > 2.5f, entity.Variance(), real(-1.0f)));
-  const mask_t many = entity.n > 5.5f;
+  const mask_t enough = like.n > kFilterEnough;
+  const real variance = sel(enough, like.Variance(), sel(entity.n > kFilterEnough, entity.Variance(), real(-1.0f)));
+  const mask_t many = entity.n > kFilterMany;
   const real beyond = rmax(rmax(l - sel(many, second_high, high), sel(many, second_low, low) - l), real(0.0f));
   Put(f.window, i, variance);
-  Put(f.own, i, If(known && (entity.n > 3.5f), beyond * beyond));
+  Put(f.own, i, If(known && (entity.n > kFilterSome), beyond * beyond));
   Put(f.loose, i, clamp01((4.0f - alike) * 0.5f));
 }
 
@@ -102,7 +93,7 @@ KERNEL void VarianceVector(const FilterPlanes& f, const RowPlace (&rows)[3], int
   FetchAhead(f, rows[2], x, {f.id, f.window});
   const Center c = MakeCenter(f, i, At(f.loose, i), 3);
   const real l = luminance(At3(f.light[0], i)), n = rmax(At(f.samples, i), real(1.0f));
-  const real least = l * l * (kAgreement / (n * n)) + 1e-20f;
+  const real least = l * l * (kFilterAgreement / (n * n)) + kFilterTiny;
   real weight = real(0.0f), mean = real(0.0f), inverse = real(0.0f);
   const auto add = [&](real w, int64_t j) __attribute__((always_inline)) {
     const real v = At(f.window, j);
@@ -117,9 +108,9 @@ KERNEL void VarianceVector(const FilterPlanes& f, const RowPlace (&rows)[3], int
         const mask_t same = SameId(Ids(f.id, j), c.id);
         if (stdx::any_of(same)) add(If(same, Power8(Likeness(f, c, j))), j);
       });
-  const real typical = kHarmonicBias * weight / rmax(inverse, real(1e-30f));
-  const real noise = rmax(rmax(typical, mean * kLeastShare / rmax(weight, real(1e-20f))), least);
-  Put(f.variance, i, sel(weight > 1e-3f, rmax(noise, At(f.own, i)), real(1e20f)));
+  const real typical = kFilterHarmonicBias * weight / rmax(inverse, real(kFilterLeastInverse));
+  const real noise = rmax(rmax(typical, mean * kFilterLeastShare / rmax(weight, real(kFilterTiny))), least);
+  Put(f.variance, i, sel(weight > kFilterFound, rmax(noise, At(f.own, i)), real(kFilterUnknown)));
 }
 
 }  // namespace

@@ -14,11 +14,6 @@ namespace airsim360::internal::AIRSIM360_ISA {
 
 #define KERNEL static inline __attribute__((always_inline, unused))
 
-// x_normal = kNormal (1 - cos): a sixth is left at 16 degrees. Leaves only avoid opposite sides.
-constexpr float kNormal = 48, kLooseNormal = 1.5f;
-// How much thicker than a pixel's width a plane is where there are no like neighbours.
-constexpr float kLooseThickness = 16;
-
 using uids = stdx::rebind_simd_t<uint32_t, real>;
 
 KERNEL real At(const float* plane, int64_t i) { return real(plane + i, stdx::element_aligned); }
@@ -77,12 +72,12 @@ KERNEL Center MakeCenter(const FilterPlanes& f, int64_t i, real loose, float ste
   const real3 p = At3(f.p, i);
   c.g = At3(f.g, i);
   c.plane = dot3(c.g, p);
-  const real sharpness = lerp1(real(kLooseNormal / 8), real(kNormal / 8), (1.0f - loose) * (1.0f - loose));
+  const real sharpness = lerp1(real(kFilterLooseNormal / 8), real(kFilterNormal / 8), (1.0f - loose) * (1.0f - loose));
   c.normal = At3(f.n, i) * sharpness;
   c.base = 1.0f - sharpness;
   // Over the distance.
-  const real thickness = (1.0f + (kLooseThickness - 1.0f) * loose) * (f.cone_angle * (1.0f + f.plane_slope * step));
-  c.inverse_thickness = (1.0f / 16) / rmax(dot3(p, p) * (thickness * thickness), real(1e-12f));
+  const real thickness = (1.0f + (kFilterLoosePlane - 1.0f) * loose) * (f.cone_angle * (1.0f + f.plane_slope * step));
+  c.inverse_thickness = (1.0f / 16) / rmax(dot3(p, p) * (thickness * thickness), real(kFilterThinnest));
   return c;
 }
 

@@ -9,6 +9,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/image/color.h"
 #include "airsim360/render/frame/interruption.h"
+#include "airsim360/render/shared/shading_constants.h"
 
 namespace airsim360::internal {
 namespace {
@@ -91,7 +92,7 @@ class EdgeRun {
   // Weighted against what is far above the display's white.
   void AddLight(int pixel, Rgb32f c) {
     const float exposure = task_.shader->Exposure();
-    const float weight = 1 / (1 + exposure * (0.25f * c.r + 0.625f * c.g + 0.125f * c.b));
+    const float weight = 1 / (1 + exposure * (kEdgeRed * c.r + kEdgeGreen * c.g + kEdgeBlue * c.b));
     light_r_[pixel] += weight * c.r;
     light_g_[pixel] += weight * c.g;
     light_b_[pixel] += weight * c.b;

@@ -156,11 +156,10 @@ class AmbientTile {
 
   void AddLight(const Way& way, float leaf_share) {
     shader_.kernels.shade_ambient(shader_.view, sun_map_, way.packet, way.hits, r_, g_, b_);
-    constexpr float kYellow[3] = {1.10f, 1.15f, 0.55f};  // as in RespondTo (light_kernel.cc)
     for (int i = 0; i < 16 && any_leaf_; ++i) {
       if (!leaf_[i]) continue;
       Vec3f weight = Vec3f{1, 1, 1} * (way.sent[i] != 0 ? leaf_share : 0.0f);
-      if (way.behind) weight = weight * Vec3f{kYellow[0], kYellow[1], kYellow[2]} * s_.transmission[index_[i]];
+      if (way.behind) weight = weight * scalar::leaf_color() * s_.transmission[index_[i]];
       r_[i] *= weight.x, g_[i] *= weight.y, b_[i] *= weight.z;
     }
     if (shader_.indoor) SeeRooms(way);
@@ -205,8 +204,7 @@ void CountProbes(const Shader::Impl& shader, const RaySet& rays, const SurfaceSe
 
 void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling, const RaySet& rays,
                    const SurfaceSet& s, const LightTerms& terms, const IndoorLight* room, HighTile& tile) {
-  constexpr float kVisible = 1e-3f;  // radiance per irradiance that matters
-  constexpr float kKnown = 0.999f;   // share of surfels from which no ray is sent
+  constexpr float kKnown = 0.999f;  // share of surfels from which no ray is sent
   int16_t of_slot[256];
   std::fill(std::begin(of_slot), std::end(of_slot), int16_t{-1});
   for (int i = 0; i < rays.count; ++i) {
@@ -216,7 +214,7 @@ void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const 
     if (room != nullptr && room->share[i] > kKnown) {
       tile.light_r[slot] = room->r[i], tile.light_g[slot] = room->g[i], tile.light_b[slot] = room->b[i];
       tile.light_samples[slot] = kCertain;
-    } else if (terms.ambient_r[i] + terms.ambient_g[i] + terms.ambient_b[i] > kVisible) {
+    } else if (terms.ambient_r[i] + terms.ambient_g[i] + terms.ambient_b[i] > kVisibleTerm) {
       of_slot[slot] = static_cast<int16_t>(i);
     }
   }

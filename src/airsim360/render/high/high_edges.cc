@@ -8,12 +8,10 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
 #include "airsim360/render/frame/antialias.h"
+#include "airsim360/render/shared/shading_constants.h"
 
 namespace airsim360::internal {
 namespace {
-
-// Exposed luminance that a sample may have, nearly white: more would make pixels of a few samples sparkle.
-constexpr float kNearWhite = 3;
 
 float Luminance(Rgb32f c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
@@ -96,8 +94,9 @@ class EdgeTile {
         u = u < 0 ? u + width : u >= width ? u - width : u;
         if (buffers_.range(u, v) == 0) continue;
         const float cost = (buffers_.entity(u, v) == labels_.entity[i] ? 0.0f : 1.0f) + 1 - Dot(n, buffers_.normal(u, v)) +
-                           std::fabs(buffers_.range(u, v) - range) / (range + 1e-6f) + (buffers_.light_samples(u, v) == 0 ? 0.5f : 0.0f) +
-                           1e-3f * static_cast<float>(dx * dx + (v - cy) * (v - cy));
+                           std::fabs(buffers_.range(u, v) - range) / (range + kEdgeRange) +
+                           (buffers_.light_samples(u, v) == 0 ? 0.5f : 0.0f) +
+                           kEdgePlace * static_cast<float>(dx * dx + (v - cy) * (v - cy));
         if (cost < best_cost) best_cost = cost, best = int64_t{v} * width + u;
       }
     }
@@ -107,7 +106,6 @@ class EdgeTile {
   // Light of the pixels around; the sun too, where the surface is the same, for there it is known better than
   // by one ray.
   void Shade() {
-    constexpr float kSameSurface = 0.1f;
     Rgb32f around[HitBatch::kCapacity];
     int64_t pixel_of[HitBatch::kCapacity];
     alignas(64) float sun_known[HitBatch::kCapacity];
@@ -118,7 +116,7 @@ class EdgeTile {
       const int64_t pixel = pixel_of[i] = MostAlike(i, cost);
       if (pixel < 0) continue;
       around[i] = buffers_.light.pixels()[static_cast<size_t>(pixel)];
-      if (cost < kSameSurface) sun_known[i] = buffers_.Sun(pixel);
+      if (cost < kSameSurfaceCost) sun_known[i] = buffers_.Sun(pixel);
     }
     std::optional<GlossPixels> gloss;
     if (task_.gloss) gloss.emplace();

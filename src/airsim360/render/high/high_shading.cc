@@ -20,7 +20,7 @@ void ReflectionPoints(const RaySet& rays, const SurfaceSet& s, const TileSamplin
   for (int i = 0; i < rays.count; ++i) {
     const uint32_t slot = rays.slot[i];
     Vec2f point{};
-    if (s.roughness[i] < 0.5f || s.metallic[i] > 0.2f) {
+    if (s.roughness[i] < 0.5f || s.metallic[i] > kShinyMetal) {
       point = sampling != nullptr ? SobolPoint(16 * sampling->tile + sampling->layout->phase[slot], sampling->seed ^ 0x51ed270bu)
                                   : SobolPoint(0, rays.key[i]);
     }

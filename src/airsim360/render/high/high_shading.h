@@ -30,9 +30,6 @@ struct TileSampling {
   Vec3f pole = {};  ///< of a panorama: the axis, in W, about which its columns turn
 };
 
-/// HighTile::penumbra counts a pixel in so many steps.
-inline constexpr float kPenumbraSteps = 8;
-
 /// HighTile::light_samples of light that has no noise.
 inline constexpr uint8_t kCertain = 255;
 

@@ -7,12 +7,12 @@
 #include "airsim360/render/shading/sampling.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shading/shared_rays_kernel.h"
+#include "airsim360/render/shared/shading_constants.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr int kSide = 16;
-constexpr float kSunAngle = 0.0093f;  // width of the disc, radians (0.53 degrees)
 // Rays of a pixel where a shadow ends: always as many. Stopping where the first ones agree would make penumbrae narrower.
 constexpr int kSunSamples = 8;
 
@@ -35,7 +35,7 @@ struct SunGrid {
 bool SamePlane(const RaySet& rays, const SurfaceSet& s, int i, int k) {
   const float facing = s.gx[i] * s.gx[k] + s.gy[i] * s.gy[k] + s.gz[i] * s.gz[k];
   const float apart = s.gx[i] * (s.px[k] - s.px[i]) + s.gy[i] * (s.py[k] - s.py[i]) + s.gz[i] * (s.pz[k] - s.pz[i]);
-  return facing > 0.9f && std::fabs(apart) < 0.01f + 0.002f * rays.distance[i];
+  return facing > kSamePlane && std::fabs(apart) < kEdgeApart + kEdgeApartByRange * rays.distance[i];
 }
 
 SunFrame FrameOf(Vec3f to_sun) {
@@ -157,7 +157,7 @@ class SunTile {
   bool AtShadowEdge(int x, int y, const uint32_t* others) const {
     const int i = grid_.at[y * kSide + x];
     float aspect = 1;
-    if (sampling_.panorama) aspect = std::max(Norm(Cross(sampling_.pole, Vec3f{rays_.dx[i], rays_.dy[i], rays_.dz[i]})), 1e-4f);
+    if (sampling_.panorama) aspect = std::max(Norm(Cross(sampling_.pole, Vec3f{rays_.dx[i], rays_.dy[i], rays_.dz[i]})), kLeastAspect);
     const int columns = static_cast<int>(std::min(kSide - 1.0f, 2 / aspect + 0.5f));
     const int left = std::max(0, x - columns), right = std::min(kSide - 1, x + columns);
     const uint32_t window = (2u << right) - (1u << left);
@@ -199,7 +199,7 @@ class SunTile {
   uint8_t PenumbraCode(int i, int blocked, float away) const {
     if (blocked == 0) return 1;
     const float width = kSunAngle * away / static_cast<float>(blocked);
-    const float pixels = width / std::max(1e-6f, rays_.distance[i] * sampling_.cone_angle);
+    const float pixels = width / std::max(kLeastPixel, rays_.distance[i] * sampling_.cone_angle);
     return static_cast<uint8_t>(std::min(255.0f, 2 + pixels * kPenumbraSteps));
   }
 

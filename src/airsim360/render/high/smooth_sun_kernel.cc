@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "airsim360/render/high/high_shading.h"
+#include "airsim360/render/shared/shading_constants.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
@@ -12,9 +13,6 @@ namespace {
 typedef float Floats16 __attribute__((vector_size(64), aligned(4), may_alias));
 typedef int32_t Ints16 __attribute__((vector_size(64), aligned(4), may_alias));
 
-// How far light is mixed (a normal distribution's deviation, in pixels), by a penumbra's width: where the sum of
-// blur and of the noise left of eight rays is least, in shadows of leaves 3 to 8 pixels wide.
-constexpr float kOfPenumbra = 0.13f, kLeastSpread = 0.45f, kMostSpread = 2.5f;
 constexpr int kMostColumns = 40, kMostRows = 5;
 constexpr int kWindowRows = kTileSize + 2 * kMostRows, kStride = kTileSize + 2 * kMostColumns + 16;
 constexpr int32_t kOutside = -1;  // no entity
@@ -117,14 +115,14 @@ struct Middle {
 // for pixels of about the same plane, at most so many rows and columns away; on[i] != 0: column i of these counts.
 template <class Visit>
 AIRSIM360_INLINE void ForAlike(const Window& w, const Middle& m, int rows, int columns, const int32_t* on, const Visit& visit) {
-  const float near = 0.02f + 0.01f * m.range;
+  const float near = kMixedApart + kMixedApartByRange * m.range;
   for (int r = Most(0, m.r - rows); r <= Least(w.rows - 1, m.r + rows); ++r) {
     for (int k = 0; k <= 2 * columns; k += 16) {
       const int c = m.c - columns + k;
       const Floats16 facing = m.nx * At(w.nx[r] + c) + m.ny * At(w.ny[r] + c) + m.nz * At(w.nz[r] + c);
       const Floats16 dx = At(w.x[r] + c) - m.x, dy = At(w.y[r] + c) - m.y, dz = At(w.z[r] + c) - m.z;
       const Floats16 apart = m.nx * dx + m.ny * dy + m.nz * dz;
-      const Ints16 alike = (At(w.entity[r] + c) == m.entity) & (facing >= 0.9f) & (apart < near) & (apart > -near) & At(on + k);
+      const Ints16 alike = (At(w.entity[r] + c) == m.entity) & (facing >= kSamePlane) & (apart < near) & (apart > -near) & At(on + k);
       visit(r, c, alike, dx * dx + dy * dy + dz * dz);
     }
   }

@@ -7,12 +7,8 @@ namespace {
 
 #define KERNEL static inline __attribute__((always_inline, unused))
 
-constexpr int kSlots = 16;           // lamps of a cell, one spare
-constexpr float kFoliage = 1;        // SurfaceKind
-constexpr float kMatt = 0.6f;        // rougher surfaces show no highlight of a lamp
-constexpr float kBrightest = 400;    // as for the sun's glint
-constexpr float kUnseen = 0.15f;     // rank of a lamp that no corner of the cell sees, against one that all see
-constexpr float kTooLittle = 0.01f;  // of all light: not worth a ray
+constexpr int kSlots = 16;     // lamps of a cell, one spare
+constexpr float kFoliage = 1;  // SurfaceKind
 static_assert(kSlots % kLanes == 0 && LampCell::kLamps < kSlots);
 
 /// The lamps of one cell as lanes. Unused slots send nothing.
@@ -68,7 +64,7 @@ KERNEL void CornerWeights(uint32_t header, const Place& at, float* weight) {
   float sum = 0;
   for (int k = 0; k < 8; ++k) {
     const float w = (k & 1 ? at.fx : 1 - at.fx) * (k & 2 ? at.fy : 1 - at.fy) * (k & 4 ? at.fz : 1 - at.fz);
-    weight[k] = (header >> (8 + k) & 1) != 0 ? w + 1e-4f : 0;
+    weight[k] = (header >> (8 + k) & 1) != 0 ? w + kCornerWeight : 0;
     sum += weight[k];
   }
   const float scale = sum > 0 ? 1 / sum : 0;
@@ -89,14 +85,14 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
   const real3 p = Same(s.px[i], s.py[i], s.pz[i]), n = Same(s.nx[i], s.ny[i], s.nz[i]);
   const real3 g = Same(s.gx[i], s.gy[i], s.gz[i]), d = Same(rays.dx[i], rays.dy[i], rays.dz[i]);
   const bool leaf = e.leaf = s.kind[i] == kFoliage;
-  const bool shiny = e.shiny = s.mirror[i] == 0 && !leaf && (s.roughness[i] < kMatt || s.metallic[i] > 0.2f);
+  const bool shiny = e.shiny = s.mirror[i] == 0 && !leaf && (s.roughness[i] < kLampMatt || s.metallic[i] > kShinyMetal);
   const real metallic = real(s.metallic[i]), zero = real(0.0f);
-  const real3 f0 = lerp3(Same(0.04f, 0.04f, 0.04f), Same(s.ar[i], s.ag[i], s.ab[i]), metallic);
-  const real n_dot_v = rmax(zero - dot3(n, d), real(0.02f));
+  const real3 f0 = lamp_skin(Same(s.ar[i], s.ag[i], s.ab[i]), metallic);
+  const real n_dot_v = rmax(zero - dot3(n, d), real(kViewCosine));
   for (int k = 0; k < kSlots && k < c.count; k += kLanes) {
     // Direction and what comes along it.
     const real3 to = load3(c.x + k, c.y + k, c.z + k) - p;
-    const real distance = rroot(rmax(dot3(to, to), real(1e-8f)));
+    const real distance = lamp_distance(to);
     const real3 w = to * (1.0f / distance);
     const real radius = load(c.radius + k);
     const real towards = zero - dot3(load3(c.fx + k, c.fy + k, c.fz + k), w);
@@ -120,12 +116,10 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
     }
     if (shiny) {
       const real3 h = normalize3(w - d);
-      // A lamp is not a point: its size widens the highlight (Karis 2013).
       const real own = real(s.roughness[i] * s.roughness[i]);
-      const real alpha = rmin(rmax(own, real(0.006f)) + 0.5f * radius / distance, real(1.0f));
-      const real3 f = specular_brdf(f0, alpha, rmax(n_dot_l, real(1e-3f)), n_dot_v, rmax(dot3(n, h), zero), clamp01(dot3(w, h)));
+      const real3 f = lamp_highlight(f0, own, radius, distance, n_dot_l, n_dot_v, rmax(dot3(n, h), zero), clamp01(dot3(w, h)));
       const real3 all = f * front;
-      const real3 shine = make3(rmin(all.x, real(kBrightest)), rmin(all.y, real(kBrightest)), rmin(all.z, real(kBrightest)));
+      const real3 shine = make3(rmin(all.x, real(kBrightestGlint)), rmin(all.y, real(kBrightestGlint)), rmin(all.z, real(kBrightestGlint)));
       brought = brought + luminance(shine);
       store3(e.shine[0] + k, e.shine[1] + k, e.shine[2] + k, shine);
     }
@@ -135,9 +129,9 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
     real guess = zero;
     for (int corner = 0; corner < 8; ++corner) guess = guess + to_real((seen >> corner) & 1) * weight[corner];
     store3(e.dx + k, e.dy + k, e.dz + k, w);
-    store(e.distance + k, distance - radius * 1.02f);
+    store(e.distance + k, distance - radius * kLampEnd);
     store(e.guess + k, guess);
-    store(e.rank + k, brought * (kUnseen + (1.0f - kUnseen) * guess));
+    store(e.rank + k, brought * (kUnseenLamp + (1.0f - kUnseenLamp) * guess));
   }
 }
 
@@ -148,7 +142,7 @@ KERNEL void Soften(uint32_t key, float radius, LampRays::Ray& ray) {
   key ^= key >> 16;
   const float z = 2 * static_cast<float>(key & 0xffff) * (1.0f / 65536) - 1;
   const float turn = static_cast<float>(key >> 16) * (1.0f / 65536);
-  const float whole = ray.distance + radius * 1.02f;
+  const float whole = ray.distance + radius * kLampEnd;
   // A point of the square around the circle is near enough: sine and cosine would cost more than they give.
   const float a = 4 * turn, side = __builtin_sqrtf(1 - z * z);
   const float c = a < 1 ? 1 - 2 * a : a < 2 ? -1 : a < 3 ? 2 * a - 5 : 1;
@@ -168,7 +162,7 @@ KERNEL void ChooseRays(const CellLanes& c, Effects& e, float total, int count, b
   for (int k = 0; k <= count; ++k) {
     int best = -1;
     for (int j = 0; j < c.count; ++j) {
-      if (e.rank[j] > kTooLittle * total && (best < 0 || e.rank[j] > e.rank[best])) best = j;
+      if (e.rank[j] > kFaintLamp * total && (best < 0 || e.rank[j] > e.rank[best])) best = j;
     }
     chosen[k] = best;
     rank[k] = best < 0 ? 0 : e.rank[best];

@@ -7,20 +7,19 @@
 #include <numeric>
 
 #include "airsim360/math/angles.h"
+#include "airsim360/render/shared/shading_constants.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr int kBins = 12;
-// Light just below the horizon still counts a little, so that rounding never hides a lamp that can be seen.
-constexpr float kAngleMargin = 0.01f, kLeastCosine = 0.005f;
 
 float AngleBetween(Vec3f a, Vec3f b) { return std::acos(std::clamp(Dot(a, b), -1.0f, 1.0f)); }
 
 // Cosine of an angle after a cone has been taken off it; 0 beyond a right angle.
 float CosineWithin(float angle, float cone) {
   const float left = std::max(0.0f, angle - cone);
-  return left > kPiF / 2 + kAngleMargin ? 0 : std::max(std::cos(left), kLeastCosine);
+  return left > kPiF / 2 + kLampMargin ? 0 : std::max(std::cos(left), kLampLeastCosine);
 }
 
 // Rotates `a` by `angle` towards `b`.
@@ -73,7 +72,7 @@ LightBounds LightBounds::Join(const LightBounds& other) const {
 float LightBounds::Importance(Vec3f p, Vec3f normal) const {
   const Vec3f to = box.center() - p;
   const float radius2 = 0.25f * Dot(box.size(), box.size()), distance2 = Dot(to, to);
-  const float clamped2 = std::max(std::max(distance2, radius2), 1e-12f);
+  const float clamped2 = std::max(std::max(distance2, radius2), kLampDistance2);
   // Inside the sphere about the box light may come from anywhere.
   if (distance2 <= radius2) return power / clamped2;
   const Vec3f w = to / std::sqrt(distance2);
@@ -174,7 +173,7 @@ float CosineOutside(float cosine, float cone_cosine, float cone_sine, bool whole
   if (whole || cosine >= cone_cosine) return 1;
   const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
   const float left = cosine * cone_cosine + sine * cone_sine;
-  return left < -kAngleMargin ? 0 : std::max(left, kLeastCosine);
+  return left < -kLampMargin ? 0 : std::max(left, kLampLeastCosine);
 }
 
 }  // namespace
@@ -183,7 +182,7 @@ float LightTree::Reach(uint32_t node, Vec3f p, Vec3f normal) const {
   const LightBounds& bounds = nodes_[node].bounds;
   const Vec3f to = bounds.box.center() - p;
   const float radius2 = 0.25f * Dot(bounds.box.size(), bounds.box.size()), distance2 = Dot(to, to);
-  const float clamped2 = std::max(std::max(distance2, radius2), 1e-12f);
+  const float clamped2 = std::max(std::max(distance2, radius2), kLampDistance2);
   if (distance2 <= radius2) return bounds.power / clamped2;
   const Vec3f w = to / std::sqrt(distance2);
   const float sine2 = radius2 / distance2, sine = std::sqrt(sine2), cosine = std::sqrt(1 - sine2);  // of half of what it subtends

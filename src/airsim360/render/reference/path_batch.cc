@@ -7,6 +7,7 @@
 #include "airsim360/render/reference/path_rays.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shared/roofs_scalar.h"
+#include "airsim360/render/shared/shading_constants.h"
 #include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
@@ -16,10 +17,6 @@ namespace {
 // lamp (two pairs).
 constexpr uint32_t kPairsPerStep = 6, kFirstPair = 1;
 constexpr int kFirstRoulette = 3;
-// Rays of a lobe see textures through a cone a quarter as wide as the circle that holds its density.
-constexpr float kLobeWidth = 0.25f, kWidestSpread = 0.2f;
-// In a closed room the light of a mirror is what is seen in it.
-constexpr float kMirrorPdf = 50;
 
 // The normal that lamps are chosen for: leaves take light from both sides.
 Vec3f LampNormal(const SurfaceSet& s, int i) {
@@ -112,7 +109,7 @@ void PathBatch::Arrive(RaySet& hits, uint32_t step) {
     }
     path.radiance += path.throughput * Vec3f{s.er[i], s.eg[i], s.eb[i]} * EmissionWeight(path, i);
     const bool lit_by_room = path.bounces > 0 && path.pdf < kMirrorPdf && Luminance(scene_.room_light) > 0;
-    if (lit_by_room) path.radiance += path.throughput * scene_.room_light * (0.35f + 0.65f * t * t / (t * t + 0.5f));
+    if (lit_by_room) path.radiance += path.throughput * scene_.room_light * (kRoomNear + kRoomFar * t * t / (t * t + 0.5f));
     if (lit_by_room) path.throughput = {};
     // After its last bounce a path may still pass clear panes.
     any |= Luminance(path.throughput) > 0 && (path.bounces < max_bounces_ || scene_.clear_panes);
@@ -192,7 +189,7 @@ void PathBatch::JoinLights(bool of_sky) {
     shadow.slot[k] = at_.slot[i];
     shadow_.light[k] = light;
     // Not to the lamp itself, which rounding may put before the point chosen on it.
-    shadow_.reach[k] = lights_[i].reach * (1 - 1e-4f) - 2 * OffsetOf(at_, surfaces_, i);
+    shadow_.reach[k] = lights_[i].reach * kShadowReach - 2 * OffsetOf(at_, surfaces_, i);
   }
   if (shadow.count == 0) return;
   if (scene_.clear_panes) {
@@ -229,7 +226,7 @@ void PathBatch::Scatter(uint32_t step) {
   for (int i = 0; i < at_.count; ++i) {
     Path& path = paths_[at_.slot[i]];
     path.throughput = path.throughput * Vec3f{scatter_.r[i], scatter_.g[i], scatter_.b[i]};
-    const bool straight = scatter_.event[i] > 1.5f;
+    const bool straight = scatter_.event[i] > kStraightEvent;
     if (scatter_.event[i] == 0 || !(Luminance(path.throughput) > 0)) continue;
     if (path.bounces >= max_bounces_ && !straight) continue;
     const Vec3f d{scatter_.x[i], scatter_.y[i], scatter_.z[i]};
@@ -241,11 +238,11 @@ void PathBatch::Scatter(uint32_t step) {
       path.pdf = scatter_.pdf[i];
       path.from = {surfaces_.px[i], surfaces_.py[i], surfaces_.pz[i]};
       path.from_normal = LampNormal(surfaces_, i);
-      path.spread = std::clamp(kLobeWidth / std::sqrt(kPiF * path.pdf), path.spread, kWidestSpread);
+      path.spread = std::clamp(kPathLobe / std::sqrt(kPiF * path.pdf), path.spread, kPathWidest);
       ++path.bounces;
     }
     if (path.bounces >= kFirstRoulette) {
-      const float survival = std::min(0.95f, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
+      const float survival = std::min(kMostSurvival, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
       if (rest[i].y >= survival) continue;
       path.throughput = path.throughput * (1 / survival);
     }

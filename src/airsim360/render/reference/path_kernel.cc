@@ -21,7 +21,7 @@ KERNEL Lit Load(const RaySet& rays, const SurfaceSet& s, int i) {
   a.v = -load3(rays.dx + i, rays.dy + i, rays.dz + i);
   a.bsdf = bsdf_make(load(s.kind + i), load3(s.ar + i, s.ag + i, s.ab + i), load(s.metallic + i), load(s.roughness + i),
                      load(s.transmission + i), load(s.coat + i), load(s.coat_roughness + i));
-  a.seen = bsdf_side(a.bsdf, rmin(rmax(dot3(a.n, a.v), real(0.02f)), real(1.0f)));
+  a.seen = bsdf_side(a.bsdf, rmin(rmax(dot3(a.n, a.v), real(kViewCosine)), real(1.0f)));
   a.lobes = bsdf_lobes(a.bsdf, a.seen);
   return a;
 }
@@ -51,11 +51,11 @@ void SampleScatter(const RaySet& rays, const SurfaceSet& surfaces, const Scatter
     real event = real(0.0f), pdf = real(0.0f);
     const real3 l = bsdf_sample(a.bsdf, a.lobes, a.n, a.v, load(numbers.choice + i), load(numbers.u + i), load(numbers.w + i), event);
     const real3 f = bsdf_evaluate(a.bsdf, a.seen, a.lobes, a.n, a.v, l, pdf);
-    real3 weight = OnOneSide(a, l, f) * (1.0f / rmax(pdf, real(1e-20f)));
-    const mask_t straight = event > 1.5f;
-    weight = sel3(straight, bsdf_straight(a.bsdf, a.seen) * (1.0f / rmax(a.lobes.straight, real(1e-6f))), weight);
+    real3 weight = OnOneSide(a, l, f) * (1.0f / rmax(pdf, real(kDividedPdf)));
+    const mask_t straight = event > kStraightEvent;
+    weight = sel3(straight, bsdf_straight(a.bsdf, a.seen) * (1.0f / rmax(a.lobes.straight, real(kDividedShare))), weight);
     const real kept = weight.x + weight.y + weight.z;
-    event = sel((kept > 0.0f) && (straight || (pdf > 1e-12f)), event, real(0.0f));
+    event = sel((kept > 0.0f) && (straight || (pdf > kLeastPdf)), event, real(0.0f));
     store3(scatter.x + i, scatter.y + i, scatter.z + i, l);
     store3(scatter.r + i, scatter.g + i, scatter.b + i, weight);
     store(scatter.pdf + i, pdf);

@@ -15,7 +15,7 @@ PathLights::PathLights(const Shader::Impl& parts) : sky_(parts.sky ? &*parts.sky
   sun_radiance_ = sky_->sun_radiance();
   // As in surface_kernel.cc, a sun just below the horizon shines, a lower one does not.
   has_sun_ = to_sun_.z > -0.02f && sun_radiance_.y > 0;
-  const Vec3f reference = std::fabs(to_sun_.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0};
+  const Vec3f reference = std::fabs(to_sun_.z) < kUpright ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0};
   sun_right_ = Normalized(Cross(reference, to_sun_));
   sun_up_ = Cross(to_sun_, sun_right_);
 }
@@ -38,7 +38,7 @@ Vec3f PathLights::SunRadiance(Vec3f p, Vec3f d) const {
   const Vec3f off = d - to_sun_;
   const float x2 = Dot(off, off) / (SUN_RADIUS * SUN_RADIUS);
   if (!has_sun_ || x2 >= 1) return {};
-  return sun_radiance_ * (1.25f * (0.4f + 0.6f * std::sqrt(1 - x2)) * sky_->CloudShadow(p));
+  return sun_radiance_ * (SUN_LIMB_GAIN * scalar::sun_limb(x2) * sky_->CloudShadow(p));
 }
 
 LightRay PathLights::SampleSky(Vec2f u) const {
@@ -62,14 +62,14 @@ LightRay PathLights::SampleLamp(Vec3f p, Vec3f normal, Vec3f u) const {
   const LightSample sample = lamps_.Sample(p, normal, u);
   const Vec3f way = sample.p - p;
   const float distance = Norm(way);
-  const Vec3f d = way * (1 / std::max(distance, 1e-6f));
+  const Vec3f d = way * (1 / std::max(distance, kLampDistance));
   const float cosine = -Dot(sample.normal, d);
-  if (!(sample.pdf > 0) || cosine < 1e-5f) return {{0, 0, 1}, {}, 0, 0};
+  if (!(sample.pdf > 0) || cosine < kLampGrazing) return {{0, 0, 1}, {}, 0, 0};
   return {d, sample.radiance, sample.pdf * distance * distance / cosine, distance};
 }
 
 float PathLights::LampPdf(Vec3f p, Vec3f normal, uint32_t instance, uint32_t triangle, float distance, float cos_lamp) const {
-  return lamps_.Pdf(p, normal, instance, triangle) * distance * distance / std::max(cos_lamp, 1e-5f);
+  return lamps_.Pdf(p, normal, instance, triangle) * distance * distance / std::max(cos_lamp, kLampGrazing);
 }
 
 }  // namespace airsim360::internal

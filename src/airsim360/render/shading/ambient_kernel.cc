@@ -5,8 +5,6 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-constexpr float kVisibleSkin = 0.08f;  // reflectance from which a blurred reflection deserves a ray
-
 /// What sixteen rays met.
 struct alignas(64) Met {
   alignas(64) int32_t normal[16];
@@ -59,7 +57,7 @@ KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
     const real rows[9] = {m0.x, m0.y, m0.z, m0.w, m1.x, m1.y, m1.z, m1.w, m2.x};
     for (int k = 0; k < 9; ++k) store(met.m[k] + first, rows[k]);
     const real tint[3] = {m2.y, m2.z, m2.w};
-    for (int k = 0; k < 3; ++k) store(met.albedo[k] + first, rmin(load(mean[k]) * tint[k], real(0.9f)));
+    for (int k = 0; k < 3; ++k) store(met.albedo[k] + first, rmin(load(mean[k]) * tint[k], real(kMostBounced)));
     const real4 b = quad(material, 2);  // transmission, …, kind
     store(met.foliage + first, sel(b.w == BSDF_FOLIAGE, real(1.0f), real(0.0f)));
     store(met.leaf + first, sel(b.w == BSDF_FOLIAGE, b.x, real(0.0f)));
@@ -68,8 +66,7 @@ KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
 
 KERNEL real3 MetNormal(const Met& met, int i) {
   const ireal p(met.normal + i, stdx::vector_aligned);
-  constexpr float scale = 2.0f / 65534.0f;
-  const real3 a = octahedral_decode(to_real(p & 0xffff) * scale - 1.0f, to_real((p >> 16) & 0xffff) * scale - 1.0f);
+  const real3 a = octahedral_decode(to_real(p & 0xffff) * kDirectionStep - 1.0f, to_real((p >> 16) & 0xffff) * kDirectionStep - 1.0f);
   const auto row = [&](int k) __attribute__((always_inline)) {
     return load(met.m[k] + i) * a.x + load(met.m[k + 1] + i) * a.y + load(met.m[k + 2] + i) * a.z;
   };
@@ -93,13 +90,13 @@ KERNEL real3 NearProbe(const ShadeView& view, mask_t wanted, real3 p, real3 n) {
   const ProbeView& grid = view.probes;
   if (grid.probes == nullptr) return UniformAmbient(view, n, n).front;
   const ProbePlace place = FindProbes(grid, p, n);
-  const auto bits = [](real x) __attribute__((always_inline)) { return stdx::static_simd_cast<ureal>(to_int(rfloor(x * 1024.0f))); };
+  const auto bits = [](real x) __attribute__((always_inline)) { return stdx::static_simd_cast<ureal>(to_int(rfloor(x * kProbeGrains))); };
   ureal hash = bits(p.x) * 0x9e3779b1u ^ bits(p.y) * 0x85ebca77u ^ bits(p.z) * 0xc2b2ae3du;
   hash = (hash ^ (hash >> 16)) * 0x7feb352du;
   hash = (hash ^ (hash >> 15)) * 0x846ca68bu;
   hash = hash ^ (hash >> 16);
   const auto step = [&](real f, int shift, int32_t stride) __attribute__((always_inline)) {
-    const real u = to_real(stdx::static_simd_cast<ireal>((hash >> shift) & 0x3ffu)) * (1.0f / 1024);
+    const real u = to_real(stdx::static_simd_cast<ireal>((hash >> shift) & 0x3ffu)) * kTenBits;
     return to_int(sel(u < f, real(static_cast<float>(stride * 16)), real(0.0f)));
   };
   alignas(64) int32_t chosen[kLanes];
@@ -130,7 +127,7 @@ KERNEL real3 Bounced(const ShadeView& view, const SunMapView& map, const Ambient
   if (view.mean_ambient[0] + view.mean_ambient[1] + view.mean_ambient[2] > 0.0f) {
     // Closed rooms that glow do so less where something is near: the model that their probes use.
     const real t2 = distance * distance;
-    return glow * (0.35f + 0.65f * t2 / (t2 + 0.5f)) + emission;
+    return glow * (kRoomNear + kRoomFar * t2 / (t2 + 0.5f)) + emission;
   }
   const real3 n = outward * sel(back, real(-1.0f), real(1.0f));
   const mask_t foliage = load(met.foliage + i) > 0.5f;
@@ -166,12 +163,7 @@ void AmbientRays(const AmbientOrigins& at, const float* side, const float* spher
     const real3 p = load3(at.px + i, at.py + i, at.pz + i);
     const real3 n = load3(at.nx + i, at.ny + i, at.nz + i) * flip;
     const real3 g = load3(at.gx + i, at.gy + i, at.gz + i) * flip;
-    real3 d = n + w;
-    const real length2 = dot3(d, d);
-    d = sel3(length2 > 1e-6f, d * (1.0f / rroot(rmax(length2, real(1e-6f)))), n);
-    // A direction under the surface itself, where the normal is bent, is mirrored up.
-    const real below = dot3(d, g);
-    d = sel3(below < 0.01f, normalize3(d + g * (0.02f - 2.0f * below)), d);
+    const real3 d = leave_above(cosine_direction(n + w, n), g);
     const real lift = ray_offset(p, load(at.distance + i));
     store3(out.origin_x + i, out.origin_y + i, out.origin_z + i, p + g * lift);
     store3(out.direction_x + i, out.direction_y + i, out.direction_z + i, d);
@@ -203,21 +195,19 @@ void ScatterReflections(const RaySet& rays, const float* u, const float* v, Surf
     const real roughness = load(s.roughness + i), metallic = load(s.metallic + i), kind = load(s.kind + i);
     const real coat = load(s.coat + i);
     const mask_t untraced = !(load(s.mirror + i) > 0.5f) && (kind < 0.5f);
-    const mask_t coated = untraced && (coat > 0.05f);
-    const mask_t rough = untraced && !coated && (roughness < 0.25f);
+    const mask_t coated = untraced && (coat > kThinCoat);
+    const mask_t rough = untraced && !coated && (roughness < kScattered);
     if (!stdx::any_of(coated || rough)) continue;
     const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
     const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), g = load3(s.gx + i, s.gy + i, s.gz + i);
     const Bsdf bsdf =
         bsdf_make(kind, load3(s.ar + i, s.ag + i, s.ab + i), metallic, roughness, real(0.0f), coat, load(s.coat_roughness + i));
-    const real n_dot_v = rmax(real(0.0f) - dot3(n, d), real(0.02f));
+    const real n_dot_v = rmax(real(0.0f) - dot3(n, d), real(kViewCosine));
     const mask_t visible = luminance(bsdf_reflected(bsdf_side(bsdf, n_dot_v))) > kVisibleSkin;
     // A facet of the skin as the viewer sees it; a coat is taken as smooth.
     const BsdfLobes skin_alone{real(0.0f), real(1.0f), real(0.0f), real(0.0f), real(0.0f)};
     real event = real(0.0f);
-    real3 r = bsdf_sample(bsdf, skin_alone, n, -d, real(0.5f), load(u + i), load(v + i), event);
-    const real below = dot3(r, g);
-    r = sel3(below < 0.01f, normalize3(r + g * (0.02f - 2.0f * below)), r);
+    const real3 r = leave_above(bsdf_sample(bsdf, skin_alone, n, -d, real(0.5f), load(u + i), load(v + i), event), g);
     const mask_t turned = rough && visible;
     store3(s.rx + i, s.ry + i, s.rz + i, sel3(turned, r, load3(s.rx + i, s.ry + i, s.rz + i)));
     store(s.mirror + i, sel(turned || (coated && visible), real(1.0f), load(s.mirror + i)));

@@ -9,8 +9,6 @@ namespace {
 
 constexpr float kFoliage = BSDF_FOLIAGE;
 constexpr int kAgx = 1, kLinear = 2;  // ToneCurve
-constexpr float kBrightest = 400;     // radiance of a sun glint that still averages well over few samples
-constexpr float kSunAlpha = 0.006f;   // about the sine of the sun's diameter of 0.53 degrees, less its limb
 
 KERNEL real3 Grey(float v) { return make3(real(v), real(v), real(v)); }
 
@@ -19,12 +17,12 @@ KERNEL real3 Reflection(const ShadeView& view, const SurfaceSet& s, int i, real3
   const real roughness = load(s.roughness + i);
   const real3 rough = around * real(SHADE_INV_PI);
   const mask_t traced = load(s.traced + i) > 0.5f;
-  const mask_t shiny = ((roughness < 0.5f) || (load(s.metallic + i) > 0.2f)) && !traced;
+  const mask_t shiny = ((roughness < 0.5f) || (load(s.metallic + i) > kShinyMetal)) && !traced;
   real3 light = rough;
   if (view.has_sky > 0.5f && stdx::any_of(shiny)) {
     // Share of the open sky and ground that reaches this place about that direction.
     const real open = luminance(UniformAmbient(view, r, r).front);
-    const real share = rmin(luminance(around) / rmax(open, real(1e-4f)), real(1.0f));
+    const real share = open_share(luminance(around), open);
     light = sel3(shiny, BlurredSky(view, r, roughness) * share, light);
   }
   return sel3(traced, load3(s.reflected_r + i, s.reflected_g + i, s.reflected_b + i), light);
@@ -72,7 +70,7 @@ KERNEL Response RespondTo(const ShadeView& view, const SurfaceSet& s, int i, rea
   const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), l = load3(s.lx + i, s.ly + i, s.lz + i);
   MakeBsdf(s, i, last);
   const Bsdf& bsdf = last.bsdf;
-  const BsdfSide seen = bsdf_side(bsdf, rmax(real(0.0f) - dot3(n, d), real(0.02f)));
+  const BsdfSide seen = bsdf_side(bsdf, rmax(real(0.0f) - dot3(n, d), real(kViewCosine)));
   const real3 through = bsdf_entering(seen);
 
   Response out;
@@ -86,9 +84,9 @@ KERNEL Response RespondTo(const ShadeView& view, const SurfaceSet& s, int i, rea
   if (!sun) return out;
   // The sun as a point, so lobes narrower than its disc take the disc's width.
   real pdf = real(0.0f);
-  const real3 shine = bsdf_evaluate(bsdf_widen(bsdf, real(kSunAlpha)), seen, bsdf_lobes(bsdf, seen), n, -d, l, pdf) *
+  const real3 shine = bsdf_evaluate(bsdf_widen(bsdf, real(SHADE_SUN_ALPHA)), seen, bsdf_lobes(bsdf, seen), n, -d, l, pdf) *
                       Uniform(view.sun_irradiance) * CloudShadow(view.cloud_shadow, load3(s.px + i, s.py + i, s.pz + i));
-  out.sun = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)), rmin(shine.z, real(kBrightest)));
+  out.sun = make3(rmin(shine.x, real(kBrightestGlint)), rmin(shine.y, real(kBrightestGlint)), rmin(shine.z, real(kBrightestGlint)));
   return out;
 }
 
@@ -164,7 +162,7 @@ KERNEL void TermsVector(const ShadeView& view, const RaySet& rays, const Surface
   const Response surface = RespondTo(view, s, i, d, view.has_sky > 0.5f, last);
   // The traced ray is what the coat mirrors where there is one, else what the skin does. What no ray was sent
   // for mirrors the same light that the body gets.
-  const mask_t traced = load(s.traced + i) > 0.5f, coated = load(s.coat + i) > 0.05f;
+  const mask_t traced = load(s.traced + i) > 0.5f, coated = load(s.coat + i) > kThinCoat;
   const real3 sharp = sel3(traced, sel3(coated, surface.coat, surface.skin), Grey(0));
   const real3 reflected = sel3(traced, load3(s.reflected_r + i, s.reflected_g + i, s.reflected_b + i) * sharp, Grey(0));
   real3 ambient = (surface.body + surface.skin - sharp) * real(SHADE_INV_PI);
@@ -182,8 +180,7 @@ KERNEL void TermsVector(const ShadeView& view, const RaySet& rays, const Surface
   store3(out.rest_r + i, out.rest_g + i, out.rest_b + i, rest);
 }
 
-/// The sun's disc of 0.53 degrees, darker towards its limb: 1 - 0.6 (1 - mu) (Hestroffer & Magnan 1998,
-/// mid-visible). By night the moon's, as wide, with its face and phase.
+/// The sun's disc; by night the moon's, as wide, with its face and phase.
 KERNEL real3 SunDisc(const ShadeView& view, real3 d) {
   const real3 off = d - make3(real(view.to_sun[0]), real(view.to_sun[1]), real(view.to_sun[2]));
   const real x2 = dot3(off, off) * (1.0f / (SUN_RADIUS * SUN_RADIUS));
@@ -193,8 +190,7 @@ KERNEL real3 SunDisc(const ShadeView& view, real3 d) {
     const real3 centre = make3(real(view.to_sun[0]), real(view.to_sun[1]), real(view.to_sun[2]));
     return Uniform(view.sun_radiance) * (moon_face(off * real(1.0f / SUN_RADIUS), centre, light) * (view.moon_gain * view.sun_seen));
   }
-  const real limb = 0.4f + 0.6f * rroot(rmax(1.0f - x2, real(0.0f)));
-  return Uniform(view.sun_radiance) * sel(x2 < 1.0f, limb * (1.25f * view.sun_seen), real(0.0f));
+  return Uniform(view.sun_radiance) * sel(x2 < 1.0f, sun_limb(x2) * (SUN_LIMB_GAIN * view.sun_seen), real(0.0f));
 }
 
 /// The low three bytes of every lane, one after another.
@@ -255,7 +251,7 @@ void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSe
       c = TakeSky(view.sky, places[i / kLanes]);
       if (stdx::any_of(down)) {
         // Far ground in haze, or the lower half of a picture.
-        const real distance = rmax(z - view.ground_z, real(2.0f)) / rmax(0.0f - d.z, real(1e-4f));
+        const real distance = ground_distance(z - view.ground_z, d.z);
         real3 below = Grey(0);
         if (view.sky_below.texels) {
           below = SampleSky(view.sky_below, up, false);

@@ -8,6 +8,7 @@
 #include "airsim360/render/lights/clear_panes.h"
 #include "airsim360/render/lights/lamp_grid.h"
 #include "airsim360/render/shading/light_probes.h"
+#include "airsim360/render/shared/shading_constants.h"
 
 namespace airsim360::internal {
 namespace {
@@ -143,7 +144,7 @@ void AddLightOf(const ProbeLight& world, const PacketView& v, size_t i, Seen& se
   if (sky && !world.earlier) seen.guess[i] = reflectance * AmbientGuess(*sky, m.normal);
   if (glows) {
     const float t = v.view.rays.t_far[i];
-    seen.light[i] += interior * (0.35f + 0.65f * t * t / (t * t + 0.5f));
+    seen.light[i] += interior * (kRoomNear + kRoomFar * t * t / (t * t + 0.5f));
   }
 }
 

@@ -24,16 +24,16 @@ inline Vec2f SobolPoint(uint32_t index, uint32_t seed) {
 
 /// Unit vector of a point of the unit square, areas kept.
 inline Vec3f SpherePoint(Vec2f u) {
-  const float z = 1 - 2 * u.x, s = std::sqrt(std::max(0.0f, 1 - z * z)), angle = 6.28318531f * u.y;
-  return {s * scalar::sin_approx(angle + 1.57079633f), s * scalar::sin_approx(angle), z};
+  const float z = 1 - 2 * u.x, s = std::sqrt(std::max(0.0f, 1 - z * z)), angle = 2 * SHADE_PI * u.y;
+  return {s * scalar::sin_approx(angle + 0.5f * SHADE_PI), s * scalar::sin_approx(angle), z};
 }
 
 /// Directions to points of the sun's disc of 0.53 degrees.
 class SunDisc {
  public:
   explicit SunDisc(Vec3f to_sun) : to_sun_(to_sun) {
-    const Vec3f reference = std::fabs(to_sun.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0};
-    right_ = Normalized(Cross(reference, to_sun)) * kRadius;
+    const Vec3f reference = std::fabs(to_sun.z) < kUpright ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0};
+    right_ = Normalized(Cross(reference, to_sun)) * kSunRayRadius;
     up_ = Cross(to_sun, right_);
   }
   /// Radii, as vectors.
@@ -41,12 +41,12 @@ class SunDisc {
   Vec3f up() const { return up_; }
   /// Even over the disc for u even over the unit square.
   Vec3f At(Vec2f u) const {
-    const float radius = std::sqrt(u.x), angle = 6.28318531f * u.y;
-    return Normalized(to_sun_ + right_ * (radius * scalar::sin_approx(angle + 1.57079633f)) + up_ * (radius * scalar::sin_approx(angle)));
+    const float radius = std::sqrt(u.x), angle = 2 * SHADE_PI * u.y;
+    return Normalized(to_sun_ + right_ * (radius * scalar::sin_approx(angle + 0.5f * SHADE_PI)) +
+                      up_ * (radius * scalar::sin_approx(angle)));
   }
 
  private:
-  static constexpr float kRadius = 0.00462f;  // radians
   Vec3f to_sun_, right_, up_;
 };
 

@@ -99,7 +99,6 @@ void TraceSun(const RayTracer& tracer, const SurfaceTables& tables, const RaySet
 }
 
 void TraceContact(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s) {
-  constexpr float kReach = 1.2f, kLeast = 0.25f, kFarthest = 40.0f;
   static const auto ask = AIRSIM360_SELECT_KERNEL(AskContact);
   RayQueue queue, whole;
   const auto flush = [&](RayQueue& full) {
@@ -107,25 +106,24 @@ void TraceContact(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s) {
     tracer.Intersect16(full.valid, full.rays, true);
     for (int i = 0; i < full.count; ++i) {
       if (full.rays.geometry[i] == kMiss) continue;
-      const float t = std::min(1.0f, full.rays.t_far[i] / kReach);
-      s.contact[full.lane[i]] = kLeast + (1 - kLeast) * t * t * (3 - 2 * t);
+      s.contact[full.lane[i]] = scalar::contact_share(full.rays.t_far[i], kContactReach);
     }
     full.count = 0;
   };
-  constexpr Vec3f kUp{0.0123f, 0.0071f, 1};
+  constexpr Vec3f kUp{kContactX, kContactY, 1};
   float up[3][16];
   for (int k = 0; k < 16; ++k) up[0][k] = kUp.x, up[1][k] = kUp.y, up[2][k] = kUp.z;
   for (int first = 0; first < rays.count; first += 16) {
-    const uint32_t asked = ask(rays, s, first, kFarthest) & Existing(first, rays.count);
+    const uint32_t asked = ask(rays, s, first, kContactFarthest) & Existing(first, rays.count);
     if (asked == 0xffffu) {
-      AddSixteen(rays, s, first, up[0], up[1], up[2], kReach, whole);
+      AddSixteen(rays, s, first, up[0], up[1], up[2], kContactReach, whole);
       flush(whole);
       continue;
     }
     ForLanes(asked, [&](int lane) {
       const int i = first + lane;
       const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
-      queue.Add(p + g * RayOffset(p, rays.distance[i]), kUp, i, kReach);
+      queue.Add(p + g * RayOffset(p, rays.distance[i]), kUp, i, kContactReach);
       if (queue.count == 16) flush(queue);
     });
   }
@@ -198,7 +196,7 @@ void TakeHits(const RayTracer& tracer, const RaySet& from, PaneTint* panes, RayQ
     if (miss) continue;
     const SurfaceRef ref = tracer.Resolve(r.geometry[k], r.instance[k], r.primitive[k]);
     set.distance[i] = r.t_far[k];
-    set.width[i] = from.width[source] * (1 + r.t_far[k] / std::max(from.distance[source], 0.01f));
+    set.width[i] = from.width[source] * (1 + r.t_far[k] / std::max(from.distance[source], kLeastRange));
     set.u[i] = r.u[k], set.v[i] = r.v[k];
     set.instance[i] = ref.instance, set.triangle[i] = ref.triangle;
   }

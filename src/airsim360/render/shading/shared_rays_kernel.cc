@@ -35,9 +35,9 @@ void SharedSphere(uint32_t first, uint32_t seed, float* x, float* y, float* z) {
   alignas(64) float u[16], v[16];
   SobolPoints(first, seed, u, v);
   for (int i = 0; i < 16; i += kLanes) {
-    const real height = 1.0f - 2.0f * load(u + i), angle = 6.28318531f * load(v + i);
+    const real height = 1.0f - 2.0f * load(u + i), angle = (2 * SHADE_PI) * load(v + i);
     const real s = rroot(rmax(real(0.0f), 1.0f - height * height));
-    store3(x + i, y + i, z + i, {s * sin_approx(angle + 1.57079633f), s * sin_approx(angle), height});
+    store3(x + i, y + i, z + i, {s * sin_approx(angle + 0.5f * SHADE_PI), s * sin_approx(angle), height});
   }
 }
 
@@ -47,8 +47,8 @@ void SharedSun(const SunFrame& sun, uint32_t seed, int count, bool of_pixel, Sun
     alignas(64) float u[16], v[16];
     SobolPoints(static_cast<uint32_t>(first), seed ^ 0x68bc21ebu, u, v);
     for (int i = 0; i < 16; i += kLanes) {
-      const real radius = rroot(load(u + i)), angle = 6.28318531f * load(v + i);
-      const real3 d = middle + right * (radius * sin_approx(angle + 1.57079633f)) + up * (radius * sin_approx(angle));
+      const real radius = rroot(load(u + i)), angle = (2 * SHADE_PI) * load(v + i);
+      const real3 d = middle + right * (radius * sin_approx(angle + 0.5f * SHADE_PI)) + up * (radius * sin_approx(angle));
       store3(out.x + first + i, out.y + first + i, out.z + first + i, Divided(d, rroot(dot3(d, d))));
     }
     if (!of_pixel) continue;
@@ -79,17 +79,17 @@ void LiftSunRays(const RaySet& rays, const SurfaceSet& s, const SunFrame& sun, c
     const real distance = lane(3);
     // The pixel's width and height at the distance 1; columns are narrower towards a panorama's poles.
     const real3 turned = Across(pole, d);
-    const mask_t level = rabs(d.z) < 0.9f;
+    const mask_t level = rabs(d.z) < kUpright;
     const real3 axis = pixel.panorama ? pole : make3(sel(level, zero, one), zero, sel(level, one, zero));
     const real3 sideways = Across(axis, d);
     const real length = rroot(dot3(sideways, sideways));
     const real3 across = sel3(length > 0.0f, Divided(sideways, length), make3(zero, zero, zero));
     const real3 up = Across(across, d);
-    const real aspect = pixel.panorama ? rmax(rroot(dot3(turned, turned)), real(1e-4f)) : one;
+    const real aspect = pixel.panorama ? rmax(rroot(dot3(turned, turned)), real(kLeastAspect)) : one;
     // A point of the pixel on the surface's plane.
     const real3 beside = d + across * (lane(13) * pixel.cone_angle * aspect) + up * (lane(14) * pixel.cone_angle);
     const real slant = dot3(g, d), there = dot3(g, beside);
-    const real stretch = sel(there < 0.3f * slant, rmin(rmax(slant / there, real(0.5f)), real(2.0f)), one);
+    const real stretch = plane_stretch(slant, there);
     const real lift = ray_offset(p, distance) * sel(dot3(g, to_sun) < 0.0f, real(-1.0f), one);
     store3(out.origin_x + i, out.origin_y + i, out.origin_z + i, p + g * lift + (beside * stretch - d) * distance);
     store3(out.direction_x + i, out.direction_y + i, out.direction_z + i, {lane(10), lane(11), lane(12)});

@@ -97,8 +97,7 @@ KERNEL const Record* Shared(const Record* const* records) {
 
 KERNEL real3 UnpackDirection(const int32_t* packed) {
   const ireal p(packed, stdx::vector_aligned);
-  constexpr float scale = 2.0f / 65534.0f;
-  return octahedral_decode(to_real(p & 0xffff) * scale - 1.0f, to_real((p >> 16) & 0xffff) * scale - 1.0f);
+  return octahedral_decode(to_real(p & 0xffff) * kDirectionStep - 1.0f, to_real((p >> 16) & 0xffff) * kDirectionStep - 1.0f);
 }
 
 KERNEL real3 ToWorld(const Fetched& f, real3 a) {
@@ -148,7 +147,7 @@ static __attribute__((noinline)) void FetchColors(const ShadeView& view, const R
 
 KERNEL real3 CornerColor(const Fetched& f, int corner) {
   const ireal rg(f.corner_words[2 * corner], stdx::vector_aligned), ba(f.corner_words[2 * corner + 1], stdx::vector_aligned);
-  return make3(to_real(rg & 0xffff), to_real((rg >> 16) & 0xffff), to_real(ba & 0xffff)) * real(1.0f / 65535.0f);
+  return make3(to_real(rg & 0xffff), to_real((rg >> 16) & 0xffff), to_real(ba & 0xffff)) * real(kColorStep);
 }
 
 /// What vertex colours do to the base colour at barycentrics (u, v).

@@ -5,8 +5,6 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-constexpr float kMirrorRoughness = 0.12f;
-
 KERNEL real3 Facing(real3 n, real3 direction) {
   const real side = sel(dot3(n, direction) > 0.0f, real(-1.0f), real(1.0f));
   return n * side;
@@ -14,32 +12,12 @@ KERNEL real3 Facing(real3 n, real3 direction) {
 
 /// A part of the normal map's slope; what mipmapping shortened becomes roughness (Toksvig 2005).
 KERNEL real3 MapNormal(const ShadeView& view, const Fetched& f, const TileCorners& corners, real3 n, real footprint, real& roughness) {
-  const real3 c = SampleTiles(view, f, f.normal_id, corners, footprint, false, make3(real(0.5f), real(0.5f), real(0.9f)), corners.gain);
-  const real3 m = c * real(2.0f) - make3(real(1.0f), real(1.0f), real(1.0f));
-  const real length = rmin(rroot(dot3(m, m)), real(1.0f));
-  const real scale = load(f.normal_scale);
-  const real3 t0 = ToWorld(f, UnpackDirection(f.tangent));
-  const real3 t = normalize3(t0 - n * dot3(n, t0));
-  const real3 b = make3(n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x) * load(f.mirrored);
-  const real3 bent = normalize3(t * (m.x * scale) + b * (m.y * scale) + n * rmax(m.z, real(0.05f)));
+  const real3 c = SampleTiles(view, f, f.normal_id, corners, footprint, false, mean_normal(), corners.gain);
+  real rougher = roughness;
+  const real3 bent = bend_normal(c, n, ToWorld(f, UnpackDirection(f.tangent)), load(f.mirrored), load(f.normal_scale), rougher);
   const mask_t mapped = to_real(ireal(f.normal_id, stdx::vector_aligned)) > 0.5f;
-  const real variance = (1.0f - length) / rmax(length, real(0.2f)) * scale * scale;
-  const real alpha = roughness * roughness;
-  const real widened = rroot(rroot(rmin(alpha * alpha + 2.0f * variance * variance + variance * 0.5f, real(1.0f))));
-  roughness = sel(mapped, rmax(widened, roughness), roughness);
+  roughness = sel(mapped, rougher, roughness);
   return sel3(mapped, bent, n);
-}
-
-/// Panes are never quite flat: each tilts by its own hash and bends a little.
-KERNEL real3 GlassNormal(const Fetched& f, real3 n, real3 p) {
-  const real h1 = load(f.pane), h2 = h1 * 61.7f - rfloor(h1 * 61.7f);
-  const real side = rroot(rmax(n.x * n.x + n.y * n.y, real(1e-8f)));
-  const real3 across = make3(0.0f - n.y, n.x, real(0.0f)) * (1.0f / side);
-  const real along = (p.x * across.x + p.y * across.y) * 2.1f + h1 * 40.0f;
-  const real bend = sin_approx(along) * 0.0045f, rise = sin_approx(p.z * 1.9f + h2 * 40.0f) * 0.0045f;
-  const mask_t upright = side > 0.3f;
-  const real3 tilted = n + across * ((h1 - 0.5f) * 0.018f + bend) + make3(real(0.0f), real(0.0f), (h2 - 0.5f) * 0.018f + rise);
-  return sel3(upright, normalize3(tilted), n);
 }
 
 /// The sun's centre, or a point of its disc for samples beside the centre one.
@@ -51,16 +29,16 @@ KERNEL real3 TowardsSun(const ShadeView& view, const RaySet& rays, int i, real3 
   h = (h ^ (h >> 15)) * 0x846ca68bu;
   h = h ^ (h >> 16);
   const auto part = [](ureal bits) __attribute__((always_inline)) {
-    return to_real(stdx::static_simd_cast<ireal>(bits & 0xfffu)) * (1.0f / 4096.0f);
+    return to_real(stdx::static_simd_cast<ireal>(bits & 0xfffu)) * kTwelveBits;
   };
   const real a = part(h >> 8), b = part(h >> 20);
   const mask_t beside = stdx::__proposed::static_simd_cast<mask_t>(key != 0u);
-  const real radius = rroot(a) * 0.00462f * sel(beside, real(1.0f), real(0.0f)), angle = b * (2.0f * SHADE_PI);
-  const float side = s.x * s.x + s.y * s.y > 1e-6f ? 1.0f / __builtin_sqrtf(s.x * s.x + s.y * s.y) : 0.0f;
+  const real radius = rroot(a) * kSunRayRadius * sel(beside, real(1.0f), real(0.0f));
+  const float side = s.x * s.x + s.y * s.y > kSteepest2 ? 1.0f / __builtin_sqrtf(s.x * s.x + s.y * s.y) : 0.0f;
   const ufloat3 e1 = side > 0 ? ufloat3{-s.y * side, s.x * side, 0} : ufloat3{1, 0, 0};
   const ufloat3 e2{s.y * e1.z - s.z * e1.y, s.z * e1.x - s.x * e1.z, s.x * e1.y - s.y * e1.x};
-  const real x = radius * sin_approx(angle + 0.5f * SHADE_PI), y = radius * sin_approx(angle);
-  return normalize3(e1 * x + e2 * y + s);
+  const PlanePoint at = disc_place(radius, b);
+  return normalize3(e1 * at.x + e2 * at.y + s);
 }
 
 /// Where a vector of rays meets surfaces.
@@ -92,9 +70,9 @@ KERNEL Meeting Meet(const RaySet& rays, int i, const Fetched& f) {
   at.tu = load(f.uv[0]) * w + load(f.uv[2]) * u + load(f.uv[4]) * v;
   at.tv = load(f.uv[1]) * w + load(f.uv[3]) * u + load(f.uv[5]) * v;
   at.width = load(rays.width + i);
-  at.slant = rmax(rabs(dot3(at.facing, at.d)), real(0.03f));
+  at.slant = slant_of(at.facing, at.d);
   at.footprint = real(0.0f);
-  if (f.any_picture) at.footprint = log2_approx(rmax(at.width, real(1e-9f))) - 0.75f * log2_approx(at.slant) + load(f.texels_log2);
+  if (f.any_picture) at.footprint = texture_footprint(at.width, at.slant, load(f.texels_log2));
   return at;
 }
 
@@ -109,8 +87,7 @@ KERNEL Skin PaintSkin(const ShadeView& view, const RaySet& rays, int i, const Fe
     color = color * SampleTiles(view, f, f.base_id, corners, at.footprint, true, load3(f.mean[0], f.mean[1], f.mean[2]), corners.gain);
   }
   if (f.any_roughness) {
-    const real3 c =
-        SampleTiles(view, f, f.roughness_id, corners, at.footprint, false, make3(real(1.0f), real(0.5f), real(1.0f)), real(1.0f));
+    const real3 c = SampleTiles(view, f, f.roughness_id, corners, at.footprint, false, mean_roughness(), real(1.0f));
     roughness = roughness * c.y;
     metallic = metallic * c.z;
   }
@@ -118,45 +95,29 @@ KERNEL Skin PaintSkin(const ShadeView& view, const RaySet& rays, int i, const Fe
   if (f.any_beam || (view.glows != nullptr && stdx::any_of(emission.x + emission.y + emission.z > 0.0f)))
     emission = Thrown(view, rays, i, f, at.d, emission);
   if (f.any_macro || f.any_ground || view.wetness > 0 || view.snow > 0) noises = LookUpNoises(view, f, at.p, at.n, at.width);
-  if (f.any_macro) color = color * MacroTint(f, noises, at.width) * wall_wear(noises.wide, noises.mid, noises.fine, at.width, noises.wall);
-  if (f.any_unit) color = color * UnitTint(f, at.tu, at.tv, at.footprint);
+  if (f.any_macro) {
+    color = color * macro_tint(load(f.macro), noises, at.width) * wall_wear(noises.wide, noises.mid, noises.fine, at.width, noises.wall);
+  }
+  if (f.any_unit) color = color * unit_tint(load(f.columns), load(f.rows), at.tu, at.tv, at.footprint);
   if (f.any_ground) WearGround(f, noises, at.p, at.tu, at.width, color, roughness);
-  if (f.any_leaf) color = LeafTint(f, color);
-  // However bright the tints, nothing gives back more light than it gets.
-  color = make3(rmin(color.x, real(1.0f)), rmin(color.y, real(1.0f)), rmin(color.z, real(1.0f)));
-  roughness = rmin(rmax(roughness, real(0.03f)), real(1.0f));
-  return {color, metallic, roughness, load(f.clear_coat), load(f.clear_coat_roughness), load(f.transmission), load(f.kind), at.n, emission};
-}
-
-/// Panes are smooth; behind some hangs something. `window`: those with a room behind them.
-KERNEL void Glaze(const Fetched& f, const Meeting& at, mask_t window, Skin& s) {
-  const mask_t glass = s.kind == kGlass;
-  s.n = sel3(glass, GlassNormal(f, s.n, at.p), s.n);
-  s.roughness = sel(glass, rmin(s.roughness, real(0.08f)), s.roughness);
-  // Behind some large panes without a room hang blinds: brighter than the dark.
-  const real blind =
-      clamp01((0.30f - load(f.pane)) * 40.0f) * clamp01((load(f.area) - 0.7f) * 4.0f) * clamp01((0.3f - rabs(at.facing.z)) * 8.0f);
-  const real shade = sel(glass && !window, blind * 0.16f * (0.6f + 1.3f * load(f.pane)), real(0.0f));
-  s.color = s.color * (1.0f - shade) + make3(shade, shade * 0.97f, shade * 0.88f);
-  // No two blinds or curtains have the same colour.
-  const mask_t hung = glass && !window && (load(f.transmission) < 0.01f) && (luminance(s.color) > 0.10f);
-  const real h = load(f.pane), warm = 0.16f * (hash_again(h, real(61.7f)) - 0.5f), light = 0.58f + 0.74f * h;
-  s.color = sel3(hung, make3(s.color.x * light * (1.0f + warm), s.color.y * light, s.color.z * light * (1.0f - warm)), s.color);
+  if (f.any_leaf) color = leaf_tint(load(f.kind) == kFoliage, load(f.transmission), load(f.pane), color);
+  return {lawful_color(color),
+          metallic,
+          lawful_roughness(roughness),
+          load(f.clear_coat),
+          load(f.clear_coat_roughness),
+          load(f.transmission),
+          load(f.kind),
+          at.n,
+          emission};
 }
 
 KERNEL void RaiseWaves(const ShadeView& view, const Meeting& at, Skin& s) {
   const mask_t water = (s.kind == kWater) && (at.facing.z > 0.5f);
   real lost = real(0.0f);
-  const real3 waves = Waves(view, at.p, at.width / rroot(at.slant), lost);
+  const real3 waves = windy_water(at.p, SampleNoise(view, gust_at(at.p)), at.width / rroot(at.slant), lost);
   s.n = sel3(water, waves, s.n);
-  s.roughness = sel(water, rmin(rroot(rroot(2.0f * lost + 1e-5f)), real(0.5f)), s.roughness);
-}
-
-/// A bent normal must not look away from the viewer.
-KERNEL real3 TurnToViewer(real3 n, real3 d) {
-  const real towards = dot3(n, d);
-  const mask_t away = towards > -0.02f;
-  return stdx::any_of(away) ? sel3(away, normalize3(n - d * (towards + 0.02f)), n) : n;
+  s.roughness = sel(water, water_roughness(lost), s.roughness);
 }
 
 KERNEL void StoreSurface(const Meeting& at, const Skin& s, int i, SurfaceSet& out) {
@@ -173,26 +134,15 @@ KERNEL void StoreSurface(const Meeting& at, const Skin& s, int i, SurfaceSet& ou
   store(out.kind + i, s.kind);
 }
 
-/// Above the surface itself.
 KERNEL void StoreReflection(const Meeting& at, const Skin& s, int i, SurfaceSet& out) {
-  real3 r = reflect3(at.d, s.n);
-  const real below = dot3(r, at.facing);
-  const mask_t inside = below < 0.01f;
-  if (stdx::any_of(inside)) r = sel3(inside, normalize3(r + at.facing * (0.02f - below)), r);
-  store3(out.rx + i, out.ry + i, out.rz + i, r);
-  const mask_t sharp = (s.kind == kGlass) || (s.kind == kWater) || ((s.roughness < kMirrorRoughness) && (s.metallic > 0.3f)) ||
-                       ((s.coat > 0.25f) && (s.coat_roughness < kMirrorRoughness));
-  store(out.mirror + i, sel(sharp, real(1.0f), real(0.0f)));
+  store3(out.rx + i, out.ry + i, out.rz + i, reflect_above(at.d, s.n, at.facing));
+  store(out.mirror + i, sel(mirrors(s), real(1.0f), real(0.0f)));
 }
 
 /// Whether the sun, whose ray has the direction `l`, can matter.
 KERNEL void StoreSun(const ShadeView& view, const Meeting& at, const Skin& s, real3 l, int i, SurfaceSet& out) {
   store3(out.lx + i, out.ly + i, out.lz + i, l);
-  // Leaves from behind, too, but nothing where the two normals disagree about the side.
-  const real above = dot3(s.n, l);
-  const mask_t lit = (above * dot3(at.facing, l) > 0.0f) && ((above > 0.0f) || (s.kind == kFoliage));
-  const mask_t up = real(view.to_sun[2]) > -0.02f;
-  store(out.sunlit + i, sel(lit && up, real(1.0f), real(0.0f)));
+  store(out.sunlit + i, sel(takes_sun(s.n, at.facing, s.kind, l) && sun_is_up(view.to_sun[2]), real(1.0f), real(0.0f)));
   store(out.traced + i, real(0.0f));
   store(out.contact + i, real(1.0f));
   store(out.clear + i, real(0.0f));
@@ -217,8 +167,8 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real
   Noises noises;
   Skin s = PaintSkin(view, rays, i, f, at, corners, noises);
   if (f.any_normal) s.n = MapNormal(view, f, corners, s.n, at.footprint, s.roughness);
-  if (f.any_glass) Glaze(f, at, window, s);
-  if (f.any_window) FurnishPane(view, f, room, window, s.color, s.emission);
+  if (f.any_glass) glaze(window, load(f.pane), load(f.area), at.p, at.facing, s);
+  if (f.any_window) FurnishPane(view, f, room, window, s);
   if (f.any_water) RaiseWaves(view, at, s);
   if (view.wetness > 0 || view.snow > 0) {
     // A copy, since what a function that is not inlined changes lives in memory.
@@ -226,7 +176,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real
     LieWeather(view, f, noises, at.p, at.facing, at.width, at.tu, weathered);
     s = weathered;
   }
-  s.n = TurnToViewer(s.n, at.d);
+  s.n = turn_to_viewer(s.n, at.d);
   StoreSurface(at, s, i, out);
   StoreReflection(at, s, i, out);
   StoreSun(view, at, s, TowardsSun(view, rays, i, sun), i, out);
@@ -265,7 +215,7 @@ uint32_t AskContact(const RaySet& rays, const SurfaceSet& s, int first, float fa
   uint32_t bits = 0;
   for (int k = 0; k < 16; ++k) {
     const int i = first + k;
-    bits |= ((s.gz[i] >= 0.7f) & (rays.distance[i] <= farthest) & (s.kind[i] == 0)) ? 1u << k : 0;
+    bits |= ((s.gz[i] >= kContactLevel) & (rays.distance[i] <= farthest) & (s.kind[i] == 0)) ? 1u << k : 0;
   }
   return bits;
 }

@@ -20,6 +20,9 @@ SHARED real layer_path(real height, real slope, real distance, ufloat scale) {
   return exp_approx(0.0f - rmax(height * (1.0f / scale), real(-AIR_DEEPEST))) * distance * mean;
 }
 
+// Share of the weather's light in that of the way: of its optical depth and that of the clear air.
+SHARED real fog_share(real fog, real clear) { return fog / rmax(fog + clear, real(1e-9f)); }
+
 // Henyey-Greenstein of asymmetry g times 4 pi: 1 on average over the sphere.
 SHARED real forward_phase(ufloat g, real mu) {
   real d = 1.0f + g * g - 2.0f * g * mu;

@@ -36,8 +36,7 @@ SHARED AirEffect air_to_surface(const AirView& air, real z, real3 d, real distan
   if (air.weather > 0.0f) {
     // Both media are taken as evenly mixed along the way.
     real fog = air.weather * layer_path(height + d.z * free, d.z, distance - free, air.weather_height);
-    real share = fog / rmax(fog + depth.y, real(1e-9f));
-    source = lerp3(source, weather_source(air, mu), share);
+    source = lerp3(source, weather_source(air, mu), fog_share(fog, depth.y));
     depth = make3(depth.x + fog, depth.y + fog, depth.z + fog);
   }
   return air_effect(depth, source);

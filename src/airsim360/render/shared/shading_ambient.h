@@ -32,9 +32,7 @@ KERNEL SkyPlace FindSky(const SkyTableView& table, real3 d, bool full_sphere) {
   real e = Elevation(rmin(rmax(d.z, real(-1.0f)), real(1.0f))) * (2.0f / SHADE_PI);
   real t = 0.5f + 0.5f * e;
   if (!full_sphere) {
-    // The inverse of SkyTable::ElevationOfRow with kSkyRowSlope = 0.6.
-    e = rmax(e, real(0.0f));
-    t = (rroot(0.36f + 1.6f * e) - 0.6f) * 1.25f;
+    t = sky_row(rmax(e, real(0.0f)));
   }
   const real row = clamp01(t) * (table.height - 1.0f);
   // Written so that a direction that is not a number still finds a texel.
@@ -86,15 +84,13 @@ KERNEL real CloudShadow(const CloudShadowView& map, real3 p) {
 KERNEL real3 BlurredSky(const ShadeView& view, real3 d, real roughness) {
   const real3 up = SampleSky(view.sky, d, false);
   const real3 sharp =
-      sel3(d.z > 0.0f, up, lerp3(up, make3(real(view.ground[0]), real(view.ground[1]), real(view.ground[2])), clamp01(d.z * -12.0f)));
-  if (!stdx::any_of(roughness > 0.05f)) return sharp;
+      sel3(d.z > 0.0f, up, lerp3(up, make3(real(view.ground[0]), real(view.ground[1]), real(view.ground[2])), ground_share(d.z)));
+  const real3 shares = blur_shares(roughness);
+  if (!stdx::any_of(shares.x > 0.0f)) return sharp;
   const real3 a = SampleSky(view.blurred[0], d, true);
   const real3 b = SampleSky(view.blurred[1], d, true);
   const real3 c = SampleSky(view.blurred[2], d, true);
-  // Roughness 0.05, 0.30, 0.55, 0.85 of the four pictures.
-  const real3 low = lerp3(sharp, a, clamp01((roughness - 0.05f) * 4.0f));
-  const real3 high = lerp3(low, b, clamp01((roughness - 0.30f) * 4.0f));
-  return lerp3(high, c, clamp01((roughness - 0.55f) * (1.0f / 0.30f)));
+  return lerp3(lerp3(lerp3(sharp, a, shares.x), b, shares.y), c, shares.z);
 }
 
 /// Irradiance from the probes around a point: on the front, on the back, and about the reflected direction.
@@ -123,11 +119,11 @@ struct ProbePlace {
 
 /// Of points half a cell in front of surfaces of normal g.
 KERNEL ProbePlace FindProbes(const ProbeView& grid, real3 p, real3 g) {
-  const float bias = 0.45f / grid.cells_per_metre;
+  const float bias = kProbeBias / grid.cells_per_metre;
   const real3 q = p + g * real(bias);
   const real zero = real(0.0f);
-  const real x = rmin(real(grid.max_x + 0.9999f), rmax(zero, (q.x - grid.origin_x) * grid.cells_per_metre));
-  const real y = rmin(real(grid.max_y + 0.9999f), rmax(zero, (q.y - grid.origin_y) * grid.cells_per_metre));
+  const real x = rmin(real(grid.max_x + kProbeReach), rmax(zero, (q.x - grid.origin_x) * grid.cells_per_metre));
+  const real y = rmin(real(grid.max_y + kProbeReach), rmax(zero, (q.y - grid.origin_y) * grid.cells_per_metre));
   const real h = rmin(real(grid.height_last), rmax(zero, (q.z - grid.height_origin) * grid.height_scale));
   const real z = GatherFloats(grid.layer_of_height, to_int(rfloor(h + 0.5f)));
   const real x0 = rmin(rfloor(x), real(grid.max_x)), y0 = rmin(rfloor(y), real(grid.max_y)), z0 = rmin(rfloor(z), real(grid.max_z));

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "airsim360/render/shared/shading_constants.h"
+
 namespace airsim360::internal {
 
 /// Everything of one triangle that shading needs, in one cache line. Directions are in the mesh frame, packed
@@ -65,10 +67,6 @@ struct alignas(64) MaterialRecord {
   float interior;                 ///< 1: rooms behind panes
   float beam;                     ///< Material::beam; kWindowBeam: a lit window without a room
 };
-
-inline constexpr float kWindowBeam = 1e6f;
-/// z of the axis (0, -1, z) of low beams, in the mesh frame.
-inline constexpr float kBeamDrop = -0.06f;
 
 /// One level of a mip chain.
 struct TextureLevel {
@@ -143,11 +141,6 @@ struct AirView {
   float rain, snow;     ///< drops and flakes in the air, mm/h
   float drop_light[3];  ///< radiance of a drop or flake
 };
-inline constexpr float kAirAsymmetry = 0.76f, kFogAsymmetry = 0.80f;
-/// Rain leans with the wind: metres east for each metre of height.
-inline constexpr float kRainLean = 0.12f;
-/// Length of a way through the whole air.
-inline constexpr float kFarAir = 2e5f;
 
 /// See CloudShadowMap.
 struct CloudShadowView {

@@ -6,6 +6,7 @@
 #define mask_t bool
 #define SHARED
 #define INOUT(T) inout T
+#define IN(T) T
 #define make3 vec3
 #define rmin min
 #define rmax max

@@ -121,3 +121,37 @@ SHARED real drops_cover(ROOFS_ARGUMENT ufloat lean, real ox, real oy, real oz, r
   }
   return 1.0f - seen;
 }
+
+// A flake is opaque. A drop is before a point of its streak for a part of the exposure alone (Garg & Nayar, "Vision and Rain", 2007),
+// a fiftieth for these lengths; six times as much, so that a light rain shows.
+#define ROOFS_DROP_OPACITY 0.12f
+
+// Share of places that hold a drop, for a rate in mm/h: the number of drops grows with a power of the rate (Marshall & Palmer 1948:
+// N ~ R^0.21 times their size; drawn are those large enough to see).
+SHARED ufloat places_kept(ufloat rate, ufloat per_place) { return rate * per_place < 0.95f ? rate * per_place : 0.95f; }
+
+// Share of a ray's light that rain hides. In the leaning frame drops fall straight down.
+SHARED real rain_hides(ROOFS_ARGUMENT ufloat rate, real3 o, real3 d, real reach, ufloat spread) {
+  real x = o.x - o.z * kRainLean;
+  real3 s = make3(d.x - d.z * kRainLean, d.y, d.z);
+  ufloat keep = places_kept(rate, 0.09f);
+  real near = drops_cover(ROOFS kRainLean, x, o.y, o.z, s, reach, spread, 0.40f, 0.48f, 0.30f, 0.0016f, keep, 5.0f, 3.0f);
+  real far = drops_cover(ROOFS kRainLean, x, o.y, o.z, s, reach, spread, 1.1f, 0.8f, 0.45f, 0.0045f, keep, 15.0f, 41.0f);
+  return (1.0f - (1.0f - near) * (1.0f - far)) * ROOFS_DROP_OPACITY;
+}
+
+// The same of snow.
+SHARED real snow_hides(ROOFS_ARGUMENT ufloat rate, real3 o, real3 d, real reach, ufloat spread) {
+  ufloat keep = places_kept(rate, 0.28f);
+  real near = drops_cover(ROOFS 0.0f, o.x, o.y, o.z, d, reach, spread, 0.30f, 0.13f, 0.0f, 0.0040f, keep, 4.5f, 5.0f);
+  real far = drops_cover(ROOFS 0.0f, o.x, o.y, o.z, d, reach, spread, 0.75f, 0.24f, 0.0f, 0.0085f, keep, 11.0f, 53.0f);
+  return 1.0f - (1.0f - near) * (1.0f - far);
+}
+
+// Of both.
+SHARED real precipitation_hides(ROOFS_ARGUMENT ufloat rain, ufloat snow, real3 o, real3 d, real reach, ufloat spread) {
+  real hidden = real(0.0f);
+  if (rain > 0.0f) hidden = rain_hides(ROOFS rain, o, d, reach, spread);
+  if (snow > 0.0f) hidden = hidden + (1.0f - hidden) * snow_hides(ROOFS snow, o, d, reach, spread);
+  return hidden;
+}

@@ -44,6 +44,7 @@ SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 #include "airsim360/render/shared/shading_bsdf.h"
 #include "airsim360/render/shared/shading_air.h"
 #include "airsim360/render/shared/shading_air_view.h"
+#include "airsim360/render/shared/shading_sky.h"
 #include "airsim360/render/shared/shading_tone.h"
 #include "airsim360/render/shared/shading_interior.h"
 #include "airsim360/render/shared/shading_weather.h"

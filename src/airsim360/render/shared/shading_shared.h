@@ -16,6 +16,8 @@
 // Bias of the sun map on leaves, metres: in a crown the map's texels are lines through it as good as any, and
 // the share of them that pass a place is the light that gets there; more bias would light the crown's top alone.
 #define SHADE_LEAF_BIAS 0.05f
+// About the sine of the sun's diameter of 0.53 degrees, less its limb: no highlight is narrower.
+#define SHADE_SUN_ALPHA 0.006f
 
 // ---- numbers
 // ----------------------------------------------------------------------------------------------------
@@ -179,6 +181,9 @@ SHARED real3 environment_brdf(real3 f0, real roughness, real n_dot_v) {
 // Lambert: reflected radiance of irradiance e.
 SHARED real3 diffuse(real3 albedo, real3 e) { return albedo * e * real(SHADE_INV_PI); }
 
+// What passes through a leaf is yellower than what it reflects (chlorophyll absorbs less of the green-yellow on the longer path).
+SHARED real3 leaf_color() { return make3(real(1.10f), real(1.15f), real(0.55f)); }
+
 // A leaf lit from either side: n_dot_l signed towards the viewer's side; `transmission` times albedo passes
 // through, yellower than what is reflected (chlorophyll absorbs less of the green-yellow on the longer path).
 SHARED real3 leaf_diffuse(real3 albedo, real transmission, real n_dot_l) {
@@ -219,6 +224,15 @@ SHARED real lamp_irradiance(real body, real towards, real soft, real radius, rea
   return rmax(body + towards, real(0.0f)) * lamp_fade(distance, reach) / rmax(d2, real(1e-8f));
 }
 
+SHARED real lamp_distance(real3 to_lamp) { return rroot(rmax(dot3(to_lamp, to_lamp), real(1e-8f))); }
+
+// What the skin of a surface reflects of a lamp, whose size widens the highlight, for it is no point (Karis 2013).
+SHARED real3 lamp_skin(real3 color, real metallic) { return lerp3(make3(real(0.04f), real(0.04f), real(0.04f)), color, metallic); }
+SHARED real3 lamp_highlight(real3 f0, real own_alpha, real radius, real distance, real n_dot_l, real n_dot_v, real n_dot_h, real w_dot_h) {
+  real alpha = rmin(rmax(own_alpha, real(SHADE_SUN_ALPHA)) + 0.5f * radius / distance, real(1.0f));
+  return specular_brdf(f0, alpha, rmax(n_dot_l, real(1e-3f)), n_dot_v, n_dot_h, w_dot_h);
+}
+
 // Share of a lamp's light that a beam throws into a direction w: `sharp` is |Material::beam|, `along` sharp times
 // the cosine between w and the beam's axis, `rise` the z of w. Half the light at the angle of 1 - cos =
 // 0.41 / sharp. Low beams are cut off above the horizon over 5 degrees, a sixteenth is scattered beyond (the cut-off of
@@ -233,6 +247,23 @@ SHARED real beam_shape(real sharp, real along, real rise) {
 // ---------------------------------------------------------------------------------------------------
 
 SHARED real3 reflect3(real3 d, real3 n) { return d - n * (2.0f * dot3(d, n)); }
+
+// A direction that leaves a surface of geometric normal g; one under it, where the shading normal is bent, is mirrored up.
+SHARED real3 leave_above(real3 d, real3 g) {
+  real below = dot3(d, g);
+  return sel3(below < 0.01f, normalize3(d + g * (0.02f - 2.0f * below)), d);
+}
+
+// Cosine-distributed direction about the normal n where `sum` is n and an even unit vector.
+SHARED real3 cosine_direction(real3 sum, real3 n) {
+  real length2 = dot3(sum, sum);
+  return sel3(length2 > 1e-6f, sum * (1.0f / rroot(rmax(length2, real(1e-6f)))), n);
+}
+
+// How far a point of a pixel lies on the surface's plane, by the pixel's distance: cosines of its middle's ray and of its own.
+SHARED real plane_stretch(real slant, real there) {
+  return sel(there < 0.3f * slant, rmin(rmax(slant / there, real(0.5f)), real(2.0f)), real(1.0f));
+}
 
 // Unit vector of octahedral coordinates in [-1, 1]^2 (Meyer et al. 2010).
 SHARED real3 octahedral_decode(real x, real y) {

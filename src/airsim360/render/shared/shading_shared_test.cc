@@ -15,14 +15,39 @@
 
 #define SHARED static inline __attribute__((unused))
 #define INOUT(T) T&
+#define IN(T) const T&
+// The whole way of a skin through panes and weather, for C++ of either kind.
+#define WEATHERED_SKIN                                                                            \
+  SHARED Skin weathered(real a, real b, real c) {                                                 \
+    const real3 n = normalize3(make3(a - 0.5f, b - 0.5f, c + 0.1f)), p = make3(a, b, c) * 40.0f;  \
+    const Noises s{make3(a, b, c), make3(b, c, a), make3(c, a, b), b, c};                         \
+    Skin k{make3(a, b, c), c, a, real(0.1f), b, real(0.0f), rfloor(c * 3.9f), n, make3(c, b, a)}; \
+    glaze(a < 0.5f, b, c * 2.0f, p, n, k);                                                        \
+    const Bed bed = bed_of(k, rfloor(a * 8.9f), n, b * 4.0f);                                     \
+    wet_skin(bed, s, p, n, b * 0.02f, a, 0.8f, 0.7f, k);                                          \
+    snowy_skin(bed, s, n, c, 0.6f, k);                                                            \
+    wear_ground(bed.ground, s, p, b * 4.0f, c * 0.02f, k.color, k.roughness);                     \
+    return k;                                                                                     \
+  }                                                                                               \
+  SHARED real weathered_sum(real a, real b, real c) {                                             \
+    const Skin k = weathered(a, b, c);                                                            \
+    return luminance(k.color + k.n + k.emission) + k.metallic + k.roughness + k.coat + k.kind;    \
+  }
+// clang-format off
 namespace airsim360::internal::scalar {
 #include "airsim360/render/shared/shading_marks.h"
+#include "airsim360/render/shared/shading_surface.h"
+WEATHERED_SKIN
 }
 namespace airsim360::internal::isa_test {
 #include "airsim360/render/shared/shading_marks.h"
+#include "airsim360/render/shared/shading_surface.h"
+WEATHERED_SKIN
 }
+// clang-format on
 #undef SHARED
 #undef INOUT
+#undef IN
 
 namespace airsim360 {
 namespace {
@@ -237,7 +262,65 @@ TEST(ShadingShared, ScalarAndSimdAgree) {
   SAME(-1, 1, snow_cover(a, b, c, a) + puddle_cover(b, c));
   SAME(0, 1, paving_marks(make3(a, b, c), a * 90.0f, b * 70.0f, make3(b, c, a), make3(c, a, b), make3(a, c, b), a, b * 0.01f).y);
   SAME(0, 1, asphalt_marks(make3(a, b, c), a * 90.0f, b * 70.0f, make3(b, c, a), make3(c, a, b), make3(a, c, b), a, b * 0.01f).z);
+  SAME(0, 1, weathered_sum(a, b, c));
+  SAME(-1, 1, mixed_tile(c > 0.0f, a * 9.0f, b * 9.0f, c * 4.0f).gain + mixed_tile(c > 0.0f, a * 9.0f, b * 9.0f, c * 4.0f).u[1]);
+  SAME(0, 1, luminance(macro_tint(a, Noises{make3(a, b, c), make3(b, c, a), make3(c, a, b), a, b}, c)));
+  SAME(0, 1, luminance(unit_tint(a * 8.0f, b * 9.0f, b * 40.0f, c * 40.0f, a - 3.0f) + leaf_tint(a > 0.5f, b, c, make3(a, b, c))));
+  SAME(0, 1, look_inside(a, b, a + 0.5f, b + 0.5f, c - 0.5f, a - 0.5f, b, c, make3(a, b, c), a, b).lamplight.y);
+  SAME(0, 1, bend_normal(make3(a, b, 0.9f + 0.1f * c), make3(a, c, b + 0.1f), make3(b, a, c), a - 0.5f, b, c).y);
+  SAME(-1, 1, windy_water(make3(a, b, c) * 90.0f, make3(b, c, a), 0.01f + a * a, b).y);
+  SAME(-1, 1, glass_normal(a * a, make3(a, b, c), make3(c, a, b)).z);
+  SAME(-1, 1, precipitation_hides(roofs, 4.0f, 2.0f, make3(a * 9.0f, b, c), make3(a, b, c), a * 3.0f + 9.0f, 0.003f));
+  SAME(0, 1, sky_row(a) + luminance(blur_shares(b)) + open_share(a, b) + sun_limb(c) + contact_share(a, b + 0.1f) + fog_share(a, b));
+  SAME(-1, 1, dot3(leave_above(normalize3(make3(a, b, c)), make3(b, c, a)), cosine_direction(make3(a, c, b), make3(c, b, a))));
+  SAME(0.05, 1, luminance(lamp_highlight(lamp_skin(make3(a, b, c), b), c, a * 0.1f, b * 9.0f, a, b, c, a)) + plane_stretch(a, b - c));
 #undef SAME
+}
+
+TEST(ShadingSurface, CopiesOfATileAddUpToOneAndKeepTheContrast) {
+  RngStream random(3, "tiles");
+  for (int i = 0; i < 10000; ++i) {
+    const auto u = static_cast<float>(random.Uniform(-50, 50)), v = static_cast<float>(random.Uniform(-50, 50));
+    const scalar::TileCorners c = scalar::mixed_tile(true, u, v, -6);
+    ASSERT_NEAR(c.weight[0] + c.weight[1] + c.weight[2], 1, 1e-6);
+    const float squares = c.weight[0] * c.weight[0] + c.weight[1] * c.weight[1] + c.weight[2] * c.weight[2];
+    ASSERT_NEAR(c.gain * c.gain * squares, 1, 1e-5);
+    // Far away one copy is left.
+    ASSERT_FLOAT_EQ(scalar::mixed_tile(true, u, v, -1).gain, 1);
+  }
+}
+
+TEST(ShadingSurface, SnowWhitensLevelGroundAndNoOverhang) {
+  const Vec3f half{0.5f, 0.5f, 0.5f};
+  const scalar::Noises noises{half, half, half, 1, 0};
+  const auto snowed = [&](Vec3f facing, float open) {
+    scalar::Skin skin{{0.1f, 0.1f, 0.1f}, 0, 0.9f, 0, 0, 0, 0, facing, {}};
+    scalar::snowy_skin(scalar::bed_of(skin, 0, facing, 0), noises, facing, open, 1, skin);
+    return skin.color.y;
+  };
+  EXPECT_GT(snowed({0, 0, 1}, 1), 0.75f);
+  EXPECT_FLOAT_EQ(snowed({0, 0, -1}, 1), 0.1f);
+  EXPECT_FLOAT_EQ(snowed({1, 0, 0}, 1), 0.1f);
+  EXPECT_FLOAT_EQ(snowed({0, 0, 1}, 0.1f), 0.1f);  // under a canopy
+}
+
+TEST(ShadingSurface, MoreRainHidesMoreAndNoneHidesNothing) {
+  const internal::RoofView open{nullptr, 0, 0, 0, 0, 0};
+  double last = 0;
+  for (const float rate : {0.0f, 1.0f, 4.0f, 9.0f}) {
+    RngStream random(4, "rain");
+    double hidden = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Vec3f d = RandomUp(random), o{static_cast<float>(random.Uniform(-90, 90)), static_cast<float>(random.Uniform(-90, 90)), 2};
+      hidden += scalar::precipitation_hides(open, rate, 0, o, d, 100, 0.003f);
+    }
+    if (rate == 0) {
+      EXPECT_EQ(hidden, 0);
+    } else {
+      EXPECT_GT(hidden, 1.2 * last) << rate;
+    }
+    last = hidden;
+  }
 }
 
 TEST(ShadingShared, ProbesCountAsRaysByNightAlone) {
@@ -316,10 +399,12 @@ TEST(ShadingShared, CompilesAsGlsl) {
   {
     std::ofstream out(stem + ".comp");
     out << "#version 450\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer Values { float v[]; };\n"
-        << read("shading_glsl.h") << shared
+        << read("shading_constants.h") << read("shading_glsl.h") << shared << read("shading_sky.h")
         << "#define ROOFS\n#define ROOFS_ARGUMENT\n#define ROOFS_TEXELS_PER_METRE 4.0\nbool roof_hides(vec3 p) { return p.z < 2.0; }\n"
         << read("shading_roofs.h") << read("shading_tone.h") << read("shading_interior.h") << read("shading_weather.h")
-        << read("shading_moon.h") << read("shading_ground.h") << read("shading_marks.h")
+        << read("shading_moon.h") << read("shading_ground.h") << read("shading_marks.h") << "#define in in_\n"
+        << read("shading_bsdf.h") << "#undef in\n"
+        << read("shading_surface.h")
         << "void main() { float lost = 0.0; vec3 n = water_normal(v[0], v[1], v[2], lost);\n"
            "  vec3 c = specular_brdf(n, v[1], v[2], v[3], v[4], v[5]) + environment_brdf(n, v[0], v[1]) + "
            "leaf_diffuse(n, v[0], v[1]);\n"
@@ -337,7 +422,11 @@ TEST(ShadingShared, CompilesAsGlsl) {
            "  asphalt_wear(v[0], v[1], v[2], v[3], n, c, day, v[4], v[5], gain, tar, polish);\n"
            "  v[1] = lawn_life(day, a, b, n, c, lamp, v[2], v[3]).x + puddle_cover(v[0], v[1]) + moon_face(n, c, day) + sx + gain + "
            "snow_cover(v[0], v[1], v[2], v[3]) + roof_wear(v[0], n, c, day, v[1], v[2], v[3]) + paving_marks(c, a, b, n, c, day, v[1], v[2]).x + "
-           "asphalt_marks(c, a, b, n, c, day, v[1], v[2]).x; }\n";
+           "asphalt_marks(c, a, b, n, c, day, v[1], v[2]).x;\n"
+           "  Noises noises = Noises(c, day, n, v[2], v[3]); Skin skin = Skin(c, a, b, a, b, a, b, n, c);\n"
+           "  glaze(a < b, a, b, n, c, skin); snowy_skin(bed_of(skin, a, n, b), noises, n, a, b, skin);\n"
+           "  wet_skin(bed_of(skin, a, n, b), noises, n, c, a, b, a, b, skin); wear_ground(a, noises, n, a, b, skin.color, skin.roughness);\n"
+           "  v[2] = skin.coat + mixed_tile(a < b, a, b, v[3]).gain + precipitation_hides(v[1], v[2], n, c, a, b); }\n";
   }
   const int status = std::system(("glslangValidator -V " + stem + ".comp -o " + stem + ".spv > " + stem + ".log 2>&1").c_str());
   std::ifstream log(stem + ".log");

@@ -115,6 +115,7 @@ SHARED void store3(float* x, float* y, float* z, real3 a) {
 #include "airsim360/render/shared/shading_bsdf.h"
 #include "airsim360/render/shared/shading_air.h"
 #include "airsim360/render/shared/shading_air_view.h"
+#include "airsim360/render/shared/shading_sky.h"
 #include "airsim360/render/shared/shading_tone.h"
 #include "airsim360/render/shared/shading_interior.h"
 #include "airsim360/render/shared/shading_weather.h"

@@ -5,6 +5,7 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/math/angles.h"
+#include "airsim360/render/shared/shading_constants.h"
 
 namespace airsim360::internal {
 namespace {
@@ -27,7 +28,7 @@ struct Found {
 Found Find(const float* cumulative, int count, float u) {
   const int i = std::min(static_cast<int>(std::upper_bound(cumulative, cumulative + count, u) - cumulative), count - 1);
   const float below = i > 0 ? cumulative[i - 1] : 0;
-  return {i, std::clamp((u - below) / std::max(cumulative[i] - below, 1e-12f), 0.0f, 0.9999999f)};
+  return {i, std::clamp((u - below) / std::max(cumulative[i] - below, kLeastStep), 0.0f, kBelowOne)};
 }
 
 // Running sums of `weights`, scaled to end at 1.

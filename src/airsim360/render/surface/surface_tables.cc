@@ -254,8 +254,8 @@ uint32_t PackDirection(Vec3f d) {
 }
 
 Vec3f UnpackDirection(uint32_t packed) {
-  constexpr float scale = 2.0f / 65534.0f;
-  return scalar::octahedral_decode(static_cast<float>(packed & 0xffff) * scale - 1, static_cast<float>(packed >> 16) * scale - 1);
+  return scalar::octahedral_decode(static_cast<float>(packed & 0xffff) * kDirectionStep - 1,
+                                   static_cast<float>(packed >> 16) * kDirectionStep - 1);
 }
 
 Vec3f GeometricNormal(const InstanceRecord& instance, const TriangleRecord& triangle) {

@@ -33,6 +33,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Frames { Gpu
 layout(push_constant, scalar) uniform Push { Frames frame; int pass; int paths; } push;
 
 // The source that all back ends share; more in shade.glsl.
+#include "airsim360/render/shared/shading_constants.h"
 #include "airsim360/render/shared/shading_glsl.h"
 #include "airsim360/render/shared/shading_shared.h"
 #define word uint

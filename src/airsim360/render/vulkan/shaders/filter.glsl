@@ -1,7 +1,5 @@
 // What the passes of the denoiser share: neighbours on the sphere, likeness of two pixels (render/filter/filter_simd.h).
 
-const float kNormalShare = 48.0, kLooseNormal = 1.5, kLooseThickness = 16.0, kPlaneSlope = 0.15;
-
 /// Columns from a row's pixels to their neighbours `step` rows away.
 int StepX(int y, int step) {
   if (camera.separable == 0) return step;
@@ -42,12 +40,12 @@ Center MakeCenter(uint i, float loose, float step) {
   const vec3 p = Get3(kPlace, i);
   c.g = Get3(kShadingNormal, i);
   c.plane = dot(c.g, p);
-  const float sharpness = lerp1(kLooseNormal / 8.0, kNormalShare / 8.0, (1.0 - loose) * (1.0 - loose));
+  const float sharpness = lerp1(kFilterLooseNormal / 8.0, kFilterNormal / 8.0, (1.0 - loose) * (1.0 - loose));
   c.normal = c.g * sharpness;
   c.base = 1.0 - sharpness;
   // Over the distance.
-  const float thickness = (1.0 + (kLooseThickness - 1.0) * loose) * (camera.cone_angle * (1.0 + kPlaneSlope * step));
-  c.inverse_thickness = (1.0 / 16.0) / max(dot(p, p) * (thickness * thickness), 1e-12);
+  const float thickness = (1.0 + (kFilterLoosePlane - 1.0) * loose) * (camera.cone_angle * (1.0 + kFilterSlope * step));
+  c.inverse_thickness = (1.0 / 16.0) / max(dot(p, p) * (thickness * thickness), kFilterThinnest);
   return c;
 }
 

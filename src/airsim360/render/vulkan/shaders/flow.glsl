@@ -48,7 +48,7 @@ GpuFlow FlowOf(GpuCamera camera, uvec2 pixel, Hit h, vec3 direction, bool has_po
   if (hit.instance == kMiss) return flow;
   if (instance == kMiss) {
     flow.occluded = 1;
-  } else if ((hit.instance != instance || hit.primitive != primitive) && hit.t < flow.range * (1.0 - 1e-4) - 1e-4) {
+  } else if ((hit.instance != instance || hit.primitive != primitive) && hit.t < flow.range * (1.0 - kFlowRelative) - kFlowMetres) {
     flow.occluded = 1;
   }
   return flow;

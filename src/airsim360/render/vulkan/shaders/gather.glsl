@@ -19,15 +19,13 @@ float MapSun(vec3 p, float bias) {
 vec3 NearProbe(vec3 p, vec3 n) {
   if (view.has_probes == 0) return UniformFrom(n);
   const ProbeCell cell = ProbeCellAt(p, n);
-  const uvec3 millimetres = uvec3(ivec3(floor(p * 1024.0)));
+  const uvec3 millimetres = uvec3(ivec3(floor(p * kProbeGrains)));
   uint hash = millimetres.x * 0x9e3779b1u ^ millimetres.y * 0x85ebca77u ^ millimetres.z * 0xc2b2ae3du;
-  hash = (hash ^ (hash >> 16)) * 0x7feb352du;
-  hash = (hash ^ (hash >> 15)) * 0x846ca68bu;
-  hash = hash ^ (hash >> 16);
+  hash = hash_bits(hash);
   uint at = cell.lowest;
-  if (float(hash & 0x3ffu) * (1.0 / 1024.0) < cell.inside.x) at += 16u;
-  if (float((hash >> 10) & 0x3ffu) * (1.0 / 1024.0) < cell.inside.y) at += uint(view.probe_stride_y) * 16u;
-  if (float((hash >> 20) & 0x3ffu) * (1.0 / 1024.0) < cell.inside.z) at += uint(view.probe_stride_z) * 16u;
+  if (float(hash & 0x3ffu) * kTenBits < cell.inside.x) at += 16u;
+  if (float((hash >> 10) & 0x3ffu) * kTenBits < cell.inside.y) at += uint(view.probe_stride_y) * 16u;
+  if (float((hash >> 20) & 0x3ffu) * kTenBits < cell.inside.z) at += uint(view.probe_stride_z) * 16u;
   Floats t = view.probes;
   if (t.v[at + 3] < 0.5) return SampleProbes(p, n, n, n).front;
   const vec3 e = vec3(t.v[at], t.v[at + 1], t.v[at + 2]) + vec3(t.v[at + 4], t.v[at + 5], t.v[at + 6]) * n.x +
@@ -87,7 +85,7 @@ vec3 Gathered(Hit h, vec3 origin, vec3 d) {
   if (glow.x + glow.y + glow.z > 0.0) {
     // Closed rooms that glow do so less where something is near.
     const float t2 = h.t * h.t;
-    return glow * (0.35 + 0.65 * t2 / (t2 + 0.5)) + emission;
+    return glow * (kRoomNear + kRoomFar * t2 / (t2 + 0.5)) + emission;
   }
   const vec3 p = origin + d * h.t, n = met.normal;
   const bool foliage = m.kind == kFoliage;
@@ -98,6 +96,6 @@ vec3 Gathered(Hit h, vec3 origin, vec3 d) {
     light += Vec(view.sun_irradiance) * (share * MapSun(p, foliage ? SHADE_LEAF_BIAS : bounce.sun_bias) * CloudShadow(p));
   }
   const vec3 color = Load3(view.mean_colors, id) * VertexColors(own, met.triangle, vec2(1.0 / 3.0));
-  const vec3 albedo = min(color * vec3(own.tint[0], own.tint[1], own.tint[2]), vec3(0.9));
+  const vec3 albedo = min(color * vec3(own.tint[0], own.tint[1], own.tint[2]), vec3(kMostBounced));
   return diffuse(albedo, light) + emission;
 }

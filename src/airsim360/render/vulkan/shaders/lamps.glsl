@@ -8,9 +8,9 @@ struct LampEffect {
 LampEffect EffectOfLamp(GpuLamp lamp, Ray ray, Shaded s) {
   LampEffect e;
   const bool leaf = s.kind == kFoliage;
-  const bool shiny = !s.mirror && !leaf && (s.roughness < 0.6 || s.metallic > 0.2);
+  const bool shiny = !s.mirror && !leaf && (s.roughness < kLampMatt || s.metallic > kShinyMetal);
   const vec3 to = Vec(lamp.center) - s.p;
-  const float distance_ = sqrt(max(dot(to, to), 1e-8));
+  const float distance_ = lamp_distance(to);
   const vec3 w = to * (1.0 / distance_);
   const vec3 beam = Vec(lamp.beam);
   const float light =
@@ -23,15 +23,14 @@ LampEffect EffectOfLamp(GpuLamp lamp, Ray ray, Shaded s) {
   e.shine = vec3(0.0);
   e.brought = luminance(e.front) + luminance(e.back);
   if (shiny) {
-    const vec3 h = normalize3(w - ray.direction), f0 = lerp3(vec3(0.04), s.color, s.metallic);
-    const float alpha = min(max(s.roughness * s.roughness, 0.006) + 0.5 * lamp.radius / distance_, 1.0);
-    const vec3 f = specular_brdf(f0, alpha, max(n_dot_l, 1e-3), max(-dot(s.n, ray.direction), 0.02),
-                                 max(dot(s.n, h), 0.0), clamp01(dot(w, h)));
-    e.shine = min(f * e.front, vec3(400.0));
+    const vec3 h = normalize3(w - ray.direction), f0 = lamp_skin(s.color, s.metallic);
+    const vec3 f = lamp_highlight(f0, s.roughness * s.roughness, lamp.radius, distance_, n_dot_l,
+                                  max(-dot(s.n, ray.direction), kViewCosine), max(dot(s.n, h), 0.0), clamp01(dot(w, h)));
+    e.shine = min(f * e.front, vec3(kBrightestGlint));
     e.brought += luminance(e.shine);
   }
   e.direction = w;
-  e.distance_ = distance_ - lamp.radius * 1.02;
+  e.distance_ = distance_ - lamp.radius * kLampEnd;
   return e;
 }
 
@@ -61,7 +60,7 @@ LampChoice LightByLamps(Ray ray, inout Shaded s) {
   float sum = 0.0;
   for (int k = 0; k < 8; ++k) {
     const float w = ((k & 1) != 0 ? f.x : 1.0 - f.x) * ((k & 2) != 0 ? f.y : 1.0 - f.y) * ((k & 4) != 0 ? f.z : 1.0 - f.z);
-    weight[k] = (header >> (8 + k) & 1u) != 0 ? w + 1e-4 : 0.0;
+    weight[k] = (header >> (8 + k) & 1u) != 0 ? w + kCornerWeight : 0.0;
     sum += weight[k];
   }
   const float scale = sum > 0.0 ? 1.0 / sum : 0.0;
@@ -74,7 +73,7 @@ LampChoice LightByLamps(Ray ray, inout Shaded s) {
     float g = 0.0;
     for (int c = 0; c < 8; ++c) g += float((seen >> c) & 1u) * weight[c] * scale;
     s.lamp_front += e.front * g, s.lamp_back += e.back * g, s.lamp_shine += e.shine * g;
-    const float r = e.brought * (0.15 + 0.85 * g);
+    const float r = e.brought * (kUnseenLamp + (1.0 - kUnseenLamp) * g);
     total += r;
     int place = 3;
     while (place > 0 && r > best.rank[place - 1]) --place;
@@ -83,7 +82,7 @@ LampChoice LightByLamps(Ray ray, inout Shaded s) {
     if (place < 3) best.rank[place] = r, best.lamp[place] = int(entry & 0xffffffu), best.guess[place] = g;
   }
   for (int k = 0; k < 3; ++k) {
-    if (!(best.rank[k] > 0.01 * total)) best.rank[k] = 0.0, best.lamp[k] = -1;
+    if (!(best.rank[k] > kFaintLamp * total)) best.rank[k] = 0.0, best.lamp[k] = -1;
   }
   return best;
 }

@@ -1,7 +1,5 @@
 // From a surface to radiance: render/shading/light_kernel.cc for one lane.
 
-const float kBrightest = 400.0, kSunAlpha = 0.006;
-
 /// What a surface does with light, before it is known how much ambient light there is.
 struct Response {
   vec3 skin, body, leaf, straight, sun;
@@ -13,7 +11,7 @@ Response RespondTo(Ray ray, Shaded s, bool sun) {
   const vec3 d = ray.direction;
   const float transmission = s.kind == kFoliage || s.clear ? s.transmission : 0.0;
   const Bsdf bsdf = bsdf_make(s.kind, s.color, s.metallic, s.roughness, transmission, s.coat, s.coat_roughness);
-  const BsdfSide seen = bsdf_side(bsdf, max(-dot(s.n, d), 0.02));
+  const BsdfSide seen = bsdf_side(bsdf, max(-dot(s.n, d), kViewCosine));
   const vec3 through = bsdf_entering(seen);
   Response o;
   o.skin = bsdf_reflected(seen);
@@ -24,9 +22,9 @@ Response RespondTo(Ray ray, Shaded s, bool sun) {
   float pdf = 0.0;
   o.sun = vec3(0.0);
   if (sun) {
-    o.sun = bsdf_evaluate(bsdf_widen(bsdf, kSunAlpha), seen, bsdf_lobes(bsdf, seen), s.n, -d, s.l, pdf) *
+    o.sun = bsdf_evaluate(bsdf_widen(bsdf, SHADE_SUN_ALPHA), seen, bsdf_lobes(bsdf, seen), s.n, -d, s.l, pdf) *
             Vec(view.sun_irradiance) * CloudShadow(s.p);
-    o.sun = min(o.sun, vec3(kBrightest));
+    o.sun = min(o.sun, vec3(kBrightestGlint));
   }
   return o;
 }
@@ -44,9 +42,9 @@ vec3 LightOf(Ray ray, Shaded s) {
   vec3 mirrored = ambient.reflected * SHADE_INV_PI;
   if (s.traced) {
     mirrored = s.reflected;
-  } else if ((s.roughness < 0.5 || s.metallic > 0.2) && view.has_sky != 0) {
+  } else if ((s.roughness < 0.5 || s.metallic > kShinyMetal) && view.has_sky != 0) {
     const float open = luminance(UniformFrom(s.r));
-    mirrored = BlurredSky(s.r, s.roughness) * min(luminance(ambient.reflected) / max(open, 1e-4), 1.0);
+    mirrored = BlurredSky(s.r, s.roughness) * open_share(luminance(ambient.reflected), open);
   }
   vec3 light = body + o.sun * s.sunlit + mirrored * o.skin + OwnAndLamps(s, o);
   if (s.clear) light += s.behind * o.straight;
@@ -66,7 +64,7 @@ struct Terms {
 Terms TermsOf(Ray ray, Shaded s, bool sun) {
   const Response o = RespondTo(ray, s, sun);
   // The traced ray is what the coat mirrors where there is one, else what the skin does.
-  const vec3 sharp = s.traced ? (s.coat > 0.05 ? vec3(o.coat) : o.skin) : vec3(0.0);
+  const vec3 sharp = s.traced ? (s.coat > kThinCoat ? vec3(o.coat) : o.skin) : vec3(0.0);
   Terms t;
   t.ambient = (o.body + o.skin - sharp) * SHADE_INV_PI;
   t.sun = o.sun;

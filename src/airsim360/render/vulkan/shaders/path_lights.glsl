@@ -10,7 +10,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Lam
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PathTables { GpuPath v; };
 #define tables push.frame.v.path.v
 
-const float kTau = 6.28318531, kHalfPi = 1.57079633;
+const float kTau = 2.0 * SHADE_PI, kHalfPi = 0.5 * SHADE_PI;
 const int kSkyCells = 256;
 
 /// A direction to a light, what it sends from there, its density per solid angle, how far it is.
@@ -31,11 +31,11 @@ vec3 SunRadiance(vec3 p, vec3 d) {
   const vec3 off = d - Vec(view.to_sun);
   const float x2 = dot(off, off) / (SUN_RADIUS * SUN_RADIUS);
   if (tables.has_sun == 0 || x2 >= 1.0) return vec3(0.0);
-  return Vec(view.sun_radiance) * (1.25 * (0.4 + 0.6 * sqrt(1.0 - x2)) * CloudShadow(p));
+  return Vec(view.sun_radiance) * (SUN_LIMB_GAIN * sun_limb(x2) * CloudShadow(p));
 }
 
 LightRay SampleSun(vec3 p, vec2 u) {
-  const vec3 s = Vec(view.to_sun), reference = abs(s.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
+  const vec3 s = Vec(view.to_sun), reference = abs(s.z) < kUpright ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
   const vec3 right = normalize(cross(reference, s)), up = cross(s, right);
   // The chord to the disc's centre squared is even over solid angle.
   const float chord = SUN_RADIUS * sqrt(u.x), turn = kTau * u.y, side = chord * sqrt(1.0 - 0.25 * chord * chord);
@@ -52,7 +52,7 @@ int FindShare(Floats shares, uint first, float u, out float inside) {
     else low = middle + 1;
   }
   const float below = low > 0 ? shares.v[first + uint(low) - 1u] : 0.0;
-  inside = clamp((u - below) / max(shares.v[first + uint(low)] - below, 1e-12), 0.0, 0.9999999);
+  inside = clamp((u - below) / max(shares.v[first + uint(low)] - below, kLeastStep), 0.0, kBelowOne);
   return low;
 }
 
@@ -76,13 +76,13 @@ float SkyPdf(vec3 d) {
 
 float CosineWithin(float angle, float cone) {
   const float left = max(0.0, angle - cone);
-  return left > kHalfPi + 0.01 ? 0.0 : max(Cosine(left), 0.005);
+  return left > kHalfPi + kLampMargin ? 0.0 : max(Cosine(left), kLampLeastCosine);
 }
 
 float Importance(uint node, vec3 p, vec3 normal) {
   const GpuLightNode b = tables.nodes.v[node];
   const vec3 to = Vec(b.center) - p;
-  const float distance2 = dot(to, to), clamped2 = max(max(distance2, b.radius2), 1e-12);
+  const float distance2 = dot(to, to), clamped2 = max(max(distance2, b.radius2), kLampDistance2);
   // Inside the sphere about the box light may come from anywhere.
   if (distance2 <= b.radius2) return b.power / clamped2;
   const vec3 w = to / sqrt(distance2);
@@ -122,9 +122,9 @@ LightRay SampleLamp(vec3 p, vec3 normal, vec3 u) {
                      vec3(part.corner[6], part.corner[7], part.corner[8]) * b2;
   const vec3 way = point - p;
   const float distance_ = length(way);
-  const vec3 d = way / max(distance_, 1e-6);
+  const vec3 d = way / max(distance_, kLampDistance);
   const float cosine = -dot(Vec(part.normal), d);
-  if (cosine < 1e-5) return none;
+  if (cosine < kLampGrazing) return none;
   const GpuTriangle t = view.triangles.v[part.triangle];
   const GpuMaterial m = view.materials.v[t.material & ~kMirroredUv];
   vec3 radiance = Vec(m.emission);
@@ -134,7 +134,7 @@ LightRay SampleLamp(vec3 p, vec3 normal, vec3 u) {
                             FoldCoordinate(t.uv[1] * b0 + t.uv[3] * b1 + t.uv[5] * b2, view.textures.v[id].wrap_v));
   }
   radiance *= Vec(lamp.glow);
-  if (m.beam == 1e6) {  // kWindowBeam
+  if (m.beam == kWindowBeam) {
     radiance = window_light(HashOf(t.pane ^ lamp.hash), t.area) * luminance(radiance);
   } else if (m.beam != 0.0) {
     const vec3 beam = Vec(lamp.beam);
@@ -158,5 +158,5 @@ float LampPdf(vec3 p, vec3 normal, uint instance, uint triangle, float distance_
     if (!(sum > 0.0)) return 0.0;
     probability *= own / sum;
   }
-  return probability / lamp.area * distance_ * distance_ / max(cosine, 1e-5);
+  return probability / lamp.area * distance_ * distance_ / max(cosine, kLampGrazing);
 }

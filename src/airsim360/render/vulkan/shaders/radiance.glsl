@@ -31,18 +31,16 @@ vec3 LightAround(Hit h, vec3 direction, out float sun_known);
 /// Tier `high` sends a ray where any shiny skin is seen to mirror something.
 void Scatter(Ray ray, inout Shaded s, vec2 u) {
   if (s.mirror || s.kind >= 0.5) return;
-  const bool coated = s.coat > 0.05, rough = !coated && s.roughness < 0.25;
+  const bool coated = s.coat > kThinCoat, rough = !coated && s.roughness < kScattered;
   if (!coated && !rough) return;
   const Bsdf bsdf = bsdf_make(s.kind, s.color, s.metallic, s.roughness, 0.0, s.coat, s.coat_roughness);
-  const float n_dot_v = max(-dot(s.n, ray.direction), 0.02);
-  if (!(luminance(bsdf_reflected(bsdf_side(bsdf, n_dot_v))) > 0.08)) return;
+  const float n_dot_v = max(-dot(s.n, ray.direction), kViewCosine);
+  if (!(luminance(bsdf_reflected(bsdf_side(bsdf, n_dot_v))) > kVisibleSkin)) return;
   s.mirror = true;
   if (!rough) return;
   const BsdfLobes skin_alone = BsdfLobes(0.0, 1.0, 0.0, 0.0, 0.0);
   float event = 0.0;
-  vec3 r = bsdf_sample(bsdf, skin_alone, s.n, -ray.direction, 0.5, u.x, u.y, event);
-  const float below = dot(r, s.g);
-  s.r = below < 0.01 ? normalize3(r + s.g * (0.02 - 2.0 * below)) : r;
+  s.r = leave_above(bsdf_sample(bsdf, skin_alone, s.n, -ray.direction, 0.5, u.x, u.y, event), s.g);
 }
 #endif
 
@@ -100,9 +98,9 @@ Query Ask(int step, inout Look look) {
 #ifdef HIGH
     q.wanted = false;
 #else
-    q.wanted = look.s.g.z >= 0.7 && look.ray.distance_ <= 40.0 && look.s.kind == 0.0;
+    q.wanted = look.s.g.z >= kContactLevel && look.ray.distance_ <= kContactFarthest && look.s.kind == 0.0;
 #endif
-    q.to = vec3(0.0123, 0.0071, 1.0), q.reach = 1.2;
+    q.to = vec3(kContactX, kContactY, 1.0), q.reach = kContactReach;
   } else if (step == kMirror) {
 #ifdef HIGH
     Scatter(look.ray, look.s, look.choice.mirrored);
@@ -140,7 +138,7 @@ void TakeLight(int step, Query q, inout Look look) {
 
 void TakeSky(int step, Query q, inout Look look) {
   vec3 sky = LookUpSky(q.origin, q.to, step == kCamera);
-  if (step == kCamera) sky = BehindDrops(sky, look.eye, look.direction, 2e5, look.cone_angle);
+  if (step == kCamera) sky = BehindDrops(sky, look.eye, look.direction, kFarAir, look.cone_angle);
   if (step == kMirror) look.s0.reflected = sky, look.s0.traced = true;
   if (step == kBehind) look.s0.behind = sky, look.s0.clear = true;
   if (step != kCamera) return;
@@ -154,7 +152,7 @@ void TakeSurface(int step, Query q, uint key, inout Look look) {
   Ray ray;
   ray.origin = q.origin, ray.direction = q.to, ray.distance_ = hit.t, ray.bary = hit.bary;
   ray.instance = hit.instance, ray.primitive = hit.primitive;
-  ray.width = step == kCamera ? hit.t * look.cone_angle : look.first.width * (1.0 + hit.t / max(look.first.distance_, 0.01));
+  ray.width = step == kCamera ? hit.t * look.cone_angle : look.first.width * (1.0 + hit.t / max(look.first.distance_, kLeastRange));
   ray.key = step == kCamera ? key : 0u;
   look.ray = ray;
   look.s = Prepare(ray);
@@ -237,8 +235,7 @@ Sample Radiance(vec3 eye, vec3 direction, float cone_angle, uint key) {
       TakeLight(step, q, look);
     } else if (step == kContact) {
       // Things close above level ground keep ambient light off.
-      const float t = min(1.0, hit.t / 1.2);
-      if (hit.instance != kMiss) look.s.contact = 0.25 + 0.75 * t * t * (3.0 - 2.0 * t);
+      if (hit.instance != kMiss) look.s.contact = contact_share(hit.t, kContactReach);
     } else {
       if (step == kCamera) look.result.first = hit;
       if (hit.instance != kMiss) TakeSurface(step, q, key, look);

@@ -22,12 +22,14 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Shade { Gpu
 #include "airsim360/render/shared/shading_bsdf.h"
 #undef in
 #include "airsim360/render/shared/shading_air.h"
+#include "airsim360/render/shared/shading_sky.h"
 #include "airsim360/render/shared/shading_tone.h"
 #include "airsim360/render/shared/shading_interior.h"
 #include "airsim360/render/shared/shading_weather.h"
 #include "airsim360/render/shared/shading_moon.h"
 #include "airsim360/render/shared/shading_ground.h"
 #include "airsim360/render/shared/shading_marks.h"
+#include "airsim360/render/shared/shading_surface.h"
 
 /// Whether something keeps rain off a point.
 bool roof_hides(vec3 p) {
@@ -47,12 +49,11 @@ const float kFoliage = 1.0, kGlass = 2.0, kWater = 3.0;
 const uint kMirroredUv = 0x80000000u;
 
 vec3 UnpackDirection(uint p) {
-  const float scale = 2.0 / 65534.0;
-  return octahedral_decode(float(p & 0xffffu) * scale - 1.0, float(p >> 16) * scale - 1.0);
+  return octahedral_decode(float(p & 0xffffu) * kDirectionStep - 1.0, float(p >> 16) * kDirectionStep - 1.0);
 }
 vec3 CornerColor(GpuTriangleColors c, int corner) {
   const uint rg = c.corner[2 * corner], ba = c.corner[2 * corner + 1];
-  return vec3(float(rg & 0xffffu), float(rg >> 16), float(ba & 0xffffu)) * (1.0 / 65535.0);
+  return vec3(float(rg & 0xffffu), float(rg >> 16), float(ba & 0xffffu)) * kColorStep;
 }
 /// What vertex colours do to the base colour of a triangle at the weights of its second and third corner.
 vec3 VertexColors(GpuShaded own, uint triangle, vec2 bary) {

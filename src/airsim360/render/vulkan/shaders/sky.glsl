@@ -5,10 +5,7 @@ vec3 SampleSky(GpuSky table, vec3 d, bool full_sphere) {
   column = column < 0.0 ? column + table.width : column;
   float e = asin_approx(min(max(d.z, -1.0), 1.0)) * (2.0 / SHADE_PI);
   float t = 0.5 + 0.5 * e;
-  if (!full_sphere) {
-    e = max(e, 0.0);
-    t = (sqrt(0.36 + 1.6 * e) - 0.6) * 1.25;
-  }
+  if (!full_sphere) t = sky_row(max(e, 0.0));
   const float row = clamp01(t) * (table.height - 1.0);
   const float x = min(table.width - 1.0, max(0.0, floor(column)));
   const float y = min(table.height - 2.0, max(0.0, floor(row)));
@@ -42,15 +39,15 @@ float CloudShadow(vec3 p) {
   return low + (high - low) * fy;
 }
 
-/// Sky, and ground below the horizon, blurred as by a surface of this roughness: 0.05, 0.30, 0.55, 0.85 of the four pictures.
+/// Sky, and ground below the horizon, blurred as by a surface of this roughness.
 vec3 BlurredSky(vec3 d, float roughness) {
-  const float shares[4] = float[4](1.0, (roughness - 0.05) * 4.0, (roughness - 0.30) * 4.0, (roughness - 0.55) * (1.0 / 0.30));
+  const vec3 shares = blur_shares(roughness);
   vec3 c = vec3(0.0);
   [[dont_unroll]] for (int k = 0; k < 4; ++k) {
-    const float share = clamp01(shares[k]);
+    const float share = k == 0 ? 1.0 : shares[k - 1];
     if (!(share > 0.0)) break;
     vec3 table = SampleSky(TableOf(k), d, k > 0);
-    if (k == 0 && !(d.z > 0.0)) table = lerp3(table, Vec(view.ground), clamp01(d.z * -12.0));
+    if (k == 0 && !(d.z > 0.0)) table = lerp3(table, Vec(view.ground), ground_share(d.z));
     c = lerp3(c, table, share);
   }
   return c;
@@ -79,9 +76,9 @@ struct ProbeCell {
 };
 ProbeCell ProbeCellAt(vec3 p, vec3 normal) {
   const float cells = view.probe_cells_per_metre;
-  const vec3 q = p + normal * (0.45 / cells);
-  const float x = min(view.probe_max[0] + 0.9999, max(0.0, (q.x - view.probe_origin[0]) * cells));
-  const float y = min(view.probe_max[1] + 0.9999, max(0.0, (q.y - view.probe_origin[1]) * cells));
+  const vec3 q = p + normal * (kProbeBias / cells);
+  const float x = min(view.probe_max[0] + kProbeReach, max(0.0, (q.x - view.probe_origin[0]) * cells));
+  const float y = min(view.probe_max[1] + kProbeReach, max(0.0, (q.y - view.probe_origin[1]) * cells));
   const float h = min(view.height_last, max(0.0, (q.z - view.height_origin) * view.height_scale));
   const float z = view.layer_of_height.v[int(floor(h + 0.5))];
   const float x0 = min(floor(x), view.probe_max[0]), y0 = min(floor(y), view.probe_max[1]),
@@ -126,7 +123,7 @@ AirEffect EffectOf(vec3 depth, vec3 source) {
   a.added = source * (vec3(1.0) - a.kept);
   return a;
 }
-vec3 WeatherSource(float mu) { return Vec(view.weather_glow) * forward_phase(0.80, mu) + Vec(view.weather_light); }
+vec3 WeatherSource(float mu) { return Vec(view.weather_glow) * forward_phase(kFogAsymmetry, mu) + Vec(view.weather_light); }
 vec3 Horizon(int k) { return vec3(view.horizon[3 * k], view.horizon[3 * k + 1], view.horizon[3 * k + 2]); }
 
 /// Metres of a way that are free of fog.
@@ -137,13 +134,13 @@ AirEffect AirToSurface(vec3 o, vec3 d, float distance_) {
   vec3 depth = Vec(view.rayleigh) * layer_path(height, d.z, distance_, view.rayleigh_height) +
                Vec(view.aerosol) * layer_path(height, d.z, distance_, view.aerosol_height);
   const float mu = dot(d, Vec(view.air_to_sun));
-  const vec3 glow = Vec(view.glow) * forward_phase(0.76, mu);
+  const vec3 glow = Vec(view.glow) * forward_phase(kAirAsymmetry, mu);
   vec3 source = around_horizon(Horizon(0), Horizon(1), Horizon(2), Horizon(3), Horizon(4), Horizon(5), Horizon(6), d) *
                 (glow + 1.0);
   if (view.weather > 0.0) {
     const float free = FreeOfFog(o, d, distance_);
     const float fog = view.weather * layer_path(height + d.z * free, d.z, distance_ - free, view.weather_height);
-    source = lerp3(source, WeatherSource(mu), fog / max(fog + depth.y, 1e-9));
+    source = lerp3(source, WeatherSource(mu), fog_share(fog, depth.y));
     depth += fog;
   }
   return EffectOf(depth, source);
@@ -163,8 +160,8 @@ vec3 LookUpSky(vec3 o, vec3 d, bool sun_disc) {
   if (!ground) c = SampleSky(TableOf(down ? 4 : 0), up, false);
   if (ground || (!down && view.weather > 0.0)) {
     AirEffect air;
-    if (ground) air = AirToSurface(o, d, max(o.z - view.ground_z, 2.0) / max(-d.z, 1e-4));
-    else air = AirToSky(o, up, 2e5);
+    if (ground) air = AirToSurface(o, d, ground_distance(o.z - view.ground_z, d.z));
+    else air = AirToSky(o, up, kFarAir);
     c = c * air.kept + air.added;
   }
   if (sun_disc) {
@@ -172,7 +169,7 @@ vec3 LookUpSky(vec3 o, vec3 d, bool sun_disc) {
     const float x2 = dot(off, off) * (1.0 / (SUN_RADIUS * SUN_RADIUS));
     if (x2 < 1.0 && view.moon_gain > 0.0)
       c += Vec(view.sun_radiance) * (moon_face(off * (1.0 / SUN_RADIUS), Vec(view.to_sun), Vec(view.moon_light)) * (view.moon_gain * view.sun_seen));
-    else if (x2 < 1.0) c += Vec(view.sun_radiance) * ((0.4 + 0.6 * sqrt(max(1.0 - x2, 0.0))) * (1.25 * view.sun_seen));
+    else if (x2 < 1.0) c += Vec(view.sun_radiance) * (sun_limb(x2) * (SUN_LIMB_GAIN * view.sun_seen));
   }
   return c;
 }

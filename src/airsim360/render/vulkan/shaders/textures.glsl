@@ -9,7 +9,7 @@ float FoldCoordinate(float x, uint wrap) {
 
 vec3 Texel(Uints texels, int i, bool encoded) {
   const uint t = texels.v[i];
-  const vec3 c = vec3(float(t & 255u), float((t >> 8) & 255u), float((t >> 16) & 255u)) * (1.0 / 255.0);
+  const vec3 c = vec3(float(t & 255u), float((t >> 8) & 255u), float((t >> 16) & 255u)) * kByteStep;
   if (!encoded) return c;
   return vec3(srgb_decode_approx(c.x), srgb_decode_approx(c.y), srgb_decode_approx(c.z));
 }
