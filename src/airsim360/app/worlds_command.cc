@@ -24,7 +24,7 @@ void PrintWorlds(bool json) {
                       {"categories", world.categories},
                       {"description", world.description}});
     } else {
-      std::printf("%-16s %-8s %9.0f m2  %3zu categories  %s\n", world.name.c_str(), world.setting.c_str(), world.area_m2,
+      std::printf("%-19s %-8s %9.0f m2  %3zu categories  %s\n", world.name.c_str(), world.setting.c_str(), world.area_m2,
                   world.categories.size(), world.description.c_str());
     }
   }

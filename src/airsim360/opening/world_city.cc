@@ -10,6 +10,7 @@ namespace airsim360 {
 namespace {
 
 void VisitCity(ConfigVisitor& v, CityOptions& city) {
+  v.Field("style", "the time that it shows", city.style, kCityStyles);
   v.Field("height", "of towers, 1 = as built in", city.height, 0.3, 2.5);
   v.Field("traffic", "cars in lanes and bays", city.traffic, 0, 1.6);
   v.Field("trees", "street trees", city.trees, 0, 1.6);
@@ -47,7 +48,7 @@ bool WorldAdditions::no_building() const {
 }
 
 void WorldAdditions::Visit(ConfigVisitor& v) {
-  v.Group("city", "measures of new_york_city", [&](ConfigVisitor& group) { VisitCity(group, city); });
+  v.Group("city", "measures of new_york_city and its variant", [&](ConfigVisitor& group) { VisitCity(group, city); });
   v.Group("town", "measures of the world town", [&](ConfigVisitor& group) { town.Visit(group); });
   v.Group("building", "measures of the world building", [&](ConfigVisitor& group) { building.Visit(group); });
   v.List("props", "models of your own", props, [](ConfigVisitor& entry, PropFile& prop) { VisitProp(entry, prop); });

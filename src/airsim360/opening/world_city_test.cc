@@ -26,8 +26,9 @@ std::string CityError(std::string_view text) {
 
 TEST(WorldAdditions, AreReadFromAWorldFile) {
   const WorldAdditions read = Read(
-      "city: {height: 0.7, traffic: 0.2, styles: [deco, brownstone]}\nprops:\n  - {model: a.glb, label: "
+      "city: {style: 1950s, height: 0.7, traffic: 0.2, styles: [deco, brownstone]}\nprops:\n  - {model: a.glb, label: "
       "vehicle/car, x: 3, yaw_deg: 90}\n");
+  EXPECT_EQ(read.city.style, CityStyle::k1950s);
   EXPECT_EQ(read.city.height, 0.7);
   EXPECT_EQ(read.city.styles.size(), 2u);
   ASSERT_EQ(read.props.size(), 1u);
@@ -44,6 +45,8 @@ TEST(WorldAdditions, MistakesAreNamedWithLineAndNearestKey) {
   EXPECT_NE(unknown.find("traffic"), std::string::npos) << unknown;
   EXPECT_NE(CityError("city: {height: 9}").find("town.yaml:1"), std::string::npos);
   EXPECT_NE(CityError("city: {styles: [decco]}").find("deco"), std::string::npos);
+  const std::string time = CityError("city: {style: 1950}");
+  EXPECT_NE(time.find("1950s"), std::string::npos) << time;
   EXPECT_NE(CityError("props: [{label: vehicle/car}]").find("model"), std::string::npos);
   EXPECT_NE(CityError("props: [{model: nowhere.glb}]").find("nowhere.glb"), std::string::npos);
 }

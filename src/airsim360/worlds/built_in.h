@@ -35,6 +35,10 @@ std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options);
 std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options, std::vector<Placement>* placements);
 WorldInfo NewYorkCityInfo();
 
+/// The same streets in the 1950s: BuildNewYorkCity with options.city.style.
+std::shared_ptr<const Scene> BuildNewYorkCity1950s(const WorldOptions& options);
+WorldInfo NewYorkCity1950sInfo();
+
 /// A park around the bend of a road, with a lake, groves and lawns, woods to the horizon.
 std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options);
 /// The same; `placements` as above.

@@ -24,6 +24,7 @@ constexpr BuiltIn kBuiltIn[] = {
     {"mall", internal::MallInfo, internal::BuildMall},
     {"map_town", internal::MapTownInfo, internal::BuildMapTown},
     {"new_york_city", internal::NewYorkCityInfo, internal::BuildNewYorkCity},
+    {"new_york_city_1950s", internal::NewYorkCity1950sInfo, internal::BuildNewYorkCity1950s},
     {"office", internal::OfficeInfo, internal::BuildOffice},
     {"rome", internal::RomeInfo, internal::BuildRome},
     {"roof", internal::RoofInfo, internal::BuildRoof},

@@ -27,9 +27,14 @@ struct WorldInfo {
 /// All built-in worlds, by name.
 const std::vector<WorldInfo>& ListWorlds();
 
+/// The time that new_york_city shows; the world new_york_city_1950s is the same city of the second.
+enum class CityStyle { kPresent, k1950s };
+inline constexpr const char* kCityStyles[] = {"present", "1950s"};
+
 /// What a world file may change about a procedural city, relative to the built-in one. Only new_york_city
 /// listens today.
 struct CityOptions {
+  CityStyle style = CityStyle::kPresent;
   double height = 1;                ///< of towers: 0.3 … 2.5
   double traffic = 1;               ///< cars in lanes and bays: 0 … 1.6
   double trees = 1;                 ///< street trees: 0 … 1.6

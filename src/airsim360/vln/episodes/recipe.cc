@@ -10,7 +10,7 @@ namespace {
 // Rooms and towns for tests, and the town of one's own measures.
 constexpr const char* kNoWorlds[] = {"box_room", "sunlit_room", "town", "building"};
 constexpr const char* kUnseen[] = {"rome", "warehouse"};
-constexpr const char* kCities[] = {"downtown_west", "new_york_city"};
+constexpr const char* kCities[] = {"downtown_west", "new_york_city", "new_york_city_1950s"};
 
 template <size_t kCount>
 bool IsOneOf(const std::string& name, const char* const (&names)[kCount]) {

@@ -13,8 +13,8 @@ namespace airsim360 {
 namespace {
 
 std::vector<std::string> Known() {
-  return {"apartment", "box_room", "building",    "downtown_west", "new_york_city", "office",
-          "rome",      "roof",     "sunlit_room", "town",          "warehouse"};
+  return {"apartment", "box_room", "building", "downtown_west", "new_york_city", "new_york_city_1950s",
+          "office",    "rome",     "roof",     "sunlit_room",   "town",          "warehouse"};
 }
 
 TEST(VlnRecipe, UnseenWorldsAreInNoOtherSplitAndTestRoomsInNone) {
@@ -28,7 +28,7 @@ TEST(VlnRecipe, UnseenWorldsAreInNoOtherSplitAndTestRoomsInNone) {
   EXPECT_EQ(splits.size() + 4, Known().size());
 }
 
-TEST(VlnRecipe, ThePapersInstructionsAreForItsTwoCitiesInThreeTownsEach) {
+TEST(VlnRecipe, ThePapersInstructionsAreForItsTwoCitiesAndAnotherInThreeTownsEach) {
   std::map<std::string, int> seeds;
   for (const VlnMakeOptions& part : VlnRecipe("omni360-vln", Known())) {
     EXPECT_EQ(part.starts, 3);
@@ -38,7 +38,7 @@ TEST(VlnRecipe, ThePapersInstructionsAreForItsTwoCitiesInThreeTownsEach) {
     else
       EXPECT_EQ(part.templates, "any");
   }
-  EXPECT_EQ(seeds, (std::map<std::string, int>{{"downtown_west", 3}, {"new_york_city", 3}}));
+  EXPECT_EQ(seeds, (std::map<std::string, int>{{"downtown_west", 3}, {"new_york_city", 3}, {"new_york_city_1950s", 3}}));
 }
 
 TEST(VlnRecipe, EveryWeatherThatIsMixedCanBeDrawn) {

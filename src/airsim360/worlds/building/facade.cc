@@ -222,9 +222,22 @@ MeshId AddBalconyMesh(SceneBuilder& builder, const Surfaces& surfaces) {
   return builder.AddMesh(mesh.Finish("balcony"));
 }
 
-MeshId AddWindowBoxMesh(SceneBuilder& builder, const Surfaces& surfaces) {
+MeshId AddWindowBoxMesh(SceneBuilder& builder, const Surfaces& surfaces, bool cooler) {
   MeshBuilder mesh;
   FacadePen pen(mesh, surfaces);
+  if (!cooler) {
+    // A box of planks before the sash, what grows in it a low bank.
+    pen.Use(Surface::kDoorGreen);
+    pen.Bar(-0.42f, 0.42f, 0, 0.17f, -0.27f, -0.06f);
+    pen.Use(Surface::kLawn);
+    pen.Bar(-0.39f, 0.39f, 0.17f, 0.27f, -0.25f, -0.08f);
+    pen.Use(Surface::kDoorRed);
+    for (int i = 0; i < 7; ++i) {
+      const float x = -0.36f + 0.11f * static_cast<float>(i);
+      pen.Bar(x, x + 0.06f, 0.24f, 0.31f, -0.26f + 0.05f * static_cast<float>(i % 3), -0.20f + 0.05f * static_cast<float>(i % 3));
+    }
+    return builder.AddMesh(mesh.Finish("window flowers"));
+  }
   pen.Use(Surface::kMetal);
   pen.Bar(-0.33f, 0.33f, 0, 0.42f, -0.32f, 0.15f);
   pen.Use(Surface::kFrameDark);

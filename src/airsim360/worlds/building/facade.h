@@ -24,8 +24,9 @@ struct FacadeContext {
   const Surfaces& surfaces;
   MeshBuilder& mesh;
   MeshId balcony;                                         ///< instanced railing of 1 m, scaled along x: iron balcony of a French window
-  MeshId window_box;                                      ///< instanced air conditioner in a window
+  MeshId window_box;                                      ///< instanced air conditioner or flowers in a window
   std::optional<std::array<MeshId, 2>> fire_escape = {};  ///< a storey of one, both ways; without: none
+  float escape_wall = 8;                                  ///< least length of the walls that may have one; at least 4.8 m
   EntityId building = kNoEntity;                          ///< the one being built
   int next_sign = 0;                                      ///< picture of the last shop sign, so that neighbours differ
   float base = 0, stretch = 1, reach = 1;                 ///< of the building: z of its ground, factors of FacadePen::SetScale
@@ -44,7 +45,8 @@ float ParapetHeight(const BuildingPlan& building);
 
 /// The meshes that facades repeat.
 MeshId AddBalconyMesh(SceneBuilder& builder, const Surfaces& surfaces);
-MeshId AddWindowBoxMesh(SceneBuilder& builder, const Surfaces& surfaces);
+/// An air conditioner, or (`cooler` false) a box of flowers on the sill.
+MeshId AddWindowBoxMesh(SceneBuilder& builder, const Surfaces& surfaces, bool cooler = true);
 /// A landing of 4.4 m with railing and the flight up to the next, for storeys of 3.2 m.
 MeshId AddFireEscapeMesh(SceneBuilder& builder, const Surfaces& surfaces, bool mirrored);
 /// Where the stoop of a brownstone lies along a street wall of that length: its middle. It reaches 1.9 m out.

@@ -183,7 +183,8 @@ void BuildWallExtras(FacadeContext& context, FacadePen& pen, const BuildingPlan&
     }
     return;
   }
-  if (plan.style != FacadeStyle::kBrickWalkUp || !plan.fire_escapes || !context.fire_escape || L < 8 || !rng.Chance(0.7)) return;
+  if (plan.style != FacadeStyle::kBrickWalkUp || !plan.fire_escapes || !context.fire_escape || L < context.escape_wall || !rng.Chance(0.7))
+    return;
   // A stack of landings; the lowest hangs over the shops.
   const float x = L * static_cast<float>(rng.Uniform(0.3, 0.7));
   for (int f = 0; f < plan.floors; ++f) {

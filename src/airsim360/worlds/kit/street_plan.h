@@ -28,6 +28,12 @@ enum class StreetKind {
   kBoulevard,  ///< planted median; bus lane to the left of +s, green bike lane and parking to the right
 };
 
+/// How it is painted.
+enum class RoadPaint {
+  kToday,       ///< yellow middle, bays, arrows, words, cycle and bus lanes, boxes, ladders for those on foot
+  kWhiteLines,  ///< white lines between the lanes, two across for those on foot
+};
+
 /// A straight street: x = center (north-south) or y = center (east-west).
 struct StreetLine {
   float center = 0;
@@ -52,6 +58,7 @@ struct StreetPlan {
   std::vector<StreetLine> north_south, east_west;  ///< by growing coordinate
   int first_core = 1, last_core = 4;
   int bike_lane_row = -1;  ///< index of the east-west two-way street with green bike lanes; -1 = none
+  RoadPaint paint = RoadPaint::kToday;
   std::vector<Block> blocks;
 
   /// The reachable ground: to the building lines across the outermost core streets.

@@ -1,7 +1,7 @@
 // The parts of new_york_city that its builder puts together.
 #pragma once
 
-#include "airsim360/worlds/new_york_city/manhattan.h"
+#include "airsim360/worlds/new_york_city/period.h"
 #include "airsim360/worlds/town/district.h"
 
 namespace airsim360::internal {
@@ -25,11 +25,14 @@ void PartBoardsFromFireEscapes(Manhattan& city, uint64_t seed);
 void HangSigns(District& district, const Manhattan& city, bool more);
 /// What flight instructions name, each once; before the rest of the furniture.
 void PlaceLandmarks(District& district, const Manhattan& city);
+/// Aerials on the roofs of the low houses; railed stairs on the pavements around the crossing.
+void RaiseAerials(District& district, const Manhattan& city);
+void PlaceSubwayStairs(District& district);
 /// Lamps, trees, bins, newspaper boxes, carts, road works … along the pavements.
-void FurnishNewYorkPavements(District& district, const Manhattan& city, const Density& density);
+void FurnishNewYorkPavements(District& district, const Manhattan& city, const Period& period, const Density& density);
 /// Cabs, cars, vans and buses in lanes and bays; covers.
 void FurnishNewYorkStreets(District& district, const std::vector<StreetStretch>& streets, const Density& density);
 /// Far blocks and streets to 660 m, a skyline to the horizon, the rivers.
-void BuildFarManhattan(District& district, const Density& density);
+void BuildFarManhattan(District& district, const Period& period, const Density& density);
 
 }  // namespace airsim360::internal

@@ -10,18 +10,13 @@
 namespace airsim360::internal {
 namespace {
 
-Surface FarWall(RngStream& rng) {
-  using S = Surface;
-  static constexpr S kWalls[] = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3,   S::kFarWalls2,   S::kFarPiers0,
-                                 S::kFarPiers0, S::kFarPiers1, S::kFarPiers1, S::kFarRibbons0, S::kFarRibbons1, S::kGlassBlue};
-  return kWalls[rng.Index(12)];
-}
+Surface FarWall(const Period& period, RngStream& rng) { return period.far_walls[rng.Index(12)]; }
 
 float FarHeight(RngStream& rng) { return std::clamp(static_cast<float>(34 * std::exp(0.55 * rng.Normal())), 12.0f, 190.0f); }
 
 // A stepped box; each far building is an entity.
-void BuildFarTower(District& d, GroundRect r, float height, RngStream& rng) {
-  const Surface wall = FarWall(rng);
+void BuildFarTower(District& d, const Period& period, GroundRect r, float height, RngStream& rng) {
+  const Surface wall = FarWall(period, rng);
   const EntityId building = d.ground.Begin("far building", "construction/building", wall);
   const EntityId roof = d.builder.AddEntity("far roof", d.builder.tree().At("construction/building/roof"));
   float z = kFarGroundZ;
@@ -49,7 +44,7 @@ void BuildFarTower(District& d, GroundRect r, float height, RngStream& rng) {
     d.ground.mesh().Tube({hut.center().x, hut.center().y, height + 3}, {hut.center().x, hut.center().y, height + 25}, 0.6f, 0.2f, 6);
 }
 
-void BuildFarBlocks(District& d, const GroundRect& ring) {
+void BuildFarBlocks(District& d, const Period& period, const GroundRect& ring) {
   const int nx = static_cast<int>(kFarCityEdge / kFarPitchX) + 1, ny = static_cast<int>(kFarCityEdge / kFarPitchY) + 1;
   for (int j = -ny; j <= ny; ++j) {
     for (int i = -nx; i <= nx; ++i) {
@@ -68,7 +63,7 @@ void BuildFarBlocks(District& d, const GroundRect& ring) {
           const float mid = inner.center().y;
           const GroundRect lot{x, row ? mid : inner.y0, x + w - 0.3f, row ? inner.y1 : mid - 0.3f};
           x += w;
-          if (!rng.Chance(0.04)) BuildFarTower(d, lot, FarHeight(rng), rng);
+          if (!rng.Chance(0.04)) BuildFarTower(d, period, lot, FarHeight(rng), rng);
         }
       }
     }
@@ -76,7 +71,7 @@ void BuildFarBlocks(District& d, const GroundRect& ring) {
 }
 
 // Beyond the blocks: single boxes on the same grid, taller in two clusters, one entity a square of 400 m.
-void BuildSkyline(District& d) {
+void BuildSkyline(District& d, const Period& period) {
   RngStream rng(d.seed, "skyline");
   std::map<std::pair<int, int>, EntityId> squares;
   for (int j = -34; j <= 34; ++j) {
@@ -98,7 +93,7 @@ void BuildSkyline(District& d) {
                     h = std::clamp(FarHeight(rng) * tall * 0.8f, 10.0f, 330.0f);
         const float px = x0 + (k % 2 ? 56.0f : 0.0f), py = y0 + (k / 2 ? 36.0f : 0.0f);
         const GroundRect box{px, py, px + w, py + depth};
-        d.ground.Use(FarWall(rng));
+        d.ground.Use(FarWall(period, rng));
         d.ground.mesh().Walls(box.Outline(), kFarGroundZ, h);
         d.ground.Use(Surface::kFarRoof);
         d.ground.Rect(box, h);
@@ -109,12 +104,12 @@ void BuildSkyline(District& d) {
 
 }  // namespace
 
-void BuildFarManhattan(District& d, const Density& density) {
+void BuildFarManhattan(District& d, const Period& period, const Density& density) {
   const Block &first = d.plan.blocks.front(), &last = d.plan.blocks.back();
   const GroundRect ring{first.kerb.x0 - 26, first.kerb.y0 - 13, last.kerb.x1 + 26, last.kerb.y1 + 13};
-  BuildFarBlocks(d, ring);
+  BuildFarBlocks(d, period, ring);
   LayFarStreets(d, ring, density);
-  BuildSkyline(d);
+  BuildSkyline(d, period);
   // Asphalt under the far blocks: four sheets around the ring, then the island's ground to both rivers.
   const float ex = 1560, ey = 3000;
   const GroundRect sheets[] = {

@@ -22,7 +22,21 @@ struct FarStretch {
   Vec3f At(float s, float d) const { return along_x ? Vec3f{s, center + d, kFarGroundZ} : Vec3f{center - d, s, kFarGroundZ}; }
 };
 
+void PaintWhiteLines(District& d, const FarStretch& street, bool avenue) {
+  const float hw = street.half_width, s0 = street.s0 + kCurb, s1 = street.s1 - kCurb;
+  d.ground.Begin("far markings", "ground/lane_marking", Surface::kPaintWhite);
+  d.ground.Rect(street.Cut(s0, s1, -0.07f, 0.07f), kFarGroundZ + kLift);
+  for (float side : {-1.0f, 1.0f})
+    for (float lane : {3.7f, 7.2f})
+      for (float s = s0 + 2; avenue && s + 3 < s1; s += 9)
+        d.ground.Rect(street.Cut(s, s + 3, side * lane - 0.07f, side * lane + 0.07f), kFarGroundZ + kLift);
+  d.ground.Begin("far crosswalk", "ground/crosswalk", Surface::kPaintWhite);
+  for (float s : {street.s0 + 0.9f, street.s1 - 0.9f - kZebra})
+    for (float line : {s, s + kZebra - 0.25f}) d.ground.Rect(street.Cut(line, line + 0.25f, 0.7f - hw, hw - 0.7f), kFarGroundZ + kLift);
+}
+
 void PaintStretch(District& d, const FarStretch& street, bool avenue) {
+  if (d.plan.paint == RoadPaint::kWhiteLines) return PaintWhiteLines(d, street, avenue);
   const float hw = street.half_width, s0 = street.s0 + kCurb, s1 = street.s1 - kCurb;
   d.ground.Begin("far markings", "ground/lane_marking", Surface::kPaintYellow);
   for (float at : {-0.2f, 0.1f}) d.ground.Rect(street.Cut(s0, s1, at, at + 0.1f), kFarGroundZ + kLift);

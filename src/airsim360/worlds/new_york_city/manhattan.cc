@@ -6,44 +6,17 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
+#include "airsim360/worlds/new_york_city/period.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr float kRearYard = 3;
 
-// Hand-set lots around the crossing at the origin and what instructions name; (column, row of block).
-struct Role {
-  int column, block_row, row, index;  // index -1 = last of its row
-  const char* name;
-  LotUse use;
-  FacadeStyle style;
-  int palette;
-  float height;
-  int tiers;  // 1 straight, 2 podium and tower, 3 set back twice
-};
 using F = FacadeStyle;
-constexpr Role kRoles[] = {
-    {2, 2, 0, 0, "deco corner", LotUse::kBuilding, F::kDeco, 0, 54, 1},
-    {1, 2, 0, -1, "grid tower", LotUse::kBuilding, F::kConcreteGrid, 2, 76, 2},
-    {2, 1, 1, 0, "braced corner", LotUse::kBuilding, F::kBracedGlass, 0, 31, 1},
-    {1, 1, 1, -1, "brown tower", LotUse::kBuilding, F::kDeco, 2, 62, 3},
-    {1, 2, 1, -1, "blue tower", LotUse::kBuilding, F::kCurtainWall, 1, 116, 2},
-    {2, 2, 1, 0, "north deco", LotUse::kBuilding, F::kDeco, 1, 66, 3},
-    {2, 1, 0, 0, "glass slab", LotUse::kBuilding, F::kCurtainWall, 0, 122, 2},
-    {1, 1, 0, -1, "loft corner", LotUse::kBuilding, F::kBrickLoft, 0, 36, 1},
-    {2, 2, 0, 1, "ribbon low", LotUse::kBuilding, F::kRibbon, 0, 22, 1},
-    {2, 1, 1, 2, "plaza", LotUse::kPlaza, F::kRibbon, 0, 0, 1},
-    {1, 1, 1, 1, "building site", LotUse::kDirt, F::kRibbon, 0, 0, 1},
-    {1, 2, 0, 1, "bottle roof", LotUse::kBuilding, F::kBrickLoft, 1, 24, 1},
-    {2, 2, 0, -1, "bank", LotUse::kBuilding, F::kClassicStone, 0, 27, 1},
-    {3, 1, 1, 1, "similar tower 1", LotUse::kBuilding, F::kRibbon, 0, 58, 2},
-    {3, 1, 1, 2, "similar tower 2", LotUse::kBuilding, F::kRibbon, 0, 58, 2},
-    {3, 1, 1, 3, "similar tower 3", LotUse::kBuilding, F::kRibbon, 0, 58, 2},
-};
 
-const Role* RoleOf(const Block& block, int row, int index, int count) {
-  for (const Role& role : kRoles) {
+const Role* RoleOf(const Period& period, const Block& block, int row, int index, int count) {
+  for (const Role& role : period.roles) {
     const int at = role.index < 0 ? count - 1 : role.index;
     if (role.column == block.column && role.block_row == block.row && role.row == row && at == index) return &role;
   }
@@ -61,7 +34,7 @@ struct Design {
 
 // A tower, or the low style of a row of houses. Half of the corners and two thirds of the other lots are houses: with several
 // on a lot, seven buildings in ten have no more than six storeys, as in the real city.
-Design DrawDesign(const Lot& lot, bool core, float scale, RngStream& rng) {
+Design DrawDesign(const Lot& lot, bool core, float scale, const Period& period, RngStream& rng) {
   Design d{};
   const bool corner = lot.corner();
   d.houses = rng.Chance(corner ? 0.52 : 0.68);
@@ -70,9 +43,7 @@ Design DrawDesign(const Lot& lot, bool core, float scale, RngStream& rng) {
     d.tiers = 1;
     d.height = 16;
   } else if (corner) {
-    static constexpr F kStyles[] = {F::kDeco,         F::kConcreteGrid, F::kCurtainWall, F::kDeco,       F::kRibbon,
-                                    F::kClassicStone, F::kDeco,         F::kBrickLoft,   F::kCurtainWall};
-    d.style = kStyles[rng.Index(9)];
+    d.style = period.corner_towers[rng.Index(9)];
     d.height = static_cast<float>(34 + 75 * rng.Uniform() * rng.Uniform() + 32 * rng.Uniform()) * scale;
     const double pick = rng.Uniform();
     d.tiers = pick < 0.4 ? 3 : pick < 0.75 ? 2 : 1;
@@ -81,8 +52,7 @@ Design DrawDesign(const Lot& lot, bool core, float scale, RngStream& rng) {
     d.height = static_cast<float>(rng.Uniform(18, 34));
     d.tiers = 1;
   } else {
-    static constexpr F kStyles[] = {F::kDeco, F::kCurtainWall, F::kRibbon, F::kDeco, F::kConcreteGrid, F::kClassicStone};
-    d.style = kStyles[rng.Index(6)];
+    d.style = period.other_towers[rng.Index(6)];
     d.height = static_cast<float>(30 + 50 * rng.Uniform()) * scale;
     d.tiers = rng.Chance(0.5) ? 3 : 2;
   }
@@ -210,7 +180,7 @@ void AddTiers(const Lot& lot, const Design& design, uint64_t seed, std::vector<B
     plan.party_height.assign(plan.outline.size(), 0);
     plan.floors = storeys(tops[i] - (i == 0 ? metrics.ground_height : foot));
     plan.roof = rng.Chance(0.5) ? RoofKind::kFlatGravel : RoofKind::kFlatBitumen;
-    plan.name = lot.role;
+    plan.name = lot.name;
     foot = plan.height();
     // The next tier: well back from neighbours, a little from the streets.
     const float street =
@@ -302,6 +272,7 @@ void AddHouses(const Lot& lot, const Design& design, uint64_t seed, Manhattan& c
 }  // namespace
 
 Manhattan PlanManhattan(const StreetPlan& plan, const ManhattanOptions& options) {
+  const Period& period = PeriodOf(options.style);
   Manhattan city;
   for (size_t i = 0; i < plan.blocks.size(); ++i) {
     const Block& block = plan.blocks[i];
@@ -312,7 +283,7 @@ Manhattan PlanManhattan(const StreetPlan& plan, const ManhattanOptions& options)
     const auto west = static_cast<float>(rng.Uniform(19, 26)), east = static_cast<float>(rng.Uniform(19, 26));
     for (int row = 0; row < 2; ++row) {
       for (Lot& lot : CutRow(block, i, row, west, east, rng)) {
-        Design design = DrawDesign(lot, core, options.height_scale, rng);
+        Design design = DrawDesign(lot, core, options.height_scale, period, rng);
         const uint64_t seed = rng.Bits();
         if (!options.styles.empty() && std::find(options.styles.begin(), options.styles.end(), design.style) == options.styles.end()) {
           design.style = options.styles[rng.Index(static_cast<uint32_t>(options.styles.size()))];
@@ -320,8 +291,9 @@ Manhattan PlanManhattan(const StreetPlan& plan, const ManhattanOptions& options)
           if (design.style == FacadeStyle::kBrownstone && (lot.corner() || design.height > 20)) design.style = FacadeStyle::kBrickWalkUp;
           design.houses = design.houses && (design.style == FacadeStyle::kBrownstone || design.style == FacadeStyle::kBrickWalkUp);
         }
-        if (const Role* role = RoleOf(block, row, lot.index, lot.count)) {
+        if (const Role* role = RoleOf(period, block, row, lot.index, lot.count)) {
           lot.role = role->name;
+          lot.name = *role->called ? role->called : role->name;
           lot.use = role->use;
           design = {role->style, role->palette, role->height, role->tiers};
         }

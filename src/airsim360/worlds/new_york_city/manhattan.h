@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "airsim360/worlds/building/massing.h"
+#include "airsim360/worlds/worlds.h"
 
 namespace airsim360::internal {
 
@@ -23,6 +24,7 @@ struct Lot {
   GroundRect rect;
   LotUse use = LotUse::kBuilding;
   std::string role;     ///< "" or the name of a hand-set lot: "deco corner", "grid tower", …
+  std::string name;     ///< of its buildings; "" = they have none
   float height = 0;     ///< of the highest roof
   float podium = 0;     ///< of the roof at the street
   bool houses = false;  ///< cut into narrow houses, each with a back yard
@@ -49,6 +51,7 @@ struct ManhattanOptions {
   uint64_t seed = 0;
   float height_scale = 1;
   std::vector<FacadeStyle> styles = {};  ///< of lots that are not hand-set; empty = all
+  CityStyle style = CityStyle::kPresent;
 };
 Manhattan PlanManhattan(const StreetPlan& plan, const ManhattanOptions& options);
 

@@ -1,4 +1,6 @@
 // new_york_city: a crossing of avenues and streets in Midtown, with a park, people-free.
+#include <algorithm>
+
 #include "airsim360/worlds/built_in.h"
 #include "airsim360/worlds/new_york_city/city.h"
 #include "airsim360/worlds/props/placed_models.h"
@@ -38,18 +40,23 @@ namespace airsim360::internal {
 std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options) { return BuildNewYorkCity(options, nullptr); }
 
 std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options, std::vector<Placement>* placements) {
-  SceneBuilder builder("new_york_city");
+  const Period& period = PeriodOf(options.city.style);
+  SceneBuilder builder(period.world);
   builder.AddSky();
   builder.environment() = {.sun_azimuth_deg = 256, .sun_elevation_deg = 66, .turbidity = 2.6, .cloud_cover = 0.3};
-  const Surfaces surfaces = AddSurfaces(builder);
-  const StreetPlan plan = PlanNewYorkCity();
+  Surfaces surfaces = AddSurfaces(builder, period.shop_signs);
+  for (const auto& [surface, by] : period.surfaces) surfaces = surfaces.With(surface, surfaces[by]);
+  StreetPlan plan = PlanNewYorkCity();
+  plan.paint = period.paint;
   PropShelf shelf(builder, options.models, options.seed);
+  for (const auto& [kind, by] : period.props) shelf.Replace(kind, by);
   Occupancy occupancy;
   Placer placer(shelf, occupancy, options.seed);
   Ground ground(builder, surfaces);
   District district{builder, surfaces, plan, ground, placer, options.seed};
   const Density density{options.city.traffic, options.city.trees, options.city.furniture};
-  Manhattan city = PlanManhattan(plan, {options.seed, static_cast<float>(options.city.height), StylesOf(options.city.styles)});
+  Manhattan city =
+      PlanManhattan(plan, {options.seed, static_cast<float>(options.city.height), StylesOf(options.city.styles), options.city.style});
 
   if (options.city.billboards) {
     MarkMurals(city, plan.reach(), options.seed);
@@ -60,18 +67,20 @@ std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options, std::
   const std::vector<StreetStretch> streets = LayStreets(ground, plan, options.seed);
   builder.SetRoads(std::make_shared<const RoadNetwork>(RoadsOf(plan)));
   for (const Block& block : plan.blocks) LayPavement(ground, block, Surface::kSlabs, "ground/sidewalk", block.kind != BlockKind::kBackdrop);
-  BuildBuildings(district, city.buildings, true);
+  BuildBuildings(district, city.buildings, {.fire_escapes = true, .escape_wall = period.escape_wall, .coolers = period.coolers});
+  if (period.aerials) RaiseAerials(district, city);
   HangSigns(district, city, options.city.billboards);
   PlaceLandmarks(district, city);
+  if (period.subway_stairs) PlaceSubwayStairs(district);
   LayMedians(district, streets);
   BuildOpenLots(district, city);
   LayBackYards(district, city);
   for (const Block& block : plan.blocks)
     if (block.kind == BlockKind::kPark) BuildLakePark(district, block);
-  FurnishNewYorkPavements(district, city, density);
+  FurnishNewYorkPavements(district, city, period, density);
   FurnishNewYorkStreets(district, streets, density);
   ground.Finish("ground");
-  BuildFarManhattan(district, density);
+  BuildFarManhattan(district, period, density);
   ground.Finish("backdrop");
 
   AddPlacedModels(builder, shelf, options.props);
@@ -151,6 +160,26 @@ constexpr const char* kCategories[] = {
     "water/lake",
     "water/river",
 };
+
+std::shared_ptr<const Scene> BuildNewYorkCity1950s(const WorldOptions& options) {
+  WorldOptions old = options;
+  old.city.style = CityStyle::k1950s;
+  return BuildNewYorkCity(old);
+}
+
+WorldInfo NewYorkCity1950sInfo() {
+  std::vector<std::string> categories(std::begin(kCategories), std::end(kCategories));
+  std::erase(categories, "construction/rooftop/air_conditioner");
+  std::erase(categories, "ground/bike_lane");
+  categories.emplace_back("construction/stairs");
+  std::sort(categories.begin(), categories.end());
+  const StreetPlan plan = PlanNewYorkCity();
+  return {PeriodOf(CityStyle::k1950s).world, "outdoor", FreeGroundArea(plan, PlanManhattan(plan, {.style = CityStyle::k1950s}).buildings),
+          categories,
+          "The streets of new_york_city in the 1950s: towers of stone and brick, tenements with fire escapes, water tanks and "
+          "television aerials, painted boards and neon, bishop's-crook lamps, two-lamp signals, subway stairs, chromed cars and checker "
+          "cabs; no people."};
+}
 
 WorldInfo NewYorkCityInfo() {
   const StreetPlan plan = PlanNewYorkCity();

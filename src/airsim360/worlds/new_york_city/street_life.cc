@@ -11,22 +11,26 @@
 namespace airsim360::internal {
 namespace {
 
-// What stands along every side: kind, spacing, depth from the kerb, looks at the street.
-struct Rule {
-  const char* kind;
-  float spacing, depth;
-  bool to_street;
-  int group;  // how many stand together
-};
-constexpr Rule kRules[] = {
+constexpr PavementRule kRules[] = {
     {"fire_hydrant", 42, 0.55f, true, 1},  {"trash_can", 24, 0.8f, false, 1},     {"newspaper_box", 38, 0.75f, false, 4},
     {"mailbox", 70, 0.8f, false, 1},       {"traffic_sign", 22, 0.5f, true, 1},   {"bench_wood", 40, 1.1f, false, 1},
     {"electric_box", 75, 0.85f, false, 1}, {"bicycle", 45, 1.1f, true, 3},        {"poster_stand", 80, 0.95f, false, 1},
     {"concrete_block", 90, 0.9f, true, 2}, {"parking_meter", 14, 0.5f, false, 1}, {"trash_bags", 17, 1.0f, true, 1},
 };
 
-void FurnishSide(District& d, const PavementSide& side, bool avenue, const Density& density, const std::vector<float>& lamps,
-                 RngStream& rng) {
+void ApplyRule(District& d, const PavementSide& side, const PavementRule& rule, double density, RngStream& rng) {
+  const auto uniform = [&](double a, double b) { return static_cast<float>(rng.Uniform(a, b)); };
+  const float spacing = rule.spacing / static_cast<float>(density);
+  for (float s = side.s0 + uniform(0.05, 0.9) * spacing; s < side.s1; s += spacing * uniform(0.8, 1.2)) {
+    const float step = rule.kind == std::string_view("concrete_block") ? 2.6f : 0.62f;
+    for (int i = 0; i < rule.group; ++i)
+      d.placer.Try(rule.kind, side.At(s + step * static_cast<float>(i), rule.depth),
+                   FacingYaw(rule.to_street ? side.street() : side.line.inward));
+  }
+}
+
+void FurnishSide(District& d, const PavementSide& side, bool avenue, const Period& period, const Density& density,
+                 const std::vector<float>& lamps, RngStream& rng) {
   const auto uniform = [&](double a, double b) { return static_cast<float>(rng.Uniform(a, b)); };
   for (float s : lamps) d.placer.Try("street_light", side.At(s, 0.6f), FacingYaw(side.street()));
   // Trees in pits; few on narrow streets of towers.
@@ -49,16 +53,9 @@ void FurnishSide(District& d, const PavementSide& side, bool avenue, const Densi
     if (d.placer.Try(tree.kind, p, uniform(0, kTauF), tree.scale * uniform(0.85, 1.0), {1, 1, 1}, tree.variant))
       LayTreePit(d.ground, {p.x, p.y});
   }
-  for (const Rule& rule : kRules) {
-    if (density.furniture < 0.05) break;
-    const float spacing = rule.spacing / static_cast<float>(density.furniture);
-    for (float s = side.s0 + uniform(0.05, 0.9) * spacing; s < side.s1; s += spacing * uniform(0.8, 1.2)) {
-      const float step = rule.kind == std::string_view("concrete_block") ? 2.6f : 0.62f;
-      for (int i = 0; i < rule.group; ++i)
-        d.placer.Try(rule.kind, side.At(s + step * static_cast<float>(i), rule.depth),
-                     FacingYaw(rule.to_street ? side.street() : side.line.inward));
-    }
-  }
+  for (const auto rules : {period.pavement, std::span<const PavementRule>(kRules)})
+    for (const PavementRule& rule : rules)
+      if (density.furniture >= 0.05) ApplyRule(d, side, rule, density.furniture, rng);
   // Carts at the kerb of the avenues; plants and steel bollards by the doors; cones where somebody digs.
   if (avenue && rng.Chance(0.6)) d.placer.Try("hotdog_cart", side.At(uniform(side.s0 + 4, side.s1 - 4), 1.5f), FacingYaw(side.line.inward));
   for (float s = side.s0 + 2; s < side.s1 - 2; s += uniform(6, 11)) {
@@ -139,7 +136,37 @@ void PlaceLandmarks(District& d, const Manhattan& city) {
   PlaceNamed(d, "giant cola bottle", "giant_bottle", {top.x, bottle.rect.y0 + 3.4f, bottle.podium}, kTauF / 8);
 }
 
-void FurnishNewYorkPavements(District& d, const Manhattan& city, const Density& density) {
+void RaiseAerials(District& d, const Manhattan& city) {
+  for (const BuildingPlan& plan : city.buildings) {
+    const bool low = plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kBrownstone;
+    if (!low || plan.base > 0 || !plan.upper.empty()) continue;
+    RngStream rng(plan.seed, "aerials");
+    const GroundRect roof = plan.bounds().Inset(0.75f);
+    const auto uniform = [&](double a, double b) { return static_cast<float>(rng.Uniform(a, b)); };
+    for (int n = 1 + static_cast<int>(rng.Index(3)); n > 0; --n)
+      d.placer.shelf().Place("antenna", {uniform(roof.x0, roof.x1), rng.Chance(0.5) ? roof.y0 : roof.y1, plan.height()}, uniform(-0.4, 0.4),
+                             rng.Index(3));
+  }
+}
+
+void PlaceSubwayStairs(District& d) {
+  const auto put = [&](int column, int row, int side_of_block, float share) {
+    const PavementSide side = SideBetweenRamps(d.plan.blocks[static_cast<size_t>(row * 5 + column)], side_of_block);
+    const Vec2f along = side.line.along;
+    // Beside the kerb; the head of the flight looks to the nearer corner.
+    const float s = side.s0 + (side.s1 - side.s0) * share, turn = share < 0.5f ? 0 : kTauF / 2;
+    d.placer.Try("subway_stairs", side.At(s, 1.35f), std::atan2(along.y, along.x) + turn, 1, {1, 1, 1}, column % 2 == 0 ? 0u : 1u);
+  };
+  // Sides: 0 south, 1 east, 2 north, 3 west of a block.
+  put(2, 2, 3, 0.25f);
+  put(1, 1, 1, 0.62f);
+  put(1, 2, 1, 0.45f);
+  put(2, 1, 3, 0.75f);
+  put(2, 2, 1, 0.2f);
+  put(3, 1, 3, 0.8f);
+}
+
+void FurnishNewYorkPavements(District& d, const Manhattan& city, const Period& period, const Density& density) {
   const GroundRect reach = d.plan.reach();
   // Stoops keep their place.
   for (const BuildingPlan& plan : city.buildings) {
@@ -165,7 +192,7 @@ void FurnishNewYorkPavements(District& d, const Manhattan& city, const Density& 
         const Vec3f p = side.At((side.s0 + side.s1) / 2 + 3, 1.35f);
         d.placer.Try("bus_stop", p, FacingYaw(side.street()));
       }
-      FurnishSide(d, side, OnAvenue(k), density, LampsAlong(d.plan, block, k, side.s0, side.s1, rng), rng);
+      FurnishSide(d, side, OnAvenue(k), period, density, LampsAlong(d.plan, block, k, side.s0, side.s1, rng), rng);
     }
   }
   // Sheds stand in front of the lots whose shops have no awnings.

@@ -63,20 +63,23 @@ std::vector<float> Stations(const CarShape& s) {
   return ys;
 }
 
-enum class Skin { kPaint, kGlass, kBlack };
+enum class Skin { kPaint, kGlass, kBlack, kRoof, kSweep };
 
-Skin SkinAt(const CarShape& s, float y, size_t row, float cabin_height) {
+Skin SkinAt(const CarShape& s, float y, size_t row, float cabin_height, CarRange swept) {
   const bool pillar = std::any_of(s.pillars.begin(), s.pillars.end(), [&](const CarRange& r) { return r.Holds(y); });
-  if ((row == 5 || row == 6) && s.side_glass.Holds(y) && cabin_height > 0.10f) return pillar ? Skin::kBlack : Skin::kGlass;
+  if ((row == 5 || (row == 6 && !s.half_glass)) && s.side_glass.Holds(y) && cabin_height > 0.10f)
+    return pillar ? Skin::kBlack : Skin::kGlass;
   if (row >= 8 && (s.windscreen.Holds(y) || s.rear_window.Holds(y))) return Skin::kGlass;
   const auto seams = DoorSeams(s);
   const bool seam = std::any_of(seams.begin(), seams.end(), [&](float at) { return std::abs(y - at) < kSeam; });
-  return row == 0 || (seam && row >= 1 && row <= 4) ? Skin::kBlack : Skin::kPaint;
+  if (row == 0 || (seam && row >= 1 && row <= 4)) return Skin::kBlack;
+  if (row >= 5 && cabin_height > 0.2f) return Skin::kRoof;
+  return row == 2 && swept.Holds(y) ? Skin::kSweep : Skin::kPaint;
 }
 
 }  // namespace
 
-void AddCarBody(PropBuilder& b, const CarShape& s, const Material& paint) {
+void AddCarBody(PropBuilder& b, const CarShape& s, const CarCoats& coats) {
   const std::vector<float> ys = Stations(s);
   std::vector<std::array<Vec3f, kPoints>> grid;
   for (float y : ys) grid.push_back(Section(s, y));
@@ -90,10 +93,12 @@ void AddCarBody(PropBuilder& b, const CarShape& s, const Material& paint) {
   for (size_t i = 0; i + 1 < grid.size(); ++i) {
     for (size_t k = 0; k + 1 < kPoints; ++k) {
       const float y = (ys[i] + ys[i + 1]) / 2;
-      const Skin skin = SkinAt(s, y, k, Lookup(s.top, y) - Lookup(s.belt, y));
+      const Skin skin = SkinAt(s, y, k, Lookup(s.top, y) - Lookup(s.belt, y), coats.swept);
       b.Use(skin == Skin::kGlass   ? Glass({0.012f, 0.014f, 0.016f})
             : skin == Skin::kBlack ? Plastic({0.012f, 0.012f, 0.013f}, 0.5f)
-                                   : paint);
+            : skin == Skin::kRoof  ? coats.roof
+            : skin == Skin::kSweep ? coats.sweep
+                                   : coats.body);
       for (float side : {1.0f, -1.0f}) {
         const auto p = [&](size_t a, size_t c) { return Vec3f{grid[a][c].x * side, grid[a][c].y, grid[a][c].z}; };
         const auto n = [&](size_t a, size_t c) {
@@ -112,7 +117,7 @@ void AddCarBody(PropBuilder& b, const CarShape& s, const Material& paint) {
     }
   }
   // Close nose and tail.
-  b.Use(paint);
+  b.Use(coats.body);
   for (bool tail : {false, true}) {
     const auto& ring = tail ? grid.back() : grid.front();
     const Vec3f c{0, ring[0].y, (ring[0].z + ring[kPoints - 1].z) / 2};

@@ -21,6 +21,7 @@ struct CarShape {
   float roof_half_width, front_axle, rear_axle, wheel_radius;
   CarRange windscreen, rear_window, side_glass;
   std::vector<CarRange> pillars;
+  bool half_glass = false;  ///< side windows end half-way up to the roof
 };
 
 const CarShape& Sedan();
@@ -31,7 +32,13 @@ const CarShape& PanelVan();
 /// Value of a polyline at y, constant beyond its ends.
 float Lookup(const std::vector<Vec2f>& line, float y);
 
+/// Coats of a car; the roof's reaches down to the windows, the sweep's lies along the flanks within its range of y.
+struct CarCoats {
+  Material body, roof, sweep;
+  CarRange swept{0, 0};
+};
 /// Skin, windows, door gaps and open wheel arches, closed at nose and tail; no wheels.
-void AddCarBody(PropBuilder& b, const CarShape& shape, const Material& paint);
+void AddCarBody(PropBuilder& b, const CarShape& shape, const CarCoats& coats);
+inline void AddCarBody(PropBuilder& b, const CarShape& shape, const Material& paint) { AddCarBody(b, shape, {paint, paint, paint}); }
 
 }  // namespace airsim360::internal

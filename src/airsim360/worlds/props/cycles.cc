@@ -71,11 +71,18 @@ Model MakeBicycle(uint32_t variant, uint64_t) {
   return b.Finish();
 }
 
+Model MakeBicycle1950s(uint32_t variant, uint64_t seed) {
+  Model model = MakeBicycle(variant, seed);
+  model.mesh.name = "bicycle_1950s";
+  return model;
+}
+
 }  // namespace
 
 std::vector<PropKind> CycleKinds() {
   const std::vector<LibraryModel> models = {{"bicycle", 0.98f}, {""}, {""}};
-  return {{"bicycle", "vehicle/bicycle", 3, MakeBicycle, 0.9f, 0.9f, 1.1f, 4500, models}};
+  return {{"bicycle", "vehicle/bicycle", 3, MakeBicycle, 0.9f, 0.9f, 1.1f, 4500, models},
+          {"bicycle_1950s", "vehicle/bicycle", 3, MakeBicycle1950s, 0.9f, 0.9f, 1.1f, 4500}};
 }
 
 }  // namespace airsim360::internal

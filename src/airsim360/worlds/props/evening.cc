@@ -81,6 +81,7 @@ Vec3f EveningGlow(std::string_view kind, std::string_view category, Vec3f p, Eng
   const float own = HashCell(p, kOwn, 1), other = HashCell(p, kOwn, 2);
   if (category.starts_with("vehicle/")) {
     const bool burns = engine == Engine::kOn ? own < 0.97f : own < 0.04f;
+    if (burns && kind.ends_with("_1950s")) return LampWhite(2900.0f + 300.0f * other);  // sealed beams
     return burns ? LampWhite(other < 0.45f ? 3200.0f : 5500.0f) : Vec3f{};
   }
   constexpr float kNeighbourhood = 130, kFails = 0.02f;
@@ -89,6 +90,7 @@ Vec3f EveningGlow(std::string_view kind, std::string_view category, Vec3f p, Eng
     const float pick = HashCell(p, kNeighbourhood, 3);
     return LampWhite(pick < 0.15f ? 2200.0f : pick < 0.6f ? 3000.0f : 4000.0f) * strength;
   }
+  if (kind == "street_light_1950s") return LampWhite(2600) * strength;
   if (kind == "lamp_post" || kind == "crook_lamp") return LampWhite(HashCell(p, kNeighbourhood, 4) < 0.5f ? 3000.0f : 3500.0f) * strength;
   if (kind == "bollard_lamp") return LampWhite(3000) * strength;
   return {1, 1, 1};

@@ -50,29 +50,32 @@ Model MakePhoneBooth(uint32_t, uint64_t) {
   return b.Finish();
 }
 
-Texture FlagPicture() {
+// `stars`: 50, or the 48 of before 1959.
+Texture FlagPicture(int stars) {
   Canvas c(380, 200, {0.72f, 0.72f, 0.70f});
   for (int i = 0; i < 13; i += 2) {
     const float y = static_cast<float>(i) / 13;
     c.Rectangle({0, y}, {1, y + 1.0f / 13}, {0.40f, 0.010f, 0.025f});
   }
   c.Rectangle({0, 0}, {0.4f, 7.0f / 13}, {0.012f, 0.025f, 0.13f});
-  for (int row = 0; row < 9; ++row) {
-    for (int i = 0; i < (row % 2 ? 5 : 6); ++i) {
-      const float x = 0.4f * (static_cast<float>(2 * i + (row % 2 ? 2 : 1))) / 12, y = 7.0f / 13 * static_cast<float>(row + 1) / 10;
+  const bool even = stars == 48;  // six rows of eight
+  for (int row = 0; row < (even ? 6 : 9); ++row) {
+    for (int i = 0; i < (even ? 8 : row % 2 ? 5 : 6); ++i) {
+      const float x = even ? 0.4f * (static_cast<float>(i) + 0.5f) / 8 : 0.4f * (static_cast<float>(2 * i + (row % 2 ? 2 : 1))) / 12,
+                  y = 7.0f / 13 * static_cast<float>(row + 1) / (even ? 7 : 10);
       // A star of five points: two triangles of lines are too coarse at this size, a small pentagon does.
       c.RegularPolygon({x, y}, 0.018f, 5, kTauF / 4, {0.75f, 0.75f, 0.73f});
     }
   }
-  return c.Finish("flag usa");
+  return c.Finish(even ? "flag usa 48" : "flag usa");
 }
 
 // A waving flag of width w from its mast at the origin of X towards +x, hanging from z = 0 downwards.
-void AddFlag(PropBuilder& b, const AffineTransform& X, float w) {
+void AddFlag(PropBuilder& b, const AffineTransform& X, float w, int stars) {
   Material cloth = Fabric({1, 1, 1});
   cloth.transmission = 0.35f;
   const float h = w / 1.9f;
-  b.Use(cloth, FlagPicture(), {w, h});
+  b.Use(cloth, FlagPicture(stars), {w, h});
   b.Place(X);
   b.Sheet(24, 8,
           [&](float u, float v) {
@@ -84,14 +87,14 @@ void AddFlag(PropBuilder& b, const AffineTransform& X, float w) {
 }
 
 // Variant 0: a mast of 9 m in the ground; 1: a mast of 2.6 m slanting from a wall (y = 0) over the street.
-Model MakeUsFlag(uint32_t variant, uint64_t) {
-  PropBuilder b("us_flag");
+Model FlagOf(uint32_t variant, int stars) {
+  PropBuilder b(stars == 48 ? "us_flag_1950s" : "us_flag");
   b.Use(Metal({0.55f, 0.55f, 0.54f}, 0.35f));
   if (variant == 0) {
     const Vec2f mast[] = {{0.22f, 0}, {0.22f, 0.06f}, {0.09f, 0.10f}, {0.08f, 0.2f}, {0.035f, 8.9f}, {0, 8.91f}};
     b.Lathe(mast, 16);
     b.mesh().Sphere({0, 0, 8.96f}, {0.08f, 0.08f, 0.08f}, 8, 12);
-    AddFlag(b, Move({0.05f, 0, 8.75f}), 2.6f);
+    AddFlag(b, Move({0.05f, 0, 8.75f}), 2.6f, stars);
   } else {
     const Vec3f foot{0, 0, 0.75f}, tip{0, -2.0f, 2.35f};
     b.BevelBox({-0.08f, -0.06f, 0.62f}, {0.08f, 0.0f, 0.90f}, 0.01f);
@@ -100,7 +103,7 @@ Model MakeUsFlag(uint32_t variant, uint64_t) {
     // The cloth hangs along the mast: its mast edge follows the slope, its free end droops.
     Material cloth = Fabric({1, 1, 1});
     cloth.transmission = 0.35f;
-    b.Use(cloth, FlagPicture(), {2.2f, 1.25f});
+    b.Use(cloth, FlagPicture(stars), {2.2f, 1.25f});
     b.Sheet(24, 8,
             [&](float u, float v) {
               const Vec3f top = foot + (tip - foot) * (0.16f + 0.8f * u);
@@ -111,10 +114,13 @@ Model MakeUsFlag(uint32_t variant, uint64_t) {
   return b.Finish();
 }
 
+Model MakeUsFlag(uint32_t variant, uint64_t) { return FlagOf(variant, 50); }
+Model MakeUsFlag1950s(uint32_t variant, uint64_t) { return FlagOf(variant, 48); }
+
 // Step van with a serving window towards +X (the kerb when parked on the right), awning and menu.
-Model MakeFoodTruck(uint32_t, uint64_t) {
-  PropBuilder b("food_truck");
-  const Vec3f tone{0.60f, 0.10f, 0.02f}, cream{0.74f, 0.68f, 0.54f};
+Model FoodTruckOf(const char* kind, const char* lettering, const char* picture, Vec3f tone) {
+  PropBuilder b(kind);
+  const Vec3f cream{0.74f, 0.68f, 0.54f};
   b.Use(Paint(tone, 0.35f));
   b.BevelBox({-1.12f, -2.3f, 0.55f}, {1.12f, 3.2f, 2.95f}, 0.10f);
   b.BevelBox({-1.05f, -3.05f, 0.55f}, {1.05f, -2.2f, 1.55f}, 0.12f);
@@ -145,8 +151,8 @@ Model MakeFoodTruck(uint32_t, uint64_t) {
     b.mesh().Quad({2.05f, y0, 2.18f}, {2.05f, y1, 2.18f}, {2.05f, y1, 2.35f}, {2.05f, y0, 2.35f});
   }
   Canvas name(512, 96, cream);
-  name.Letters("FOOD TRUCK", {0.5f, 0.5f}, 0.62f, {0.42f, 0.04f, 0.01f}, 0.9f);
-  const Texture board = name.Finish("food truck");
+  name.Letters(lettering, {0.5f, 0.5f}, 0.62f, {0.42f, 0.04f, 0.01f}, 0.9f);
+  const Texture board = name.Finish(picture);
   b.Use(Paint({1, 1, 1}), board);
   b.Picture({1.126f, -2.0f, 2.50f}, {1.126f, 3.0f, 2.50f}, {1.126f, 3.0f, 2.86f}, {1.126f, -2.0f, 2.86f});
   b.Picture({-1.126f, 2.9f, 1.6f}, {-1.126f, -1.0f, 1.6f}, {-1.126f, -1.0f, 2.35f}, {-1.126f, 2.9f, 2.35f});
@@ -164,6 +170,9 @@ Model MakeFoodTruck(uint32_t, uint64_t) {
   b.mesh().Tube({-0.7f, 2.4f, 2.9f}, {-0.7f, 2.4f, 3.35f}, 0.09f, 0.09f, 12);
   return b.Finish();
 }
+
+Model MakeFoodTruck(uint32_t, uint64_t) { return FoodTruckOf("food_truck", "FOOD TRUCK", "food truck", {0.60f, 0.10f, 0.02f}); }
+Model MakeLunchWagon(uint32_t, uint64_t) { return FoodTruckOf("food_truck_1950s", "LUNCH WAGON", "lunch wagon", {0.30f, 0.030f, 0.020f}); }
 
 Model MakeOrangeMailbox(uint32_t, uint64_t) { return MailboxOf({0.78f, 0.20f, 0.012f}); }
 
@@ -226,7 +235,9 @@ std::vector<PropKind> LandmarkKinds() {
   return {
       {"phone_booth", "construction/phone_booth", 1, MakePhoneBooth, 0.6f, 2.4f, 2.7f, 2500},
       {"us_flag", "signage/flag/usa", 2, MakeUsFlag, 0.4f, 2.3f, 9.1f, 1500},
+      {"us_flag_1950s", "signage/flag/usa", 2, MakeUsFlag1950s, 0.4f, 2.3f, 9.1f, 1500},
       {"food_truck", "vehicle/food_truck", 1, MakeFoodTruck, 3.3f, 3.0f, 3.4f, 4500},
+      {"food_truck_1950s", "vehicle/food_truck", 1, MakeLunchWagon, 3.3f, 3.0f, 3.4f, 4500},
       {"orange_mailbox", "furniture/mail/post_box", 1, MakeOrangeMailbox, 0.5f, 1.15f, 1.3f, 800},
       {"giant_bottle", "signage/billboard", 1, MakeGiantBottle, 2.0f, 9.0f, 9.3f, 3000},
       {"red_tree", "vegetation/tree/broadleaf/maple", 1, MakeRedTree, 1.0f, 6.5f, 14.0f, 100000},

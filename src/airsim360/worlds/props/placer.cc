@@ -17,11 +17,12 @@ struct Extent {
 };
 // Long things, seen from their front (towards -Y).
 constexpr Extent kExtents[] = {
-    {"car", 0.98f, 2.45f},        {"van", 1.08f, 2.9f},           {"bus", 1.35f, 6.3f},           {"bench_wood", 0.95f, 0.42f},
-    {"bus_stop", 2.1f, 0.85f},    {"bicycle", 0.32f, 0.92f},      {"hedge", 0.5f, 0.35f},         {"rail", 1.0f, 0.06f},
-    {"wood_fence", 1.0f, 0.08f},  {"traffic_light", 0.3f, 0.3f},  {"street_light", 0.25f, 0.25f}, {"lamp_post", 0.3f, 0.3f},
-    {"food_cart", 1.5f, 1.0f},    {"poster_stand", 0.5f, 0.4f},   {"traffic_sign", 0.15f, 0.15f}, {"playground", 2.0f, 2.9f},
-    {"road_block", 0.78f, 0.26f}, {"picnic_table", 0.95f, 0.85f}, {"bollard_lamp", 0.15f, 0.15f}, {"crook_lamp", 0.2f, 0.2f},
+    {"car", 0.98f, 2.45f},          {"van", 1.08f, 2.9f},           {"bus", 1.35f, 6.3f},           {"bench_wood", 0.95f, 0.42f},
+    {"bus_stop", 2.1f, 0.85f},      {"bicycle", 0.32f, 0.92f},      {"hedge", 0.5f, 0.35f},         {"rail", 1.0f, 0.06f},
+    {"wood_fence", 1.0f, 0.08f},    {"traffic_light", 0.3f, 0.3f},  {"street_light", 0.25f, 0.25f}, {"lamp_post", 0.3f, 0.3f},
+    {"food_cart", 1.5f, 1.0f},      {"poster_stand", 0.5f, 0.4f},   {"traffic_sign", 0.15f, 0.15f}, {"playground", 2.0f, 2.9f},
+    {"road_block", 0.78f, 0.26f},   {"picnic_table", 0.95f, 0.85f}, {"bollard_lamp", 0.15f, 0.15f}, {"crook_lamp", 0.2f, 0.2f},
+    {"subway_stairs", 2.15f, 0.9f},
 };
 
 Vec2f AxisX(const Footprint& f) { return {std::cos(f.yaw), std::sin(f.yaw)}; }

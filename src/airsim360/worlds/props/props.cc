@@ -53,10 +53,11 @@ const std::vector<PropKind>& PropKinds() {
   static const std::vector<PropKind> kinds = [] {
     using namespace internal;
     std::vector<PropKind> all;
-    for (auto family : {BarrierKinds, BusKinds,       CarKinds,      CycleKinds,       FountainKinds,     LampKinds,         RockKinds,
-                        RooftopKinds, SeatingKinds,   ShadeKinds,    SignageKinds,     StreetKinds,       TrafficLightKinds, UtilityKinds,
-                        VendingKinds, WasteKinds,     PlanterKinds,  GroundPlantKinds, ShrubKinds,        BroadleafKinds,    ConiferKinds,
-                        ParkKinds,    BillboardKinds, LandmarkKinds, NewYorkKinds,     SanFranciscoKinds, FurnishingKinds}) {
+    for (auto family : {BarrierKinds,      BusKinds,          CarKinds,        CycleKinds,     FountainKinds,   LampKinds,
+                        RockKinds,         RooftopKinds,      SeatingKinds,    ShadeKinds,     SignageKinds,    StreetKinds,
+                        TrafficLightKinds, UtilityKinds,      VendingKinds,    WasteKinds,     PlanterKinds,    GroundPlantKinds,
+                        ShrubKinds,        BroadleafKinds,    ConiferKinds,    ParkKinds,      BillboardKinds,  LandmarkKinds,
+                        NewYorkKinds,      SanFranciscoKinds, FurnishingKinds, Cars1950sKinds, Signs1950sKinds, Street1950sKinds}) {
       std::vector<PropKind> rows = family();
       std::move(rows.begin(), rows.end(), std::back_inserter(all));
     }
@@ -92,7 +93,7 @@ Model MakeByDay(const PropKind& kind, uint32_t variant, uint64_t seed, const Mod
 
 Model MakeProp(const PropKind& kind, uint32_t variant, uint64_t seed, const ModelSource* models) {
   Model model = MakeByDay(kind, variant, seed, models);
-  if (kind.category.starts_with("vehicle/")) internal::AddVehicleLamps(model, kind.name == "bus");
+  if (kind.category.starts_with("vehicle/")) internal::AddVehicleLamps(model, kind.name.starts_with("bus"));
   return model;
 }
 
@@ -119,8 +120,9 @@ Vec3f PlantTint(const PropKind& kind, Vec3f p) {
 PropShelf::PropShelf(SceneBuilder& builder, const ModelSource* models, uint64_t seed) : builder_(builder), models_(models), seed_(seed) {}
 
 EntityId PropShelf::Place(std::string_view kind, Vec3f p_W, float yaw, uint32_t variant, float scale, Vec3f tint, Engine engine) {
-  const PropKind& found = FindPropKind(kind);
-  const EntityId entity = builder_.AddEntity(std::string(found.name), builder_.tree().At(found.category));
+  const PropKind &asked = FindPropKind(kind), &found = StandInFor(asked);
+  const std::string_view name = asked.category == found.category ? asked.name : found.name;
+  const EntityId entity = builder_.AddEntity(std::string(name), builder_.tree().At(found.category));
   const AffineTransform placed = PlaceUpright(p_W, yaw, scale);
   builder_.AddInstance({Get(found, variant), lay_ ? lay_(found.name, placed) : placed, entity, tint * PlantTint(found, p_W),
                         internal::EveningGlow(found.name, found.category, p_W, engine)});
@@ -128,9 +130,14 @@ EntityId PropShelf::Place(std::string_view kind, Vec3f p_W, float yaw, uint32_t 
 }
 
 void PropShelf::PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant, Vec3f tint) {
-  const PropKind& found = FindPropKind(kind);
+  const PropKind& found = StandInFor(FindPropKind(kind));
   builder_.AddInstance({Get(found, variant), lay_ ? lay_(found.name, X_WM) : X_WM, entity, tint * PlantTint(found, X_WM.p),
                         internal::EveningGlow(found.name, found.category, X_WM.p, Engine::kOff)});
+}
+
+const PropKind& PropShelf::StandInFor(const PropKind& asked) const {
+  const auto it = stand_ins_.find(asked.name);
+  return it == stand_ins_.end() ? asked : *it->second;
 }
 
 MeshId PropShelf::Get(const PropKind& kind, uint32_t variant) {

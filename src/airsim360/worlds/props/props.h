@@ -57,6 +57,9 @@ class PropShelf {
                  Engine engine = Engine::kOff);
   /// Adds an instance of a kind to an existing entity (grass tufts of one lawn, say).
   void PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant = 0, Vec3f tint = {1, 1, 1});
+  /// From now on `by` is made where `kind` is asked for, one of its individuals where that has fewer. Entities keep the name of
+  /// `kind` where both are of one category.
+  void Replace(std::string_view kind, std::string_view by) { stand_ins_[FindPropKind(kind).name] = &FindPropKind(by); }
   /// Everything placed from now on comes to stand where `lay` (kind, as placed) puts it: on a slope, say. Null = as placed.
   using Lay = std::function<AffineTransform(std::string_view kind, const AffineTransform& placed)>;
   void SetLay(Lay lay) { lay_ = std::move(lay); }
@@ -64,6 +67,7 @@ class PropShelf {
   MeshId Add(Model model);
 
  private:
+  const PropKind& StandInFor(const PropKind& asked) const;
   MeshId Get(const PropKind& kind, uint32_t variant);
   TextureId AddTexture(Texture texture);
   MaterialId AddMaterial(const Material& material);
@@ -72,6 +76,7 @@ class PropShelf {
   const ModelSource* models_;
   uint64_t seed_;
   Lay lay_;
+  std::map<std::string_view, const PropKind*> stand_ins_;   // by the name of the kind that is asked for
   std::map<std::string_view, std::vector<MeshId>> meshes_;  // kind -> one mesh a variant
   std::map<std::string, TextureId> textures_;               // by name and content
   std::multimap<std::string, MaterialId> materials_;        // by name, to find equal ones

@@ -16,7 +16,7 @@ struct FloorRow {
   bool reached() const { return measured >= at_least; }
 };
 
-/// The rows for new_york_city, downtown_west and sf_city as built with their default plan; empty for any other world.
+/// The rows for new_york_city (and as of the 1950s), downtown_west and sf_city as built with their default plan; empty for any other world.
 std::vector<FloorRow> StructuralFloor(std::string_view world, const WorldSurvey& survey);
 
 }  // namespace airsim360

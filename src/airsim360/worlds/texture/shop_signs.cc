@@ -24,6 +24,14 @@ constexpr std::array<const char*, kTrades> kTrade = {
     "PHOTO",        "MUSIC",     "ANTIQUES",   "FISH MARKET", "BUTCHER",    "CAFE",     "GRILL",       "ICE CREAM",  "LUGGAGE",
     "DRY CLEANING", "DENTIST",   "TRAVEL",     "FABRICS",     "LIGHTING",   "PAINTS",   "KITCHENS",    "REPAIRS",    "WINE & CHEESE",
     "YOGA STUDIO",  "TACO SHOP", "RAMEN",      "JUICE",       "MATTRESSES", "SPORTS",   "GIFTS"};
+constexpr std::array<const char*, kTrades> kTrade1950s = {
+    "BAKERY",        "FLORIST",   "OPTICIAN",   "DRUGS",        "PIZZERIA",     "HARDWARE",     "TEA ROOM",     "BARBER",
+    "BICYCLES",      "GALLERY",   "BOOKS",      "TAILOR",       "DELICATESSEN", "HAND LAUNDRY", "SHOES",        "HATS",
+    "PRINTER",       "LIQUORS",   "DINER",      "JEWELRY",      "STATIONERY",   "PET SHOP",     "CHOP HOUSE",   "TOYS",
+    "GREENGROCER",   "LOCKSMITH", "FURNITURE",  "CAMERAS",      "RECORDS",      "ANTIQUES",     "FISH MARKET",  "BUTCHER",
+    "COFFEE SHOP",   "GRILL",     "ICE CREAM",  "LUGGAGE",      "DYER",         "DENTIST",      "STEAMSHIPS",   "DRY GOODS",
+    "FURS",          "PAINTS",    "HOUSEWARES", "RADIO REPAIR", "WINES",        "DANCE SCHOOL", "LUNCHEONETTE", "CAFETERIA",
+    "SODA FOUNTAIN", "BEDDING",   "CIGARS",     "NOTIONS"};
 constexpr std::array<const char*, 26> kFamily = {"MARLOW",   "ROSSI",    "OKAFOR", "LINDQVIST", "TANAKA",   "HALLORAN", "MENDEZ",
                                                  "KOWALSKI", "BAPTISTE", "SINGH",  "WEBER",     "ADAMS",    "NAKOS",    "IVERSEN",
                                                  "PEREIRA",  "FINCH",    "DUBOIS", "ZHOU",      "HARGROVE", "SALEH",    "NOVAK",
@@ -50,17 +58,18 @@ constexpr std::array<Paints, 24> kPaints = {{
     {{0.12f, 0.035f, 0.045f}, {0.55f, 0.50f, 0.42f}},  {{0.33f, 0.32f, 0.30f}, {0.040f, 0.042f, 0.046f}},
 }};
 
-std::string SmallLine(uint32_t i) {
+std::string SmallLine(uint32_t i, ShopSigns signs) {
+  const bool old = signs == ShopSigns::k1950s;
   const auto n = [&](uint32_t low, uint32_t span, uint32_t k) {
     return std::to_string(low + static_cast<uint32_t>(HashUnit(i, k, 71) * static_cast<float>(span)));
   };
   switch (i % 5) {
     case 0:
-      return "SINCE " + n(1908, 95, 1);
+      return "SINCE " + (old ? n(1868, 82, 1) : n(1908, 95, 1));
     case 1:
-      return "TEL. 555-" + n(1000, 8999, 2);
+      return (old ? "TEL. MARLOW 5-" : "TEL. 555-") + n(1000, 8999, 2);
     case 2:
-      return "OPEN 7 DAYS";
+      return old ? "OPEN EVENINGS" : "OPEN 7 DAYS";
     case 3:
       return n(10, 380, 3);
     default:
@@ -119,12 +128,12 @@ struct Board {
 constexpr int kSignTexels = 512;
 float AlongSign(int texel) { return 5 * (static_cast<float>(texel) + 0.5f) / kSignTexels; }
 
-Board MakeBoard(int i) {
+Board MakeBoard(int i, ShopSigns signs) {
   const auto id = static_cast<uint32_t>(i);
-  const std::string name = ShopName(i);
+  const std::string name = ShopName(i, signs);
   Board b{kPaints[static_cast<size_t>(HashUnit(id, 11) * 24)],
           SignLettering(name, 0.11f + 0.09f * HashUnit(id, 12)),
-          SignLettering(SmallLine(id), 0.14f),
+          SignLettering(SmallLine(id, signs), 0.14f),
           0,
           0,
           0,
@@ -179,9 +188,9 @@ Vec3f BoardColor(const Board& b, int texel, float y) {
 
 }  // namespace
 
-std::string ShopName(int i) {
+std::string ShopName(int i, ShopSigns signs) {
   const auto k = static_cast<size_t>(i % kTrades);
-  const std::string trade = kTrade[k];
+  const std::string trade = signs == ShopSigns::k1950s ? kTrade1950s[k] : kTrade[k];
   switch (i / kTrades) {
     case 0:
       return trade;
@@ -194,12 +203,12 @@ std::string ShopName(int i) {
   }
 }
 
-Texture MakeShopSigns() {
+Texture MakeShopSigns(ShopSigns signs) {
   constexpr int kRows = kSignCount / kSignColumns, kHigh = 4096;
   const SrgbCodes code;
   Image<Rgba8> sheet(kSignTexels * kSignColumns, kHigh);
   ParallelFor(kSignCount, [&](int64_t i) {
-    const Board board = MakeBoard(static_cast<int>(i));
+    const Board board = MakeBoard(static_cast<int>(i), signs);
     const int column = static_cast<int>(i) % kSignColumns, row = static_cast<int>(i) / kSignColumns;
     for (int y = (row * kHigh + kRows - 1) / kRows; y * kRows < (row + 1) * kHigh; ++y) {
       const float down = (static_cast<float>(y) + 0.5f) * kRows / kHigh - static_cast<float>(row);

@@ -191,9 +191,9 @@ std::vector<TextureIds> AddTextures(SceneBuilder& builder) {
 
 }  // namespace
 
-Surfaces AddSurfaces(SceneBuilder& builder) {
+Surfaces AddSurfaces(SceneBuilder& builder, ShopSigns shop_signs) {
   const std::vector<TextureIds> textures = AddTextures(builder);
-  const TextureId signs = builder.AddTexture(internal::MakeShopSigns());
+  const TextureId signs = builder.AddTexture(internal::MakeShopSigns(shop_signs));
   Surfaces surfaces;
   for (const Row& row : kRows) {
     Material material;

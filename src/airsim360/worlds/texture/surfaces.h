@@ -104,6 +104,9 @@ enum class Surface {
   kCount
 };
 
+/// Whose names are on Surface::kSigns.
+enum class ShopSigns { kToday, k1950s };
+
 /// Material of every surface.
 class Surfaces {
  public:
@@ -116,12 +119,12 @@ class Surfaces {
   }
 
  private:
-  friend Surfaces AddSurfaces(SceneBuilder& builder);
+  friend Surfaces AddSurfaces(SceneBuilder& builder, ShopSigns signs);
   std::array<MaterialId, static_cast<size_t>(Surface::kCount)> materials_{};
 };
 
 /// Generates the textures (in parallel, a second or two) and adds all materials. Textures tile in metres.
-Surfaces AddSurfaces(SceneBuilder& builder);
+Surfaces AddSurfaces(SceneBuilder& builder, ShopSigns signs = ShopSigns::kToday);
 
 /// Number of different shop signs on Surface::kSigns, in columns on one sheet.
 inline constexpr int kSignCount = 208, kSignColumns = 4;

@@ -21,10 +21,13 @@ std::vector<FacadeDetail> DetailOf(const StreetPlan& plan, const BuildingPlan& b
 
 }  // namespace
 
-void BuildBuildings(District& d, const std::vector<BuildingPlan>& buildings, bool fire_escapes) {
+void BuildBuildings(District& d, const std::vector<BuildingPlan>& buildings, const BuildingExtras& extras) {
   MeshBuilder mesh;
-  FacadeContext context{d.builder, d.surfaces, mesh, AddBalconyMesh(d.builder, d.surfaces), AddWindowBoxMesh(d.builder, d.surfaces)};
-  if (fire_escapes) context.fire_escape = {AddFireEscapeMesh(d.builder, d.surfaces, false), AddFireEscapeMesh(d.builder, d.surfaces, true)};
+  FacadeContext context{d.builder, d.surfaces, mesh, AddBalconyMesh(d.builder, d.surfaces),
+                        AddWindowBoxMesh(d.builder, d.surfaces, extras.coolers)};
+  if (extras.fire_escapes)
+    context.fire_escape = {AddFireEscapeMesh(d.builder, d.surfaces, false), AddFireEscapeMesh(d.builder, d.surfaces, true)};
+  context.escape_wall = extras.escape_wall;
   EntityId walls = kNoEntity;
   for (size_t i = 0; i < buildings.size(); ++i) {
     const BuildingPlan& building = buildings[i];

@@ -79,6 +79,18 @@ void LayCrosswalk(Ground& ground, const StreetStretch& street, bool at_start, co
   }
 }
 
+// Two lines across the street, asphalt between them: what lies there belongs to those on foot all the same.
+void LayLinedCrosswalk(Ground& ground, const StreetStretch& street, bool at_start, const std::string& name) {
+  constexpr float kLine = 0.22f;
+  const float from = at_start ? street.s0 + kCrosswalkStart : street.s1 - kCrosswalkStart - kCrosswalkWidth, to = from + kCrosswalkWidth,
+              reach = std::floor(2 * street.line.half_width - 0.8f) / 2;
+  ground.Begin("crosswalk " + name, "ground/crosswalk", Surface::kPaintWhite);
+  StreetRect(ground, street, from, from + kLine, -reach, reach, kPaintLift);
+  StreetRect(ground, street, to - kLine, to, -reach, reach, kPaintLift);
+  ground.Use(Surface::kAsphaltOld);
+  StreetRect(ground, street, from + kLine, to - kLine, -reach, reach, kPaintLift / 2);
+}
+
 // A crossing of two lines. The wheel tracks of the wider street run through.
 Fan LayJunction(Ground& ground, const StreetLine& ns, const StreetLine& ew, const std::string& name, Surface asphalt) {
   ground.Begin("junction " + name, "ground/road", asphalt);
@@ -124,6 +136,8 @@ Fan FanOf(const StreetLine& ns, const StreetLine& ew) {
 
 std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, uint64_t seed) {
   std::vector<StreetStretch> core;
+  const bool white = plan.paint == RoadPaint::kWhiteLines;
+  const auto lay_crosswalk = white ? LayLinedCrosswalk : LayCrosswalk;
   const auto is_core = [&](size_t i) { return static_cast<int>(i) >= plan.first_core && static_cast<int>(i) <= plan.last_core; };
   RngStream rng(seed, "street wear");
 
@@ -139,9 +153,12 @@ std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, ui
         if (!is_core(i)) continue;
         internal::LayWear(ground, street, rng);
         LayDrains(ground, street);
-        internal::LayMarkings(ground, street, name, plan.bike_lane_row >= 0 && along_x && static_cast<int>(i) == plan.bike_lane_row);
-        if (is_core(k)) LayCrosswalk(ground, street, true, name + " start");
-        if (is_core(k + 1)) LayCrosswalk(ground, street, false, name + " end");
+        if (white)
+          internal::LayWhiteLines(ground, street, name);
+        else
+          internal::LayMarkings(ground, street, name, plan.bike_lane_row >= 0 && along_x && static_cast<int>(i) == plan.bike_lane_row);
+        if (is_core(k)) lay_crosswalk(ground, street, true, name + " start");
+        if (is_core(k + 1)) lay_crosswalk(ground, street, false, name + " end");
         core.push_back(street);
       }
     }
@@ -152,6 +169,7 @@ std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, ui
                                   rng.Chance(0.4) ? Surface::kCarriagewayOld : Surface::kCarriageway);
       if (!is_core(i) || !is_core(k)) continue;
       internal::LayJunctionWear(ground, fan, rng);
+      if (white) continue;
       if (plan.north_south[i].kind == StreetKind::kBoulevard)
         internal::LayJunctionGuides(ground, fan, plan.north_south[i], plan.east_west[k], std::to_string(i) + "." + std::to_string(k));
       else if (plan.north_south[i].kind == StreetKind::kAvenue && (i + k) % 2 == 1)

@@ -149,6 +149,20 @@ void LayMarkings(Ground& ground, const StreetStretch& street, const std::string&
   }
 }
 
+void LayWhiteLines(Ground& ground, const StreetStretch& street, const std::string& name) {
+  const float hw = street.line.half_width, s0 = street.s0 + 5.6f, s1 = street.s1 - 5.6f;
+  const bool boulevard = street.line.kind == StreetKind::kBoulevard;
+  ground.Begin("markings " + name, "ground/lane_marking", Surface::kPaintWhite);
+  // The planted middle of a boulevard needs no line.
+  if (!boulevard) StreetRect(ground, street, s0, s1, -0.06f, 0.06f, kPaintLift);
+  const float inner = boulevard ? 2.5f : 0.3f, kerb = hw - (street.line.kind == StreetKind::kTwoWay ? 2.35f : 0.5f);
+  StreetRect(ground, street, s0 - 0.5f, s0 - 0.2f, inner, kerb, kPaintLift);
+  StreetRect(ground, street, s1 + 0.2f, s1 + 0.5f, -kerb, -inner, kPaintLift);
+  if (street.line.kind == StreetKind::kTwoWay) return;
+  for (float side : {-1.0f, 1.0f})
+    for (float d : boulevard ? std::vector<float>{5.7f} : std::vector<float>{3.7f, 7.2f}) LayDashes(ground, street, s0, s1, side * d);
+}
+
 void LayJunctionGuides(Ground& ground, const Fan& fan, const StreetLine& ns, const StreetLine& ew, const std::string& name) {
   const auto on = [&](float x, float y) { return Vec3f{x, y, fan.Height({x, y}) + 0.012f}; };
   const auto rect = [&](float x0, float x1, float y0, float y1) { ground.Quad(on(x0, y0), on(x1, y0), on(x1, y1), on(x0, y1)); };

@@ -35,6 +35,9 @@ void StreetRect(Ground& ground, const StreetStretch& street, float s0, float s1,
 /// one.
 void LayMarkings(Ground& ground, const StreetStretch& street, const std::string& name, bool bike_lane);
 
+/// The markings of a stretch before there were any but white lines: the middle, dashes between lanes, a bar where traffic stops.
+void LayWhiteLines(Ground& ground, const StreetStretch& street, const std::string& name);
+
 /// A boulevard's lines through a crossing: green bars of the bike lane, dashes between the lanes, arcs for
 /// those who turn left; draped over the fan.
 void LayJunctionGuides(Ground& ground, const Fan& fan, const StreetLine& ns, const StreetLine& ew, const std::string& name);

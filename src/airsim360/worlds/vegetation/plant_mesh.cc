@@ -34,7 +34,7 @@ struct BladeFace {
 };
 
 // One ring of a branch.
-struct Ring {
+struct BarkRing {
   Vec3f p, axis, side;
   float radius, v;
 };
@@ -43,11 +43,11 @@ int SidesFor(float radius) { return radius > 0.11f ? 12 : radius > 0.05f ? 8 : r
 
 // Joins rings to tubes; the number of sides falls with the radius, then a new run of rings starts at the same
 // place.
-void AddTube(PlantLayer& layer, const std::vector<Ring>& rings, float flare) {
+void AddTube(PlantLayer& layer, const std::vector<BarkRing>& rings, float flare) {
   const float tiles = std::max(1.0f, std::round(kTauF * rings.front().radius / 0.5f));
   uint32_t previous = 0;
   int sides = 0;
-  const auto add_ring = [&](const Ring& ring, int count) {
+  const auto add_ring = [&](const BarkRing& ring, int count) {
     const auto first = static_cast<uint32_t>(layer.positions.size());
     for (int k = 0; k <= count; ++k) {
       const float a = kTauF * static_cast<float>(k % count) / static_cast<float>(count);
@@ -215,7 +215,7 @@ void AddBark(PlantLayer& layer, const std::vector<BranchNode>& nodes, float min_
     if (chain.size() < 2) continue;
 
     // Rings with frames carried along; thin branches skip every other joint.
-    std::vector<Ring> rings;
+    std::vector<BarkRing> rings;
     float v = 0;
     Vec3f last = nodes[static_cast<size_t>(chain[0])].p;
     for (size_t k = 0; k < chain.size(); ++k) {

@@ -1,0 +1,113 @@
+#include "airsim360/worlds/new_york_city/period.h"
+
+namespace airsim360::internal {
+namespace {
+
+using F = FacadeStyle;
+using S = Surface;
+
+constexpr Role kRolesPresent[] = {
+    {2, 2, 0, 0, "deco corner", LotUse::kBuilding, F::kDeco, 0, 54, 1},
+    {1, 2, 0, -1, "grid tower", LotUse::kBuilding, F::kConcreteGrid, 2, 76, 2},
+    {2, 1, 1, 0, "braced corner", LotUse::kBuilding, F::kBracedGlass, 0, 31, 1},
+    {1, 1, 1, -1, "brown tower", LotUse::kBuilding, F::kDeco, 2, 62, 3},
+    {1, 2, 1, -1, "blue tower", LotUse::kBuilding, F::kCurtainWall, 1, 116, 2},
+    {2, 2, 1, 0, "north deco", LotUse::kBuilding, F::kDeco, 1, 66, 3},
+    {2, 1, 0, 0, "glass slab", LotUse::kBuilding, F::kCurtainWall, 0, 122, 2},
+    {1, 1, 0, -1, "loft corner", LotUse::kBuilding, F::kBrickLoft, 0, 36, 1},
+    {2, 2, 0, 1, "ribbon low", LotUse::kBuilding, F::kRibbon, 0, 22, 1},
+    {2, 1, 1, 2, "plaza", LotUse::kPlaza, F::kRibbon, 0, 0, 1},
+    {1, 1, 1, 1, "building site", LotUse::kDirt, F::kRibbon, 0, 0, 1},
+    {1, 2, 0, 1, "bottle roof", LotUse::kBuilding, F::kBrickLoft, 1, 24, 1},
+    {2, 2, 0, -1, "bank", LotUse::kBuilding, F::kClassicStone, 0, 27, 1},
+    {3, 1, 1, 1, "similar tower 1", LotUse::kBuilding, F::kRibbon, 0, 58, 2},
+    {3, 1, 1, 2, "similar tower 2", LotUse::kBuilding, F::kRibbon, 0, 58, 2},
+    {3, 1, 1, 3, "similar tower 3", LotUse::kBuilding, F::kRibbon, 0, 58, 2},
+};
+
+// The same lots: stone and brick where glass stands today.
+constexpr Role kRoles1950s[] = {
+    {2, 2, 0, 0, "deco corner", LotUse::kBuilding, F::kDeco, 0, 54, 1},
+    {1, 2, 0, -1, "grid tower", LotUse::kBuilding, F::kDeco, 1, 76, 2, "sandstone tower"},
+    {2, 1, 1, 0, "braced corner", LotUse::kBuilding, F::kBrickLoft, 1, 31, 1, "yellow brick corner"},
+    {1, 1, 1, -1, "brown tower", LotUse::kBuilding, F::kDeco, 2, 62, 3},
+    {1, 2, 1, -1, "blue tower", LotUse::kBuilding, F::kDeco, 3, 116, 3, "brick tower"},
+    {2, 2, 1, 0, "north deco", LotUse::kBuilding, F::kDeco, 1, 66, 3},
+    {2, 1, 0, 0, "glass slab", LotUse::kBuilding, F::kDeco, 0, 122, 3, "limestone tower"},
+    {1, 1, 0, -1, "loft corner", LotUse::kBuilding, F::kBrickLoft, 0, 36, 1},
+    {2, 2, 0, 1, "ribbon low", LotUse::kBuilding, F::kClassicStone, 1, 22, 1, "theatre"},
+    {2, 1, 1, 2, "plaza", LotUse::kPlaza, F::kRibbon, 0, 0, 1},
+    {1, 1, 1, 1, "building site", LotUse::kDirt, F::kRibbon, 0, 0, 1},
+    {1, 2, 0, 1, "bottle roof", LotUse::kBuilding, F::kBrickLoft, 1, 24, 1},
+    {2, 2, 0, -1, "bank", LotUse::kBuilding, F::kClassicStone, 0, 27, 1},
+    {3, 1, 1, 1, "similar tower 1", LotUse::kBuilding, F::kDeco, 3, 58, 3},
+    {3, 1, 1, 2, "similar tower 2", LotUse::kBuilding, F::kDeco, 3, 58, 3},
+    {3, 1, 1, 3, "similar tower 3", LotUse::kBuilding, F::kDeco, 3, 58, 3},
+};
+
+// Panes of clear glass, slabs without studs for the blind, white brick and yellow brick between bands of windows.
+constexpr std::pair<Surface, Surface> kSurfaces1950s[] = {
+    {S::kGlassBlue, S::kGlassDark},   {S::kPaintYellow, S::kPaintWhite},   {S::kTactile, S::kSlabs},
+    {S::kPanelWhite, S::kBrickWhite}, {S::kConcreteWarm, S::kBrickYellow}, {S::kFarWalls2, S::kFarWalls0}};
+
+constexpr StandIn kProps1950s[] = {
+    {"ac_unit", "roof_cowl"},
+    {"antenna", "antenna_1950s"},
+    {"banner", "banner_1950s"},
+    {"bicycle", "bicycle_1950s"},
+    {"billboard", "billboard_1950s"},
+    {"blue_barrier", "blue_barrier_1950s"},
+    {"bus", "bus_1950s"},
+    {"bus_stop", "bus_stop_1950s"},
+    {"car", "car_1950s"},
+    {"concrete_block", "concrete_block_1950s"},
+    {"electric_box", "electric_box_1950s"},
+    {"food_truck", "food_truck_1950s"},
+    {"light_box", "light_box_1950s"},
+    {"mural", "mural_1950s"},
+    {"poster_stand", "poster_stand_1950s"},
+    {"road_column", "road_column_1950s"},
+    {"street_light", "street_light_1950s"},
+    {"taxi", "taxi_1950s"},
+    {"traffic_light", "traffic_light_1950s"},
+    {"traffic_sign", "traffic_sign_1950s"},
+    {"trash_bags", "trash_bags_1950s"},
+    {"us_flag", "us_flag_1950s"},
+    {"van", "van_1950s"},
+};
+
+constexpr PavementRule kPavement1950s[] = {{"fire_alarm_box", 90, 0.65f, true, 1}, {"police_box", 120, 0.65f, true, 1}};
+
+constexpr Period kPresent{.world = "new_york_city",
+                          .roles = kRolesPresent,
+                          .corner_towers = {F::kDeco, F::kConcreteGrid, F::kCurtainWall, F::kDeco, F::kRibbon, F::kClassicStone, F::kDeco,
+                                            F::kBrickLoft, F::kCurtainWall},
+                          .other_towers = {F::kDeco, F::kCurtainWall, F::kRibbon, F::kDeco, F::kConcreteGrid, F::kClassicStone},
+                          .far_walls = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3, S::kFarWalls2, S::kFarPiers0,
+                                        S::kFarPiers0, S::kFarPiers1, S::kFarPiers1, S::kFarRibbons0, S::kFarRibbons1, S::kGlassBlue},
+                          .surfaces = {},
+                          .props = {},
+                          .pavement = {}};
+
+constexpr Period k1950s{
+    .world = "new_york_city_1950s",
+    .roles = kRoles1950s,
+    .corner_towers = {F::kDeco, F::kDeco, F::kClassicStone, F::kDeco, F::kRibbon, F::kClassicStone, F::kDeco, F::kBrickLoft, F::kDeco},
+    .other_towers = {F::kDeco, F::kClassicStone, F::kRibbon, F::kDeco, F::kBrickLoft, F::kClassicStone},
+    .far_walls = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3, S::kFarWalls0, S::kFarPiers0, S::kFarPiers0, S::kFarPiers1,
+                  S::kFarPiers1, S::kFarWalls3, S::kFarWalls1, S::kFarPiers0},
+    .surfaces = kSurfaces1950s,
+    .props = kProps1950s,
+    .pavement = kPavement1950s,
+    .shop_signs = ShopSigns::k1950s,
+    .paint = RoadPaint::kWhiteLines,
+    .escape_wall = 5.6f,
+    .coolers = false,
+    .aerials = true,
+    .subway_stairs = true};
+
+}  // namespace
+
+const Period& PeriodOf(CityStyle style) { return style == CityStyle::k1950s ? k1950s : kPresent; }
+
+}  // namespace airsim360::internal
