@@ -114,6 +114,7 @@ void NavGraph::FindWalls() {
       const int j = (i + 1) % polygon.corners;
       const Vec2d a = polygon.corner[i], d = polygon.corner[j] - a;
       const double length = std::sqrt(Dot(d, d)), dz = polygon.z[j] - polygon.z[i];
+      if (length <= 0) continue;  // a corner that is there twice, at two heights: such a wall has no side
       double closed_from = 0;
       const auto wall = [&](double t0, double t1) {
         if ((t1 - t0) * length < kSliver && t1 - t0 < 0.999) return;

@@ -35,6 +35,7 @@ struct NavMeshOptions {
   double step_height = 0.28;         ///< highest step
   double steepest_deg = 38;          ///< slope
   double tile = 24;                  ///< metres: edge of what is rastered at a time, which bounds memory
+  int search_nodes = 60000;          ///< of ways that one search may look at, at most 65,535; a long way takes several
   std::optional<Box3f> region = {};  ///< only this part of the world (x and y count); default: up to 400 m around
                                      ///< its spawn or its middle
   Box3f also = {};                   ///< with the default region, what it is widened to hold (x and y count)

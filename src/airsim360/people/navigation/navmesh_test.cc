@@ -4,18 +4,23 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 
 #include "airsim360/base/disk_cache.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/people/navigation/nav_graph.h"
 #include "airsim360/people/navigation/polygon2d.h"
 #include "airsim360/people/navigation/test_ground.h"
 
 namespace airsim360 {
 namespace {
 
+using internal::NavGraph;
+using internal::NavPolygon;
 using internal::TestGround;
 constexpr uint32_t kAll = ~0u;
 
@@ -60,6 +65,52 @@ TEST(NavMesh, BladesOfALawnAreNeitherGroundNorObstacle) {
   const auto mesh = NavMesh::Build(*ground.Build());
   EXPECT_TRUE(mesh->Straight(mesh->Nearest({5, 15, 0}), {25, 15}));
   EXPECT_NEAR(mesh->Nearest({15.1, 15, 0}).p_W.z, 0, 0.05);
+}
+
+// What one search cannot see takes several, and is hardly longer.
+TEST(NavMesh, LongWaysTakeSeveralSearches) {
+  TestGround ground;
+  ground.Floor("ground/pavement", 0, 0, 120, 60);
+  for (float x = 6; x < 118; x += 8)
+    for (float y = 3; y < 58; y += 6) ground.Box("construction/wall", {x, y + (x > 60 ? 1.5f : 0), 0}, {x + 5, y + (x > 60 ? 4.5f : 3), 3});
+  const auto scene = ground.Build();
+  const auto whole = NavMesh::Build(*scene), parts = NavMesh::Build(*scene, {.search_nodes = 200});
+  ASSERT_GT(whole->polygon_count(), 300u);
+  RngStream rng(4, "ways");
+  const NavArea everywhere = whole->AreaOf({}, kAll);
+  double longest = 0;
+  for (int i = 0; i < 200; ++i) {
+    const NavPoint a = whole->Pick(everywhere, rng), b = whole->Pick(everywhere, rng);
+    const NavPath direct = whole->FindPath(a, b), joined = parts->FindPath(a, b);
+    ASSERT_TRUE(direct.complete && joined.complete) << i;
+    EXPECT_LE(joined.length, 1.6 * direct.length + 2) << i;
+    longest = std::max(longest, direct.length);
+    for (size_t k = 1; k < joined.corners.size(); ++k) {
+      const Vec3d from = joined.corners[k - 1], step = joined.corners[k] - from;
+      for (double t = 0; t < 1; t += 0.25 / std::max(0.25, Norm(step))) EXPECT_TRUE(parts->Nearest(from + step * t, 0.1).valid()) << i;
+    }
+  }
+  EXPECT_GT(longest, 80);
+}
+
+// Where the ground is steep a corner of a polygon can be there twice, one above the other. City Park has seven such.
+TEST(NavMesh, NoWallIsWithoutLength) {
+  NavPolygon polygon;
+  polygon.corners = 5;
+  const Vec2d corners[] = {{0, 0}, {4, 0}, {4, 0}, {4, 3}, {0, 3}};
+  const float heights[] = {0, 0, 1, 1, 0};
+  std::copy(std::begin(corners), std::end(corners), polygon.corner);
+  std::copy(std::begin(heights), std::end(heights), polygon.z);
+  NavGraph graph;
+  graph.polygons = {polygon};
+  graph.Finish();
+  ASSERT_EQ(graph.walls.size(), 4u);
+  double around = 0;
+  for (const NavWall& wall : graph.walls) {
+    EXPECT_GT(std::hypot(wall.b.x - wall.a.x, wall.b.y - wall.a.y), 2.9);
+    around += std::hypot(wall.b.x - wall.a.x, wall.b.y - wall.a.y);
+  }
+  EXPECT_NEAR(around, 14, 1e-9);
 }
 
 TEST(NavMesh, NobodyMovesThroughWalls) {

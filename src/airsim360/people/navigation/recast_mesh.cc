@@ -26,7 +26,10 @@ Point3 ToRecast(Vec3d p) { return {{static_cast<float>(p.x), static_cast<float>(
 Vec3d FromRecast(const float* v) { return {v[0], -v[2], v[1]}; }
 
 constexpr float kCellHeight = 0.05f;
-constexpr int kMaxPathPolygons = 1024;
+constexpr int kMaxPathPolygons = 8192, kMaxCorners = 1024;
+// Detour counts the nodes of a search in 16 bits, and a town of a kilometre has three times as many polygons: a long way is
+// made of several searches, each from where the one before got to.
+constexpr int kMaxSearches = 8;
 constexpr double kPassing = 0.2;  // metres: half of what the middles of two people who pass need
 
 template <class T, void (*Free)(T*)>
@@ -367,6 +370,33 @@ NavGraph RecastMesh::Join() {
   return graph;
 }
 
+namespace {
+
+/// Polygons from start to goal, or to the nearest that can be reached.
+std::vector<dtPolyRef> Corridor(const dtNavMeshQuery& query, const dtQueryFilter& filter, dtPolyRef start, dtPolyRef goal, const float* a,
+                                const float* b) {
+  std::vector<dtPolyRef> corridor, leg(kMaxPathPolygons);
+  Point3 from{{a[0], a[1], a[2]}};
+  for (int search = 0; search < kMaxSearches; ++search) {
+    int count = 0;
+    const dtStatus status = query.findPath(start, goal, from.v, b, &filter, leg.data(), &count, kMaxPathPolygons);
+    if (dtStatusFailed(status) || count == 0) break;
+    // Each leg begins where the last one ends; what leads into a dead end and out again is left out.
+    for (int k = 0; k < count; ++k) {
+      if (search > 0) corridor.erase(std::find(corridor.begin(), corridor.end(), leg[static_cast<size_t>(k)]), corridor.end());
+      corridor.push_back(leg[static_cast<size_t>(k)]);
+    }
+    if (corridor.back() == goal || corridor.back() == start || !dtStatusDetail(status, DT_OUT_OF_NODES)) break;
+    start = corridor.back();
+    Point3 on = from;
+    query.closestPointOnPoly(start, from.v, on.v, nullptr);
+    from = on;
+  }
+  return corridor;
+}
+
+}  // namespace
+
 NavPath RecastMesh::FindPath(uint32_t from, Vec3d start, uint32_t to, Vec3d goal) const {
   // A searcher of one's own while this runs.
   Query query;
@@ -379,7 +409,8 @@ NavPath RecastMesh::FindPath(uint32_t from, Vec3d start, uint32_t to, Vec3d goal
   }
   if (!query) {
     query.reset(dtAllocNavMeshQuery());
-    const int nodes = static_cast<int>(std::clamp<size_t>(impl_->references.size() * 2, 64, 60000));
+    const int nodes =
+        static_cast<int>(std::clamp<size_t>(impl_->references.size() * 2, 64, static_cast<size_t>(impl_->options.search_nodes)));
     if (dtStatusFailed(query->init(impl_->mesh.get(), nodes))) throw std::bad_alloc();
   }
 
@@ -387,18 +418,17 @@ NavPath RecastMesh::FindPath(uint32_t from, Vec3d start, uint32_t to, Vec3d goal
   NavPath path;
   const Point3 a = ToRecast(start), b = ToRecast(goal);
   const dtPolyRef start_ref = impl_->references[from], goal_ref = impl_->references[to];
-  std::vector<dtPolyRef> corridor(kMaxPathPolygons);
-  int count = 0;
-  const dtStatus status = query->findPath(start_ref, goal_ref, a.v, b.v, &impl_->filter, corridor.data(), &count, kMaxPathPolygons);
-  if (!dtStatusFailed(status) && count > 0) {
-    path.complete = corridor[static_cast<size_t>(count) - 1] == goal_ref;
+  const std::vector<dtPolyRef> corridor = Corridor(*query, impl_->filter, start_ref, goal_ref, a.v, b.v);
+  if (!corridor.empty()) {
+    path.complete = corridor.back() == goal_ref;
     Point3 end = b;
-    if (!path.complete) query->closestPointOnPoly(corridor[static_cast<size_t>(count) - 1], b.v, end.v, nullptr);
-    std::vector<float> corners(3 * 256);
+    if (!path.complete) query->closestPointOnPoly(corridor.back(), b.v, end.v, nullptr);
+    std::vector<float> corners(3 * kMaxCorners);
     int corner_count = 0;
-    query->findStraightPath(a.v, end.v, corridor.data(), count, corners.data(), nullptr, nullptr, &corner_count, 256);
+    query->findStraightPath(a.v, end.v, corridor.data(), static_cast<int>(corridor.size()), corners.data(), nullptr, nullptr, &corner_count,
+                            kMaxCorners);
     for (int i = 0; i < corner_count; ++i) path.corners.push_back(FromRecast(&corners[static_cast<size_t>(3 * i)]));
-    if (path.complete && !path.corners.empty() && corner_count < 256) path.corners.back() = goal;
+    if (path.complete && !path.corners.empty() && corner_count < kMaxCorners) path.corners.back() = goal;
     for (size_t i = 1; i < path.corners.size(); ++i) path.length += Norm(path.corners[i] - path.corners[i - 1]);
   }
   const std::lock_guard lock(impl_->mutex);
