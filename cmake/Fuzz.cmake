@@ -48,6 +48,8 @@ function(airsim360_fuzz_module name)
   set(libraries ${AIRSIM360_RELEASE}/libairsim360_${name}.a ${ARG_DEPS} ${ARG_PUBLIC_LIBS} ${ARG_PRIVATE_LIBS})
   if(sources)
     add_library(airsim360_${name} STATIC ${sources})
+    # Headers are parsed once for all of them, as the ordinary build does with the same sources (cmake/Unity.cmake).
+    set_target_properties(airsim360_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 24)
     target_include_directories(airsim360_${name} PUBLIC ${CMAKE_SOURCE_DIR}/src)
     target_link_libraries(airsim360_${name} PUBLIC ${libraries})
   else()
