@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "airsim360/people/crowd/dodging.h"
+#include "airsim360/people/crowd/vehicle_dodging.h"
 #include "airsim360/people/navigation/navmesh.h"
 
 namespace airsim360::internal {

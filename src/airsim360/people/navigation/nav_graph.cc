@@ -249,8 +249,12 @@ NavPoint NavGraph::Walk(uint32_t index, Vec2d p, Vec2d target, bool slide, bool*
 
     // Along the wall with what is left of the way; a hand's breadth of rounding inside of it.
     if (stopped) *stopped = true;
-    const Vec2d inward = Vec2d{-edge.y, edge.x} * (1e-6 / std::sqrt(n2));
+    const double length = std::sqrt(n2);
+    const Vec2d inward = Vec2d{-edge.y, edge.x} * (1e-6 / length);
     if (!slide || ++slides > 3) return {index, {p.x, p.y, 0}};
+    // Openings have rounding, so that one may stand a little outside of a polygon: steps shorter than that would not get in.
+    const double outside = -Cross(edge, p - a) / length;
+    if (outside > kAtCorner) p = p + Vec2d{-edge.y, edge.x} * (outside / length);
     target = p + edge * (Dot(target - p, edge) / n2) + inward;
     p = p + inward;
   }

@@ -95,7 +95,7 @@ TEST(NavMesh, LongWaysTakeSeveralSearches) {
 
 // Where the ground is steep a corner of a polygon can be there twice, one above the other. City Park has seven such.
 TEST(NavMesh, NoWallIsWithoutLength) {
-  NavPolygon polygon;
+  NavPolygon polygon{};
   polygon.corners = 5;
   const Vec2d corners[] = {{0, 0}, {4, 0}, {4, 0}, {4, 3}, {0, 3}};
   const float heights[] = {0, 0, 1, 1, 0};
@@ -111,6 +111,25 @@ TEST(NavMesh, NoWallIsWithoutLength) {
     around += std::hypot(wall.b.x - wall.a.x, wall.b.y - wall.a.y);
   }
   EXPECT_NEAR(around, 14, 1e-9);
+}
+
+// Somebody in Rome stood 12 mm outside of a polygon for a minute and a half: whoever starts to walk makes shorter steps.
+TEST(NavMesh, ShortStepsLeadBackFromOutsideOfAPolygon) {
+  NavPolygon polygon{};
+  polygon.corners = 4;
+  const Vec2d corners[] = {{0, 0}, {4, 0}, {4, 3}, {0, 3}};
+  std::copy(std::begin(corners), std::end(corners), polygon.corner);
+  std::fill(std::begin(polygon.z), std::end(polygon.z), 0.0f);
+  NavGraph graph;
+  graph.polygons = {polygon};
+  graph.Finish();
+  Vec2d p{2, -0.0125};
+  for (int step = 0; step < 10; ++step) {
+    const NavPoint next = graph.Walk(0, p, {p.x + 0.003, p.y + 0.01}, true, nullptr);
+    p = {next.p_W.x, next.p_W.y};
+  }
+  EXPECT_NEAR(p.x, 2.03, 1e-5);
+  EXPECT_NEAR(p.y, 0.09, 1e-4);
 }
 
 TEST(NavMesh, NobodyMovesThroughWalls) {

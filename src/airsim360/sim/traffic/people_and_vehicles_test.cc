@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "airsim360/base/parallel.h"
-#include "airsim360/people/crowd/dodging.h"
 #include "airsim360/people/crowd/test_crowd.h"
+#include "airsim360/people/crowd/vehicle_dodging.h"
 #include "airsim360/sim/living_world.h"
 #include "airsim360/sim/people/people.h"
 #include "airsim360/sim/people/populate.h"

@@ -1,4 +1,4 @@
-#include "airsim360/people/crowd/dodging.h"
+#include "airsim360/people/crowd/vehicle_dodging.h"
 
 #include <algorithm>
 #include <array>
