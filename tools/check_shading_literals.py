@@ -2,14 +2,16 @@
 """Checks that the shaders and the CPU's renderer do not write the same numbers twice.
 
 Usage: check_shading_literals.py [ROOT] [--list]. Counts the distinct floating-point literals that stand both in
-src/airsim360/render/vulkan/shaders and in C++ of src/airsim360/render that no shader includes. What both need belongs into a
+src/airsim360/render/vulkan/shaders and in C++ of src/airsim360/render that no shader includes. What both need belongs in a
 function of render/shared/shading_*.h or a constant of shading_constants.h. A few meet by chance (sRGB, guards against zero),
-hence a limit and no ban. Exits 1 above it. --list prints every literal in both with its places.
+hence a limit and no ban. Exits 1 above it. Tries itself on four small files first.
 """
+import argparse
 import collections
 import pathlib
 import re
 import sys
+import tempfile
 
 LIMIT = 20
 TRIVIAL = {0.0, 0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 16.0, 100.0}
@@ -50,11 +52,29 @@ def in_both(root):
     return [(value, glsl[value], cpp[value]) for value in sorted(glsl.keys() & cpp.keys())]
 
 
+def self_test():
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for name, text in {
+            "vulkan/shaders/a.glsl": '#include "airsim360/render/shared/s.h"\nfloat x = 0.37 * 0.5 + 1e-3; // 0.91\n',
+            "shared/s.h": "float y = 0.77f;\n",
+            "cpu/b.cc": "float z = 0.370f + .001f + 0.91f + 0.77f;  /* 0.61 */\n",
+            "cpu/b_test.cc": "float t = 0.37f;\n",
+        }.items():
+            path = root / "src/airsim360/render" / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+        assert [value for value, *_ in in_both(root)] == [0.001, 0.37], in_both(root)
+
+
 def main():
-    arguments = [argument for argument in sys.argv[1:] if argument != "--list"]
-    root = pathlib.Path(arguments[0]) if arguments else pathlib.Path(__file__).resolve().parent.parent
-    both = in_both(root)
-    if len(both) > LIMIT or "--list" in sys.argv:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("root", nargs="?", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
+    parser.add_argument("--list", action="store_true", help="every literal in both, with its places")
+    arguments = parser.parse_args()
+    self_test()
+    both = in_both(arguments.root)
+    if len(both) > LIMIT or arguments.list:
         for value, shaders, cpu in both:
             print(f"{value:g}: {', '.join(shaders[:3])} and {', '.join(cpu[:3])}")
     if len(both) > LIMIT:

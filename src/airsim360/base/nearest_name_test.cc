@@ -15,7 +15,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const Names kWorlds = {"box_room", "city_park", "downtown_west", "map_town", "new_york_city", "sunlit_room"};
+const Names kWorlds = {"box_room", "city_park", "downtown_west", "map_town", "new_york_city", "new_york_city_1950s", "sunlit_room"};
 const Names kProducts = {"rgb",    "range",    "semantic", "entity", "normal", "position",
                          "albedo", "material", "part",     "sky",    "flow",   "coverage"};
 const Names kWeather = {"day",      "clear", "morning", "golden", "sunset", "dusk", "night",

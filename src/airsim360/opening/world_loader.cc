@@ -164,7 +164,7 @@ void CheckAdditions(const WorldRequest& request) {
   const bool new_york = request.world == "new_york_city" || request.world == "new_york_city_1950s",
              props = !request.additions.props.empty();
   if ((!request.additions.no_city() && !new_york) || (props && !new_york && request.world != "downtown_west"))
-    throw InputError("'" + request.world + "': 'city' is for new_york_city, 'props' for it and downtown_west");
+    throw InputError("'" + request.world + "': 'city' is for new_york_city and new_york_city_1950s, 'props' for them and downtown_west");
   if (!request.additions.no_town() && request.world != "town") throw InputError("'" + request.world + "': 'town' is for the world town");
   if (!request.additions.no_building() && request.world != "building")
     throw InputError("'" + request.world + "': 'building' is for the world building");

@@ -31,16 +31,15 @@ const std::vector<WorldInfo>& ListWorlds();
 enum class CityStyle { kPresent, k1950s };
 inline constexpr const char* kCityStyles[] = {"present", "1950s"};
 
-/// What a world file may change about a procedural city, relative to the built-in one. Only new_york_city
-/// listens today.
+/// What a world file may change about new_york_city, or new_york_city_1950s.
 struct CityOptions {
-  CityStyle style = CityStyle::kPresent;
-  double height = 1;                ///< of towers: 0.3 … 2.5
-  double traffic = 1;               ///< cars in lanes and bays: 0 … 1.6
-  double trees = 1;                 ///< street trees: 0 … 1.6
-  double furniture = 1;             ///< things on the pavements: 0 … 2
-  bool billboards = true;           ///< beside those that instructions name
-  std::vector<std::string> styles;  ///< facade styles of lots that are not hand-set; empty = all
+  CityStyle style = CityStyle::kPresent;  ///< new_york_city_1950s shows the 1950s in any case
+  double height = 1;                      ///< of towers: 0.3 … 2.5
+  double traffic = 1;                     ///< cars in lanes and bays: 0 … 1.6
+  double trees = 1;                       ///< street trees: 0 … 1.6
+  double furniture = 1;                   ///< things on the pavements: 0 … 2
+  bool billboards = true;                 ///< beside those that instructions name
+  std::vector<std::string> styles;        ///< facade styles of lots that are not hand-set; empty = all
 };
 /// Names of the facade styles, as CityOptions::styles has them.
 const std::vector<std::string>& FacadeStyleNames();

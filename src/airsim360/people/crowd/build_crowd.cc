@@ -63,9 +63,16 @@ class Builder {
  private:
   /// What the file's areas and people need of the world.
   Box3f PlacesOfFile() const {
+    constexpr float kAround = 24;  // metres: nobody stands at the very edge of the mesh
     Box3f places;
     const auto add = [&](std::span<const Vec2d> points, const std::string& where) {
-      for (const Vec2d p : points) places.Add(VecCast<float>(Vec3d{p.x, p.y, 0}));
+      Box3f box;
+      for (const Vec2d p : points) box.Add(VecCast<float>(Vec3d{p.x, p.y, 0}));
+      const Box3f& all = scene_.bounds;
+      // Where there is no world nothing need be prepared; it is refused with its own words later.
+      if (box.empty() || box.min.x > all.max.x || box.max.x < all.min.x || box.min.y > all.max.y || box.max.y < all.min.y) return;
+      places.Add(box.min - Vec3f{kAround, kAround, 0});
+      places.Add(box.max + Vec3f{kAround, kAround, 0});
       try {
         NavMeshRegion(scene_, {.also = places});
       } catch (const InputError& error) {

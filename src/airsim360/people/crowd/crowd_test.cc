@@ -449,13 +449,14 @@ TEST_F(CrowdFiles, AuthorsAddStatesMessagesAndTransitions) {
 // The mesh is 400 m wide, in whole tiles; what a file names beyond that is prepared too, and what is too far is refused by its line.
 TEST_F(CrowdFiles, AreasFarFromTheSpawnArePrepared) {
   TestGround ground;
-  ground.Floor("ground/pavement", -50, 0, 12000, 40);
+  ground.Floor("ground/pavement", -2000, 0, 12000, 40);
   ground.builder().SetSpawn({0, 20, 2});
   const auto scene = ground.Build();
   const auto model = BuildCrowd(*scene, nullptr,
                                 File("areas:\n  - {name: near, polygon: [[0, 5], [60, 5], [60, 35], [0, 35]], count: 3}\n"
                                      "  - {name: far, polygon: [[900, 5], [960, 5], [960, 35], [900, 35]], count: 4}\n"
-                                     "people:\n  - {at: [1200, 20], behaviour: walker}\n"));
+                                     "people:\n  - {at: [1200, 20], behaviour: walker}\n  - {at: [-600, 20], behaviour: walker}\n"));
+  EXPECT_LT(model->navmesh->bounds().min.x, -620);  // not at the edge of the mesh
   const CrowdState state = StartCrowd(*model);
   std::vector<int> by_area(2), beyond(1);
   for (const PersonState& person : state.people) {
@@ -466,14 +467,14 @@ TEST_F(CrowdFiles, AreasFarFromTheSpawnArePrepared) {
   EXPECT_EQ(by_area, (std::vector<int>{3, 4}));
   EXPECT_EQ(beyond[0], 1);
   EXPECT_TRUE(model->navmesh->FindPath(model->navmesh->Nearest({30, 20, 0}), model->navmesh->Nearest({930, 20, 0})).complete);
-  EXPECT_LE(BuildCrowd(*scene, nullptr, File("areas:\n  - {count: 3}\n"))->navmesh->bounds().max.x, 350 + 24);
+  EXPECT_LE(BuildCrowd(*scene, nullptr, File("areas:\n  - {count: 3}\n"))->navmesh->bounds().max.x, 200 + 24);
 
   ground = TestGround();
   ground.Floor("ground/pavement", -5000, -5000, 5000, 5000);
   const auto wide = ground.Build();
   try {
     BuildCrowd(*wide, nullptr, File("areas:\n  - name: far\n    polygon: [[4000, 3000], [4010, 3000], [4010, 3010]]\n    count: 1\n"));
-    ADD_FAILURE() << "15 km2 were prepared";
+    ADD_FAILURE() << "13 km2 were prepared";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("people.yaml:3: people would walk over 4210 m x 3210 m of the world; 2.25 km2 is the most"),
               std::string::npos)

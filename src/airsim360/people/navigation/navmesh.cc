@@ -35,7 +35,7 @@ namespace {
 
 // Worlds larger than that get a mesh around their spawn or middle, unless more of them is asked for.
 constexpr double kLargest = 400;
-constexpr double kMaxArea = 1500.0 * 1500;        // square metres: a minute of a processor
+constexpr double kMaxArea = 1500.0 * 1500;        // square metres: of a town some two and a half minutes of a processor
 constexpr double kStepUp = 0.4, kStepDown = 0.6;  // metres: from where someone stands to where a foot may come
 
 internal::TileGrid GridOf(const Scene& scene, const NavMeshOptions& options) {

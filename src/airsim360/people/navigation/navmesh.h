@@ -35,14 +35,14 @@ struct NavMeshOptions {
   double step_height = 0.28;         ///< highest step
   double steepest_deg = 38;          ///< slope
   double tile = 24;                  ///< metres: edge of what is rastered at a time, which bounds memory
-  int search_nodes = 60000;          ///< of ways that one search may look at, at most 65,535; a long way takes several
+  int search_nodes = 60000;          ///< polygons that one search for a way may look at, 64 … 65,535; a longer way takes several
   std::optional<Box3f> region = {};  ///< only this part of the world (x and y count); default: up to 400 m around
                                      ///< its spawn or its middle
   Box3f also = {};                   ///< with the default region, what it is widened to hold (x and y count)
 };
 
-/// What of the world NavMesh::Build covers (x and y count). InputError if the region lies outside the world or has
-/// more than 2.25 km2.
+/// What of the world NavMesh::Build covers at least (x and y count): tiles are whole. InputError if the world is empty, or the
+/// region lies outside of it or has more than 2.25 km2.
 Box3f NavMeshRegion(const Scene& scene, const NavMeshOptions& options);
 
 /// A place on the mesh.

@@ -409,8 +409,8 @@ NavPath RecastMesh::FindPath(uint32_t from, Vec3d start, uint32_t to, Vec3d goal
   }
   if (!query) {
     query.reset(dtAllocNavMeshQuery());
-    const int nodes =
-        static_cast<int>(std::clamp<size_t>(impl_->references.size() * 2, 64, static_cast<size_t>(impl_->options.search_nodes)));
+    const int nodes = static_cast<int>(
+        std::clamp<size_t>(impl_->references.size() * 2, 64, static_cast<size_t>(std::clamp(impl_->options.search_nodes, 64, 65535))));
     if (dtStatusFailed(query->init(impl_->mesh.get(), nodes))) throw std::bad_alloc();
   }
 

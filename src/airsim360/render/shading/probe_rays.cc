@@ -60,7 +60,8 @@ Met ResolveMet(const ProbeLight& world, const SurfaceRef& ref, Vec3f point, Vec3
     if (lamp != LightTable::kNoLamp && world.lamps->Holds(lamp)) emission = {};
   }
   const Vec3f color = tables.mean_colors[material] * tint * tables.MeanColor(instance, ref.triangle);
-  return {point, normal, Min(color, Vec3f{0.9f, 0.9f, 0.9f}), emission, back, kind == SurfaceKind::kFoliage || kind == SurfaceKind::kGlass};
+  return {point,    normal, Min(color, Vec3f{kMostBounced, kMostBounced, kMostBounced}),
+          emission, back,   kind == SurfaceKind::kFoliage || kind == SurfaceKind::kGlass};
 }
 
 // Light of the sky on a surface in a street, half of it hidden; and of ground like that of the scene.

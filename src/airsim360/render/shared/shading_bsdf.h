@@ -104,11 +104,11 @@ SHARED Bsdf bsdf_bodies(Bsdf b, real3 base, real metallic, real transmission) {
   real zero = real(0.0f);
   mask_t leaf = (b.kind > 0.5f) && (b.kind < 1.5f);
   mask_t glass = (b.kind > 1.5f) && (b.kind < 2.5f);
-  // Longer ways through a leaf leave less blue: chlorophyll absorbs least of the green and yellow.
   real3 inside = base * (1.0f - metallic);
   real t = sel(leaf, transmission, zero);
-  b.through = make3(rmin(inside.x * 1.10f * t, 1.0f - inside.x), rmin(inside.y * 1.15f * t, 1.0f - inside.y),
-                    rmin(inside.z * 0.55f * t, 1.0f - inside.z));
+  real3 color = leaf_color();
+  b.through = make3(rmin(inside.x * color.x * t, 1.0f - inside.x), rmin(inside.y * color.y * t, 1.0f - inside.y),
+                    rmin(inside.z * color.z * t, 1.0f - inside.z));
   real clear = sel(glass, transmission, zero);
   b.straight = inside * clear;
   b.body = inside * (1.0f - clear);

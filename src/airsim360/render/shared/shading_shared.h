@@ -185,11 +185,12 @@ SHARED real3 diffuse(real3 albedo, real3 e) { return albedo * e * real(SHADE_INV
 SHARED real3 leaf_color() { return make3(real(1.10f), real(1.15f), real(0.55f)); }
 
 // A leaf lit from either side: n_dot_l signed towards the viewer's side; `transmission` times albedo passes
-// through, yellower than what is reflected (chlorophyll absorbs less of the green-yellow on the longer path).
+// through.
 SHARED real3 leaf_diffuse(real3 albedo, real transmission, real n_dot_l) {
   real front = rmax(n_dot_l, real(0.0f));
   real back = rmax(0.0f - n_dot_l, real(0.0f)) * transmission;
-  return make3(albedo.x * (front + 1.10f * back), albedo.y * (front + 1.15f * back), albedo.z * (front + 0.55f * back)) *
+  real3 leaf = leaf_color();
+  return make3(albedo.x * (front + leaf.x * back), albedo.y * (front + leaf.y * back), albedo.z * (front + leaf.z * back)) *
          real(SHADE_INV_PI);
 }
 

@@ -12,6 +12,8 @@
 #include "airsim360/base/random.h"
 #include "airsim360/render/shared/roofs_scalar.h"
 #include "airsim360/render/shared/roofs_simd.h"
+#include "airsim360/render/sky/sky_table.h"
+#include "airsim360/scene/material.h"
 
 #define SHARED static inline __attribute__((unused))
 #define INOUT(T) T&
@@ -55,6 +57,14 @@ namespace {
 namespace scalar = internal::scalar;
 namespace wide = internal::isa_test;
 constexpr double kPi = 3.14159265358979;
+
+// What shaders know of materials by numbers of their own.
+static_assert(SURFACE_LOW_BEAM == kLowBeam);
+static_assert(GROUND_ASPHALT == static_cast<float>(GroundWear::kAsphalt) &&
+              GROUND_CARRIAGEWAY == static_cast<float>(GroundWear::kCarriageway));
+static_assert(GROUND_PAVING == static_cast<float>(GroundWear::kPaving) && GROUND_LAWN == static_cast<float>(GroundWear::kLawn));
+static_assert(GROUND_GRAVEL == static_cast<float>(GroundWear::kGravel) && GROUND_SOIL == static_cast<float>(GroundWear::kSoil));
+static_assert(GROUND_ROOF == static_cast<float>(GroundWear::kRoof) && GROUND_ROOF_ROLLS == static_cast<float>(GroundWear::kRoofRolls));
 
 Vec3f RandomUp(RngStream& random) {
   const double z = random.Uniform(0.05, 1.0), a = random.Uniform(0, 2 * kPi), s = std::sqrt(1 - z * z);

@@ -3,7 +3,7 @@
 // argument that is only read. Fetching records, textures and noise is the back ends' own.
 
 #define SURFACE_MIRROR_ROUGHNESS 0.12f
-#define SURFACE_LOW_BEAM 10.0f  // kLowBeam of scene/material.h
+#define SURFACE_LOW_BEAM 10.0f  // kLowBeam of scene/material.h (shading_shared_test.cc compares)
 
 // GroundWear
 #define GROUND_ASPHALT 1.0f
@@ -452,7 +452,7 @@ SHARED mask_t takes_sun(real3 n, real3 facing, real kind, real3 l) {
 }
 SHARED mask_t sun_is_up(ufloat sun_z) { return mask_t(sun_z > -0.02f); }
 
-// A place on the sun's disc of `radius`, for a and b even over 0 … 1.
+// A place on a disc: `radius` from its middle (the root of an even number, times the disc's), `b` of a turn.
 SHARED PlanePoint disc_place(real radius, real b) {
   real angle = b * (2.0f * SHADE_PI);
   PlanePoint at;

@@ -18,18 +18,19 @@ struct Role {
   const char* name;
   LotUse use;
   FacadeStyle style;
-  int palette;
-  float height;
+  int palette;              ///< of the style's
+  float height;             ///< metres, of the highest roof
   int tiers;                ///< 1 straight, 2 podium and tower, 3 set back twice
   const char* called = "";  ///< its buildings' name where that is not the lot's
 };
 
-/// What stands along every side of a block: kind, spacing, depth from the kerb, looks at the street.
+/// What stands along every side of a block.
 struct PavementRule {
   const char* kind;
-  float spacing, depth;
-  bool to_street;
-  int group;  ///< how many stand together
+  float spacing;   ///< metres
+  float depth;     ///< metres from the kerb
+  bool to_street;  ///< looks at the street
+  int group;       ///< how many stand together
 };
 
 /// Kind by kind: what is made where the first is asked for.
@@ -46,7 +47,7 @@ struct Period {
   std::span<const PavementRule> pavement;  ///< beside what stands there at any time
   ShopSigns shop_signs = ShopSigns::kToday;
   RoadPaint paint = RoadPaint::kToday;
-  float escape_wall = 8;       ///< least length of walls with a fire escape
+  float escape_wall = 8;       ///< metres: least length of walls with a fire escape
   bool coolers = true;         ///< air conditioners in windows
   bool aerials = false;        ///< of television, on the low roofs
   bool subway_stairs = false;  ///< on the pavements of the crossing

@@ -238,7 +238,7 @@ void AddChecks(PropBuilder& b, const CarShape& s) {
   b.Use(Paint({1, 1, 1}, 0.4f), checks.Finish("checks"));
   for (float x : {-1.0f, 1.0f}) {
     const float w = x * (Lookup(s.width, 0) + 0.006f);
-    b.Picture({w, -x * -0.85f, 0.80f}, {w, -x * 0.85f, 0.80f}, {w, -x * 0.85f, 0.90f}, {w, -x * -0.85f, 0.90f});
+    b.Picture({w, x * -0.85f, 0.80f}, {w, x * 0.85f, 0.80f}, {w, x * 0.85f, 0.90f}, {w, x * -0.85f, 0.90f});
   }
 }
 
@@ -272,10 +272,9 @@ Model MakePanelTruck(uint32_t variant, uint64_t) {
     Vec3f body, roof, letters;
     const char *name, *trade;
   };
-  static constexpr Firm kFirms[4] = {{kForest, kForest, kCream, "HALLORAN", "HAND LAUNDRY"},
+  static constexpr Firm kFirms[3] = {{kForest, kForest, kCream, "HALLORAN", "HAND LAUNDRY"},
                                      {kIvory, kIvory, kNavy, "DAIRYFIELD", "MILK & CREAM"},
-                                     {kMaroon, kInk, {0.58f, 0.42f, 0.12f}, "WEBER & SONS", "BREAD AND ROLLS"},
-                                     {kNavy, kDove, kIvory, "COLD SPRING", "ICE - COAL"}};
+                                     {kMaroon, kInk, {0.58f, 0.42f, 0.12f}, "WEBER & SONS", "BREAD AND ROLLS"}};
   const Firm& firm = kFirms[variant];
   PropBuilder b("van_1950s");
   const CarShape& s = PanelTruck();
@@ -337,7 +336,7 @@ std::vector<PropKind> Cars1950sKinds() {
   return {
       {"car_1950s", "vehicle/car", 12, MakeCar1950s, 2.5f, 1.4f, 1.7f, 9000},
       {"taxi_1950s", "vehicle/car", 4, MakeTaxi1950s, 2.5f, 1.6f, 1.9f, 9000},
-      {"van_1950s", "vehicle/van", 4, MakePanelTruck, 3.1f, 2.1f, 2.3f, 9000},
+      {"van_1950s", "vehicle/van", 3, MakePanelTruck, 3.1f, 2.1f, 2.3f, 9000},
       {"bus_1950s", "vehicle/bus", 2, MakeBus1950s, 7.2f, 2.8f, 3.1f, 9500},
   };
 }

@@ -17,7 +17,8 @@ Vec3f LampWhite(float kelvin);
 
 /// Instance::glow of a prop of this kind at a place; the same for the same place. Street lights are of one kind over a
 /// neighbourhood: high-pressure sodium (2200 K), warm or neutral LED (3000, 4000 K). Vehicles in traffic have their lamps on
-/// (halogen 3200 K, LED 5500 K; those of the 1950s about 3000 K), parked ones are dark but for one in twenty-five. White for all other props.
+/// (halogen 3200 K, LED 5500 K; those of the 1950s about 3000 K), parked ones are dark but for one in twenty-five. White for all
+/// other props.
 Vec3f EveningGlow(std::string_view kind, std::string_view category, Vec3f p_W, Engine engine);
 
 /// Makes lamps of the glasses at nose and tail of a vehicle (front towards -Y), whose shape and look by day stay: low beams

@@ -57,8 +57,8 @@ class PropShelf {
                  Engine engine = Engine::kOff);
   /// Adds an instance of a kind to an existing entity (grass tufts of one lawn, say).
   void PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant = 0, Vec3f tint = {1, 1, 1});
-  /// From now on `by` is made where `kind` is asked for, one of its individuals where that has fewer. Entities keep the name of
-  /// `kind` where both are of one category.
+  /// From now on `by` is made where `kind` is asked for; numbers of individuals beyond those that it has begin again at 0. Who
+  /// draws an individual draws among those of `kind`. Entities keep the name of `kind` where both are of one category.
   void Replace(std::string_view kind, std::string_view by) { stand_ins_[FindPropKind(kind).name] = &FindPropKind(by); }
   /// Everything placed from now on comes to stand where `lay` (kind, as placed) puts it: on a slope, say. Null = as placed.
   using Lay = std::function<AffineTransform(std::string_view kind, const AffineTransform& placed)>;

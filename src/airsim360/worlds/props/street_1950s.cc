@@ -385,6 +385,8 @@ Model MakeSubwayStairs(uint32_t variant, uint64_t) {
   rail({-kLong + 0.1f, -kWide}, {kLong - 0.09f, -kWide});
   rail({-kLong + 0.1f, kWide}, {kLong - 0.09f, kWide});
   rail({kLong - 0.09f, -kWide}, {kLong - 0.09f, kWide});
+  // A chain across the head: the stairs are a picture, nobody goes down.
+  b.mesh().Beam({-kLong + 0.1f, -kWide, 0.9f}, {-kLong + 0.1f, kWide, 0.9f}, 0.03f);
   for (float y : {-kWide, kWide}) {
     b.Use(Paint(kIronGreen, 0.45f));
     const Vec2f post[] = {{0.14f, 0},      {0.14f, 0.25f}, {0.085f, 0.32f}, {0.06f, 1.2f},

@@ -88,7 +88,7 @@ void LayLinedCrosswalk(Ground& ground, const StreetStretch& street, bool at_star
   StreetRect(ground, street, from, from + kLine, -reach, reach, kPaintLift);
   StreetRect(ground, street, to - kLine, to, -reach, reach, kPaintLift);
   ground.Use(Surface::kAsphaltOld);
-  StreetRect(ground, street, from + kLine, to - kLine, -reach, reach, kPaintLift / 2);
+  StreetRect(ground, street, from + kLine, to - kLine, -reach, reach, 0.75f * kPaintLift);  // over wear and repairs
 }
 
 // A crossing of two lines. The wheel tracks of the wider street run through.

@@ -139,7 +139,8 @@ Skin PaintSkin(Fetched f, uint instance, Meeting at, Sampled sampled, out Noises
   if (m.unit_columns > 0.5) color *= unit_tint(m.unit_columns, m.unit_rows, at.tu, at.tv, at.footprint);
   if (wear) wear_ground(m.ground, noises, at.p, at.tu * m.tile, at.width, color, roughness);
   if (m.kind == kFoliage) color = leaf_tint(true, m.transmission, f.pane, color);
-  return Skin(lawful_color(color), metallic, lawful_roughness(roughness), m.clear_coat, m.clear_coat_roughness, m.transmission, m.kind, at.n, emission);
+  return Skin(lawful_color(color), metallic, lawful_roughness(roughness), m.clear_coat, m.clear_coat_roughness, m.transmission, m.kind,
+              at.n, emission);
 }
 
 /// A part of the normal map's slope; what mipmapping shortened becomes roughness (Toksvig 2005).
