@@ -2,7 +2,7 @@
 //   crowd_bench                         time of a step: all of it, and avoidance alone, over the number of people
 //   crowd_bench ring                    speed over density against Weidmann, 60 s a density
 //   crowd_bench doors [PEOPLE]          RiMEA tests 9 and 12 in full: times, flow through doors and corridors by width
-//   crowd_bench soak N MINUTES [WORLD]  N people in a town of blocks: stuck, overlaps, memory, hash
+//   crowd_bench soak N MINUTES [WORLD [FILE.yaml]]  N people, in a town of blocks or a world: stuck, overlaps, memory, hash
 //   crowd_bench same N MINUTES          hash of all poses, with one thread and with all
 //   crowd_bench trace WORLD N SECONDS OUT.svg [FILE.yaml]   seen from above: ways, talks, seats
 #include <malloc.h>
@@ -133,12 +133,13 @@ void Explain(const CrowdModel& model, const CrowdState& state, PersonIndex i) {
     if (k != i && Norm(state.internals->walkers[k].at.p_W - self.at.p_W) < 1.2) line(k);
 }
 
-void Soak(size_t people, double minutes, const char* world) {
+void Soak(size_t people, double minutes, const char* world, const char* file) {
   const auto scene = SceneOf(world);
   const auto began = Clock::now();
   CrowdRequest request;
   request.count = people;
-  const auto model = BuildCrowd(*scene, NavMesh::Build(*scene), request);
+  request.file = file;
+  const auto model = BuildCrowd(*scene, nullptr, request);
   CrowdState state = StartCrowd(*model);
   std::vector<CrowdEvent> events;
   std::map<std::string, size_t> transitions;
@@ -296,7 +297,7 @@ int main(int argc, char** argv) {
     } else if (mode == "doors") {
       Doors(argc > 2 ? static_cast<airsim360::PersonIndex>(std::strtoul(argv[2], nullptr, 10)) : 1000);
     } else if (mode == "soak" && argc > 3) {
-      Soak(std::strtoul(argv[2], nullptr, 10), std::strtod(argv[3], nullptr), argc > 4 ? argv[4] : "blocks");
+      Soak(std::strtoul(argv[2], nullptr, 10), std::strtod(argv[3], nullptr), argc > 4 ? argv[4] : "blocks", argc > 5 ? argv[5] : "");
     } else if (mode == "trace" && argc > 5) {
       Trace(argv[2], std::strtoul(argv[3], nullptr, 10), std::strtod(argv[4], nullptr), argv[5], argc > 6 ? argv[6] : nullptr);
     } else {
