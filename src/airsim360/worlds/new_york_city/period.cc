@@ -1,5 +1,8 @@
 #include "airsim360/worlds/new_york_city/period.h"
 
+#include <array>
+#include <string_view>
+
 namespace airsim360::internal {
 namespace {
 
@@ -25,25 +28,36 @@ constexpr Role kRolesPresent[] = {
     {3, 1, 1, 3, "similar tower 3", LotUse::kBuilding, F::kRibbon, 0, 58, 2},
 };
 
-// The same lots: stone and brick where glass stands today.
-constexpr Role kRoles1950s[] = {
-    {2, 2, 0, 0, "deco corner", LotUse::kBuilding, F::kDeco, 0, 54, 1},
-    {1, 2, 0, -1, "grid tower", LotUse::kBuilding, F::kDeco, 1, 76, 2, "sandstone tower"},
-    {2, 1, 1, 0, "braced corner", LotUse::kBuilding, F::kBrickLoft, 1, 31, 1, "yellow brick corner"},
-    {1, 1, 1, -1, "brown tower", LotUse::kBuilding, F::kDeco, 2, 62, 3},
-    {1, 2, 1, -1, "blue tower", LotUse::kBuilding, F::kDeco, 3, 116, 3, "brick tower"},
-    {2, 2, 1, 0, "north deco", LotUse::kBuilding, F::kDeco, 1, 66, 3},
-    {2, 1, 0, 0, "glass slab", LotUse::kBuilding, F::kDeco, 0, 122, 3, "limestone tower"},
-    {1, 1, 0, -1, "loft corner", LotUse::kBuilding, F::kBrickLoft, 0, 36, 1},
-    {2, 2, 0, 1, "ribbon low", LotUse::kBuilding, F::kClassicStone, 1, 22, 1, "theatre"},
-    {2, 1, 1, 2, "plaza", LotUse::kPlaza, F::kRibbon, 0, 0, 1},
-    {1, 1, 1, 1, "building site", LotUse::kDirt, F::kRibbon, 0, 0, 1},
-    {1, 2, 0, 1, "bottle roof", LotUse::kBuilding, F::kBrickLoft, 1, 24, 1},
-    {2, 2, 0, -1, "bank", LotUse::kBuilding, F::kClassicStone, 0, 27, 1},
-    {3, 1, 1, 1, "similar tower 1", LotUse::kBuilding, F::kDeco, 3, 58, 3},
-    {3, 1, 1, 2, "similar tower 2", LotUse::kBuilding, F::kDeco, 3, 58, 3},
-    {3, 1, 1, 3, "similar tower 3", LotUse::kBuilding, F::kDeco, 3, 58, 3},
+// Stone and brick where glass stands today, on the same lots and as high.
+struct Rebuilt {
+  std::string_view role;
+  FacadeStyle style;
+  int palette, tiers;
+  const char* called = "";
 };
+constexpr Rebuilt kRebuilt1950s[] = {
+    {"grid tower", F::kDeco, 1, 2, "sandstone tower"},
+    {"braced corner", F::kBrickLoft, 1, 1, "yellow brick corner"},
+    {"blue tower", F::kDeco, 3, 3, "brick tower"},
+    {"glass slab", F::kDeco, 0, 3, "limestone tower"},
+    {"ribbon low", F::kClassicStone, 1, 1, "theatre"},
+    {"similar tower 1", F::kDeco, 3, 3},
+    {"similar tower 2", F::kDeco, 3, 3},
+    {"similar tower 3", F::kDeco, 3, 3},
+};
+constexpr auto kRoles1950s = [] {
+  auto roles = std::to_array(kRolesPresent);
+  for (Role& role : roles) {
+    for (const Rebuilt& then : kRebuilt1950s) {
+      if (then.role != role.name) continue;
+      role.style = then.style;
+      role.palette = then.palette;
+      role.tiers = then.tiers;
+      role.called = then.called;
+    }
+  }
+  return roles;
+}();
 
 // Panes of clear glass, slabs without studs for the blind, white brick and yellow brick between bands of windows.
 constexpr std::pair<Surface, Surface> kSurfaces1950s[] = {
