@@ -40,7 +40,7 @@ class Builder {
 
   std::shared_ptr<const CrowdModel> Run() {
     if (!request_.file.empty()) file_ = ParsePeople(ReadTextFile(request_.file, 1 << 20), request_.file.string());
-    if (!mesh_) mesh_ = NavMesh::Build(scene_, {.also = PlacesOfFile()});
+    if (!mesh_) mesh_ = NavMesh::Build(scene_, {.region = RegionOfFile()});
     if (file_.areas.empty()) {
       AreaEntry all;
       all.name = {"around the spawn", "the default area"};
@@ -61,20 +61,20 @@ class Builder {
   }
 
  private:
-  /// What the file's areas and people need of the world.
-  Box3f PlacesOfFile() const {
+  /// The default region, widened to what the file's areas and people need of the world.
+  Box3f RegionOfFile() const {
     constexpr float kAround = 24;  // metres: nobody stands at the very edge of the mesh
-    Box3f places;
+    Box3f region = NavMeshRegion(scene_, {});
     const auto add = [&](std::span<const Vec2d> points, const std::string& where) {
       Box3f box;
       for (const Vec2d p : points) box.Add(VecCast<float>(Vec3d{p.x, p.y, 0}));
       const Box3f& all = scene_.bounds;
       // Where there is no world nothing need be prepared; it is refused with its own words later.
       if (box.empty() || box.min.x > all.max.x || box.max.x < all.min.x || box.min.y > all.max.y || box.max.y < all.min.y) return;
-      places.Add(box.min - Vec3f{kAround, kAround, 0});
-      places.Add(box.max + Vec3f{kAround, kAround, 0});
+      region.Add(box.min - Vec3f{kAround, kAround, 0});
+      region.Add(box.max + Vec3f{kAround, kAround, 0});
       try {
-        NavMeshRegion(scene_, {.also = places});
+        NavMeshRegion(scene_, {.region = region});
       } catch (const InputError& error) {
         throw InputError(where + ": " + error.what());
       }
@@ -82,7 +82,7 @@ class Builder {
     for (const AreaEntry& entry : file_.areas) add(entry.polygon, entry.polygon_where);
     for (const PersonEntry& entry : file_.people)
       if (entry.at) add(std::array{Vec2d{entry.at->x, entry.at->y}}, entry.at_where);
-    return places;
+    return region;
   }
 
   /// A circle around the world's spawn with about 80 m2 of ground a person, so that they meet; empty

@@ -77,7 +77,6 @@ Box3f NavMeshRegion(const Scene& scene, const NavMeshOptions& options) {
       box.min[k] = at - half;
       box.max[k] = at + half;
     }
-    box.Add(options.also);
   }
   box.min = Max(box.min, scene.bounds.min);
   box.max = Min(box.max, scene.bounds.max);

@@ -38,7 +38,6 @@ struct NavMeshOptions {
   int search_nodes = 60000;          ///< polygons that one search for a way may look at, 64 … 65,535; a longer way takes several
   std::optional<Box3f> region = {};  ///< only this part of the world (x and y count); default: up to 400 m around
                                      ///< its spawn or its middle
-  Box3f also = {};                   ///< with the default region, what it is widened to hold (x and y count)
 };
 
 /// What of the world NavMesh::Build covers at least (x and y count): tiles are whole. InputError if the world is empty, or the
