@@ -67,7 +67,29 @@ int KindOf(const Scene& scene, const BuildingRooms& rooms, const Frame& frame, i
   return kThings;
 }
 
-// Pixels of one surface with all of their neighbours: the reference's rays fill pixels, those of `high` go through the middle.
+// Of pixels that show one kind alone: the reference's rays fill pixels, and a tube that a pixel's middle misses would outshine the
+// ceiling around it.
+Image<int> KindsOf(const Scene& scene, const BuildingRooms& rooms, Renderer& renderer, const RenderRequest& coarse, int width) {
+  constexpr int kFiner = 8;
+  RenderRequest request = coarse;
+  request.camera = Equirectangular{width * kFiner, width * kFiner / 2};
+  request.tier = Tier::kLabels;
+  request.products.radiance = false;
+  Frame fine;
+  renderer.Render(request, fine);
+  Image<int> kinds(width, width / 2);
+  for (int y = 0; y < width / 2; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int kind = KindOf(scene, rooms, fine, x * kFiner, y * kFiner);
+      bool one = true;
+      for (int k = 1; k < kFiner * kFiner && one; ++k)
+        one = KindOf(scene, rooms, fine, x * kFiner + k % kFiner, y * kFiner + k / kFiner) == kind;
+      kinds(x, y) = one ? kind : kNone;
+    }
+  return kinds;
+}
+
+// Pixels of one surface with all of their neighbours.
 bool Inner(const Frame& frame, int x, int y) {
   const int w = frame.entity.width(), h = frame.entity.height();
   for (int k = 0; k < 9; ++k) {
@@ -208,9 +230,7 @@ int main(int argc, char** argv) {
                                         {.normal = true, .position = true, .material = true, .radiance = true});
     Frame high;
     renderer->Render(request, high);
-    Image<int> kinds(width, width / 2);
-    for (int y = 0; y < width / 2; ++y)
-      for (int x = 0; x < width; ++x) kinds(x, y) = KindOf(*scene, *rooms, high, x, y);
+    const Image<int> kinds = KindsOf(*scene, *rooms, *renderer, request, width);
     const std::string name = world + "_" + weather + "_" + std::to_string(k);
     Light light[2] = {Light(width, width / 2), Light(width, width / 2)};
     Image<Rgb8> shown;

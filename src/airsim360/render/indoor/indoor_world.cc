@@ -15,6 +15,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kLift = 1.5e-3f;
+constexpr float kBeforeLamp = 0.999f;  // of the way: a lamp does not stand before itself
 constexpr float kMirrorMetal = 0.9f, kMirrorRoughness = 0.12f;
 
 // Mean over all views of what a material gives back in even light.
@@ -107,7 +108,7 @@ void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, 
       world.lights->tree().ChooseAll(points[0], n, std::span(numbers).first(count), chosen);
     }
     const Vec2f u = EvenPoint(static_cast<uint32_t>(k), shift);
-    const Vec3f p = points[static_cast<size_t>(k) % points.size()];
+    const Vec3f p = points[static_cast<size_t>(k) % points.size()] + n * kLift;
     const LightSample sample = world.lights->PointOf(chosen[static_cast<size_t>(in)], p, u.x, u.y);
     if (!(sample.pdf > 0)) continue;
     const Vec3f to = sample.p - p;
@@ -119,7 +120,7 @@ void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, 
     const float shape = here * there / (distance * distance);
     const bool shared = mix.plain != nullptr && mix.plain->Holds(sample.lamp);
     const float weight = shape / (sample.pdf * static_cast<float>(rays)) * (shared ? mix.OfLampRays(sample.pdf, shape / kPiF) : 1);
-    queue.Add(p + n * kLift, d, distance * 0.999f - 2 * kLift, sample.radiance * weight, held ? &DirectLight::held : &DirectLight::others);
+    queue.Add(p, d, distance * kBeforeLamp, sample.radiance * weight, held ? &DirectLight::held : &DirectLight::others);
   }
 }
 
@@ -190,11 +191,17 @@ MetSurface SurfaceUnder(const IndoorWorld& world, const RayPacket& packet, int l
   return met;
 }
 
-DirectLight LightFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, const LampMix& lamps, uint32_t seed,
-                           int sun_rays) {
+DirectLight SunFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, uint32_t seed, int rays) {
   DirectLight sum;
   ShadowQueue queue(world, sum);
-  AddSun(world, points, normal, sun_rays, ShiftOf(seed), queue);
+  AddSun(world, points, normal, rays, ShiftOf(seed), queue);
+  queue.Send();
+  return sum;
+}
+
+DirectLight LampsAround(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, const LampMix& lamps, uint32_t seed) {
+  DirectLight sum;
+  ShadowQueue queue(world, sum);
   AddLamps(world, points, normal, lamps, seed, queue);
   queue.Send();
   return sum;

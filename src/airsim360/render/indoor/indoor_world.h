@@ -54,16 +54,16 @@ MetSurface SurfaceUnder(const IndoorWorld& world, const RayPacket& packet, int l
 
 struct LampMix;  // plain_lamps.h
 
-/// Light that arrives directly at a place that faces `normal`, each the mean over `points` on its surface.
+/// Light that arrives directly at a place that faces `normal`, the mean over `points` on its surface.
 struct DirectLight {
   Vec3f sun;               ///< irradiance
   Vec3f held;              ///< of lamps that the grid holds
   Vec3f others;            ///< of the others
   float held_squares = 0;  ///< of the luminances that the rays to held lamps brought, summed up
 };
-/// `lamps`: how many rays look for them, and what is left to other rays.
-DirectLight LightFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, const LampMix& lamps, uint32_t seed,
-                           int sun_rays);
+DirectLight SunFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, uint32_t seed, int rays);
+/// `lamps`: how many rays look for them, and what is left to other rays from the same points.
+DirectLight LampsAround(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, const LampMix& lamps, uint32_t seed);
 inline constexpr int kSunRays = 16;
 
 /// Points of the unit square that fill it evenly, the i-th of a sequence (Roberts 2018); `shift` turns it.

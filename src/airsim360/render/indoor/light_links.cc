@@ -29,13 +29,13 @@ void DimPacket(const IndoorWorld& world, const RayPacket& hit, const RayPacket& 
 
 // Ends one ray, or turns it at a mirror; true: it goes on. lamps: for the first surface of an even ray, else nullptr.
 bool Land(const IndoorWorld& world, const Reflectance& reflectance, const SurfelSet& coarse, RayPacket& packet, int i,
-          const MetSurface& met, bool last, const LampMix* lamps, Vec3f normal, Landing& out) {
+          const MetSurface& met, bool last, const LampMix* lamps, const Surfel& from, Landing& out) {
   out.direction = packet.Direction(i);
   if (!packet.Hit(i)) {
     out.target = LightLink::kSky;
     return false;
   }
-  if (lamps != nullptr) out.glow = GlowUnder(world, *lamps, packet, i, met, normal);
+  if (lamps != nullptr) out.glow = GlowUnder(world, *lamps, packet, i, met, from.n, from.p);
   if (met.mirror) {
     out.share *= Luminance(met.base);
     out.target = LightLink::kNothing;
@@ -68,6 +68,7 @@ const LinkTable& LinkSteps() {
 void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const SurfelSet& coarse, const Surfel& from,
               std::span<const Vec2f> points, const LampMix& lamps, std::vector<Landing>& landings) {
   const LinkTable& steps = LinkSteps();
+  const std::span<const Vec3f> places = from.InPlane();
   landings.assign(points.size(), {});
   // Rays of a packet go about the same way.
   std::vector<std::pair<uint32_t, uint32_t>> order(points.size());
@@ -80,9 +81,10 @@ void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const Su
     float share[16];
     std::fill(share, share + 16, 1.0f);
     for (int i = 0; i < count; ++i) {
-      const Vec2f point = points[order[first + static_cast<size_t>(i)].second];
+      const uint32_t ray = order[first + static_cast<size_t>(i)].second;
       // As far as the link will remember.
-      packet.Set(i, from.p + from.n * kLinkLift, LinkDirection(steps, from, LinkStep(point.x), LinkStep(point.y)), INFINITY);
+      const Vec3f d = LinkDirection(steps, from, LinkStep(points[ray].x), LinkStep(points[ray].y));
+      packet.Set(i, places[ray % places.size()] + from.n * kLinkLift, d, INFINITY);
     }
     bool mirrored = false;
     for (int bounce = 0; bounce == 0 || mirrored; ++bounce) {
@@ -103,7 +105,7 @@ void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const Su
         landing.share = share[i];
         const bool meets = bounce == 0 && static_cast<int>(ray) < lamps.even;
         const bool turned =
-            Land(world, reflectance, coarse, packet, i, met[i], bounce == kMostMirrors, meets ? &lamps : nullptr, from.n, landing);
+            Land(world, reflectance, coarse, packet, i, met[i], bounce == kMostMirrors, meets ? &lamps : nullptr, from, landing);
         if (meets) landing.glow.radiance = landing.glow.radiance * share[i];
         if (turned) {
           share[i] = landing.share;
@@ -113,7 +115,7 @@ void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const Su
           if (bounce > 0 && landing.target == LightLink::kSky) {
             landing.target = Landing::kOutside;
             const Vec3f d = landing.direction;
-            landing.outside = {{}, {}, {}, world.sky == nullptr ? Vec3f{} : d.z > 0 ? world.sky->blurred(0).At(d) : world.sky->Radiance(d)};
+            landing.outside = {{}, {}, {}, world.sky == nullptr ? Vec3f{} : world.sky->Radiance(d)};
           }
           packet.valid[i] = 0;
         }

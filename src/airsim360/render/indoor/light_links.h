@@ -49,7 +49,8 @@ struct Landing {
   static constexpr uint32_t kOutside = UINT32_MAX - 2;
 };
 
-/// Sends rays from a surfel to the surfels of `coarse`. The first lamps.even of them meet lamps.
+/// Sends rays from all over a surfel to the surfels of `coarse`. The first lamps.even of them meet lamps: they leave from where the
+/// rays to lamps do, or the heuristic that weights both would lose the light of lamps that are near.
 void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const SurfelSet& coarse, const Surfel& from,
               std::span<const Vec2f> points, const LampMix& lamps, std::vector<Landing>& landings);
 

@@ -113,10 +113,8 @@ uint16_t LightSolver::WeightOf(float share) const {
   return static_cast<uint16_t>(std::clamp(share * static_cast<float>(options_.rays) * 65535 + 0.5f, 0.0f, 65535.0f));
 }
 
-Vec3f LightSolver::SkyAlong(Vec3f d) const {
-  if (world_.sky == nullptr) return {};
-  return d.z > 0 ? world_.sky->blurred(0).At(d) : world_.sky->Radiance(d);
-}
+// Not the blurred sky: halls see but the lowest of it, where a blur mixes in what is higher.
+Vec3f LightSolver::SkyAlong(Vec3f d) const { return world_.sky == nullptr ? Vec3f{} : world_.sky->Radiance(d); }
 
 Vec3f LightSolver::Seen(uint32_t target, const Surfel& from, const LightLink& link) const {
   if (target == LightLink::kSky) return SkyAlong(DirectionOf(from, link));
@@ -184,12 +182,13 @@ void LightSolver::FindDirect() {
   direct_.assign(surfels.size(), {});
   ForSurfels(surfels.size(), [&](size_t i, size_t) {
     const Surfel& s = surfels[i];
-    const DirectLight d = LightFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n,
-                                         {&plain_, options_.lamp_rays, options_.rays}, static_cast<uint32_t>(i), kSunRays);
+    const auto seed = static_cast<uint32_t>(i);
+    const DirectLight d = LampsAround(world_, s.InPlane(), s.n, {&plain_, options_.lamp_rays, options_.rays}, seed);
+    const Vec3f sun = SunFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, seed, kSunRays).sun;
     others_[i] += d.others;
     coarse_light_.lamps[i] += d.held;
     coarse_light_.lamp_variance[i] = VarianceOf(d, options_.lamp_rays);
-    direct_[i] = d.sun + coarse_light_.lamps[i] + others_[i];
+    direct_[i] = sun + coarse_light_.lamps[i] + others_[i];
     radiance_[i] = s.albedo * direct_[i] * (1 / kPiF);
   });
 }
@@ -384,8 +383,7 @@ void LightSolver::LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& 
   const Surfel& s = fine_->surfels()[i];
   const uint32_t near = coarse_.Nearest(s.p, s.n);
   const LampMix lamps{&plain_, FineLampRays(near), options_.fine_rays};
-  DirectLight direct =
-      LightFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, lamps, static_cast<uint32_t>(i) ^ 0x80000000u, 0);
+  DirectLight direct = LampsAround(world_, s.InPlane(), s.n, lamps, static_cast<uint32_t>(i) ^ 0x80000000u);
   const LightGuide guide = near == SurfelSet::kNone ? LightGuide() : KeptGuide(s, near, kept);
   std::vector<Vec2f> points;
   std::vector<Landing> landings;
@@ -482,7 +480,7 @@ void LightSolver::Smooth(const SurfelSet& set, int passes, LevelLight& light) co
 
 Vec3f LightSolver::RadianceOutside(const OutsidePlace& place, size_t seed) const {
   if (place.n == Vec3f{}) return place.radiance;
-  Vec3f irradiance = LightFromAbove(world_, {&place.p, 1}, place.n, {}, static_cast<uint32_t>(seed), 1).sun;
+  Vec3f irradiance = SunFromAbove(world_, {&place.p, 1}, place.n, static_cast<uint32_t>(seed), 1).sun;
   if (world_.around) irradiance += world_.around(place.p, place.n);
   return place.radiance + place.albedo * irradiance * (1 / kPiF);
 }

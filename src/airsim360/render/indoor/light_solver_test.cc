@@ -126,6 +126,31 @@ TEST(IndoorCache, FurnaceLooksTheSameAtEveryPointOfItsWalls) {
   EXPECT_LE(rough, 0);
 }
 
+// A tube a hand's breadth under a ceiling lights a patch narrower than a cell: all that it sends up arrives there.
+TEST(LightSolver, CeilingsGetAllTheLightOfTubesJustBelowThem) {
+  constexpr float kHigh = 2.4f, kBelow = 0.12f, kTube = 0.02f;
+  RoomScene room("tubes");
+  room.Box({0, 0, 0}, {6, 6, kHigh}, room.Paint({0, 0, 0}));
+  const MaterialId glow = room.Paint({0, 0, 0}, {100, 100, 100});
+  double sent = 0;
+  for (int k = 0; k < 9; ++k) {
+    const float x = 1.3f + 1.63f * static_cast<float>(k % 3), y = 1.2f + 1.71f * static_cast<float>(k / 3), z = kHigh - kBelow;
+    room.Quad({x - 0.5f, y - kTube, z}, {x + 0.5f, y - kTube, z}, {x + 0.5f, y + kTube, z}, {x - 0.5f, y + kTube, z}, glow);
+    sent += 100 * kPi * 1 * 2 * kTube;
+  }
+  const auto tracer = room.Build();
+  for (const float cell : {0.12f, 0.2f}) {
+    const SolvedRoom solved(tracer, {.cell = cell, .fine = false});
+    const auto& surfels = solved.solver.coarse().surfels();
+    double got = 0;
+    for (size_t i = 0; i < surfels.size(); ++i)
+      if (surfels[i].n.z < -0.9f && surfels[i].p.z > kHigh - 0.01f)
+        got += surfels[i].area * (solved.solver.coarse_light().light[i].y + solved.solver.coarse_light().lamps[i].y);
+    // Walls get up to two per cent.
+    EXPECT_NEAR(got / sent, 0.99, 0.02) << cell;
+  }
+}
+
 // Two rooms with a wall of 3 cm between them; only the first one has a lamp.
 std::shared_ptr<const RayTracer> BrightBesideDark() {
   RoomScene rooms("two rooms");

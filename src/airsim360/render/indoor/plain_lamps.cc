@@ -25,17 +25,18 @@ PlainLamps::PlainLamps(const IndoorWorld& world) {
   }
 }
 
-MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket& packet, int lane, const MetSurface& met, Vec3f normal) {
+MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket& packet, int lane, const MetSurface& met, Vec3f normal,
+                  Vec3f chosen_for) {
   if (rays.plain == nullptr || met.behind) return {};
   const Material& material = world.tracer.scene().materials[met.material];
   if (material.emission == Vec3f{}) return {};
   const SurfaceRef ref = world.tracer.Resolve(packet.rays.geometry[lane], packet.rays.instance[lane], packet.rays.primitive[lane]);
   const uint32_t lamp = world.lights->LampOf(ref.instance, ref.triangle);
   if (lamp == LightTable::kNoLamp || !rays.plain->Holds(lamp)) return {};
-  const Vec3f from = packet.Origin(lane), d = packet.Direction(lane);
+  const Vec3f d = packet.Direction(lane);
   const float distance = std::max(packet.rays.t_far[lane], 1e-4f);
   const float even = std::max(0.0f, Dot(d, normal)) * -Dot(d, met.normal) / (kPiF * distance * distance);
-  const float left = rays.OfLampRays(world.lights->Pdf(from, normal, ref.instance, ref.triangle), even);
+  const float left = rays.OfLampRays(world.lights->Pdf(chosen_for, normal, ref.instance, ref.triangle), even);
   return {material.emission * world.tables.GlowOf(ref.instance) * (1 - left), world.lamps != nullptr && world.lamps->Holds(lamp)};
 }
 

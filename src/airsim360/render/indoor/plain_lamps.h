@@ -30,12 +30,13 @@ struct LampMix {
   }
 };
 
-/// What an even ray from `from` on a surface that faces `normal` brings of the lamp that it met, if one: radiance less the share
-/// that is left to rays to lamps.
+/// What an even ray from a surface that faces `normal` brings of the lamp that it met, if one: radiance less the share that is left
+/// to rays to lamps. Those were chosen for the place `chosen_for` on that surface.
 struct MetGlow {
   Vec3f radiance;
   bool held = false;  ///< by the lamp grid
 };
-MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket& packet, int lane, const MetSurface& met, Vec3f normal);
+MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket& packet, int lane, const MetSurface& met, Vec3f normal,
+                  Vec3f chosen_for);
 
 }  // namespace airsim360::internal

@@ -10,10 +10,10 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kSampleStep = 0.45f;  // of a cell
-constexpr float kTinyShare = 0.05f;   // of a cell's face: smaller pieces have samples by chance
-constexpr size_t kMostSamples = 20;   // of a cell and direction
-constexpr float kFlat = 0.002f;       // m
+constexpr float kSampleStep = 0.45f;              // of a cell
+constexpr float kTinyShare = 0.05f;               // of a cell's face: smaller pieces have samples by chance
+constexpr size_t kMostSamples = Surfel::kPoints;  // of a cell and direction
+constexpr float kFlat = 0.002f;                   // m
 constexpr size_t kMostSurfels = 3;
 constexpr float kBuriedNear = 0.02f;  // m
 constexpr float kThin = 0.0005f;      // m: a sheet of paper hides nothing
@@ -167,13 +167,16 @@ std::vector<Surfel> PlaceInCell(const IndoorWorld& world, float cell, std::span<
       const bool flat = s.n == seen->n && std::fabs(Dot(s.p - seen->p, s.n)) < kFlat;
       if (!flat && Buried(world, s, samples[i].key + i)) continue;
       seen->area += s.area, seen->albedo += s.albedo * s.area;
-      if (seen->point_count < Surfel::kPoints) seen->points[seen->point_count++] = s.p;
+      if (seen->point_count < Surfel::kPoints) {
+        seen->points[seen->point_count++] = s.p;
+        if (flat) std::swap(seen->points[seen->plane_count++], seen->points[seen->point_count - 1]);
+      }
     } else if (out.size() < kMostSurfels && !Buried(world, s, samples[i].key + i)) {
       Surfel surfel;
       surfel.p = s.p, surfel.n = s.n, surfel.albedo = s.albedo * s.area, surfel.area = s.area;
       TangentFrame(s.n, surfel.t, surfel.b);
       std::copy(at, at + 3, surfel.cell);
-      surfel.points[surfel.point_count++] = s.p;
+      surfel.points[0] = s.p, surfel.point_count = surfel.plane_count = 1;
       out.push_back(surfel);
     }
   }

@@ -29,9 +29,11 @@ struct alignas(64) Surfel {
   float area = 0;              ///< m^2 that it stands for
   float clear[kClearSectors];  ///< m, at most two cells
   int32_t cell[3] = {};
-  static constexpr int kPoints = 12;
-  Vec3f points[kPoints];  ///< of the surface it stands for
-  int point_count = 0;
+  static constexpr int kPoints = 20;
+  Vec3f points[kPoints];  ///< of the surface it stands for, those in its plane first
+  int point_count = 0, plane_count = 0;
+  /// Places in its plane that stand for all of it, itself one of them.
+  std::span<const Vec3f> InPlane() const { return {points, static_cast<size_t>(plane_count)}; }
 };
 
 /// Surfels of one cell size, sorted by cell. The same with any number of threads.
