@@ -7,7 +7,8 @@
 DIR is of `airsim360 learn frames`, that of --high with `--tier high` and else the same flags. Each row trains with another choice of
 frames or randomisation, all with the same number of steps, once a seed, and is measured on the world that is held out (segment: mean
 IoU of seven classes) or on level panoramas that are turned (attitude: median error in degrees). Prints a Markdown table: mean over the
-seeds, and the half width of its 95 % interval by Student's t. The same command goes on after an interruption.
+seeds, the half width of its 95 % interval by Student's t, and how far it is from the first row, with the interval of that. The same
+command goes on after an interruption.
 """
 import argparse
 import json
@@ -22,7 +23,7 @@ import numpy as np
 
 from airsim360.learn.sphere import crop_rays, directions, rotation, sample
 
-STUDENT = {2: 12.71, 3: 4.30, 4: 3.18, 5: 2.78}  # 97.5 % of t with n - 1 degrees of freedom
+STUDENT = {1: 12.71, 2: 4.30, 3: 3.18, 4: 2.78, 5: 2.57, 6: 2.45, 7: 2.36, 8: 2.31}  # 97.5 % of t by degrees of freedom
 
 
 def stitched(frames, out):
@@ -60,6 +61,14 @@ def rows(worlds, held, high=None, faces=None):
             "nobody in the streets": ["--without", held, "--no-people"],
             "a quarter of the frames": ["--without", held, "--most", "QUARTER"],
             "no domain randomisation": ["--without", held, "--augment", "none"], **more}
+
+
+def half_width(*samples):
+    """Of the 95 % interval of a sample's mean, or of the difference of two means; nan where a sample has one value."""
+    if any(len(sample) < 2 for sample in samples):
+        return float("nan")
+    error = math.sqrt(sum(statistics.variance(sample) / len(sample) for sample in samples))
+    return STUDENT.get(sum(len(sample) - 1 for sample in samples), 2.26) * error
 
 
 def learn(*words):
@@ -105,15 +114,17 @@ def main():
     if a.held not in worlds or len(worlds) < 4:
         parser.error(f"--frames: needs {a.held} and three worlds more; there are {', '.join(worlds)}")
     quarter = sum(frame["world"] != a.held for frame in about) // 4
-    print(f"| trained on | {'mean IoU' if a.task == 'segment' else 'median error'} | ± |\n|---|--:|--:|")
+    print(f"| trained on | {'mean IoU' if a.task == 'segment' else 'median error'} | ± | more than the first | ± |\n|---|--:|--:|--:|--:|")
     faces = stitched(a.frames, a.out / "stitched") if a.task == "segment" else None
     chosen = {name: flags for name, flags in rows(worlds, a.held, a.high, faces).items() if not a.only or any(word in name for word in a.only.split(","))}
+    first = []
     for name, flags in chosen.items():
         k = name.replace(" ", "_").replace("`", "")
         flags = [str(quarter) if flag == "QUARTER" else flag for flag in flags]
         found = [measured(a, a.held, flags, a.out / f"{a.task}_{k}_{seed}", seed) for seed in range(a.seeds)]
-        spread = STUDENT.get(len(found), 2.6) * statistics.stdev(found) / math.sqrt(len(found)) if len(found) > 1 else float("nan")
-        print(f"| {name} | {statistics.mean(found):.3f} | {spread:.3f} |", flush=True)
+        first = first or found
+        against = f"{statistics.mean(found) - statistics.mean(first):+.3f} | {half_width(found, first):.3f}" if found is not first else " | "
+        print(f"| {name} | {statistics.mean(found):.3f} | {half_width(found):.3f} | {against} |", flush=True)
 
 
 if __name__ == "__main__":

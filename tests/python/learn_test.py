@@ -268,7 +268,15 @@ class Files(unittest.TestCase):
         self.assertEqual(ranges.shape, (64, 128))
         self.assertTrue((ranges > 0).all())
         done = learn("depth", "eval", "--frames", folder, "--model", out / "depth", "--threads", 1, "--json")
-        self.assertAlmostEqual(json.loads(done.stdout)["rows_absrel"], 0, 6)  # every range is the same here
+        found = json.loads(done.stdout)
+        self.assertAlmostEqual(found["rows_absrel"], 0, 6)  # every range is the same here
+        self.assertAlmostEqual(found["trained_absrel"], 0, 3)
+        for path in folder.glob("*.range.png"):
+            cv2.imwrite(str(path), frames.range_codes(np.full((64, 128), 8.0)))
+        found = json.loads(learn("depth", "eval", "--frames", folder, "--model", out / "depth", "--threads", 1, "--json").stdout)
+        self.assertAlmostEqual(found["rows_absrel"], 0, 6)  # rows of these frames, but trained on frames of 5 m
+        self.assertAlmostEqual(found["trained_absrel"], 3 / 8, 3)
+        self.assertEqual(found["trained_d1"], 0)
         done = learn("attitude", "apply", panorama, "--model", out / "attitude", "--out", out / "upright", "--threads", 1, "--json")
         self.assertAlmostEqual(np.linalg.norm(json.loads(done.stdout)["town_street_00000.jpg"]["up"]), 1, 4)
         self.assertTrue((out / "upright/town_street_00000.jpg").exists())

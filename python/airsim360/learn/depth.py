@@ -57,27 +57,41 @@ def _loss(model: Any, data: Sequence[Any]) -> Any:
     return (error.abs() * area).sum() / area.sum().clamp(min=1e-6)
 
 
+def _median_rows(frames: Frames, height: int, most: int = 100) -> List[float]:
+    """Median range (metres) of each row over up to `most` frames, 0 where nothing is hit: all that is known without looking."""
+    count = min(most, len(frames))
+    ranges = np.stack([_shrunk(frames, k * len(frames) // count, height)[1] for k in range(count)], 1)
+    seen = [row[(row > 0) & (row < _FAR)] for row in ranges]
+    return [round(float(np.median(row)), 3) if row.size else 0.0 for row in seen]
+
+
 def train_depth(out: Path, frames: Frames, *, steps: int = 3000, height: int = 128, kinds: FrozenSet[str], seed: int = 0, device: torch.device,
                 workers: int = 1, rate: float = 2e-3, precision: str = "float32") -> "Depth":
     """Trains on frames and writes OUT/model.pt."""
+    rows_m = _median_rows(frames, height)
     about = {"task": "depth", "height": height, "kinds": sorted(kinds), "frames": len(frames), "rate": rate,
-             "worlds": sorted({frame["world"] for frame in frames.about})}
+             "worlds": sorted({frame["world"] for frame in frames.about}), "rows_m": rows_m}
     model = train(out, about, lambda: SphereNet(1, height, level=True), _Panoramas(frames, height, kinds).batch, _loss, Schedule(steps, rate),
                   seed=seed, device=device, workers=workers, precision=precision)
-    return Depth(model, height, device)
+    return Depth(model, height, device, rows_m)
 
 
 class Depth:
     """A trained network at work."""
 
-    def __init__(self, model: Any, height: int, device: torch.device) -> None:
-        self.model, self.height, self.device = model, height, device
+    def __init__(self, model: Any, height: int, device: torch.device, rows_m: Sequence[float] = ()) -> None:
+        self.model, self.height, self.device, self.rows_m = model, height, device, rows_m
 
     @staticmethod
     def load(path: Path, device: torch.device) -> "Depth":
         """Of `train --out`, or its model.pt."""
-        model = load_model(path, "depth", lambda about: SphereNet(1, int(about["height"]), level=True), device)
-        return Depth(model, model.height, device)
+        says: Dict[str, Any] = {}
+
+        def make(about: Dict[str, Any]) -> SphereNet:
+            says.update(about)
+            return SphereNet(1, int(about["height"]), level=True)
+        model = load_model(path, "depth", make, device)
+        return Depth(model, model.height, device, says.get("rows_m", ()))
 
     def range(self, rgb: _Array) -> npt.NDArray[np.float32]:
         """Metres (H, 2 H) of a level panorama (H, 2 H, 3); the sky gets a range too."""
@@ -90,7 +104,8 @@ class Depth:
 
 
 def evaluate_depth(depth: Depth, frames: Frames, most: int = 60) -> Dict[str, float]:
-    """airsim360.metrics.depth by solid angle, the mean over frames; "constant" is the AbsRel of the median range at each elevation."""
+    """airsim360.metrics.depth by solid angle, the mean over frames; rows_absrel is that of who knows the median range of every row of the
+    true picture, trained_absrel and trained_d1 of who knows those of the frames that were trained on and does not look."""
     from .. import metrics
     found: List[Dict[str, float]] = []
     for k in range(min(most, len(frames))):
@@ -103,4 +118,9 @@ def evaluate_depth(depth: Depth, frames: Frames, most: int = 60) -> Dict[str, fl
         rows = np.array([np.median(row[row > 0]) if (row > 0).any() else 1.0 for row in truth])
         constant = metrics.depth(np.broadcast_to(rows[:, None], truth.shape).copy(), truth.astype(np.float64), weights="solid_angle")
         found.append({"absrel": float(result["absrel"]), "d1": float(result["d1"]), "rows_absrel": float(constant["absrel"])})
+        if depth.rows_m:
+            known = np.asarray(depth.rows_m)
+            at_rows = np.interp(np.arange(len(known)), np.flatnonzero(known), known[known > 0]) if known.any() else np.ones(len(known))
+            blind = metrics.depth(np.broadcast_to(at_rows[:, None], truth.shape).copy(), truth.astype(np.float64), weights="solid_angle")
+            found[-1].update(trained_absrel=float(blind["absrel"]), trained_d1=float(blind["d1"]))
     return {name: float(np.mean([f[name] for f in found])) for name in found[0]}
