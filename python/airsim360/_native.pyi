@@ -167,6 +167,10 @@ class Capture:
         """What the camera of look photo chose: exposure_ev, white_cd_m2, gain, red, green, blue, contrast, sun_seen; None
         for look clean."""
     @property
+    def developed(self) -> dict[str, float] | None:
+        """The exposure of rgb: factor (radiance times it is what the tone curve was given), stops (its logarithm to base
+        2); None without rgb."""
+    @property
     def body_pose(self) -> _F64:
         """(4, 4) X_WB."""
     @property

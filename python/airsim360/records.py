@@ -438,10 +438,12 @@ class FrameRecord(TypedDict):
     """Metres."""
     K: NotRequired[Dict[str, Any]]
     """Intrinsics of pinhole and fisheye pictures: model, width, height, fx, fy, cx, cy, distortion."""
+    developed: NotRequired[Dict[str, float]]
+    """Of colour pictures, their exposure: factor (radiance times it is what the tone curve was given), stops (log2 of it)."""
     look: NotRequired[Dict[str, Any]]
     """With look photo: exposure_ev, white_cd_m2, gain, white_balance (red, green, blue), contrast, sun_seen."""
     cameras: NotRequired[Dict[str, Dict[str, Any]]]
-    """With several cameras, for each by name: X_WC, X_WC_next, K, look."""
+    """With several cameras, for each by name: X_WC, X_WC_next, K, developed, look."""
     sha256: Dict[str, str]
     """Checksum of each picture, by product and view."""
 

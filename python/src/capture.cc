@@ -251,6 +251,15 @@ void BindTrigger(CaptureClass& capture) {
           },
           "What the camera of look photo chose: exposure_ev, white_cd_m2, gain, red, green, blue, contrast, sun_seen; None for look clean.")
       .def_property_readonly(
+          "developed",
+          [](const Capture& c) -> py::object {
+            if (c.frame.rgb.empty()) return py::none();
+            using namespace py::literals;
+            return py::dict("factor"_a = c.frame.exposure, "stops"_a = std::log2(c.frame.exposure));
+          },
+          "The exposure of rgb: factor (radiance times it is what the tone curve was given), stops (its logarithm to base 2); None "
+          "without rgb.")
+      .def_property_readonly(
           "body_pose", [](const Capture& c) { return FromPose(c.body.X_WB); }, "(4, 4) X_WB.")
       .def_property_readonly(
           "q_wxyz", [](const Capture& c) { return FromQuaternion(ToQuaternion(c.X_WC.R)); },

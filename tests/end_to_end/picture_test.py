@@ -31,6 +31,17 @@ class Pictures(ProgramTest):
             for product in ["range/000000.exr", "entity/000000.png", "semantic/000000.png"]:
                 self.assertEqual((out / product).read_bytes(), (plain / product).read_bytes(), name)
 
+    def test_every_frame_says_the_exposure_it_was_developed_with(self):
+        line = lambda out: json.loads((out / "frames.jsonl").read_text())
+        plain, bright, auto = [line(self.shoot(f"said{i}", "--exposure", e))["developed"] for i, e in enumerate(["0", "1", "auto"])]
+        self.assertAlmostEqual(bright["factor"] / plain["factor"], 2, 5)
+        for said in (plain, bright, auto):
+            self.assertAlmostEqual(math.log2(said["factor"]), said["stops"])
+        self.assertNotAlmostEqual(auto["stops"], plain["stops"], 1)
+        photo = line(self.shoot("said_photo", "--look", "photo"))
+        self.assertAlmostEqual(math.log2(photo["developed"]["factor"] / plain["factor"]), photo["look"]["exposure_ev"], 4)
+        self.assertNotIn("developed", line(self.shoot("said_labels", "--tier", "labels")))
+
     def test_edge_samples_change_pixels_at_edges_alone(self):
         one, sixteen = [self.rows(self.shoot(f"edge{n}", "--edge-samples", n)) for n in ("1", "16")]
         entities = read_png(self.folder / "edge1/entity/000000.png")[4]

@@ -364,7 +364,8 @@ class ImageResponse(MsgpackMixin):
     """`image_data_uint8`: bytes, B, G, R per pixel or a PNG. `image_data_float`: float32 array of width * height."""
     fields = {"image_data_uint8": b"", "image_data_float": 0.0, "camera_name": "", "camera_position": Vector3r,
               "camera_orientation": Quaternionr, "time_stamp": 0, "message": "", "pixels_as_float": 0.0,
-              "compress": True, "width": 0, "height": 0, "image_type": ImageType.Scene, "annotation_name": ""}
+              "compress": True, "width": 0, "height": 0, "image_type": ImageType.Scene, "annotation_name": "",
+              "exposure_factor": 0.0}
     image_data_uint8: bytes
     image_data_float: Any
     camera_name: str
@@ -378,6 +379,8 @@ class ImageResponse(MsgpackMixin):
     height: int
     image_type: int
     annotation_name: str
+    exposure_factor: float
+    """Of colours: radiance times it is what the tone curve was given. Not in AirSim."""
     _lent: npt.NDArray[np.uint8]
 
     @classmethod

@@ -134,6 +134,7 @@ EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vect
                                FindSegments(image.entity, image.semantic, context.scene, context.solid_angles[v],
                                             {.wraps = projection == Projection::kErp, .allows_void = MayLackRays(projection)})};
       frame.record.views[v].photo = captures[v].photo;
+      if (!image.rgb.empty()) frame.record.views[v].exposure = image.exposure;
     } else {
       FillRangeFigures(captures, frame.record);
     }

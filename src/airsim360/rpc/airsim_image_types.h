@@ -97,13 +97,14 @@ struct ImageResponse {
   int width = 0, height = 0;
   ImageType image_type = ImageType::kScene;
   std::string annotation_name;
+  double exposure_factor = 0;  ///< ours: radiance times this is what the tone curve was given; 0: no colours
   template <class V>
   void Visit(V& v) {
     v("image_data_uint8", image_data_uint8), v("image_data_float", image_data_float);
     v("camera_position", camera_position), v("camera_name", camera_name);
     v("camera_orientation", camera_orientation), v("time_stamp", time_stamp), v("message", message);
     v("pixels_as_float", pixels_as_float), v("compress", compress), v("width", width), v("height", height);
-    v("image_type", image_type), v("annotation_name", annotation_name);
+    v("image_type", image_type), v("annotation_name", annotation_name), v("exposure_factor", exposure_factor);
   }
 };
 

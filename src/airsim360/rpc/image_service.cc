@@ -149,6 +149,7 @@ airsim::ImageResponse ImageService::Respond(const airsim::ImageRequest& request,
   const airsim::Pose pose = airsim::ToPose(shot.X_WA, origin_W);
   response.camera_position = pose.position;
   response.camera_orientation = pose.orientation;
+  if (request.image_type == airsim::ImageType::kScene) response.exposure_factor = frame_.exposure;
 
   const AirSimSettings& settings = session_.settings();
   PixelOptions options{.half_depth = !settings.float32_depth && !request.binary_float && std::holds_alternative<Pinhole>(shot.camera),

@@ -9,7 +9,9 @@
 #include "airsim360/base/error.h"
 #include "airsim360/image/color.h"
 #include "airsim360/math/angles.h"
+#include "airsim360/render/filter/tone_map.h"
 #include "airsim360/render/frame/test_room.h"
+#include "airsim360/render/indoor/test_rooms.h"
 #include "airsim360/sensors/rig.h"
 
 namespace airsim360 {
@@ -175,6 +177,38 @@ TEST_F(LensTest, Real360IsDevelopedByTheLookToo) {
     }
   }
   EXPECT_NEAR(sum / whole, 0.4, 0.03);
+}
+
+// What the sensors of a lens get is what the ideal picture gets, in a room too, where nothing asks for an exposure.
+TEST(LensInARoom, ItsSensorsShareTheExposureThatIsSaid) {
+  test::RoomScene room("dim_room");
+  room.builder().AddSky();
+  room.Box({0, 0, 0}, {4, 5, 3}, room.Paint({0.6f, 0.5f, 0.4f}));
+  // Bright on one side, so that either sensor alone would choose another exposure.
+  room.Quad({0.5f, 0.01f, 1}, {3.5f, 0.01f, 1}, {3.5f, 0.01f, 2}, {0.5f, 0.01f, 2}, room.Paint({}, {2, 2, 2}), "furniture/lighting");
+  const auto renderer = MakeCpuRenderer(room.Build(), {.tier = Tier::kFast});
+  PanoramicRig rig;
+  rig.camera = Equirectangular{128, 64};
+  rig.tone = ToneCurve::kLinear;
+  rig.products.radiance = true;
+  const Kinematics body{BodyPose({2, 2.5, 1.5}, -kPi / 2, 0, 0), {}, {}};
+  Capture ideal, real, photo;
+  CaptureRig(rig, body, 0, *renderer, ideal);
+  rig.lens = LensModel::kReal360, rig.real360 = Real360::Perfect();
+  CaptureRig(rig, body, 0, *renderer, real);
+  EXPECT_NEAR(std::log2(real.frame.exposure / ideal.frame.exposure), 0, 0.1);
+  Image<Rgb8> shown;
+  ToneMapImage(ideal.frame.radiance, real.frame.exposure, rig.tone, shown);
+  EXPECT_LT(MeanDifference(shown, real.frame.rgb), 4);
+  ToneMapImage(ideal.frame.radiance, 1.3f * real.frame.exposure, rig.tone, shown);
+  EXPECT_GT(MeanDifference(shown, real.frame.rgb), 8);
+
+  rig.lens = LensModel::kIdeal, rig.look = Look::kPhoto, rig.camera_look.metering = 0;
+  CaptureRig(rig, body, 0, *renderer, photo);
+  const float fixed = photo.frame.exposure;
+  rig.exposure_ev = 2;
+  CaptureRig(rig, body, 0, *renderer, photo);
+  EXPECT_FLOAT_EQ(photo.frame.exposure, 4 * fixed);
 }
 
 TEST_F(LensTest, ARollingShutterTurnsRowsByTheirTime) {

@@ -69,6 +69,19 @@ PhotoRequest RequestPhoto(const PanoramicRig& rig, const Capture& capture) {
           .frame = static_cast<uint64_t>(capture.t_ns)};
 }
 
+// The exposure of pictures that are not metered themselves: in a room the picture chooses its own, and both sensors must
+// have the same.
+float ExposureAt(const RenderRequest& request, Renderer& renderer) {
+  constexpr int kRows = 32;
+  RenderRequest small = request;
+  small.camera = Equirectangular{2 * kRows, kRows};
+  small.products = {.range = false, .semantic = false, .entity = false};
+  small.X_WC_next.reset();
+  Frame frame;
+  renderer.Render(small, frame);
+  return frame.exposure;
+}
+
 // Replaces the colour picture by that of a real camera.
 void CaptureLens(const PanoramicRig& rig, const RenderRequest& request, Renderer& renderer, Capture& capture) {
   const auto* target = std::get_if<Equirectangular>(&rig.camera);
@@ -84,10 +97,10 @@ void CaptureLens(const PanoramicRig& rig, const RenderRequest& request, Renderer
     for (Rgb32f& c : light.pixels()) c = {c.r / taken.exposure, c.g / taken.exposure, c.b / taken.exposure};
     capture.photo = TakePhoto(look, taken, light, rgb);
   };
-  const bool known = rig.auto_exposure || photo;
+  if (!rig.auto_exposure && !photo) capture.frame.exposure = ExposureAt(request, renderer);
   const RenderStats stats = RenderReal360(
       rig.real360, request, [&](double t) { return CameraPose(rig, Extrapolate(body, t)); }, Norm(body.v_WB) > 0 || Norm(body.w_WB_B) > 0,
-      known ? capture.frame.exposure : 0, static_cast<uint64_t>(capture.t_ns), *target, renderer, develop, capture.frame.rgb);
+      capture.frame.exposure, static_cast<uint64_t>(capture.t_ns), *target, renderer, develop, capture.frame.rgb);
   capture.stats.rays += stats.rays;
   capture.stats.render_ms += stats.render_ms;
 }
@@ -128,6 +141,8 @@ void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, R
   request.light = false;
   if (lens) CaptureLens(rig, request, renderer, capture);
   if (photo && !lens) capture.photo = TakePhoto(rig.camera_look, RequestPhoto(rig, capture), capture.frame.light, capture.frame.rgb);
+  // So far it is the fixed one, that the photo's stops count from.
+  if (capture.photo) capture.frame.exposure *= static_cast<float>(std::exp2(capture.photo->exposure_ev));
 }
 
 }  // namespace airsim360

@@ -1,5 +1,6 @@
 #include "airsim360/dataset/record/record.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "airsim360/dataset/record/intrinsics.h"
@@ -25,11 +26,15 @@ nlohmann::ordered_json LookJson(const PhotoFigures& photo) {
           {"sun_seen", photo.sun_seen}};
 }
 
+// Radiance of the world times `factor` is what became colours. It is one scale for all frames, whatever their sky.
+nlohmann::ordered_json DevelopedJson(double exposure) { return {{"factor", exposure}, {"stops", std::log2(exposure)}}; }
+
 // Pose, next pose and intrinsics of one camera of a rig.
 nlohmann::ordered_json CameraJson(const ViewRecord& record, const View& view) {
   nlohmann::ordered_json json = {{"X_WC", PoseJson(record.X_WC)}};
   if (record.X_WC_next) json["X_WC_next"] = PoseJson(*record.X_WC_next);
   if (const auto K = IntrinsicsJson(view.camera); !K.is_null()) json["K"] = K;
+  if (record.exposure) json["developed"] = DevelopedJson(*record.exposure);
   if (record.photo) json["look"] = LookJson(*record.photo);
   return json;
 }
@@ -89,6 +94,7 @@ std::string FrameJson(const FrameRecord& frame, const DatasetSpec& spec) {
   if (!frame.views.empty() && frame.views[0].X_WC_next) json["X_WC_next"] = PoseJson(*frame.views[0].X_WC_next);
   const std::vector<View> views = Views(spec);
   if (spec.cameras.empty()) {
+    if (!frame.views.empty() && frame.views[0].exposure) json["developed"] = DevelopedJson(*frame.views[0].exposure);
     if (!frame.views.empty() && frame.views[0].photo) json["look"] = LookJson(*frame.views[0].photo);
     if (const auto K = IntrinsicsJson(views[0].camera); !K.is_null()) json["K"] = K;
   } else {

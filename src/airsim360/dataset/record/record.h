@@ -37,6 +37,7 @@ struct ViewRecord {
   std::vector<Segment> segments = {};
   std::vector<PersonRow> persons = {};     ///< by entity id
   std::optional<PhotoFigures> photo = {};  ///< of look photo
+  std::optional<double> exposure = {};     ///< of the colour picture: radiance times this is what the tone curve was given
 };
 
 /// A finished frame.
