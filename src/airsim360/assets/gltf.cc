@@ -182,6 +182,7 @@ ImportedFile GltfReader::Read() {
   for (uint32_t root : SceneRoots()) AddTree(root);
   out_.meshes = std::move(meshes_.meshes);
   out_.materials = std::move(meshes_.materials);
+  out_.unlit = std::move(meshes_.unlit);
   out_.textures = textures_.Take();
   out_.warnings = warnings_.Take();
   return std::move(out_);

@@ -175,6 +175,7 @@ GltfMaterial GltfMaterials::Read(const JsonRef& json) {
   if (GltfExtension(json, "KHR_materials_unlit")) {
     m.metallic = 0;
     m.roughness = 1;
+    out.unlit = true;
   }
   static_cast<void>(json.BoolOr("doubleSided", false));  // every surface is seen from both sides here; still must be a bool
   GuessKind(m);

@@ -21,6 +21,7 @@ const GltfMaterial& GltfMeshes::MaterialAt(const JsonRef& primitive, MaterialId&
     if (key == kWhite) material.material.base_color = {1, 1, 1};
     it = material_ids_.emplace(key, std::pair(static_cast<MaterialId>(materials.size()), material)).first;
     materials.push_back(material.material);
+    if (material.unlit) unlit.push_back(it->second.first);
   }
   id = it->second.first;
   return it->second.second;

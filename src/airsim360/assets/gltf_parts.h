@@ -28,6 +28,7 @@ struct UvUse {
 struct GltfMaterial {
   Material material;
   UvUse uv;
+  bool unlit = false;   ///< its colours have their light in them
   bool blends = false;  ///< BLEND, but opaque as far as the material says: vertex colours may cover less
 };
 
@@ -98,6 +99,7 @@ class GltfMeshes {
 
   std::vector<Mesh> meshes;
   std::vector<Material> materials;
+  std::vector<MaterialId> unlit;
 
  private:
   int32_t ReadMesh(const JsonRef& json, const std::vector<TransformG>* joints);

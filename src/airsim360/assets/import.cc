@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "airsim360/assets/baked_light.h"
 #include "airsim360/assets/cityjson.h"
 #include "airsim360/assets/convert_model.h"
 #include "airsim360/assets/foreign_format.h"
@@ -133,7 +134,9 @@ std::shared_ptr<const Scene> ImportScene(const std::filesystem::path& file, cons
   const internal::LabelRules rules = internal::FindRules(file, options);
   internal::ReadModel model = internal::ReadModelFile(file, options.placement);
   const bool guess = !model.metres && !options.placement.scale;
-  auto scene = internal::AssembleScene(std::move(model.file), rules, internal::TitleOf(file), file.string());
+  const std::string up = options.placement.up.empty() && !model.metres ? internal::GuessUp(model.file, model.up) : "";
+  auto scene = internal::AssembleScene(std::move(model.file), rules, internal::TitleOf(file), file.string(), options.placement.baked);
+  if (!up.empty()) LogWarning(file.string() + ": " + up + " (in a world file; world import --up … --out writes one)");
   if (guess) internal::TellUnits(*scene, file.string());
   return scene;
 }

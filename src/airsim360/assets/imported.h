@@ -55,7 +55,8 @@ struct ImportedFile {
   std::vector<Mesh> meshes;
   std::vector<ImportedNode> nodes;
   std::optional<WrittenWorld> written = {};
-  std::string copyright;  ///< as the file says, "" if it does not
+  std::vector<MaterialId> unlit = {};  ///< materials whose colours have their light in them (KHR_materials_unlit)
+  std::string copyright;               ///< as the file says, "" if it does not
   std::vector<std::string> warnings;
 };
 

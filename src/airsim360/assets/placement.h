@@ -18,9 +18,10 @@ struct ModelPlacement {
   std::optional<double> scale = {};  ///< metres a unit of the file; not given = as the format says, and a guess is told
   std::string up = {};               ///< axis of the file that points up: x, y, z, -x, -y, -z; "" = the format's own
   bool ground = false;               ///< stands with its lowest point on z = 0, on a plain that goes all round
+  std::optional<bool> baked = {};    ///< the light of rooms is in the colours; not given = guessed, and told
   Vec3d offset = {};                 ///< metres in W, for all of the model (the plain stays)
 
-  bool empty() const { return !scale && up.empty() && !ground && offset == Vec3d{}; }
+  bool empty() const { return !scale && up.empty() && !ground && !baked && offset == Vec3d{}; }
 };
 
 /// InputError that names the value and its range; `where` (a flag, a file) starts it.

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "airsim360/assets/baked_light.h"
 #include "airsim360/assets/labelling.h"
 #include "airsim360/assets/limits.h"
 #include "airsim360/assets/viewpoint.h"
@@ -14,6 +15,8 @@
 
 namespace airsim360::internal {
 namespace {
+
+constexpr const char* kNothingKnown = "object";  // category of what no name tells of
 
 // Only the given parts of a mesh, with the vertices they use.
 Mesh ExtractParts(const Mesh& mesh, const std::vector<uint32_t>& parts) {
@@ -46,12 +49,13 @@ Mesh ExtractParts(const Mesh& mesh, const std::vector<uint32_t>& parts) {
 
 class Assembler {
  public:
-  Assembler(ImportedFile file, const LabelRules& rules, const std::string& title, const std::string& where)
-      : file_(std::move(file)), rules_(rules), title_(title), where_(where), builder_(title) {}
+  Assembler(ImportedFile file, const LabelRules& rules, const std::string& title, const std::string& where, std::optional<bool> baked)
+      : file_(std::move(file)), rules_(rules), title_(title), where_(where), baked_(baked), builder_(title) {}
 
   std::shared_ptr<const Scene> Assemble() {
     const std::vector<std::vector<PartLabel>> labels = LabelNodes(file_, rules_, title_);
     for (const std::string& warning : UnusedRules(file_, rules_, labels)) LogWarning(warning);
+    if (!baked_ && !file_.written) GuessLight();
     for (Texture& texture : file_.textures) builder_.AddTexture(std::move(texture));
     for (size_t i = 0; i < file_.materials.size(); ++i) builder_.AddMaterial(file_.materials[i]);
     for (size_t i : InOrderOfEntities()) AddNode(file_.nodes[i], labels[i]);
@@ -65,6 +69,19 @@ class Assembler {
   }
 
  private:
+  void GuessLight() {
+    // What a name other than the file's says; of many nodes some have one.
+    constexpr size_t kMostOfScan = 2000;
+    const auto told = [](const std::vector<PartLabel>& parts) {
+      return std::ranges::any_of(parts, [](const PartLabel& label) { return label.category != kNothingKnown; });
+    };
+    const bool named = file_.nodes.size() > kMostOfScan || std::ranges::any_of(LabelNodes(file_, {}, ""), told);
+    const std::string why = WhyBaked(file_, named);
+    baked_ = !why.empty();
+    if (*baked_)
+      LogWarning(where_ + ": " + why + ": its colours are shown as they are, without sun and sky (light: lit in a world file lights them)");
+  }
+
   // Nodes that show something: those of an exported world by their entities' numbers, then the others.
   std::vector<size_t> InOrderOfEntities() const {
     std::vector<size_t> order;
@@ -104,6 +121,7 @@ class Assembler {
     for (const auto& numbered : instances_) instances.push_back(numbered.second);
     builder_.SetSpawn(ChooseViewpoint(meshes_, instances, bounds_));
     builder_.AddSky();
+    if (baked_ && *baked_) builder_.SetInteriorLight(LightOfBakedRooms());
     if (!file_.copyright.empty()) builder_.AddAttribution(title_ + ", " + file_.copyright);
   }
 
@@ -209,6 +227,7 @@ class Assembler {
   ImportedFile file_;
   const LabelRules& rules_;
   std::string title_, where_;
+  std::optional<bool> baked_;
   SceneBuilder builder_;
   std::vector<Mesh> meshes_;
   std::vector<std::pair<uint64_t, Instance>> instances_;  // with their places
@@ -224,8 +243,9 @@ class Assembler {
 
 }  // namespace
 
-std::shared_ptr<const Scene> AssembleScene(ImportedFile file, const LabelRules& rules, const std::string& title, const std::string& where) {
-  return Assembler(std::move(file), rules, title, where).Assemble();
+std::shared_ptr<const Scene> AssembleScene(ImportedFile file, const LabelRules& rules, const std::string& title, const std::string& where,
+                                           std::optional<bool> baked) {
+  return Assembler(std::move(file), rules, title, where, baked).Assemble();
 }
 
 }  // namespace airsim360::internal

@@ -44,6 +44,11 @@ void VisitPlacement(ConfigVisitor& v, ModelPlacement& placement) {
   v.Field("scale", "models: metres a unit of the file", scale, ModelPlacement::kLeastScale, ModelPlacement::kMostScale);
   if (!std::isnan(scale)) placement.scale = scale;
   v.Field("up", "models: axis of the file that points up (x, y, z, -x, -y, -z)", placement.up);
+  enum class Light { kGuessed, kBaked, kLit } light = Light::kGuessed;
+  static constexpr const char* kLights[] = {"guessed", "baked", "lit"};
+  if (placement.baked) light = *placement.baked ? Light::kBaked : Light::kLit;
+  v.Field("light", "models: baked into the colours of scanned rooms, or from sun, sky and lamps (lit)", light, kLights);
+  if (light != Light::kGuessed) placement.baked = light == Light::kBaked;
   v.Field("ground", "models: stands on a plain at z = 0", placement.ground);
   v.Group("offset", "models: moved by so much in W, metres", [&](ConfigVisitor& group) {
     for (const auto& [name, value] : {std::pair{"x", &placement.offset.x}, {"y", &placement.offset.y}, {"z", &placement.offset.z}})
@@ -179,7 +184,7 @@ std::shared_ptr<const Scene> LoadScene(const WorldRequest& request) {
     auto scene = ImportScene(path, {.labels = request.labels, .placement = request.placement});
     return request.fill && IsCityFile(path) ? WithFacades(std::move(scene), request.seed) : scene;
   }
-  if (!request.placement.empty()) throw InputError("'" + request.world + "': scale, up, offset and ground are for model files");
+  if (!request.placement.empty()) throw InputError("'" + request.world + "': scale, up, light, offset and ground are for model files");
   if (!request.heights.empty() && !IsOsmFile(path))
     throw InputError(request.heights.string() + ": heights are for maps (.osm, .osm.pbf), not for '" + request.world + "'");
   return Relabelled(LoadBuilt(request), request.labels);

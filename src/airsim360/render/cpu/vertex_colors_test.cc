@@ -121,6 +121,30 @@ TEST(VertexColors, LightGivenBackEvenlyGrowsInProportion) {
   EXPECT_GT(count, 2000);
 }
 
+// Rooms that glow by themselves are as bright with a sky, which is a label alone.
+TEST(VertexColors, AreLitTheSameWhereTheSkyIsANameAlone) {
+  auto closed = std::make_shared<Scene>(*MakeColoredSquare());
+  const EntityId sky = closed->sky_entity;
+  closed->interior_light = {0.02f, 0.02f, 0.02f};
+  const auto open = std::make_shared<Scene>(*closed);
+  closed->sky_entity = kNoEntity;
+  for (const Tier tier : {Tier::kFast, Tier::kHigh, Tier::kReference}) {
+    const Frame a = Rendered(closed, tier, 64), b = Rendered(open, tier, 64);
+    int seen = 0, holes = 0;
+    for (size_t i = 0; i < a.entity.size(); ++i) {
+      if (a.entity.pixels()[i] == kNoEntity) {
+        EXPECT_EQ(b.entity.pixels()[i], sky);
+        ++holes;
+      } else {
+        EXPECT_EQ(a.radiance.pixels()[i].g, b.radiance.pixels()[i].g);
+        ++seen;
+      }
+    }
+    EXPECT_GT(seen, 1000);
+    EXPECT_GT(holes, 100);
+  }
+}
+
 TEST(VertexColors, ThatAreWhiteChangeNoByte) {
   const auto scene = MakeColoredSquare();
   const Frame none = Rendered(Painted(*scene, std::nullopt), Tier::kFast, 96),

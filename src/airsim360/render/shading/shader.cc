@@ -84,7 +84,8 @@ void Shader::Impl::SetLight(const Environment& environment) {
     Light light;
     light.key = key, light.table_key = table_key;
     const internal::LightCache cache(*tracer, environment);
-    if (scene.sky_entity != kNoEntity) {
+    // Rooms that glow by themselves have a sky in name alone: what is seen through the holes of a scan.
+    if (scene.sky_entity != kNoEntity && scene.interior_light == Vec3f{}) {
       const auto like = std::ranges::find(last_lights, table_key, &Light::table_key);
       const Sky* table = like == last_lights.end() ? nullptr : like->sky.get();
       const Vec3f place = scene.spawn.value_or(Vec3f{});
