@@ -198,30 +198,33 @@ PeoplePlaces PlacesOf(const PeopleState& state) {
   return places;
 }
 
-// A free place for the camera over or beside the area, facing its middle: of several the one that shows people best.
+// A free place for the camera over or beside the area, facing its middle: of several the one that shows people best. Where nothing
+// sees the middle, which may be built over, one that sees somebody.
 RigidTransform PickView(const HumanRecipe& recipe, const HumanSubset& subset, const HumanArea& area, const RayTracer& world,
                         const PeoplePlaces& people, RngStream& rng) {
   constexpr int kTries = 400, kRated = 32;
   constexpr float kFree = 1;     // metres to every surface
   constexpr double kBeside = 4;  // metres that the camera may stand outside the area
   const Vec2d middle = (area.low + area.high) * 0.5;
-  std::optional<RigidTransform> best;
-  double most = -1;
+  std::optional<RigidTransform> best, aside;
+  double most = -1, most_aside = 0;
   for (int i = 0, rated = 0; i < kTries && rated < kRated; ++i) {
     const Vec3d p{rng.Uniform(area.low.x - kBeside, area.high.x + kBeside), rng.Uniform(area.low.y - kBeside, area.high.y + kBeside),
                   area.ground + rng.Uniform(recipe.lowest, recipe.highest)};
     const double yaw = std::atan2(middle.y - p.y, middle.x - p.x) + rng.Uniform(-0.6, 0.6);
     if (world.Clearance(VecCast<float>(p), kFree) < kFree) continue;
     // Seen by those who are in the area: not from behind a wall.
-    if (world.Occluded(VecCast<float>(p), VecCast<float>(Vec3d{middle.x, middle.y, area.ground + 1}))) continue;
+    const bool hidden = world.Occluded(VecCast<float>(p), VecCast<float>(Vec3d{middle.x, middle.y, area.ground + 1}));
     const std::optional<double> seen = RatePeopleView(world, p, people);
     if (!seen) continue;
-    ++rated;
-    if (*seen <= most) continue;
-    most = *seen;
-    best = BodyPose(p, yaw, -subset.pitch_deg * kDegree, 0);
+    if (!hidden) ++rated;
+    double& least = hidden ? most_aside : most;
+    if (*seen <= least) continue;
+    least = *seen;
+    (hidden ? aside : best) = BodyPose(p, yaw, -subset.pitch_deg * kDegree, 0);
   }
   if (best) return *best;
+  if (aside) return *aside;
   throw InputError("subset " + subset.name + ": no free place for the camera around its area");
 }
 

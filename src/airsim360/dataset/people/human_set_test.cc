@@ -66,6 +66,26 @@ TEST(HumanRecipe, ASubsetIsFilmedInFreeSpaceWithItsPeople) {
   EXPECT_THROW(PickArea(*scene, *mesh, subset, 1), InputError);
 }
 
+// A pillar as wide as a hut stands in the middle of the area, and nothing sees inside of it.
+TEST(HumanRecipe, AnAreaWhoseMiddleIsBuiltOverIsFilmedAllTheSame) {
+  internal::TestGround ground;
+  ground.builder().AddSky();
+  ground.Floor("ground/pavement", -12, -12, 12, 12);
+  ground.Box("construction/building", {-3, -3, 0}, {3, 3, 9});
+  const auto scene = ground.Build();
+  const auto mesh = NavMesh::Build(*scene);
+  const HumanRecipe recipe = PaperHumanRecipe();
+  const HumanSubset subset{.world = "lot", .name = "lot/01", .width = 16, .depth = 16, .people = 12, .frames = 2};
+  const PopulatedScene populated = Populate(scene, {.count = 12, .warm_up = 0, .level = 2, .seed = 1, .navmesh = mesh});
+  const RayTracer world(scene);
+  const HumanArea area{{-8, -8}, {8, 8}, 0};
+  for (uint64_t seed = 0; seed < 3; ++seed) {
+    const Flight flight = FilmSubset(recipe, subset, area, *populated.people, world, seed);
+    ASSERT_EQ(flight.shots.size(), 2u);
+    for (const Shot& shot : flight.shots) EXPECT_GE(world.Clearance(VecCast<float>(shot.body.X_WB.p), 2), 1);
+  }
+}
+
 // A bare lot, and a corner of it where a street has its things.
 TEST(HumanRecipe, PlacesAreWhereThingsStand) {
   internal::TestGround ground;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/base/random.h"
 #include "airsim360/sim/people/silhouette.h"
 #include "airsim360/sim/people/test_people.h"
 
@@ -184,6 +185,37 @@ TEST(PeopleLabels, PositionsAreConsistentInAllFrames) {
 }
 
 int64_t CountPixels(const Frame& frame, EntityId entity) { return std::ranges::count(frame.entity.pixels(), entity); }
+
+// Triangles of all sizes around a pinhole, most of them partly behind it: a pixel is covered if its ray meets one.
+TEST(PeopleLabels, SilhouettesOfTrianglesThatReachBehindTheCameraAreWhatRaysMeet) {
+  RngStream random(3, "triangles");
+  const auto draw = [&](float size) {
+    const auto in = [&] { return static_cast<float>(random.Uniform(-1.0, 1.0)) * size; };
+    return Vec3f{in(), in(), in()};
+  };
+  int covered = 0, behind = 0;
+  for (int k = 0; k < 600; ++k) {
+    const Camera camera = k % 3 == 0 ? Camera{CubeFace{static_cast<CubeFaceName>(k % 6), 24}} : Camera{Pinhole{28, 20, 20, 22, 13, 9}};
+    const PixelDirections directions(camera);
+    const Vec3f middle = draw(1.5f);
+    const float size = std::pow(10.0f, static_cast<float>(random.Uniform(-1.0, 1.0)));
+    const std::vector<Vec3f> corners{middle + draw(size), middle + draw(size), middle + draw(size)};
+    const std::vector<Vec3u> triangles{{0, 1, 2}};
+    const Silhouette found = FindSilhouette(directions, corners, triangles);
+    int64_t expected = 0;
+    for (int y = 0; y < Height(camera); ++y)
+      for (int x = 0; x < Width(camera); ++x) {
+        const Vec3d d = VecCast<double>(directions.At(x, y));
+        expected += Block({}, d * 1e4, VecCast<double>(corners[0]), VecCast<double>(corners[1]), VecCast<double>(corners[2])) < 1;
+      }
+    // Rays along an edge may be on either side.
+    EXPECT_NEAR(static_cast<double>(found.pixels), static_cast<double>(expected), 2) << k;
+    covered += expected > 0;
+    behind += std::ranges::count_if(corners, [](Vec3f p) { return p.z < 0; }) % 3 != 0;
+  }
+  EXPECT_GT(covered, 100);
+  EXPECT_GT(behind, 200);
+}
 
 TEST(PeopleLabels, AmodalSilhouettesAreThePicturesOfPeopleAlone) {
   const Camera cameras[] = {Equirectangular{1024, 512}, Pinhole{640, 480, 400, 400, 320, 240}, Fisheye::Equidistant(512, 512, 3.0)};

@@ -33,6 +33,12 @@ class WindowFinder {
     Vec3f sum;
     for (const Vec3f& p : p_C) sum += Normalized(p);
     middle_ = std::atan2(sum.x, sum.z);
+    if (const auto* pinhole = std::get_if<Pinhole>(&camera)) flat_ = *pinhole;
+    if (const auto* face = std::get_if<CubeFace>(&camera)) {
+      const double half = 0.5 * face->size;
+      flat_ = {face->size, face->size, half, half, half, half};
+      turn_ = CubeFaceRotation(face->face).transpose();
+    }
   }
 
   Window Of(const Vec3u& t) const { return panorama_ ? OnSphere(t) : OnPlane(t); }
@@ -72,7 +78,7 @@ class WindowFinder {
     window.x0 += middle, window.x1 += middle;
     return window;
   }
-  // Where the plane of the picture, continued beyond its borders, sees a point; nullopt behind it.
+  // Where the plane of the picture, continued beyond its borders, sees a point turned by turn_; nullopt behind it.
   std::optional<Vec2d> Project(Vec3d p) const {
     constexpr double kNear = 1e-3;
     if (const auto* lens = std::get_if<CalibratedLens>(&camera_)) return ProjectBeyond(*lens, p);
@@ -84,31 +90,47 @@ class WindowFinder {
       const double r = theta * (1 + t2 * (k[0] + t2 * (k[1] + t2 * (k[2] + t2 * k[3]))));
       return Vec2d{fisheye->cx + fisheye->fx * r * p.x / across, fisheye->cy + fisheye->fy * r * p.y / across};
     }
-    Pinhole pinhole;
-    if (const auto* face = std::get_if<CubeFace>(&camera_)) {
-      p = CubeFaceRotation(face->face).transpose() * p;
-      const double half = 0.5 * face->size;
-      pinhole = {face->size, face->size, half, half, half, half};
-    } else {
-      pinhole = std::get<Pinhole>(camera_);
-    }
     if (p.z < kNear * Norm(p)) return std::nullopt;
-    return Vec2d{pinhole.fx * p.x / p.z + pinhole.cx, pinhole.fy * p.y / p.z + pinhole.cy};
+    return Vec2d{flat_->fx * p.x / p.z + flat_->cx, flat_->fy * p.y / p.z + flat_->cy};
   }
-  // By the corners in the picture. Triangles partly behind the camera are left to the whole picture.
+  // Where an edge that ends behind a pinhole is in the picture: from its corner `before` straight on for ever, this way. nullopt where
+  // that is not certain, close to the camera.
+  static std::optional<Vec2d> WayOut(Vec3d before, Vec3d behind) {
+    if (!(before.z > behind.z)) return std::nullopt;
+    const Vec3d aside = before + (behind - before) * (before.z / (before.z - behind.z));  // z = 0
+    if (std::hypot(aside.x, aside.y) < 1e-6 * std::max(Norm(before), Norm(behind))) return std::nullopt;
+    return Vec2d{aside.x, aside.y};
+  }
+  // By the corners in the picture, and the ways of edges that end behind the camera. Lenses bend those: the whole picture.
   Window OnPlane(const Vec3u& t) const {
     constexpr int kMargin = 2;  // pixels: edges of fisheye pictures are bent
-    double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
-    int inside = 0;
-    for (const uint32_t i : {t.x, t.y, t.z}) {
-      const auto pixel = Project(VecCast<double>(p_C_[i]));
-      if (!pixel) continue;
-      ++inside;
-      x0 = std::min(x0, pixel->x), x1 = std::max(x1, pixel->x);
-      y0 = std::min(y0, pixel->y), y1 = std::max(y1, pixel->y);
+    constexpr double kFar = 1e9;
+    const Window whole{0, width_ - 1, 0, height_ - 1};
+    Vec3d corner[3];
+    std::optional<Vec2d> pixel[3];
+    for (int i = 0; i < 3; ++i) {
+      corner[i] = turn_ * VecCast<double>(p_C_[t[i]]);
+      pixel[i] = Project(corner[i]);
     }
-    if (inside == 0) return {};
-    if (inside < 3) return {0, width_ - 1, 0, height_ - 1};
+    double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
+    const auto add = [&](Vec2d at) {
+      x0 = std::min(x0, at.x), x1 = std::max(x1, at.x);
+      y0 = std::min(y0, at.y), y1 = std::max(y1, at.y);
+    };
+    for (int i = 0; i < 3; ++i) {
+      if (pixel[i]) {
+        add(*pixel[i]);
+        continue;
+      }
+      for (const int before : {(i + 1) % 3, (i + 2) % 3}) {
+        if (!pixel[before]) continue;
+        if (!flat_) return whole;
+        const auto way = WayOut(corner[before], corner[i]);
+        if (!way) return whole;
+        add({pixel[before]->x + kFar * flat_->fx * way->x, pixel[before]->y + kFar * flat_->fy * way->y});
+      }
+    }
+    if (x1 < x0) return {};
     const auto bound = [](double v, int most) { return static_cast<int>(std::clamp(v, -3.0, most + 3.0)); };
     return {std::max(0, bound(x0 - kMargin, width_)), std::min(width_ - 1, bound(x1 + kMargin, width_)),
             std::max(0, bound(y0 - kMargin, height_)), std::min(height_ - 1, bound(y1 + kMargin, height_))};
@@ -119,6 +141,8 @@ class WindowFinder {
   std::span<const Vec3f> p_C_;
   bool panorama_;
   double middle_ = 0;
+  std::optional<Pinhole> flat_;  // of a picture where straight edges are straight
+  Mat3d turn_;                   // from C to the frame of flat_
 };
 
 // The tight box of a mask; the mask is cut to it.
