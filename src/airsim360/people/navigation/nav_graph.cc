@@ -1,9 +1,12 @@
 #include "airsim360/people/navigation/nav_graph.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "airsim360/math/plane.h"
 
@@ -25,6 +28,21 @@ Vec2d NearestOnSegment(Vec2d a, Vec2d b, Vec2d p) {
   const double n = Dot(d, d);
   const double t = n > 0 ? std::clamp(Dot(p - a, d) / n, 0.0, 1.0) : 0;
   return a + d * t;
+}
+
+// The opening of `other` that lies where one of `polygon` (number `index`) is, and its edge; nullopt: none lies there.
+std::optional<std::pair<int, NavPortal>> OpeningBack(const NavPolygon& polygon, int edge, const NavPortal& portal, uint32_t index,
+                                                     const NavPolygon& other) {
+  const Vec2d from = polygon.corner[edge], along = polygon.corner[(edge + 1) % polygon.corners] - from;
+  const Vec2d p = from + along * static_cast<double>(portal.t0), q = from + along * static_cast<double>(portal.t1), middle = (p + q) * 0.5;
+  for (int i = 0; i < other.corners; ++i) {
+    const Vec2d a = other.corner[i], d = other.corner[(i + 1) % other.corners] - a;
+    const double n2 = Dot(d, d);
+    if (n2 <= 0 || Dot(d, along) >= 0 || std::abs(Cross(d, middle - a)) > kSliver * std::sqrt(n2)) continue;
+    const double t0 = std::clamp(Dot(q - a, d) / n2, 0.0, 1.0), t1 = std::clamp(Dot(p - a, d) / n2, 0.0, 1.0);
+    if (t1 > t0) return std::pair{i, NavPortal{index, static_cast<float>(t0), static_cast<float>(t1)}};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -59,6 +77,7 @@ std::span<const uint32_t> BucketGrid::At(Vec2d p) const {
 }
 
 void NavGraph::Finish() {
+  OpenBothSides();
   Measure();
   FindComponents();
   FindWalls();
@@ -71,6 +90,45 @@ void NavGraph::Finish() {
     wall_grid.Add(i, {std::min(w.a.x, w.b.x) - 2, std::min(w.a.y, w.b.y) - 2}, {std::max(w.a.x, w.b.x) + 2, std::max(w.a.y, w.b.y) + 2});
   }
   wall_grid.Finish();
+}
+
+void NavGraph::OpenBothSides() {
+  // Openings by polygon and edge that are to be added.
+  std::vector<std::pair<uint64_t, NavPortal>> missing;
+  for (uint32_t i = 0; i < polygons.size(); ++i) {
+    const NavPolygon& polygon = polygons[i];
+    for (int edge = 0; edge < polygon.corners; ++edge)
+      for (uint32_t k = polygon.first_portal[edge]; k < polygon.first_portal[edge + 1]; ++k) {
+        const NavPolygon& other = polygons[portals[k].neighbour];
+        const std::span<const NavPortal> back_ones(portals.data() + other.first_portal[0],
+                                                   portals.data() + other.first_portal[other.corners]);
+        if (std::ranges::find(back_ones, i, &NavPortal::neighbour) != back_ones.end()) continue;
+        if (const auto back = OpeningBack(polygon, edge, portals[k], i, other))
+          missing.push_back({uint64_t{portals[k].neighbour} * kMaxPolygonCorners + static_cast<uint64_t>(back->first), back->second});
+      }
+  }
+  if (missing.empty()) return;
+  std::stable_sort(missing.begin(), missing.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+
+  // All openings anew, along each edge.
+  std::vector<NavPortal> all;
+  size_t next = 0;
+  for (uint32_t i = 0; i < polygons.size(); ++i) {
+    NavPolygon& polygon = polygons[i];
+    std::array<uint32_t, kMaxPolygonCorners + 1> first{};
+    for (int edge = 0; edge < polygon.corners; ++edge) {
+      first[static_cast<size_t>(edge)] = static_cast<uint32_t>(all.size());
+      all.insert(all.end(), portals.begin() + polygon.first_portal[edge], portals.begin() + polygon.first_portal[edge + 1]);
+      for (; next < missing.size() && missing[next].first == uint64_t{i} * kMaxPolygonCorners + static_cast<uint64_t>(edge); ++next)
+        all.push_back(missing[next].second);
+      std::sort(all.begin() + first[static_cast<size_t>(edge)], all.end(),
+                [](const NavPortal& a, const NavPortal& b) { return a.t0 != b.t0 ? a.t0 < b.t0 : a.neighbour < b.neighbour; });
+    }
+    for (int edge = polygon.corners; edge <= kMaxPolygonCorners; ++edge)
+      first[static_cast<size_t>(edge)] = static_cast<uint32_t>(all.size());
+    std::copy(first.begin(), first.end(), polygon.first_portal);
+  }
+  portals = std::move(all);
 }
 
 void NavGraph::Measure() {

@@ -75,7 +75,8 @@ struct NavGraph {
   BucketGrid polygon_grid, wall_grid;
   Vec2d min, max;
 
-  /// Fills everything but polygons' corners, kinds and portals.
+  /// Fills everything but polygons' corners, kinds and portals. Openings that one side alone knows are added to the other: Detour
+  /// joins an edge to no more than four of another tile.
   void Finish();
   double HeightIn(uint32_t polygon, Vec2d p) const;
   bool Inside(uint32_t polygon, Vec2d p) const;
@@ -86,6 +87,7 @@ struct NavGraph {
   NavPoint Walk(uint32_t polygon, Vec2d p, Vec2d target, bool slide, bool* stopped) const;
 
  private:
+  void OpenBothSides();
   void Measure();         // boxes, areas, the whole extent
   void FindComponents();  // what hangs together
   void FindWalls();       // what of an edge is not open

@@ -229,9 +229,15 @@ double NavMesh::OpenShare(Vec2d p) const { return impl_->shares.At(p); }
 std::span<const uint32_t> NavMesh::WallsNear(Vec2d p) const { return impl_->graph.wall_grid.At(p); }
 
 NavArea NavMesh::AreaOf(std::span<const Vec2d> outline, uint32_t kinds) const {
+  std::vector<NavArea> areas = AreasOf(outline, kinds, 0);
+  if (!areas.empty()) return std::move(areas.front());
+  NavArea none;
+  none.outline.assign(outline.begin(), outline.end());
+  return none;
+}
+
+std::vector<NavArea> NavMesh::AreasOf(std::span<const Vec2d> outline, uint32_t kinds, double least) const {
   // Square metres inside the outline by the connected part they belong to.
-  NavArea area;
-  area.outline.assign(outline.begin(), outline.end());
   std::vector<double> inside(impl_->graph.components, 0), share(impl_->graph.polygons.size(), 0);
   for (uint32_t i = 0; i < impl_->graph.polygons.size(); ++i) {
     const NavPolygon& polygon = impl_->graph.polygons[i];
@@ -239,15 +245,25 @@ NavArea NavMesh::AreaOf(std::span<const Vec2d> outline, uint32_t kinds) const {
     share[i] = outline.empty() ? polygon.area : internal::ClippedArea(outline, std::span(polygon.corner, polygon.corners));
     inside[polygon.component] += share[i];
   }
-  area.component = static_cast<uint32_t>(std::max_element(inside.begin(), inside.end()) - inside.begin());
-  area.square_metres = inside[area.component];
-  double sum = 0;
-  for (uint32_t i = 0; i < impl_->graph.polygons.size(); ++i) {
-    if (impl_->graph.polygons[i].component != area.component || share[i] < 1e-4) continue;
-    area.polygons.push_back(i);
-    area.cumulative.push_back(sum += share[i]);
+  std::vector<uint32_t> order;
+  for (uint32_t c = 0; c < inside.size(); ++c)
+    if (inside[c] >= least) order.push_back(c);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return inside[a] > inside[b]; });
+  if (least <= 0 && order.size() > 1) order.resize(1);
+  std::vector<NavArea> areas;
+  for (const uint32_t component : order) {
+    NavArea& area = areas.emplace_back();
+    area.outline.assign(outline.begin(), outline.end());
+    area.component = component;
+    area.square_metres = inside[component];
+    double sum = 0;
+    for (uint32_t i = 0; i < impl_->graph.polygons.size(); ++i) {
+      if (impl_->graph.polygons[i].component != component || share[i] < 1e-4) continue;
+      area.polygons.push_back(i);
+      area.cumulative.push_back(sum += share[i]);
+    }
   }
-  return area;
+  return areas;
 }
 
 NavPoint NavMesh::Pick(const NavArea& area, RngStream& rng) const {

@@ -109,6 +109,8 @@ class NavMesh {
   /// The part of the mesh inside a polygon (empty = everywhere) whose kinds are in `kinds` (bit 1 << kind) and
   /// that hangs together: the largest such part. May be empty.
   NavArea AreaOf(std::span<const Vec2d> outline, uint32_t kinds) const;
+  /// All such parts of at least `least` square metres, the largest first; 0: the largest alone.
+  std::vector<NavArea> AreasOf(std::span<const Vec2d> outline, uint32_t kinds, double least) const;
   /// Uniform over an area that is not empty.
   NavPoint Pick(const NavArea& area, RngStream& rng) const;
 

@@ -47,6 +47,47 @@ TEST(NavMesh, AWayGoesAroundAWallAndIsAsLongAsTheTautString) {
   EXPECT_TRUE(mesh->Straight(mesh->Nearest({10, 10, 0}), {10, 39}));
 }
 
+// A slope of many small pieces of lawn and path, none along the raster: to be crossed in all directions, without a slit or a hole.
+TEST(NavMesh, KindsOfGroundThatMeetLeaveNothingBetweenThem) {
+  TestGround ground;
+  constexpr int kPieces = 130;
+  constexpr float kSize = 0.31f;
+  for (const char* category : {"ground/grass", "ground/path"}) {
+    Mesh mosaic;
+    for (int i = 0; i < kPieces * kPieces; ++i) {
+      const bool lawn = RngStream(5, "mosaic", static_cast<uint64_t>(i)).Chance(0.6);
+      if (lawn != (std::string_view(category) == "ground/grass")) continue;
+      const auto first = static_cast<uint32_t>(mosaic.positions.size());
+      for (const auto& [u, v] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+        const float a = kSize * static_cast<float>(i % kPieces + u), b = kSize * static_cast<float>(i / kPieces + v);
+        const float x = 0.87f * a - 0.49f * b, y = 0.49f * a + 0.87f * b;
+        mosaic.positions.push_back({x, y, 0.2f * x + 0.1f * y});
+      }
+      mosaic.triangles.push_back({first, first + 1, first + 2});
+      mosaic.triangles.push_back({first, first + 2, first + 3});
+    }
+    const EntityId entity = ground.builder().AddEntity(category, ground.builder().tree().At(category));
+    ground.builder().AddInstance({.mesh = ground.builder().AddMesh(std::move(mosaic)), .X_WM = {}, .entity = entity});
+  }
+  const auto mesh = NavMesh::Build(*ground.Build());
+  // Metres from the edge of the whole.
+  const auto inside = [&](Vec2d p) {
+    const double a = 0.87 * p.x + 0.49 * p.y, b = 0.87 * p.y - 0.49 * p.x, edge = kPieces * kSize;
+    return std::min({a, b, edge - a, edge - b});
+  };
+  for (const NavWall& wall : mesh->walls())
+    EXPECT_LT(inside((wall.a + wall.b) * 0.5), 0.6) << wall.a.x << ' ' << wall.a.y << ' ' << wall.b.x << ' ' << wall.b.y;
+  const NavArea all = mesh->AreaOf({}, kAll);
+  RngStream rng(6, "ways");
+  for (int k = 0; k < 300; ++k) {
+    const NavPoint from = mesh->Pick(all, rng), to = mesh->Pick(all, rng);
+    const Vec2d p{to.p_W.x, to.p_W.y};
+    if (std::min(inside({from.p_W.x, from.p_W.y}), inside(p)) < 0.6) continue;
+    const NavPoint end = mesh->Move(from, p);
+    EXPECT_LT(std::hypot(end.p_W.x - p.x, end.p_W.y - p.y), 0.01) << from.p_W.x << ' ' << from.p_W.y << " to " << p.x << ' ' << p.y;
+  }
+}
+
 // A lawn's blades are part of the lawn, whatever they rise to: feet go through them.
 TEST(NavMesh, BladesOfALawnAreNeitherGroundNorObstacle) {
   TestGround ground;

@@ -14,6 +14,7 @@
 #include <mutex>
 
 #include "airsim360/base/error.h"
+#include "airsim360/people/navigation/tile_regions.h"
 
 namespace airsim360::internal {
 namespace {
@@ -26,6 +27,8 @@ Point3 ToRecast(Vec3d p) { return {{static_cast<float>(p.x), static_cast<float>(
 Vec3d FromRecast(const float* v) { return {v[0], -v[2], v[1]}; }
 
 constexpr float kCellHeight = 0.05f;
+constexpr int kLeastCells = 64, kMergedCells = 400;  // of a region
+constexpr int kSplinter = 9;                         // cells: less of a region is left at the edge of a tile
 constexpr int kMaxPathPolygons = 8192, kMaxCorners = 1024;
 // Detour counts the nodes of a search in 16 bits, and a town of a kilometre has three times as many polygons: a long way is
 // made of several searches, each from where the one before got to.
@@ -150,8 +153,13 @@ class TileBuilder {
       rcMarkConvexPolyArea(&context_, outline.data(), static_cast<int>(crossing.outline.size()), min_.v[1], max_.v[1],
                            static_cast<unsigned char>(GroundKind::kCrossing), *compact_);
     }
-    return rcErodeWalkableArea(&context_, radius_, *compact_) && CloseNarrowWays() && rcBuildDistanceField(&context_, *compact_) &&
-           rcBuildRegions(&context_, *compact_, border_, 64, 400);
+    if (!rcErodeWalkableArea(&context_, radius_, *compact_) || !CloseNarrowWays()) return false;
+    JoinSpecks(kLeastCells, *compact_);
+    if (!rcBuildDistanceField(&context_, *compact_) || !rcBuildRegions(&context_, *compact_, border_, kLeastCells, kMergedCells))
+      return false;
+    TakeInStrays(kSplinter, *compact_);
+    PartCorners(*compact_);
+    return true;
   }
 
   // Outdoors, ways in which two people cannot pass each other are none: they would stand head on for ever. What
