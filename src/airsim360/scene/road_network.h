@@ -24,6 +24,7 @@ struct Lane {
   int32_t signal = -1;    ///< head of the junction's signals that holds at its beginning; -1: none
   uint8_t priority = 0;   ///< where no signal decides, lanes of a lower number give way
   bool bus = false;       ///< for buses alone
+  bool cycle = false;     ///< for bicycles alone
 };
 
 /// Green of some heads of a junction, then amber of the same, then red of all.

@@ -146,7 +146,8 @@ void VisitSpawn(ArchiveReader& archive, std::optional<Vec3f>& spawn) {
 template <class Archive, class T>
 void VisitRoadNetwork(Archive& archive, T& roads) {
   archive.Each(roads.lanes, [&](auto& lane) {
-    archive(lane.points, lane.width, lane.speed, lane.next, lane.left, lane.right, lane.junction, lane.signal, lane.priority, lane.bus);
+    archive(lane.points, lane.width, lane.speed, lane.next, lane.left, lane.right, lane.junction, lane.signal, lane.priority, lane.bus,
+            lane.cycle);
   });
   archive.Each(roads.junctions, [&](auto& junction) { archive(junction.center, junction.radius, junction.phases, junction.offset); });
 }

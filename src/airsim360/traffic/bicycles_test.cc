@@ -76,6 +76,68 @@ TEST(Bicycles, AreOvertakenWhereThereIsALaneForItAndFollowedElsewhere) {
   }
 }
 
+// Two lanes of which that on the right is for bicycles alone.
+std::shared_ptr<const RoadNetwork> WithCycleLane() {
+  auto roads = std::make_shared<RoadNetwork>(*TwoLanes());
+  for (const LaneId id : {1u, 3u}) roads->lanes[id].cycle = true;
+  return roads;
+}
+
+TEST(Bicycles, TakeTheCycleLaneAndRideInItsMiddle) {
+  TrafficModel model = ModelOf(WithCycleLane(), 1);
+  model.vehicles[0] = kBicycle;
+  TrafficState state;
+  state.vehicles = {{.lane = 0, .ahead = {2, 0}, .s = 30, .v = 5}};
+  double last = PoseOf(model, state, 0, 0).p.y;
+  EXPECT_NEAR(last, -1, 1e-9);
+  for (int tick = 0; tick < 40 * 20; ++tick) {
+    TickTraffic(model, {}, state);
+    const double y = PoseOf(model, state, 0, state.t_ns).p.y;
+    EXPECT_LT(std::abs(y - last), 0.1) << tick;  // sideways without a jump
+    last = y;
+  }
+  EXPECT_EQ(state.vehicles[0].lane, 1u);
+  EXPECT_NEAR(last, -3.2, 1e-6);
+}
+
+TEST(Bicycles, CarsKeepOutOfCycleLanesAndPassThoseWhoRideThere) {
+  TrafficModel model = ModelOf(WithCycleLane(), 3);
+  model.vehicles[0] = kBicycle;
+  TrafficState state;
+  state.vehicles = {{.lane = 1, .ahead = {3, 1}, .s = 120, .v = 5},
+                    {.lane = 0, .ahead = {2, 0}, .s = 100, .v = 5},
+                    {.lane = 0, .ahead = {2, 0}, .s = 40, .v = 13}};
+  model.vehicles[1].driver.speed_factor = 0.4;  // somebody whom the other would overtake
+  for (int tick = 0; tick < 30 * 20; ++tick) {
+    TickTraffic(model, {}, state);
+    for (const size_t car : {1u, 2u}) EXPECT_FALSE(model.lanes.lane(state.vehicles[car].lane).cycle);
+  }
+  EXPECT_GT(state.vehicles[1].s + 600 * (state.vehicles[1].lane != 0), 255);  // 30 s behind the bicycle would be 120 + 150 at the most
+  EXPECT_TRUE(model.lanes.lane(state.vehicles[0].lane).cycle);
+}
+
+// Where lanes for bicycles end they come back to the edge of the lane of all, over some metres.
+TEST(Bicycles, ComeBackToTheEdgeWhereACycleLaneEnds) {
+  auto roads = std::make_shared<RoadNetwork>();
+  roads->lanes = {{.points = {{0, 0, 0}, {100, 0, 0}}, .next = {1}, .cycle = true},
+                  {.points = {{100, 0, 0}, {400, 0, 0}}, .next = {2}},
+                  {.points = {{400, 0, 0}, {400, 900, 0}, {0, 900, 0}, {0, 0, 0}}, .next = {0}}};
+  TrafficModel model = ModelOf(std::shared_ptr<const RoadNetwork>(roads), 1);
+  model.vehicles[0] = kBicycle;
+  TrafficState state;
+  state.vehicles = {{.lane = 0, .ahead = {1, 2}, .s = 60, .v = 5}};
+  EXPECT_NEAR(PoseOf(model, state, 0, 0).p.y, 0, 1e-9);
+  double last = 0;
+  for (int tick = 0; tick < 20 * 20; ++tick) {
+    TickTraffic(model, {}, state);
+    const RigidTransform X = PoseOf(model, state, 0, state.t_ns);
+    EXPECT_LT(std::abs(X.p.y - last), 0.08);
+    EXPECT_GT(X.R.column(0).x, 0.95);
+    last = X.p.y;
+  }
+  EXPECT_NEAR(last, -1, 1e-9);
+}
+
 TEST(Bicycles, ChangeToTheLaneOnTheRightAndStayThere) {
   TrafficModel model = ModelOf(TwoLanes(), 2);
   model.vehicles = {kBicycle, kBicycle};

@@ -65,7 +65,7 @@ std::vector<BusStop> BusStopsBeside(const LaneMap& lanes, std::span<const Vec3d>
   constexpr double kFarthest = 9, kPastTheSign = 2, kLongestBus = 13, kToTheEnd = 2;  // metres
   std::vector<BusStop> stops;
   for (const Vec3d p : places) {
-    const auto between_junctions = [](const Lane& lane) { return lane.junction < 0; };
+    const auto between_junctions = [](const Lane& lane) { return lane.junction < 0 && !lane.cycle; };
     const auto on_the_right = [&](LaneId id, const NearestLanePoint& at) { return internal::LeftOfLane(lanes, id, at.s, p) <= 0; };
     const auto [beside, best] = internal::NearestLane(lanes, p, kFarthest, between_junctions, on_the_right);
     if (beside == kNoLane) continue;

@@ -70,11 +70,13 @@ void LaneChanges::Consider(uint32_t vehicle, DrivingVehicle& own) {
   for (const LaneId target : {lane.left, lane.right}) {
     const VehicleShape& shape = model_.vehicles[vehicle].shape;
     if (target == kNoLane || (model_.lanes.lane(target).bus && !shape.bus) || (target == lane.left && shape.bicycle)) continue;
+    if (model_.lanes.lane(target).cycle && !shape.bicycle) continue;
     const double s = own.s / model_.lanes.length(own.lane) * model_.lanes.length(target);
     if (TakenThisTick(target, s) || !Pays(vehicle, target, s)) continue;
     Take(target, s);
     const LanePoint from = model_.lanes.At(own.lane, own.s), to = model_.lanes.At(target, s);
     own.shift = (from.p.x - to.p.x) * -to.direction.y + (from.p.y - to.p.y) * to.direction.x;
+    own.shift += shape.aside(lane) - shape.aside(model_.lanes.lane(target));
     own.left_lane = own.lane;
     own.lane = target;
     own.s = s;

@@ -199,7 +199,7 @@ class CriticalSearch {
       const Vec2d away = OnGround(p) - box.center;
       return DotOf(away, away);
     });
-    const double left = DotOf(OnGround(p) - nearest->center, LeftOf(nearest->ahead)) + model_.vehicles[i].shape.aside();
+    const double left = DotOf(OnGround(p) - nearest->center, LeftOf(nearest->ahead)) + model_.vehicles[i].shape.aside(lane);
     const bool at_kerb = lane.junction < 0 && lane.right == kNoLane;
     return left > -(at_kerb ? 0.5 : 1.5) * lane.width && left < 1.5 * lane.width;
   }

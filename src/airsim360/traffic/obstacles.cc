@@ -1,6 +1,7 @@
 #include "airsim360/traffic/obstacles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "airsim360/traffic/parking.h"
@@ -66,6 +67,23 @@ InTheWay ObstacleGrid::Find(const TrafficModel& model, const TrafficState& state
   return found;
 }
 
+namespace {
+
+// From one lane to another whose place for bicycles is another: over some metres, not at once.
+double AsideAt(const TrafficModel& model, const DrivingVehicle& vehicle, const VehicleShape& shape, LaneId lane, double s) {
+  constexpr double kOver = 8;  // metres
+  const double here = shape.aside(model.lanes.lane(lane));
+  if (!shape.bicycle || s > kOver) return here;
+  const std::array<LaneId, 6> way{vehicle.ahead[1],  vehicle.ahead[0],  vehicle.lane,
+                                  vehicle.behind[0], vehicle.behind[1], vehicle.behind[2]};
+  const auto at = std::ranges::find(way, lane);
+  if (at == way.end() || at + 1 == way.end() || *(at + 1) == kNoLane) return here;
+  const double before = shape.aside(model.lanes.lane(*(at + 1))), u = std::clamp(s / kOver, 0.0, 1.0);
+  return before + (here - before) * u * u * (3 - 2 * u);
+}
+
+}  // namespace
+
 LanePoint AlongWay(const TrafficModel& model, const DrivingVehicle& vehicle, const VehicleShape& shape, double ahead) {
   double s = vehicle.s + ahead;
   LaneId lane = vehicle.lane;
@@ -78,7 +96,7 @@ LanePoint AlongWay(const TrafficModel& model, const DrivingVehicle& vehicle, con
     s += model.lanes.length(lane);
   }
   LanePoint at = model.lanes.At(lane, s);
-  const double left = shape.aside() + ParkingShift(model, vehicle, shape, vehicle.s + ahead);
+  const double left = AsideAt(model, vehicle, shape, lane, s) + ParkingShift(model, vehicle, shape, vehicle.s + ahead);
   at.p = at.p + Vec3d{-at.direction.y, at.direction.x, 0} * left;
   return at;
 }

@@ -177,7 +177,7 @@ std::map<LaneId, std::vector<KerbCar>> CarsBeside(const LaneMap& lanes, std::spa
   for (uint32_t i = 0; i < cars.size(); ++i) {
     const Box3f& box = cars[i];
     const Vec3d middle = VecCast<double>(box.center());
-    const auto at_the_kerb = [](const Lane& lane) { return lane.junction < 0 && !lane.bus && lane.right == kNoLane; };
+    const auto at_the_kerb = [](const Lane& lane) { return lane.junction < 0 && !lane.bus && !lane.cycle && lane.right == kNoLane; };
     const auto [beside, best] =
         internal::NearestLane(lanes, middle, kFarthest, at_the_kerb, [](LaneId, const NearestLanePoint&) { return true; });
     if (beside == kNoLane) continue;

@@ -33,7 +33,7 @@ TrafficState WithVehicleAt(const TrafficModel& model, const TrafficState& state,
   NearestLanePoint best;
   for (LaneId id = 0; id < model.lanes.size(); ++id) {
     const Lane& road = model.lanes.lane(id);
-    if (road.junction >= 0 || (road.bus && !shape.bus) || model.lanes.length(id) < shape.length) continue;
+    if (road.junction >= 0 || (road.bus && !shape.bus) || (road.cycle && !shape.bicycle) || model.lanes.length(id) < shape.length) continue;
     const NearestLanePoint place = model.lanes.Nearest(id, p);
     if (lane == kNoLane ? !(place.distance <= kFarthestLane) : place.distance >= best.distance) continue;
     lane = id;

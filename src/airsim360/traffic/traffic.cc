@@ -12,6 +12,7 @@
 #include "airsim360/traffic/near_misses.h"
 #include "airsim360/traffic/obstacles.h"
 #include "airsim360/traffic/parking.h"
+#include "airsim360/traffic/pedalling.h"
 #include "airsim360/traffic/right_of_way.h"
 #include "airsim360/traffic/turns.h"
 
@@ -151,7 +152,7 @@ struct Slot {
 std::vector<Slot> SlotsOf(const LaneMap& lanes) {
   std::vector<Slot> slots;
   for (LaneId id = 0; id < lanes.size(); ++id) {
-    if (lanes.lane(id).junction >= 0 || lanes.lane(id).bus) continue;
+    if (lanes.lane(id).junction >= 0 || lanes.lane(id).bus || lanes.lane(id).cycle) continue;
     for (double s = kSlot; s + 2 < lanes.length(id); s += kSlot) slots.push_back({id, s});
   }
   return slots;
@@ -214,6 +215,8 @@ void TickTraffic(const TrafficModel& model, std::span<const TrafficObstacle> obs
     parking.Consider(i, t_ns, own);
   }
   state.t_ns = t_ns;
+  for (uint32_t i = 0; i < state.vehicles.size(); ++i)
+    if (model.vehicles[i].shape.bicycle) internal::Pedal(model, before, i, state);
 }
 
 RigidTransform PoseOf(const TrafficModel& model, const TrafficState& state, size_t vehicle, int64_t t_ns) {
@@ -240,6 +243,7 @@ uint64_t HashTraffic(const TrafficState& state) {
     hasher.Add(uint64_t{v.bay} << 8 | static_cast<uint8_t>(v.parking));
     for (const bool value : {v.granted, v.braking}) hasher.Add(value);
     hasher.Add(v.choices);
+    for (const double value : {v.rolled, v.crank}) hasher.Add(value);
   }
   for (const Encounter& e : state.encounters) {
     for (const RoadUser& who : {e.worst.a, e.worst.b}) hasher.Add(uint64_t{static_cast<uint8_t>(who.kind)} << 32 | who.index);

@@ -21,9 +21,11 @@ inline constexpr int64_t kTrafficTickNs = 50'000'000;
 struct VehicleShape {
   double length = 4.5, width = 1.8, height = 1.5;  ///< metres
   bool bus = false;                                ///< may use lanes for buses
-  bool bicycle = false;                            ///< keeps to the right edge of its lane, and to the lane on the right
-  /// Metres to the left of the middle of its lane.
-  double aside() const { return bicycle ? -1.0 : 0.0; }
+  bool bicycle = false;                            ///< keeps to the right, and to cycle lanes
+  double wheel_radius = 0.345;                     ///< of a bicycle, metres
+  double gear = 2.2;                               ///< turns of a bicycle's wheels while its cranks turn once
+  /// Metres to the left of the middle of a lane; bicycles keep to the right edge of those that they share.
+  double aside(const Lane& lane) const { return bicycle && !lane.cycle ? -1.0 : 0.0; }
   /// Metres from the front to the front axle and between the axles.
   double front_overhang() const { return 0.19 * length; }
   double wheelbase() const { return 0.6 * length; }
@@ -83,6 +85,8 @@ struct DrivingVehicle {
   bool granted = false;         ///< the junction ahead, or around it, is held free for it
   bool braking = false;         ///< brake lamps
   int8_t indicator = 0;         ///< +1 left, -1 right
+  double rolled = 0;            ///< of a bicycle: metres that its middle has come, forwards
+  double crank = 0;             ///< of a bicycle: radians that its cranks have turned; at 0 the left pedal is lowest
 };
 
 /// Whether it is in a bay and out of the way of those who drive.

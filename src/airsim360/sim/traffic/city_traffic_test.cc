@@ -84,6 +84,42 @@ TEST(CityTraffic, InManhattanNobodyDrivesThroughAnotherOrStandsForMoreThanThreeC
   EXPECT_GT(hardest, -6.5);            // m/s^2: nobody is surprised
 }
 
+// On the boulevard, whose east side has a green lane: those who ride there do so in it, and no car ever does.
+TEST(CityTraffic, BicyclesRideInTheCycleLaneOfTheBoulevardAndCarsDoNot) {
+  TrafficModel model = Manhattan(240, 4);
+  for (size_t i = 0; i < 240; i += 4) {
+    model.vehicles[i].shape = {.length = 1.8, .width = 0.65, .height = 1.75, .bicycle = true};
+    model.vehicles[i].driver = {.top_speed = 5, .acceleration = 0.8};
+  }
+  TrafficState state = StartTraffic(model);
+  int apart = 0, beside = 0, overlaps = 0;
+  for (int second = 0; second < 400; ++second) {
+    Drive(model, 1, state);
+    for (size_t i = 0; i < state.vehicles.size(); ++i) {
+      const Lane& lane = model.lanes.lane(state.vehicles[i].lane);
+      if (!model.vehicles[i].shape.bicycle) {
+        EXPECT_FALSE(lane.cycle) << i;
+        continue;
+      }
+      if (!lane.cycle || lane.junction >= 0) {
+        beside += lane.junction < 0 && lane.right != kNoLane && model.lanes.lane(lane.right).cycle;
+        continue;
+      }
+      ++apart;
+      // Within the paint: 8.75 to 10.45 m right of the axis, which is x = 0.
+      if (state.vehicles[i].s > 12 && state.t_ns - state.vehicles[i].changed_ns > kLaneChangeNs) {
+        EXPECT_NEAR(PoseOf(model, state, i, state.t_ns).p.x, 9.6, 0.5) << i;
+      }
+      for (size_t k = 0; k < state.vehicles.size(); ++k)
+        overlaps += k != i && std::abs(state.vehicles[k].s - state.vehicles[i].s) < 20 &&
+                    Overlap(CornersOf(model, state, i), CornersOf(model, state, k));
+    }
+  }
+  EXPECT_GT(apart, 200);
+  EXPECT_GT(apart, 4 * beside);
+  EXPECT_EQ(overlaps, 0);
+}
+
 TEST(CityTraffic, IsTheSameForTheSameSeedAndGoesOnTheSameFromASnapshot) {
   const TrafficModel model = Manhattan(120, 5);
   TrafficState state = StartTraffic(model);

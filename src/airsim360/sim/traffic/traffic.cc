@@ -9,11 +9,14 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
 #include "airsim360/scene/scene_additions.h"
+#include "airsim360/sim/traffic/bicycle_parts.h"
 #include "airsim360/sim/traffic/riders.h"
 #include "airsim360/sim/traffic/vehicle_lamps.h"
 #include "airsim360/traffic/bus_stops.h"
 #include "airsim360/traffic/disc_grid.h"
 #include "airsim360/traffic/parking.h"
+#include "airsim360/traffic/pedalling.h"
+#include "airsim360/worlds/props/bicycle.h"
 
 namespace airsim360 {
 namespace {
@@ -32,6 +35,7 @@ struct Pattern {
   float scale = 1;
   Box3f box;  // of the mesh
   bool in_lane = false;
+  const BicycleMeasures* measures = nullptr;  // of a bicycle
 };
 
 bool IsVehicle(const Scene& scene, const Instance& instance) {
@@ -97,7 +101,9 @@ std::vector<Pattern> FindBicycles(const Scene& scene) {
     const float scale = Norm(instance.X_WM.A.column(2));
     const Vec3f size = box.empty() ? Vec3f{} : (box.max - box.min) * scale;
     if (size.y < 1.4f || size.y > 2.2f || size.x > 0.9f) continue;  // a rack, or one of many wheels
-    bicycles[instance.mesh] = {instance.mesh, category, instance.tint, instance.glow, scale, box, false};
+    const BicycleMeasures* known = internal::MeasuresOf(scene.meshes[instance.mesh]);
+    bicycles[instance.mesh] = {instance.mesh, category, instance.tint, instance.glow,
+                               scale,         box,      false,         known != nullptr ? known : kBicycleMeasures.data()};
   }
   std::vector<Pattern> patterns;
   for (const auto& [mesh, pattern] : bicycles) patterns.push_back(pattern);
@@ -170,26 +176,30 @@ AffineTransform PlaceOf(const TrafficBody& body, const RigidTransform& X_WB) {
 }
 
 // 14 to 20 km/h, chosen by us for mixed traffic: FHWA-RD-98-108 (1998) takes 25 km/h where bicycles have lanes of their own.
-TrafficVehicle MakeCyclist(const Vec3f& size, RngStream& rng) {
+TrafficVehicle MakeCyclist(const Vec3f& size, float wheel_radius, RngStream& rng) {
   TrafficVehicle vehicle;
   vehicle.shape = {.length = size.y, .width = std::max(0.65f, size.x), .height = kRiderHeight, .bicycle = true};
+  vehicle.shape.wheel_radius = wheel_radius;
   vehicle.driver = {.top_speed = rng.Uniform(4, 5.6), .headway = 1.2, .acceleration = rng.Uniform(0.6, 1.0), .braking = 2};
   return vehicle;
 }
 
 TrafficVehicle MakeVehicle(const Scene& scene, const Pattern& pattern, RngStream& rng) {
   const Vec3f size = (pattern.box.max - pattern.box.min) * pattern.scale;
-  if (scene.tree[pattern.category].path == "vehicle/bicycle") return MakeCyclist(size, rng);
+  if (scene.tree[pattern.category].path == "vehicle/bicycle") return MakeCyclist(size, pattern.measures->wheel_radius * pattern.scale, rng);
   TrafficVehicle vehicle;
   vehicle.shape = {size.y, size.x, size.z, scene.tree[pattern.category].path.starts_with("vehicle/bus")};
   vehicle.driver = MakeDriver(rng, size.y > 6.5f);
   return vehicle;
 }
 
-// Lit glasses of the models, made once for each.
-using LampsOfMeshes = std::map<MeshId, internal::LampMeshes>;
+// Lit glasses and turning parts of the models, made once for each.
+struct MadeOfMeshes {
+  std::map<MeshId, internal::LampMeshes> lamps;
+  std::map<MeshId, std::optional<internal::BicycleMeshes>> bicycles;
+};
 
-void AddBody(const Pattern& pattern, size_t index, const TrafficModel& model, const TrafficState& state, LampsOfMeshes& lamps, Scene& scene,
+void AddBody(const Pattern& pattern, size_t index, const TrafficModel& model, const TrafficState& state, MadeOfMeshes& made, Scene& scene,
              TrafficBody& body) {
   body.name = NameOf(index);
   body.kind = scene.tree[pattern.category].path;
@@ -199,9 +209,59 @@ void AddBody(const Pattern& pattern, size_t index, const TrafficModel& model, co
   body.instance = static_cast<uint32_t>(scene.instances.size());
   const AffineTransform X_WM = PlaceOf(body, PoseOf(model, state, index, state.t_ns));
   body.entity = AddInstanceEntity(scene, body.name, pattern.category, {pattern.mesh, X_WM, kNoEntity, pattern.tint, pattern.glow});
-  const auto [of_mesh, fresh] = lamps.try_emplace(pattern.mesh);
+  const auto [of_mesh, fresh] = made.lamps.try_emplace(pattern.mesh);
   if (fresh) of_mesh->second = internal::AddLampMeshes(pattern.mesh, scene);
   body.lamps = internal::AddLamps(of_mesh->second, body.entity, scene);
+  if (!model.vehicles[index].shape.bicycle) return;
+
+  // Its entity keeps the box of the whole.
+  body.measures = pattern.measures;
+  const auto [cut, new_bicycle] = made.bicycles.try_emplace(pattern.mesh);
+  if (new_bicycle) cut->second = internal::AddBicycleMeshes(pattern.mesh, scene);
+  if (!cut->second) return;
+  scene.instances[body.instance].mesh = cut->second->frame;
+  body.first_part = static_cast<uint32_t>(scene.instances.size());
+  for (const MeshId part : cut->second->part) scene.instances.push_back({part, X_WM, body.entity, pattern.tint, pattern.glow});
+}
+
+// How a bicycle is at t_ns: its pose as it leans, its cranks.
+struct BicycleNow {
+  RigidTransform X_WB;
+  Cycling cycling;
+  double standing = 0;
+};
+
+BicycleNow BicycleAt(const TrafficModel& model, const TrafficState& state, size_t i, int64_t t_ns) {
+  BicycleNow now{PoseOf(model, state, i, t_ns), CyclingOf(model, state, i, t_ns), internal::StandingAt(state.vehicles[i].v)};
+  now.X_WB.R = now.X_WB.R * RotationX(-internal::LeanOf(now.standing));
+  return now;
+}
+
+// Its parts, after its frame.
+void ShowParts(const TrafficBody& body, const BicycleNow& now, const AffineTransform& X_WM, SceneState& scene_state) {
+  if (body.first_part == 0) return;
+  for (size_t k = 0; k < kBicycleParts; ++k) {
+    const auto part = static_cast<BicyclePart>(k);
+    const double pitch = internal::FootPitch(part == BicyclePart::kLeftPedal, now.cycling.crank);
+    const AffineTransform X_MP = internal::PlaceOfPart(*body.measures, part, now.cycling, pitch);
+    scene_state.moved.push_back({body.first_part + static_cast<uint32_t>(k), X_WM * X_MP, false});
+  }
+}
+
+void ShowRiders(const SimTraffic& traffic, const std::vector<BicycleNow>& bicycles, SceneState& scene_state) {
+  std::vector<SkeletonPose> poses(bicycles.size());
+  std::vector<const SkeletonPose*> shown;
+  size_t k = 0;
+  for (const TrafficBody& body : traffic.bodies) {
+    if (body.rider == kNoRider) continue;
+    const BicycleNow& now = bicycles[k];
+    const internal::Perch perch = internal::PerchOf(*body.measures, body.offset_M, body.scale);
+    poses[k] = internal::RidingPose(*traffic.riders[k].body, perch, now.cycling.crank, now.standing);
+    for (RigidTransform& X : poses[k].X_WJ) X = now.X_WB * X;
+    poses[k].X_WP = now.X_WB;
+    shown.push_back(&poses[k++]);
+  }
+  AppendPeople(traffic.riders, traffic.rider_refs, shown, {}, scene_state);
 }
 
 }  // namespace
@@ -236,9 +296,9 @@ TrafficScene AddTraffic(std::shared_ptr<const Scene> scene, const TrafficRequest
   std::shared_ptr<Scene> own = OwnScene(std::move(scene));
   own->cache_key.clear();  // what is kept on disk is of the scene without them
   traffic->bodies.resize(request.count);
-  LampsOfMeshes lamps;
-  for (size_t i = 0; i < request.count; ++i) AddBody(*chosen[i], i, traffic->model, *start, lamps, *own, traffic->bodies[i]);
-  own = internal::AddRiders(std::move(own), traffic->model, traffic->bodies);
+  MadeOfMeshes made;
+  for (size_t i = 0; i < request.count; ++i) AddBody(*chosen[i], i, traffic->model, *start, made, *own, traffic->bodies[i]);
+  own = internal::AddRiders(std::move(own), *traffic);
   traffic->start = std::move(start);
   return {own, std::move(traffic)};
 }
@@ -247,9 +307,12 @@ void ShowTraffic(const SimTraffic& traffic, const TrafficState& state, int64_t t
   const TrafficState& lit = lamps.state != nullptr ? *lamps.state : state;
   const int64_t lit_ns = lamps.state != nullptr ? lamps.t_ns : t_ns;
   for (const uint32_t instance : traffic.standing) scene_state.moved.push_back({instance, {}, true});
+  std::vector<BicycleNow> bicycles;
   for (size_t i = 0; i < traffic.bodies.size(); ++i) {
     const TrafficBody& body = traffic.bodies[i];
-    const AffineTransform X_WM = PlaceOf(body, PoseOf(traffic.model, state, i, t_ns));
+    const bool rides = body.rider != kNoRider;
+    if (rides) bicycles.push_back(BicycleAt(traffic.model, state, i, t_ns));
+    const AffineTransform X_WM = PlaceOf(body, rides ? bicycles.back().X_WB : PoseOf(traffic.model, state, i, t_ns));
     scene_state.moved.push_back({body.instance, X_WM, false});
     const auto show = [&](uint32_t lamp, bool burns) {
       if (lamp != kNoLamp) scene_state.moved.push_back({lamp, X_WM, !burns});
@@ -259,15 +322,9 @@ void ShowTraffic(const SimTraffic& traffic, const TrafficState& state, int64_t t
     show(body.lamps.brake, vehicle.braking);
     show(body.lamps.left, blinks && vehicle.indicator > 0);
     show(body.lamps.right, blinks && vehicle.indicator < 0);
+    if (rides) ShowParts(body, bicycles.back(), X_WM, scene_state);
   }
-  for (size_t i = 0; i < traffic.bodies.size(); ++i) {
-    if (traffic.bodies[i].rider == kNoRider) continue;
-    const RigidTransform X_WB = PoseOf(traffic.model, state, i, t_ns);
-    const AffineTransform X_WM{
-        Mat3f::FromColumns(VecCast<float>(X_WB.R.column(0)), VecCast<float>(X_WB.R.column(1)), VecCast<float>(X_WB.R.column(2))),
-        VecCast<float>(X_WB.p)};
-    scene_state.moved.push_back({traffic.bodies[i].rider, X_WM, false});
-  }
+  ShowRiders(traffic, bicycles, scene_state);
 }
 
 std::shared_ptr<const TrafficState> TrafficLater(const SimTraffic& traffic, std::shared_ptr<const TrafficState> state, int64_t t_ns) {
@@ -283,7 +340,8 @@ void HideTraffic(const SimTraffic& traffic, SceneState& scene_state) {
     for (const uint32_t instance : {body.instance, body.lamps.brake, body.lamps.left, body.lamps.right})
       if (instance != kNoLamp) scene_state.moved.push_back({instance, {}, true});
   for (const TrafficBody& body : traffic.bodies)
-    if (body.rider != kNoRider) scene_state.moved.push_back({body.rider, {}, true});
+    for (uint32_t k = 0; body.first_part != 0 && k < kBicycleParts; ++k) scene_state.moved.push_back({body.first_part + k, {}, true});
+  HidePeople(traffic.rider_refs, scene_state);
 }
 
 std::optional<size_t> VehicleOf(const SimTraffic& traffic, EntityId entity) {

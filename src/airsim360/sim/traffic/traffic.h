@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "airsim360/people/body/skinning.h"
 #include "airsim360/scene/scene.h"
 #include "airsim360/scene/scene_state.h"
 #include "airsim360/sim/traffic/traffic_request.h"
@@ -15,11 +16,17 @@
 
 namespace airsim360 {
 
+struct BicycleMeasures;
+
 /// Lamps of a vehicle that burn now and then: instances of its entity, which are hidden meanwhile. kNoLamp: it has none.
 inline constexpr uint32_t kNoLamp = UINT32_MAX;
 struct VehicleLamps {
   uint32_t brake = kNoLamp, left = kNoLamp, right = kNoLamp;
 };
+
+/// What turns on a bicycle.
+enum class BicyclePart : uint8_t { kFrontWheel, kRearWheel, kCranks, kLeftPedal, kRightPedal };
+inline constexpr size_t kBicycleParts = 5;
 
 inline constexpr uint32_t kNoRider = UINT32_MAX;
 
@@ -31,7 +38,9 @@ struct TrafficBody {
   EntityId entity = kNoEntity;
   float scale = 1;
   VehicleLamps lamps = {};
-  uint32_t rider = kNoRider;  ///< instance of who sits on a bicycle
+  uint32_t first_part = 0;                    ///< of a bicycle whose parts turn: its front wheel, before the others; 0: none
+  const BicycleMeasures* measures = nullptr;  ///< of a bicycle
+  uint32_t rider = kNoRider;                  ///< instance of who sits on a bicycle
   EntityId rider_entity = kNoEntity;
   Vec3f offset_M;  ///< from the origin of its mesh to the ground below the middle of its box, metres, unscaled
 };
@@ -42,6 +51,8 @@ struct SimTraffic {
 
   TrafficModel model;
   std::vector<TrafficBody> bodies;
+  std::vector<PersonInScene> riders;  ///< in the order of their bicycles
+  std::vector<PersonRef> rider_refs;
   std::vector<uint32_t> standing;             ///< instances of the scene's own vehicles where others drive or park: not shown
   std::shared_ptr<const TrafficState> start;  ///< at simulation time 0
   int64_t epoch_ns = 0;                       ///< traffic time at simulation time 0

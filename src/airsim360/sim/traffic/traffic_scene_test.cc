@@ -4,6 +4,7 @@
 #include <array>
 
 #include "airsim360/base/error.h"
+#include "airsim360/scene/luminance.h"
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/sim/living_world.h"
 #include "airsim360/sim/traffic/traffic.h"
@@ -152,6 +153,33 @@ TEST(TrafficScene, BrakeLampsAndIndicatorsAreSeenWhenTheyBurn) {
     EXPECT_TRUE(!is_other || m.hidden);
   }
   EXPECT_TRUE(std::ranges::is_sorted(shown.moved, {}, &MovedInstance::instance));
+}
+
+// Luminance times the area that is seen from behind or from the front is what the lamps of one end throw there.
+TEST(TrafficScene, LampsThrowWhatRegulationsAskForAndKeepTheirHue) {
+  const TrafficScene scene = AddTraffic(RingWithLamps(), {.count = 1, .seed = 1, .warm_up = 0});
+  const auto thrown = [&](uint32_t lamp, float end) {
+    const Mesh& mesh = scene.scene->meshes[scene.scene->instances[lamp].mesh];
+    double candela = 0;
+    for (const MeshPart& part : mesh.parts) {
+      const Material& glass = scene.scene->materials[part.material];
+      EXPECT_EQ(glass.emission.z, 0);
+      EXPECT_LT(glass.emission.y, 0.2f * glass.emission.x);
+      for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
+        const Vec3u t = mesh.triangles[k];
+        const Vec3f n = Cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]) * 0.5f;
+        candela += double{std::max(0.0f, n.y * end)} * double{Luminance(glass.emission) / kNit};
+      }
+    }
+    return candela;
+  };
+  const VehicleLamps& lamps = scene.traffic->bodies[0].lamps;
+  EXPECT_NEAR(thrown(lamps.brake, 1), 2 * 100, 1);
+  EXPECT_EQ(thrown(lamps.brake, -1), 0);
+  for (const uint32_t side : {lamps.left, lamps.right}) {
+    EXPECT_NEAR(thrown(side, 1), 100, 1);
+    EXPECT_NEAR(thrown(side, -1), 250, 1);
+  }
 }
 
 TEST(TrafficScene, FlowSeesTheLampsOfNowLaterToo) {

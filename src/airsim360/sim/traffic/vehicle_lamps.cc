@@ -10,9 +10,13 @@
 namespace airsim360::internal {
 namespace {
 
-// cd/m^2: UN Regulation 148 asks for 60 to 185 cd of a brake lamp and 50 to 500 of a rear indicator, from some 0.015 m^2.
-constexpr float kBrakeNits = 8000, kIndicatorNits = 12000;
-constexpr Vec3f kRed{1, 0.02f, 0.01f}, kAmber{1, 0.35f, 0.01f};
+// cd on the axis of one lamp: UN Regulation 148 asks for 60 to 260 of a brake lamp (S1), 50 to 500 of a rear indicator (2a) and 175 to
+// 1000 of a front one (1). How bright a glass is follows from its area.
+constexpr float kBrakeCandela = 100, kRearIndicatorCandela = 100, kFrontIndicatorCandela = 250;
+constexpr float kLeastArea = 0.005f;  // m^2 of one glass
+// The regulation's red (x + y > 0.99, y < 0.335) is beyond the red of sRGB: no green and no blue, so that it stays red however long it
+// is exposed. Amber is that of x = 0.60, y = 0.395.
+constexpr Vec3f kRed{1, 0, 0}, kAmber{1, 0.12f, 0};
 constexpr float kBrakeOut = 0.006f, kIndicatorOut = 0.009f;  // metres in front of the glasses
 constexpr float kAwayScale = 1e-4f, kAwayHeight = -1000;     // of lamps where they are made
 constexpr int64_t kBlinkNs = 666'666'667;
@@ -37,14 +41,14 @@ bool ShowsRed(const Mesh& mesh, uint32_t triangle, const Material& material, con
 }
 
 // The material of a glass when it is lit: what it looks like otherwise stays.
-Material Lit(const Material& glass, const char* name, bool red) {
+Material Lit(const Material& glass, const char* name, bool red, float nits) {
   const Vec3f color = red ? kRed : kAmber;
   Material lit = glass;
   lit.name = name;
   lit.lamp = false;
   lit.beam = 0;
   if (!red && glass.beam < 0) lit.emission_texture = kNoTexture;
-  lit.emission = color / Luminance(color) * ((red ? kBrakeNits : kIndicatorNits) * kNit);
+  lit.emission = color / Luminance(color) * (nits * kNit);
   return lit;
 }
 
@@ -73,12 +77,32 @@ std::vector<Piece> PiecesOf(const Mesh& mesh, const Scene& scene, Glass glass) {
   return pieces;
 }
 
+// Square metres that the glasses of one end of the vehicle show to somebody behind it, or before it.
+float AreaSeen(const Mesh& mesh, const std::vector<Piece>& pieces, const Scene& scene, bool rear) {
+  float area = 0;
+  for (const Piece& piece : pieces) {
+    if ((scene.materials[piece.material].beam < 0) != rear) continue;
+    for (const uint32_t k : piece.triangles) {
+      const Vec3u t = mesh.triangles[k];
+      const Vec3f a = mesh.positions[t.x], n = Cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a) * 0.5f;
+      area += std::max(0.0f, rear ? n.y : -n.y);
+    }
+  }
+  return area;
+}
+
 std::optional<MeshId> AddGlass(MeshId vehicle, Glass glass, Scene& scene) {
   const Mesh& mesh = scene.meshes[vehicle];
   const std::vector<Piece> pieces = PiecesOf(mesh, scene, glass);
   if (pieces.empty()) return std::nullopt;
   const bool tail = glass == Glass::kTail;
   const char* name = tail ? "brake lamp" : "indicator";
+  const float lamps = tail ? 2 : 1;  // that share the glasses
+  const auto nits = [&](bool rear) {
+    const float candela = tail ? kBrakeCandela : rear ? kRearIndicatorCandela : kFrontIndicatorCandela;
+    return candela / std::max(AreaSeen(mesh, pieces, scene, rear) / lamps, kLeastArea);
+  };
+  const float nits_rear = nits(true), nits_front = nits(false);
   Mesh lit;
   lit.name = mesh.name + " " + name;
   for (const Piece& piece : pieces) {
@@ -97,7 +121,7 @@ std::optional<MeshId> AddGlass(MeshId vehicle, Glass glass, Scene& scene) {
       }
       lit.triangles.push_back({first, first + 1, first + 2});
     }
-    scene.materials.push_back(Lit(material, name, tail));
+    scene.materials.push_back(Lit(material, name, tail, material.beam < 0 ? nits_rear : nits_front));
   }
   scene.meshes.push_back(std::move(lit));
   return static_cast<MeshId>(scene.meshes.size() - 1);

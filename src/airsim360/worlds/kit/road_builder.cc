@@ -87,7 +87,8 @@ std::vector<LaneId> AddLanes(const RoadSpec& road, std::vector<Vec2f> axis, cons
                              .speed = road.speed,
                              .next = {},
                              .priority = road.priority,
-                             .bus = lane.bus});
+                             .bus = lane.bus,
+                             .cycle = lane.cycle});
   }
   for (size_t k = 0; k + 1 < ids.size(); ++k) {
     network.lanes[ids[k]].right = ids[k + 1];
@@ -131,7 +132,8 @@ void Connect(LaneId from, LaneId to, size_t junction, int32_t signal, const Heig
            .junction = static_cast<int32_t>(junction),
            .signal = signal,
            .priority = network.lanes[from].priority,
-           .bus = network.lanes[from].bus && network.lanes[to].bus};
+           .bus = network.lanes[from].bus && network.lanes[to].bus,
+           .cycle = network.lanes[to].cycle};
   network.lanes[from].next.push_back(static_cast<LaneId>(network.lanes.size()));
   network.lanes.push_back(std::move(way));
 }
@@ -145,8 +147,13 @@ void LeadInto(LaneId from, LaneId to, RoadNetwork& network) {
 
 std::vector<LaneId> ForAllVehicles(const std::vector<LaneId>& lanes, const RoadNetwork& network) {
   std::vector<LaneId> some;
-  std::ranges::copy_if(lanes, std::back_inserter(some), [&](LaneId id) { return !network.lanes[id].bus; });
+  std::ranges::copy_if(lanes, std::back_inserter(some), [&](LaneId id) { return !network.lanes[id].bus && !network.lanes[id].cycle; });
   return some.empty() ? lanes : some;
+}
+
+LaneId CycleLane(const std::vector<LaneId>& lanes, const RoadNetwork& network) {
+  const auto found = std::ranges::find_if(lanes, [&](LaneId id) { return network.lanes[id].cycle; });
+  return found != lanes.end() ? *found : kNoLane;
 }
 
 // From the lanes of one road into those of another.
@@ -158,11 +165,18 @@ void ConnectRoads(const Mouth& from, const Mouth& to, size_t junction, const Hei
     if (!Touch(network.lanes[a], network.lanes[b])) Connect(a, b, junction, from.signal, height, network);
   };
   if (std::abs(turn) > kBack) return;
-  if (turn > kTurn) return connect(in.front(), out.front());
-  if (turn < -kTurn) return connect(in.back(), out.back());
+  // Bicycles: into the cycle lane of the other road, out of that of this one.
+  const LaneId cycle_in = CycleLane(from.in, network), cycle_out = CycleLane(to.out, network);
+  const auto connect_cycles = [&] {
+    if (cycle_out != kNoLane) connect(turn > kTurn ? in.front() : in.back(), cycle_out);
+    if (cycle_in != kNoLane && turn <= kTurn) connect(cycle_in, cycle_out != kNoLane ? cycle_out : out.back());
+  };
+  if (turn > kTurn) return connect(in.front(), out.front()), connect_cycles();
+  if (turn < -kTurn) return connect(in.back(), out.back()), connect_cycles();
   // Straight on, the outer lanes side by side; where lanes end, into the one beside.
   for (size_t k = 0; k < in.size(); ++k) connect(in[k], out[std::min(k, out.size() - 1)]);
   if (network.lanes[from.in.back()].bus && network.lanes[to.out.back()].bus) connect(from.in.back(), to.out.back());
+  connect_cycles();
 }
 
 // Lanes that lead nowhere yet: to the road that turns least, side by side, back only where there is no other.

@@ -19,6 +19,7 @@ struct RoadLane {
   float offset = 1.8f;  ///< metres from the axis to the middle of the lane, to the right of its own driving direction
   float width = 3.2f;
   bool bus = false;
+  bool cycle = false;  ///< for bicycles alone; the outermost one
 };
 
 /// A road between two junctions. Traffic keeps right.
@@ -32,7 +33,7 @@ struct RoadSpec {
 };
 
 /// Joins roads at junctions: every lane leads straight on, left from the innermost and right from the outermost lane, back
-/// only where no other road begins.
+/// only where no other road begins. Cycle lanes are entered from all sides; they lead straight on and right.
 class RoadBuilder {
  public:
   /// `height`: of the carriageway at a place.

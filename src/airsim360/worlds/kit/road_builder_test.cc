@@ -49,6 +49,32 @@ TEST(RoadBuilder, EveryLaneOfACrossingLeadsLeftStraightAndRightAndBackAtDeadEnds
   EXPECT_EQ(to_end, 4);
 }
 
+// From a cycle lane one rides straight on and right into the next one; into it from every lane at the edge; cars have ways of their own.
+TEST(RoadBuilder, CycleLanesLeadIntoCycleLanes) {
+  const RoadNetwork roads = Crossing({{1.75f, 3.5f}, {.offset = 4.5f, .width = 1.7f, .cycle = true}});
+  ASSERT_NO_THROW(CheckRoads(roads));
+  int arriving = 0;
+  for (const Lane& lane : roads.lanes) {
+    if (lane.junction >= 0) continue;
+    std::multiset<int> all, cycles;
+    for (const LaneId next : lane.next) {
+      const Lane& way = roads.lanes[next];
+      EXPECT_EQ(way.cycle, roads.lanes[way.next[0]].cycle);
+      const int turn = static_cast<int>(std::lround(Turn(way) / (M_PI / 2)));
+      (way.cycle ? cycles : all).insert(turn);
+    }
+    if (std::hypot(lane.points.back().x, lane.points.back().y) > 50) {
+      EXPECT_GE(lane.next.size(), 1u);
+      continue;
+    }
+    ++arriving;
+    EXPECT_EQ(cycles, lane.cycle ? (std::multiset<int>{-1, 0}) : (std::multiset<int>{-1, 0, 1}));
+    EXPECT_EQ(all, lane.cycle ? std::multiset<int>{} : (std::multiset<int>{-1, 0, 1}));
+    EXPECT_NE(lane.cycle ? lane.left : lane.right, kNoLane);
+  }
+  EXPECT_EQ(arriving, 8);
+}
+
 TEST(RoadBuilder, TrafficKeepsRightOfTheAxis) {
   for (const Lane& lane : Crossing(kTwoLanes).lanes) {
     if (lane.junction >= 0) continue;

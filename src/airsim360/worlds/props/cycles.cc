@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "airsim360/math/angles.h"
+#include "airsim360/worlds/props/bicycle.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
 #include "airsim360/worlds/props/prop_builder.h"
@@ -31,9 +32,10 @@ void SpokedWheel(PropBuilder& b, Vec3f hub, float r) {
 Model MakeBicycle(uint32_t variant, uint64_t) {
   PropBuilder b("bicycle");
   constexpr Vec3f tones[3] = {{0.30f, 0.03f, 0.02f}, {0.02f, 0.10f, 0.14f}, {0.03f, 0.03f, 0.032f}};
-  const float r = 0.345f;
-  const Vec3f front{0, -0.54f, r}, rear{0, 0.52f, r}, bracket{0, 0.09f, 0.29f}, seat_top{0, 0.26f, 0.80f}, head_top{0, -0.33f, 0.86f},
-      head_low{0, -0.375f, 0.72f};
+  const BicycleMeasures& m = kBicycleMeasures[0];
+  const float r = m.wheel_radius;
+  const Vec3f front = m.front_hub, rear = m.rear_hub, bracket = m.bracket, seat_top{0, 0.26f, 0.80f}, head_top{0, -0.33f, 0.86f},
+              head_low{0, -0.375f, 0.72f};
   SpokedWheel(b, front, r);
   SpokedWheel(b, rear, r);
   b.Use(Paint(tones[variant], 0.25f));
@@ -56,14 +58,14 @@ Model MakeBicycle(uint32_t variant, uint64_t) {
   b.Bar(bar, 0.011f, 8);
   tube(seat_top, {0, 0.285f, 0.90f}, 0.012f);
   b.mesh().Tube(bracket - Vec3f{0.012f, 0, 0}, bracket + Vec3f{0.012f, 0, 0}, 0.085f, 0.085f, 24);
-  tube({0.07f, bracket.y, bracket.z}, {0.075f, 0.09f, 0.12f}, 0.009f);
-  tube({-0.07f, bracket.y, bracket.z}, {-0.075f, 0.09f, 0.46f}, 0.009f);
+  for (float side : {1.0f, -1.0f})
+    tube({side * 0.07f, bracket.y, bracket.z}, {side * 0.075f, bracket.y, bracket.z - side * m.crank}, 0.009f);
   tube({0.05f, 0.42f, 0.30f}, {0.16f, 0.44f, 0.005f}, 0.008f);
   b.Use(Rubber());
   for (float side : {-1.0f, 1.0f}) {
     tube({side * 0.245f, -0.215f, 1.01f}, {side * 0.31f, -0.15f, 1.0f}, 0.016f);
-    b.BevelBox({side * 0.125f - 0.045f, 0.055f, side > 0 ? 0.108f : 0.448f}, {side * 0.125f + 0.045f, 0.125f, side > 0 ? 0.132f : 0.472f},
-               0.006f);
+    const Vec3f pedal = m.Pedal(side > 0), half{0.045f, 0.035f, m.pedal_half_height};
+    b.BevelBox(pedal - half, pedal + half, 0.006f);
   }
   const Vec3f saddle[] = {{0, 0.12f, 0.915f}, {0, 0.22f, 0.92f}, {0, 0.34f, 0.925f}, {0, 0.40f, 0.93f}};
   const float widths[] = {0.022f, 0.035f, 0.07f, 0.055f};

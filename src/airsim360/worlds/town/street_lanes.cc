@@ -14,16 +14,19 @@ constexpr float kParking = 2.35f;                           // metres of bay at 
 constexpr float kStreetSpeed = 8.9f, kAvenueSpeed = 11.2f;  // m/s: 20 and 25 mph
 
 // Lanes of one side as LayMarkings paints them: `d` of StreetStretch, whose sign is the side's.
-std::vector<RoadLane> LanesOf(const StreetLine& line, bool with_axis, bool bike_lane) {
+std::vector<RoadLane> LanesOf(const StreetLine& line, bool with_axis, bool bike_lane, bool green) {
   const float parking = line.half_width - kParking;
   switch (line.kind) {
     case StreetKind::kTwoWay: {
       const float outer = bike_lane ? parking - 1.6f : parking;
-      return {{(0.2f + outer) / 2, outer - 0.2f}};
+      std::vector<RoadLane> lanes{{(0.2f + outer) / 2, outer - 0.2f}};
+      if (bike_lane) lanes.push_back({.offset = parking - 0.86f, .width = 1.48f, .cycle = true});
+      return lanes;
     }
     case StreetKind::kAvenue:
       return {{1.95f, 3.5f}, {5.45f, 3.5f}, {(7.2f + parking) / 2, parking - 7.2f}};
     case StreetKind::kBoulevard:
+      if (with_axis && green) return {{4.0f, 3}, {7.1f, 3.1f}, {.offset = 9.6f, .width = 1.7f, .cycle = true}};
       if (with_axis) return {{4.0f, 3}, {7.1f, 3.1f}};
       return {{4.1f, 3.5f}, {7.65f, 3.5f}, {(9.5f + line.half_width - 0.4f) / 2, line.half_width - 9.9f, true}};
   }
@@ -69,8 +72,8 @@ RoadNetwork RoadsOf(const StreetPlan& plan) {
     builder.AddRoad({.from = from,
                      .to = to,
                      .axis = {at(s0), at(s1)},
-                     .forward = LanesOf(line, true, bike_lane),
-                     .backward = LanesOf(line, false, bike_lane),
+                     .forward = LanesOf(line, true, bike_lane, plan.paint == RoadPaint::kToday),
+                     .backward = LanesOf(line, false, bike_lane, plan.paint == RoadPaint::kToday),
                      .speed = wide ? kAvenueSpeed : kStreetSpeed,
                      .priority = static_cast<uint8_t>(wide),
                      .signal_to = head,
