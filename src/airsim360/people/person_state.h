@@ -37,6 +37,14 @@ enum class Behaviour : uint8_t {
 using PersonIndex = uint32_t;
 inline constexpr PersonIndex kNoPerson = ~0u;
 
+/// What somebody sits on. Lengths are metres; height 0: not measured, as a bench of 0.45 m.
+struct Seating {
+  double height = 0;  ///< of the seat above the floor
+  double reach = 0;   ///< from the hips to the point between the feet
+  double desk = 0;    ///< height of a table top before them that their hands lie on; 0: none
+  friend bool operator==(const Seating&, const Seating&) = default;
+};
+
 /// One person at one instant; a value, copied with SimState. Everything a pose needs besides the body: a pose
 /// is a pure function of (body, motion state, this).
 struct PersonState {
@@ -53,6 +61,7 @@ struct PersonState {
   PersonIndex partner = kNoPerson;  ///< whom they face
   Vec3d p_W_gaze;                   ///< where they look, if `has_gaze`
   bool has_gaze = false;
+  Seating seating;  ///< of who sits, or sat last
 };
 
 }  // namespace airsim360

@@ -43,7 +43,10 @@ std::vector<TransitionDef> DefaultTransitions() {
           {.from = kWalking, .to = internal::kTexting, .rate_per_min = 0.3}};
 }
 
-const std::vector<std::pair<std::string, double>>& DefaultMix() {
+const std::vector<std::pair<std::string, double>>& DefaultMix(bool furnished) {
+  static const std::vector<std::pair<std::string, double>> rooms = {
+      {"sitter", 9}, {"walker", 6}, {"shopper", 3}, {"customer", 3}, {"caller", 1}};
+  if (furnished) return rooms;
   static const std::vector<std::pair<std::string, double>> mix = {{"walker", 10}, {"shopper", 3}, {"sitter", 3},    {"jogger", 1},
                                                                   {"parent", 1},  {"tourist", 2}, {"athlete", 0.5}, {"caller", 1}};
   return mix;
@@ -119,6 +122,21 @@ std::string_view DefaultTreesXml() {
             <SetState state="standing" min_s="5" max_s="20"/>
           </Sequence>
           <AlwaysSuccess/>
+        </Fallback>
+        <SetState state="carrying" wait="false"/>
+        <WanderTo/>
+      </Sequence>
+    </ReactiveFallback>
+  </BehaviorTree>
+
+  <!-- Fetches something and pays for it; where there is no counter, one more who strolls. -->
+  <BehaviorTree ID="customer">
+    <ReactiveFallback>
+      <SubTree ID="notice_drone"/>
+      <Sequence>
+        <Fallback>
+          <Queue distance="80"/>
+          <SetState state="standing"/>
         </Fallback>
         <SetState state="carrying" wait="false"/>
         <WanderTo/>

@@ -23,6 +23,7 @@ enum class PersonNode : uint8_t {
   kFacePerson,
   kLookAtDrone,
   kStepAway,
+  kQueue,
   // Conditions
   kChance,
   kStateIs,

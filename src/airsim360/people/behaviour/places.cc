@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include "airsim360/people/behaviour/plan.h"
+#include "airsim360/people/behaviour/seats.h"
 
 namespace airsim360::internal {
 namespace {
@@ -12,19 +14,9 @@ constexpr double kSeatWidth = 0.6, kFeetAhead = 0.1;
 constexpr double kReach = 0.7, kReachOfChairs = 1.4;  // metres from the ground that is walked on to the feet before a seat
 
 // In buildings that are furnished chairs are sat on too: at desks, at tables, in waiting rooms.
-bool IsChair(std::string_view path) {
-  for (const std::string_view prefix :
-       {"furniture/seating/chair", "furniture/seating/office_chair", "furniture/seating/armchair", "furniture/sofa"})
-    if (path.starts_with(prefix)) return true;
-  return false;
-}
-bool IsFurnished(const Scene& scene) {
-  return std::any_of(scene.entities.begin(), scene.entities.end(),
-                     [&](const Entity& entity) { return scene.tree[entity.category].path.starts_with("construction/ceiling"); });
-}
-
 std::optional<PlaceKind> KindOfPlace(std::string_view path, bool furnished) {
-  if (furnished && IsChair(path)) return PlaceKind::kBench;
+  if (furnished && IsSeat(path)) return PlaceKind::kBench;
+  if (furnished && path.starts_with("furniture/counter")) return PlaceKind::kQueue;
   static const std::vector<std::pair<std::string_view, PlaceKind>> kinds = {{"furniture/seating/bench", PlaceKind::kBench},
                                                                             {"signage/shop_sign", PlaceKind::kShop},
                                                                             {"construction/door", PlaceKind::kShop},
@@ -55,7 +47,7 @@ std::map<EntityId, std::vector<Vec3f>> Vertices(const Scene& scene, const std::m
 }
 
 /// Seats of a bench side by side. Its back rest, if it has one, says where its front is.
-void AddSeats(const std::vector<Vec3f>& vertices, const Box3f& box, const NavMesh& mesh, double reach, std::vector<Place>& places) {
+void AddSeats(const std::vector<Vec3f>& vertices, const Box3f& box, const NavMesh& mesh, std::vector<Place>& places) {
   const Vec2d centre{box.center().x, box.center().y};
   Box3f back;
   for (const Vec3f& v : vertices)
@@ -81,13 +73,63 @@ void AddSeats(const std::vector<Vec3f>& vertices, const Box3f& box, const NavMes
   const int seats = std::clamp(static_cast<int>(2 * half / kSeatWidth), 1, 6);
   for (int i = 0; i < seats; ++i) {
     const Vec2d p = centre + front * (depth + kFeetAhead) + side * (kSeatWidth * (i - (seats - 1) / 2.0));
-    const NavPoint approach = mesh.Nearest({p.x, p.y, box.min.z}, reach);
+    const NavPoint approach = mesh.Nearest({p.x, p.y, box.min.z}, kReach);
     if (!approach.valid()) continue;
-    places.push_back({PlaceKind::kBench, approach, {p.x, p.y, mesh.GroundHeight(p.x, p.y, approach.p_W.z)}, std::atan2(front.y, front.x)});
+    places.push_back(
+        {PlaceKind::kBench, approach, {p.x, p.y, mesh.GroundHeight(p.x, p.y, approach.p_W.z)}, std::atan2(front.y, front.x), {}});
   }
 }
 
+/// The same in rooms, by the shape of what is sat on.
+void AddMeasuredSeats(const SeatFinder& finder, EntityId id, const Box3f& box, const NavMesh& mesh, std::vector<Place>& places) {
+  const Vec2d centre{box.center().x, box.center().y};
+  const NavPoint near = mesh.Nearest({centre.x, centre.y, box.min.z}, 1.5);
+  for (const Seat& seat : finder.Seats(id, near.valid() ? Vec2d{near.p_W.x, near.p_W.y} - centre : Vec2d{})) {
+    const NavPoint approach = mesh.Nearest(seat.feet, kReachOfChairs);
+    if (approach.valid() && std::abs(approach.p_W.z - seat.feet.z) < 0.5)
+      places.push_back({PlaceKind::kBench, approach, seat.feet, seat.yaw, seat.seating});
+  }
+}
+
+// Four before a counter. Fronts of furniture face -Y of its model. Behind a short one people stand in its way, along a long
+// one (a belt) beside it. Nobody queues at what nobody serves at: kitchens have no room for a line, or no name for one.
+void AddLine(const Scene& scene, EntityId id, const NavMesh& mesh, std::vector<Place>& places) {
+  constexpr double kBelt = 2.2, kStandOff = 0.45, kGap = 0.75, kSlack = 0.2;  // metres
+  constexpr int kLongest = 4;
+  const Entity& counter = scene.entity(id);
+  if (!counter.name.starts_with("checkout") && !counter.name.starts_with("shop_counter")) return;
+  const auto instance = std::ranges::find(scene.instances, id, &Instance::entity);
+  if (instance == scene.instances.end()) return;
+  const auto axis = [&](int column) {
+    const Vec2d a{instance->X_WM.A.m[0][column], instance->X_WM.A.m[1][column]};
+    return a * (1 / std::hypot(a.x, a.y));
+  };
+  const Vec2d front = axis(1) * -1.0, along = axis(0), centre{counter.bounds.center().x, counter.bounds.center().y};
+  const Vec3f size = counter.bounds.size();
+  const double depth = std::abs(front.x) * size.x / 2 + std::abs(front.y) * size.y / 2;
+  const bool belt = std::abs(along.x) * size.x + std::abs(along.y) * size.y > kBelt;
+  // The longest of the lines that there is room for.
+  std::vector<Place> best;
+  for (const Vec2d way : belt ? std::vector<Vec2d>{along, along * -1.0} : std::vector<Vec2d>{front, along, along * -1.0}) {
+    std::vector<Place> line;
+    for (int rank = 0; rank < kLongest; ++rank) {
+      const Vec2d p = centre + front * (depth + kStandOff) + way * (kGap * rank);
+      const NavPoint at = mesh.Nearest({p.x, p.y, counter.bounds.min.z}, kSlack);
+      if (!at.valid() || (rank > 0 && !mesh.Straight(line.back().approach, {at.p_W.x, at.p_W.y}))) break;
+      const Vec2d look = rank > 0 ? way * -1.0 : front * -1.0;
+      line.push_back({PlaceKind::kQueue, at, at.p_W, std::atan2(look.y, look.x), {}, rank});
+    }
+    if (line.size() > best.size()) best = std::move(line);
+  }
+  if (best.size() > 1) places.insert(places.end(), best.begin(), best.end());
+}
+
 }  // namespace
+
+bool IsFurnished(const Scene& scene) {
+  return std::any_of(scene.entities.begin(), scene.entities.end(),
+                     [&](const Entity& entity) { return scene.tree[entity.category].path.starts_with("construction/ceiling"); });
+}
 
 std::vector<Place> FindPlaces(const Scene& scene, const NavMesh& mesh) {
   std::map<EntityId, PlaceKind> wanted;
@@ -95,13 +137,21 @@ std::vector<Place> FindPlaces(const Scene& scene, const NavMesh& mesh) {
   for (const Entity& entity : scene.entities)
     if (const auto kind = KindOfPlace(scene.tree[entity.category].path, furnished); kind && !entity.bounds.empty())
       wanted[entity.id] = *kind;
-  const std::map<EntityId, std::vector<Vec3f>> vertices = Vertices(scene, wanted);
+  const std::map<EntityId, std::vector<Vec3f>> vertices = furnished ? std::map<EntityId, std::vector<Vec3f>>() : Vertices(scene, wanted);
+  const std::optional<SeatFinder> finder = furnished ? std::optional<SeatFinder>(scene) : std::nullopt;
   std::vector<Place> places;
   for (const auto& [id, kind] : wanted) {
     const Box3f& box = scene.entity(id).bounds;
     if (kind == PlaceKind::kBench) {
-      if (const auto found = vertices.find(id); found != vertices.end())
-        AddSeats(found->second, box, mesh, IsChair(scene.tree[scene.entity(id).category].path) ? kReachOfChairs : kReach, places);
+      if (finder) {
+        AddMeasuredSeats(*finder, id, box, mesh, places);
+      } else if (const auto found = vertices.find(id); found != vertices.end()) {
+        AddSeats(found->second, box, mesh, places);
+      }
+      continue;
+    }
+    if (kind == PlaceKind::kQueue) {
+      AddLine(scene, id, mesh, places);
       continue;
     }
     // Others are stood before, a step away, facing them; signs hang above the pavement.
@@ -115,7 +165,7 @@ std::vector<Place> FindPlaces(const Scene& scene, const NavMesh& mesh) {
     if (!near.valid() || mesh.Kind(near) == GroundKind::kRoad) continue;
     const double yaw = std::atan2(centre.y - near.p_W.y, centre.x - near.p_W.x);
     const NavPoint stand = mesh.Move(near, {near.p_W.x - 0.6 * std::cos(yaw), near.p_W.y - 0.6 * std::sin(yaw)});
-    places.push_back({kind, stand, stand.p_W, yaw});
+    places.push_back({kind, stand, stand.p_W, yaw, {}});
   }
   return places;
 }

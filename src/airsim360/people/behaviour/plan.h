@@ -62,8 +62,8 @@ enum BuiltInState : uint8_t {
 };
 enum BuiltInMessage : uint8_t { kGreet, kAccept, kDecline, kTurn, kBye, kCall, kAlarm, kDroneNear, kHello, kBuiltInMessages };
 
-enum class PlaceKind : uint8_t { kBench, kShop, kFood, kSight, kStop, kCount };
-inline constexpr const char* kPlaceKindNames[] = {"bench", "shop", "food", "sight", "stop"};
+enum class PlaceKind : uint8_t { kBench, kShop, kFood, kSight, kStop, kQueue, kCount };
+inline constexpr const char* kPlaceKindNames[] = {"bench", "shop", "food", "sight", "stop", "queue"};
 
 /// Somewhere to go: one person at a time.
 struct Place {
@@ -71,6 +71,8 @@ struct Place {
   NavPoint approach;  ///< on the mesh
   Vec3d p_W;          ///< where they stand or sit, feet
   double yaw = 0;     ///< how they face there
+  Seating seating = {};
+  int rank = 0;  ///< of a queue: 0 is the first; the others of the line follow it in the list
 };
 
 std::vector<StateDef> DefaultStates();
@@ -87,8 +89,14 @@ ParsePort PersonPorts(TreeVocabulary words);
 Value ParsePoint(const std::string& text);
 /// Trees of the default crowd, as XML that an author could have written.
 std::string_view DefaultTreesXml();
-/// Tree name and weight of the default mix.
-const std::vector<std::pair<std::string, double>>& DefaultMix();
+/// Tree name and weight of the default mix: outdoors, and in furnished rooms.
+const std::vector<std::pair<std::string, double>>& DefaultMix(bool furnished);
+/// Whether a scene has rooms: an entity of `construction/ceiling`.
+bool IsFurnished(const Scene& scene);
+/// Whether somebody is tall enough for a seat that was measured: the back of their knees is above its edge.
+inline bool Fits(const Place& place, double stature) {
+  return place.seating.height == 0 || (stature >= 1.5 && place.seating.height <= 0.295 * stature);
+}
 /// Benches, shops and the like of a scene that can be reached over the mesh, in the order of the entities.
 std::vector<Place> FindPlaces(const Scene& scene, const NavMesh& mesh);
 
@@ -107,6 +115,9 @@ struct CrowdPlan {
   std::vector<NavArea> ground;           ///< of each CrowdModel::areas: where people start and wander
   std::vector<uint16_t> tree_of_person;  ///< index into trees
   std::vector<NavPoint> starts;          ///< of each person; reserve ones have none
+  // In rooms, by person: the seat that they begin on, -1 = none; whom they begin to talk with, kNoPerson = nobody.
+  std::vector<int32_t> start_seats = {};
+  std::vector<PersonIndex> start_partners = {};
 };
 
 }  // namespace airsim360

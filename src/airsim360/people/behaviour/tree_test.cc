@@ -182,7 +182,7 @@ TEST(Tree, ErrorsNameTheLineAndTheNearestChoice) {
 TEST(Tree, TheDefaultTreesReadAndTheModelForEditorsIsXml) {
   TreeSet set;
   ReadTrees(DefaultTreesXml(), "default", PersonPalette(), Parse, set);
-  for (const auto& [name, weight] : DefaultMix())
+  for (const auto& [name, weight] : DefaultMix(false))
     EXPECT_TRUE(std::any_of(set.trees.begin(), set.trees.end(), [&](const Tree& t) { return t.name == name; })) << name;
   const XmlElement model = ReadXml(PersonPalette().ModelXml(), "model");
   EXPECT_EQ(model.tag, "TreeNodesModel");

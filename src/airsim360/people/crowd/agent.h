@@ -61,6 +61,7 @@ struct Agent {
   double pace = 1;        ///< share of the speed on the plain that stairs and slopes leave
   int32_t place = -1;     ///< index into CrowdPlan::places that is theirs
   bool at_place = false;  ///< stands or sits there, perhaps beside the mesh
+  bool begins = false;    ///< on a seat, in a line or in a talk, which their tree has still to find out
   Vec3d offset;           ///< of the feet from where they belong, dying out
   int64_t offset_ns = -1'000'000'000'000;
   // State machine

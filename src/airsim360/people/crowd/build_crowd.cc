@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/math/angles.h"
 #include "airsim360/people/behaviour/person_nodes.h"
 #include "airsim360/people/behaviour/plan.h"
 #include "airsim360/people/crowd/crowd.h"
@@ -20,6 +22,8 @@ using namespace internal;
 constexpr uint32_t kNoRoads = ~(1u << static_cast<int>(GroundKind::kRoad) | 1u << static_cast<int>(GroundKind::kCrossing) |
                                 1u << static_cast<int>(GroundKind::kParking));
 constexpr uint32_t kEverything = ~0u;
+constexpr const char* kDefaultArea = "the default area";  // where its name stands
+constexpr double kFarthestSeat = 60;                      // metres from where somebody would stand to the seat that they begin on
 
 template <class T>
 size_t IndexOf(const std::vector<T>& names, const T& name) {
@@ -33,6 +37,50 @@ size_t Look(const std::vector<std::string>& names, const Placed<std::string>& wo
   return i;
 }
 
+/// From person `first` on. In rooms those who like to sit begin on the nearest free seat, customers in the nearest line, and every third pair of those who like to talk begins so.
+void PlanBeginnings(const CrowdModel& model, PersonIndex first, CrowdPlan& plan) {
+  const NavMesh& mesh = *model.navmesh;
+  const size_t n = model.people.size();
+  plan.start_seats.assign(n, -1);
+  plan.start_partners.assign(n, kNoPerson);
+  std::vector<char> taken(plan.places.size(), 0);
+  std::map<uint32_t, PersonIndex> waiting;  // for the second of a pair, by the part of the mesh that they live on
+  for (PersonIndex i = first; i < n; ++i) {
+    const std::string& tree = plan.trees.trees[plan.tree_of_person[i]].name;
+    NavPoint& start = plan.starts[i];
+    if (!start.valid()) continue;
+    if (tree == "sitter" || tree == "customer") {
+      const PlaceKind kind = tree == "sitter" ? PlaceKind::kBench : PlaceKind::kQueue;
+      double nearest = kFarthestSeat;
+      for (size_t k = 0; k < plan.places.size(); ++k) {
+        const Place& place = plan.places[k];
+        const double distance = Norm(place.p_W - start.p_W);
+        const bool free = !taken[k] && (place.rank == 0 || taken[k - 1]);
+        if (!free || place.kind != kind || distance >= nearest || !Fits(place, model.people[i].stature) ||
+            mesh.Component(place.approach) != mesh.Component(start))
+          continue;
+        nearest = distance;
+        plan.start_seats[i] = static_cast<int32_t>(k);
+      }
+      if (plan.start_seats[i] >= 0) taken[static_cast<size_t>(plan.start_seats[i])] = 1;
+    } else if (tree == "walker" && RngStream(model.seed, "begins to talk", i).Chance(0.5)) {
+      const auto [found, is_first] = waiting.try_emplace(mesh.Component(start), i);
+      if (is_first) continue;
+      const PersonIndex waits = found->second;
+      // The second stands a metre before the first, on whichever side there is room.
+      const NavPoint& beside_whom = plan.starts[waits];
+      for (int k = 0; k < 8 && plan.start_partners[i] == kNoPerson; ++k) {
+        const double angle = k * kPi / 4;
+        const NavPoint beside = mesh.Move(beside_whom, {beside_whom.p_W.x + std::cos(angle), beside_whom.p_W.y + std::sin(angle)});
+        if (std::abs(Norm(beside.p_W - beside_whom.p_W) - 1) > 0.05) continue;
+        start = beside;
+        plan.start_partners[i] = waits, plan.start_partners[waits] = i;
+      }
+      waiting.erase(found);
+    }
+  }
+}
+
 class Builder {
  public:
   Builder(const Scene& scene, std::shared_ptr<const NavMesh> mesh, const CrowdRequest& request)
@@ -43,7 +91,7 @@ class Builder {
     if (!mesh_) mesh_ = NavMesh::Build(scene_, {.region = RegionOfFile()});
     if (file_.areas.empty()) {
       AreaEntry all;
-      all.name = {"around the spawn", "the default area"};
+      all.name = {"around the spawn", kDefaultArea};
       all.where = all.count_where = request_.file.empty() ? "--people" : file_.name;
       if (request_.count) all.count = static_cast<double>(*request_.count);
       all.polygon = AroundSpawn(request_.count.value_or(0));
@@ -51,11 +99,13 @@ class Builder {
     }
     model_.seed = file_.seed.value_or(request_.seed);
     model_.navmesh = mesh_;
+    if (furnished_) SplitIntoRooms();
     States();
     Areas();
     Trees();
     plan_.places = FindPlaces(scene_, *mesh_);
     People();
+    if (furnished_) PlanBeginnings(model_, static_cast<PersonIndex>(file_.people.size()), plan_);
     model_.plan = std::make_shared<const CrowdPlan>(std::move(plan_));
     return std::make_shared<const CrowdModel>(std::move(model_));
   }
@@ -97,6 +147,56 @@ class Builder {
       if (mesh_->AreaOf(circle, kNoRoads).square_metres >= std::max(300.0, 40.0 * static_cast<double>(count))) return circle;
     }
     return {};
+  }
+
+  /// Whether an area lies under ceilings, by places in it.
+  bool IsUnderCeilings(const NavArea& area) const {
+    constexpr int kPlaces = 12;
+    constexpr float kHighest = 30;  // metres: the glass over an atrium
+    RngStream rng(1, "under ceilings", area.component);
+    int under = 0;
+    for (int k = 0; k < kPlaces; ++k) {
+      const Vec3f p = VecCast<float>(mesh_->Pick(area, rng).p_W);
+      under += std::ranges::any_of(scene_.entities, [&](const Entity& entity) {
+        const Box3f& box = entity.bounds;
+        return !box.empty() && box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y && box.max.z > p.z + 1.5f &&
+               box.min.z < p.z + kHighest && scene_.tree[entity.category].path.starts_with("construction/ceiling");
+      });
+    }
+    return 2 * under > kPlaces;
+  }
+
+  /// An area without an outline means everywhere: in a building that is its rooms, and who lives behind a door that is shut
+  /// stays there. Such an area becomes one for each part of the floors that hangs together.
+  void SplitIntoRooms() {
+    constexpr double kLeastRoom = 5;  // square metres
+    std::vector<AreaEntry> areas;
+    for (AreaEntry& entry : file_.areas) {
+      const bool by_us = entry.name.where == kDefaultArea;
+      std::vector<NavArea> rooms;
+      if (entry.polygon.empty() || by_us) rooms = mesh_->AreasOf({}, kNoRoads, kLeastRoom);
+      std::erase_if(rooms, [&](const NavArea& room) { return !IsUnderCeilings(room); });
+      if (rooms.empty()) {
+        areas.push_back(std::move(entry));
+        rooms_.emplace_back();
+        continue;
+      }
+      double whole = 0, done = 0, given = 0;
+      for (const NavArea& room : rooms) whole += room.square_metres;
+      for (size_t k = 0; k < rooms.size(); ++k) {
+        AreaEntry part = entry;
+        part.polygon.clear();
+        if (k > 0 && !entry.name.value.empty()) part.name.value += " " + std::to_string(k + 1);
+        if (entry.count) {
+          done += rooms[k].square_metres / whole;
+          part.count = std::floor(done * *entry.count + 0.5) - given;
+          given += *part.count;
+        }
+        areas.push_back(std::move(part));
+        rooms_.push_back(std::move(rooms[k]));
+      }
+    }
+    file_.areas = std::move(areas);
   }
 
   std::vector<std::string> StateNames() const {
@@ -151,7 +251,8 @@ class Builder {
       const std::string name = entry.name.value.empty() ? "area " + std::to_string(model_.areas.size() + 1) : entry.name.value;
       for (const CrowdArea& other : model_.areas)
         if (other.name == name) throw InputError(entry.where + ": two areas are called '" + name + "'");
-      NavArea ground = mesh_->AreaOf(entry.polygon, kNoRoads);
+      const size_t index = model_.areas.size();
+      NavArea ground = index < rooms_.size() && !rooms_[index].polygons.empty() ? rooms_[index] : mesh_->AreaOf(entry.polygon, kNoRoads);
       if (ground.square_metres < 1) ground = mesh_->AreaOf(entry.polygon, kEverything);
       if (ground.square_metres < 1)
         throw InputError((entry.polygon_where.empty() ? entry.where : entry.polygon_where) + ": " + WhyEmpty(entry, name));
@@ -246,7 +347,7 @@ class Builder {
     }
     if (std::accumulate(mix.second.begin(), mix.second.end(), 0.0) > 0) return mix;
     if (!entry.mix.empty()) throw InputError(entry.mix[0].first.where + ": all weights of the mix are 0");
-    for (const auto& [name, weight] : DefaultMix()) {
+    for (const auto& [name, weight] : DefaultMix(furnished_)) {
       mix.first.push_back(static_cast<uint16_t>(IndexOf(tree_names_, name)));
       mix.second.push_back(weight);
     }
@@ -316,6 +417,8 @@ class Builder {
   CrowdModel model_;
   CrowdPlan plan_;
   std::vector<std::string> tree_names_;
+  std::vector<NavArea> rooms_;  // as the areas of the file, where they are rooms
+  const bool furnished_ = IsFurnished(scene_);
 };
 
 }  // namespace

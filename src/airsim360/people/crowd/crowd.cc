@@ -123,6 +123,41 @@ void Interpolate(const CrowdModel& model, CrowdState& state) {
   }
 }
 
+/// Those who begin on a seat, and those who begin in a talk.
+void BeginInRooms(const CrowdModel& model, CrowdState& state) {
+  const CrowdPlan& plan = *model.plan;
+  CrowdInternals& in = *state.internals;
+  CrowdTick tick{model, plan, state, in, {}, nullptr, 0};
+  for (PersonIndex i = 0; i < plan.start_seats.size(); ++i) {
+    Agent& agent = in.agents[i];
+    PersonState& person = state.people[i];
+    if (const int32_t seat = plan.start_seats[i]; seat >= 0) {
+      const internal::Place& place = plan.places[static_cast<size_t>(seat)];
+      in.place_taken[static_cast<size_t>(seat)] = i;
+      agent.place = seat;
+      agent.at_place = agent.begins = agent.has_face = true;
+      const bool sits = place.kind == internal::PlaceKind::kBench;
+      agent.state = sits ? internal::kSitting : internal::kWaiting;
+      agent.face_yaw = in.to_yaw[i] = in.from_yaw[i] = person.yaw = place.yaw;
+      in.walkers[i].at = place.approach;
+      in.from[i] = person.p_WP = place.p_W;
+      person.lower = person.upper = sits ? Behaviour::kSit : Behaviour::kWait;
+      person.seating = place.seating;
+    } else if (const PersonIndex other = plan.start_partners[i]; other != kNoPerson) {
+      agent.begins = true;
+      agent.last_met = other;
+      // The first of the two founds the group.
+      if (i < other) {
+        internal::FoundGroup(tick, i, other);
+      } else {
+        internal::JoinGroup(tick, i, in.agents[other].group);
+      }
+      const Vec3d d = in.walkers[other].at.p_W - in.walkers[i].at.p_W;
+      in.to_yaw[i] = in.from_yaw[i] = person.yaw = std::atan2(d.y, d.x);
+    }
+  }
+}
+
 }  // namespace
 
 CrowdState StartCrowd(const CrowdModel& model) {
@@ -153,6 +188,7 @@ CrowdState StartCrowd(const CrowdModel& model) {
     state.people[i].yaw = in.to_yaw[i];
     state.people[i].visible = walker.present;
   }
+  BeginInRooms(model, state);
   return state;
 }
 
@@ -179,6 +215,7 @@ uint64_t HashCrowd(const CrowdState& state) {
     hasher.Add(person.group);
     hasher.Add(person.partner);
     hasher.Add(person.p_W_gaze);
+    for (const double length : {person.seating.height, person.seating.reach, person.seating.desk}) hasher.Add(length);
   }
   const CrowdInternals& in = *state.internals;
   hasher.Add(in.tick);

@@ -236,16 +236,19 @@ TEST_F(CrowdFiles, ASitterFindsABenchAndSitsWithTheBackToIt) {
 TEST_F(CrowdFiles, ChairsAtTablesAreSatOnInBuildingsAndNotInTheOpen) {
   const char* tree =
       R"(<root BTCPP_format="4"><BehaviorTree ID="rest"><Sequence><GoToPlace kind="bench"/><SetState state="sitting" min_s="20" max_s="20"/></Sequence></BehaviorTree></root>)";
-  for (const bool building : {true, false}) {
+  for (const auto& [building, legroom] : {std::pair{true, true}, {true, false}, {false, true}}) {
     TestGround ground;
     ground.Floor("ground/floor", 0, 0, 12, 10);
-    ground.Box("furniture/table/dining_table", {4, 3.2f, 0.0f}, {7, 4, 0.75f});
+    ground.Box("furniture/table/dining_table", {4, 3.2f, legroom ? 0.7f : 0.0f}, {7, 4, 0.75f});
     ground.Seat("furniture/seating/office_chair", 5, 4.1f, 0.5f);
     if (building) ground.Box("construction/ceiling", {0, 0, 2.7f}, {12, 10, 2.8f});
     TestCrowd crowd(ground.Build(), File("trees: [trees.xml]\nseed: 4\npeople:\n  - {at: [6, 8], behaviour: rest, age: 40}\n", tree));
     crowd.Run(15);
-    ASSERT_EQ(crowd[0].lower == Behaviour::kSit, building);
-    if (!building) continue;
+    // Not in the open, and not where there is no room for the legs.
+    ASSERT_EQ(crowd[0].lower == Behaviour::kSit, building && legroom);
+    if (!building || !legroom) continue;
+    EXPECT_NEAR(crowd[0].seating.height, 0.45, 0.02);
+    EXPECT_NEAR(crowd[0].seating.desk, 0.75, 1e-6);
     // The feet before the chair, under the table; looks south.
     EXPECT_NEAR(crowd[0].p_WP.x, 5.25, 0.1);
     EXPECT_NEAR(crowd[0].p_WP.y, 4.0, 0.15);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "airsim360/people/crowd/mind.h"
 
@@ -51,6 +52,7 @@ Status Mind::GoTo(bool fresh, const Value& point, double speed) {
 }
 
 Status Mind::GoToPlace(bool fresh, PlaceKind kind, double reach) {
+  if (fresh && std::exchange(agent_.begins, false) && agent_.at_place) return Status::kSuccess;
   if (fresh) {
     LeavePlace(tick_, self_);
     // One of the three nearest free ones.
@@ -58,7 +60,7 @@ Status Mind::GoToPlace(bool fresh, PlaceKind kind, double reach) {
     const NavMesh& mesh = *tick_.model.navmesh;
     for (size_t k = 0; k < tick_.plan.places.size(); ++k) {
       const Place& place = tick_.plan.places[k];
-      if (place.kind != kind || tick_.in.place_taken[k] != kNoPerson) continue;
+      if (place.kind != kind || tick_.in.place_taken[k] != kNoPerson || !Fits(place, tick_.model.people[self_].stature)) continue;
       const double d = FlatDistance(place.p_W, walker_.at.p_W);
       if (d < reach && d > 2 && mesh.Component(place.approach) == mesh.Component(walker_.at))
         found.emplace_back(d, static_cast<int32_t>(k));

@@ -94,6 +94,8 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
       return GoTo(fresh, PortOf(tree, node, run, 0), number(1));
     case PersonNode::kGoToPlace:
       return choice(0) < 0 ? Status::kFailure : GoToPlace(fresh, static_cast<PlaceKind>(choice(0)), number(1));
+    case PersonNode::kQueue:
+      return Queue(fresh, memory, number(0), number(1), number(2), Cause(node));
     case PersonNode::kSetState:
       return SetState(fresh, tree, node, run);
     case PersonNode::kEndState:
@@ -153,6 +155,11 @@ void Mind::Halt(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tree
     case PersonNode::kGoToPlace:
       DropGoal(tick_, self_);
       LeavePlace(tick_, self_);
+      break;
+    case PersonNode::kQueue:
+      DropGoal(tick_, self_);
+      LeavePlace(tick_, self_);
+      if (agent_.state == kWaiting) EnterState(tick_, self_, kWalking, -1, 0, "tree: interrupted");
       break;
     case PersonNode::kSetState:
       // What breaks it off may have entered another state already.

@@ -36,6 +36,10 @@ class Mind : public Leaves {
   Status WanderTo(bool fresh, uint32_t area, double speed);
   Status GoTo(bool fresh, const Value& point, double speed);
   Status GoToPlace(bool fresh, PlaceKind kind, double reach);
+  // queueing.cc
+  int32_t EndOfLine(double reach) const;
+  void TakePlaceInLine(int32_t place);
+  Status Queue(bool fresh, NodeMemory& memory, double reach, double min_s, double max_s, const std::string& cause);
   void Face(Vec3d p);
   bool Turned() const;
   Status LookAtDrone(bool fresh, double distance, double min_s, double max_s, const std::string& cause);

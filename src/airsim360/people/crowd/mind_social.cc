@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "airsim360/people/crowd/mind.h"
 
@@ -19,6 +20,7 @@ bool Mind::Free(PersonIndex i) const {
 
 Status Mind::Meet(bool fresh, NodeMemory& memory, double distance, double chance, double cooldown) {
   if (fresh) {
+    if (std::exchange(agent_.begins, false) && agent_.group) return Status::kSuccess;
     if (tick_.t_ns < agent_.social_after_ns || agent_.group || agent_.hold) return Status::kFailure;
     // In front, free, on ground where one may stand; and then only if one feels like it.
     const double yaw = tick_.in.to_yaw[self_];

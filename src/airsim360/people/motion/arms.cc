@@ -141,7 +141,24 @@ void Wave(const PostureInput& in, Posture& posture) {
   posture.curl[1] = 0.05;
 }
 
+// Wrists and hands on the table top before them.
+void RestOnDesk(const PostureInput& in, Posture& posture) {
+  const double length = in.body.size.upper_arm + in.body.size.forearm;
+  const double shoulder = in.body.p_PJ[At(Joint::kLeftShoulder)].z - in.body.p_PJ[At(Joint::kPelvis)].z;
+  // The hands of tall people hang from steeper arms.
+  const double wrist = 0.085 + 0.14 * std::max(0.0, in.body.spec.stature - 1.6);
+  constexpr double kForward = 0.36, kTilt = (kLeanAtDesk - 4) * kDegree;  // metres; of the upper trunk
+  const double up = in.state.seating.desk + wrist - (in.state.seating.height + kPelvisOverMeasured * in.body.spec.stature + shoulder);
+  const Vec3d target = RotationY(-kTilt) * Vec3d{kForward, 0, up};
+  for (const bool left : {true, false}) {
+    Place(in, left, {target.x / length, 0.22, target.z / length}, posture, {-0.3, 1.2, -0.35});
+    TurnHand(left, -75, 0, posture);
+    posture.curl[left ? 0 : 1] = 0.2;
+  }
+}
+
 void RestOnThighs(const PostureInput& in, Posture& posture) {
+  if (in.state.seating.desk > 0) return RestOnDesk(in, posture);
   for (const bool left : {true, false}) {
     Place(in, left, {0.56, 0.30, -0.66}, posture, {-0.9, 0.7, -0.2});
     TurnHand(left, -60, 0, posture);
@@ -211,6 +228,9 @@ void SetArms(const PostureInput& in, Posture& posture) {
     case Behaviour::kPhoneCall:
       return PhoneCall(in, posture);
     case Behaviour::kTexting:
+      // Over the edge of a table that they sit at.
+      if (in.lower == Behaviour::kSit && in.state.seating.desk > 0)
+        return HoldPhone(in, {0.46, 0.055, -0.20}, {-0.2, 1.2, -0.5}, 55, -10, posture);
       return HoldPhone(in, {0.46, 0.055, -0.36}, {-0.2, 0.8, -1}, 55, -10, posture);
     case Behaviour::kTakePhoto:
       return HoldPhone(in, AtHead(in, {0, 0, -0.05}) + Vec3d{0.62, 0.05, 0}, {-0.1, 0.6, -1}, 5, -8, posture);

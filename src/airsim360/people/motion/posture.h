@@ -17,6 +17,10 @@ enum Turned : size_t { kTPelvis, kTSpine1, kTSpine2, kTSpine3, kTNeck, kTHead, k
 // Within an arm.
 inline constexpr size_t kClavicle = 0, kShoulder = 1, kElbow = 2, kWrist = 3;
 
+// Of those who sit: the pelvis joint above a bench, and above a seat that was
+// measured, as shares of the stature; degrees that they lean forward at a desk.
+inline constexpr double kPelvisOverSeat = 0.055, kPelvisOverMeasured = 0.075, kLeanAtDesk = 8;
+
 /// Rotations against the parent, from the anatomical zero (arms hang, palms in); axes as in P.
 struct Posture {
   std::array<Mat3d, kBlendedJoints> turn;

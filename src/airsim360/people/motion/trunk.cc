@@ -54,11 +54,12 @@ void AddLower(const PostureInput& in, Trunk& trunk, Posture& posture) {
   switch (in.lower) {
     case Behaviour::kSit: {
       // On a seat of 0.45 m behind the feet; short people slide back until the knees bend at its edge.
-      const double seat = 0.45 + 0.055 * H;
-      posture.pelvis = {-std::max(0.25, size.thigh - 0.02), 0, seat - hip};
+      const Seating& on = in.state.seating;
+      const double seat = on.height > 0 ? on.height + kPelvisOverMeasured * H : 0.45 + kPelvisOverSeat * H;
+      posture.pelvis = {-(on.height > 0 ? on.reach : std::max(0.25, size.thigh - 0.02)), 0, seat - hip};
       posture.sink = 1;
       trunk.pelvis_lean -= 8;
-      trunk.lean += 4;
+      trunk.lean += on.desk > 0 ? 4 + kLeanAtDesk : 4;
       break;
     }
     case Behaviour::kCrouch:

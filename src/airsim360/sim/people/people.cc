@@ -154,8 +154,13 @@ std::vector<PersonBox> PeopleNear(const SimPeople& people, const PeopleState& st
     if (!person.visible || std::abs(to.x) > reach || std::abs(to.y) > reach || std::abs(to.z) > reach + 2.5) continue;
     const Body& body = *people.cast[i].body;
     const bool low = person.lower == Behaviour::kSit || person.lower == Behaviour::kCrouch;
-    const Vec3d half{body.size.radius, body.size.radius, body.spec.stature * (low ? 0.38 : 0.5)};
+    Vec3d half{body.size.radius, body.size.radius, body.spec.stature * (low ? 0.38 : 0.5)};
     Vec3d center = person.p_WP + person.v_WP * later;
+    // Who sits is behind their feet.
+    if (person.lower == Behaviour::kSit && person.seating.height > 0) {
+      half.x += person.seating.reach / 2;
+      center = center - RotationZ(person.yaw).column(0) * (person.seating.reach / 2);
+    }
     center.z += half.z;
     boxes.push_back({{RotationZ(person.yaw), center}, half, person.v_WP, people.refs.empty() ? kNoEntity : people.refs[i].entity});
   }
