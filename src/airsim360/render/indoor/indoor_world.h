@@ -25,6 +25,9 @@ struct IndoorWorld {
   std::function<Vec3f(Vec3f p, Vec3f normal)> around = nullptr;
 };
 
+/// The sky along d, black without one. Not the blurred sky: halls see but the lowest of it, where a blur mixes in what is higher.
+inline Vec3f SkyAlong(const IndoorWorld& world, Vec3f d) { return world.sky == nullptr ? Vec3f{} : world.sky->Radiance(d); }
+
 /// `tracer` without what moves on its own (people, drones): it has no part in light that is kept.
 std::shared_ptr<const RayTracer> StaticTracer(std::shared_ptr<const RayTracer> tracer);
 /// Whether an instance does so.

@@ -114,8 +114,7 @@ void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const Su
           // The sky in a mirror is a light of its own.
           if (bounce > 0 && landing.target == LightLink::kSky) {
             landing.target = Landing::kOutside;
-            const Vec3f d = landing.direction;
-            landing.outside = {{}, {}, {}, world.sky == nullptr ? Vec3f{} : world.sky->Radiance(d)};
+            landing.outside = {{}, {}, {}, SkyAlong(world, landing.direction)};
           }
           packet.valid[i] = 0;
         }

@@ -113,11 +113,8 @@ uint16_t LightSolver::WeightOf(float share) const {
   return static_cast<uint16_t>(std::clamp(share * static_cast<float>(options_.rays) * 65535 + 0.5f, 0.0f, 65535.0f));
 }
 
-// Not the blurred sky: halls see but the lowest of it, where a blur mixes in what is higher.
-Vec3f LightSolver::SkyAlong(Vec3f d) const { return world_.sky == nullptr ? Vec3f{} : world_.sky->Radiance(d); }
-
 Vec3f LightSolver::Seen(uint32_t target, const Surfel& from, const LightLink& link) const {
-  if (target == LightLink::kSky) return SkyAlong(DirectionOf(from, link));
+  if (target == LightLink::kSky) return SkyAlong(world_, DirectionOf(from, link));
   return target == LightLink::kNothing ? Vec3f{} : radiance_[target];
 }
 
@@ -206,7 +203,8 @@ void LightSolver::Bounce(int most) {
       const LightLink& link = links_[k];
       whole += link.weight;
       if (link.target == LightLink::kNothing) lost += link.weight;
-      if (link.target == LightLink::kSky) sky[i] += SkyAlong(DirectionOf(surfels[i], link)) * (static_cast<float>(link.weight) * unit);
+      if (link.target == LightLink::kSky)
+        sky[i] += SkyAlong(world_, DirectionOf(surfels[i], link)) * (static_cast<float>(link.weight) * unit);
     }
     scale[i] = whole > lost ? static_cast<float>(whole / (whole - lost)) : 1;
   });
@@ -401,7 +399,7 @@ void LightSolver::LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& 
     if (landing.target == LightLink::kNothing) continue;
     sum.found += weight;
     if (landing.target == LightLink::kSky) sum.open += weight / kPiF;
-    const Vec3f light = landing.target == LightLink::kSky     ? SkyAlong(landing.direction)
+    const Vec3f light = landing.target == LightLink::kSky     ? SkyAlong(world_, landing.direction)
                         : landing.target == Landing::kOutside ? RadianceOutside(landing.outside, i)
                                                               : radiance_[landing.target];
     sum.Add(light, landing.direction, std::sqrt(std::max(0.0f, 1 - points[k].x)), weight);

@@ -68,7 +68,6 @@ class LightSolver {
   int FineLampRays(uint32_t near) const;
   Vec3f RadianceOutside(const OutsidePlace& place, size_t seed) const;
   Vec3f Seen(uint32_t target, const Surfel& from, const LightLink& link) const;
-  Vec3f SkyAlong(Vec3f d) const;
   struct Plane {
     std::vector<float> neighbours, variance, lamp_variance;  ///< by surfel
   };
