@@ -16,7 +16,7 @@ const behaviour::Palette& PersonPalette() {
       {Of(PersonNode::kGoToPlace),
        "GoToPlace",
        kAction,
-       {{"kind", 'k', nullptr, false, "bench, shop, food, sight, stop or queue"}, {"distance", 'n', "60", false, "metres"}},
+       {{"kind", 'k', nullptr, false, "bench, shop, food, sight or stop"}, {"distance", 'n', "60", false, "metres"}},
        "walks to a free place nearby and faces it (a bench: turns its back to it)"},
       {Of(PersonNode::kSetState),
        "SetState",

@@ -70,7 +70,7 @@ void AddSeats(const std::vector<Vec3f>& vertices, const Box3f& box, const NavMes
     if (v.z < box.min.z + 0.6f) depth = std::max(depth, d.x * front.x + d.y * front.y);
     half = std::max(half, std::abs(d.x * side.x + d.y * side.y));
   }
-  const int seats = std::clamp(static_cast<int>(2 * half / kSeatWidth), 1, 6);
+  const int seats = static_cast<int>(std::clamp(2 * half / kSeatWidth, 1.0, 6.0));
   for (int i = 0; i < seats; ++i) {
     const Vec2d p = centre + front * (depth + kFeetAhead) + side * (kSeatWidth * (i - (seats - 1) / 2.0));
     const NavPoint approach = mesh.Nearest({p.x, p.y, box.min.z}, kReach);
@@ -102,9 +102,14 @@ void AddLine(const Scene& scene, EntityId id, const NavMesh& mesh, std::vector<P
   if (instance == scene.instances.end()) return;
   const auto axis = [&](int column) {
     const Vec2d a{instance->X_WM.A.m[0][column], instance->X_WM.A.m[1][column]};
-    return a * (1 / std::hypot(a.x, a.y));
+    const double length = std::hypot(a.x, a.y);
+    return length < 1e-6 ? Vec2d{} : a * (1 / length);
   };
-  const Vec2d front = axis(1) * -1.0, along = axis(0), centre{counter.bounds.center().x, counter.bounds.center().y};
+  // Models whose up is Y have their front at +Z.
+  const bool y_up = std::abs(instance->X_WM.A.m[2][1]) > std::abs(instance->X_WM.A.m[2][2]);
+  const Vec2d front = y_up ? axis(2) : axis(1) * -1.0, along = axis(0);
+  if (std::hypot(front.x, front.y) == 0 || std::hypot(along.x, along.y) == 0) return;  // lies on its side
+  const Vec2d centre{counter.bounds.center().x, counter.bounds.center().y};
   const Vec3f size = counter.bounds.size();
   const double depth = std::abs(front.x) * size.x / 2 + std::abs(front.y) * size.y / 2;
   const bool belt = std::abs(along.x) * size.x + std::abs(along.y) * size.y > kBelt;
@@ -126,14 +131,15 @@ void AddLine(const Scene& scene, EntityId id, const NavMesh& mesh, std::vector<P
 
 }  // namespace
 
-bool IsFurnished(const Scene& scene) {
-  return std::any_of(scene.entities.begin(), scene.entities.end(),
-                     [&](const Entity& entity) { return scene.tree[entity.category].path.starts_with("construction/ceiling"); });
+std::vector<Box3f> Ceilings(const Scene& scene) {
+  std::vector<Box3f> boxes;
+  for (const Entity& entity : scene.entities)
+    if (!entity.bounds.empty() && scene.tree[entity.category].path.starts_with("construction/ceiling")) boxes.push_back(entity.bounds);
+  return boxes;
 }
 
-std::vector<Place> FindPlaces(const Scene& scene, const NavMesh& mesh) {
+std::vector<Place> FindPlaces(const Scene& scene, const NavMesh& mesh, bool furnished) {
   std::map<EntityId, PlaceKind> wanted;
-  const bool furnished = IsFurnished(scene);
   for (const Entity& entity : scene.entities)
     if (const auto kind = KindOfPlace(scene.tree[entity.category].path, furnished); kind && !entity.bounds.empty())
       wanted[entity.id] = *kind;

@@ -91,14 +91,15 @@ Value ParsePoint(const std::string& text);
 std::string_view DefaultTreesXml();
 /// Tree name and weight of the default mix: outdoors, and in furnished rooms.
 const std::vector<std::pair<std::string, double>>& DefaultMix(bool furnished);
-/// Whether a scene has rooms: an entity of `construction/ceiling`.
-bool IsFurnished(const Scene& scene);
+/// Boxes of the entities of `construction/ceiling`: a scene that has some has rooms.
+std::vector<Box3f> Ceilings(const Scene& scene);
 /// Whether somebody is tall enough for a seat that was measured: the back of their knees is above its edge.
 inline bool Fits(const Place& place, double stature) {
   return place.seating.height == 0 || (stature >= 1.5 && place.seating.height <= 0.295 * stature);
 }
-/// Benches, shops and the like of a scene that can be reached over the mesh, in the order of the entities.
-std::vector<Place> FindPlaces(const Scene& scene, const NavMesh& mesh);
+/// Benches, shops and the like of a scene that can be reached over the mesh, in the order of the entities; `furnished`: the scene has
+/// rooms, where seats are measured and counters have lines.
+std::vector<Place> FindPlaces(const Scene& scene, const NavMesh& mesh, bool furnished);
 
 /// "walk", "phone_call" …: by Behaviour.
 extern const char* const kBehaviourNames[];

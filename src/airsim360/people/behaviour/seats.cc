@@ -19,6 +19,7 @@ constexpr double kReachOfFeet = 0.43;                  // from the hips to the p
 constexpr double kTrunk = 0.14, kFarthestDesk = 0.36;  // the belly, and the edge of a table that hands lie on, before the hips
 
 constexpr size_t kMostPoints = 1'000'000;  // of one piece of furniture
+constexpr float kLargestPiece = 50;        // metres: what is longer is no furniture
 
 /// A point of a surface and how much of it that stands for.
 struct SurfacePoint {
@@ -68,7 +69,7 @@ void AddPoints(const Corners& t, std::vector<SurfacePoint>& points) {
   const Vec3d normal = Cross(t[1] - t[0], t[2] - t[0]);
   const double area = 0.5 * Norm(normal);
   if (area < 1e-10) return;
-  const int n = std::clamp(static_cast<int>(std::ceil(std::sqrt(2 * area) / kSpacing)), 1, 80);
+  const int n = static_cast<int>(std::clamp(std::ceil(std::sqrt(2 * area) / kSpacing), 1.0, 80.0));
   const bool level = std::abs(normal.z) > 0.8 * 2 * area;
   for (int i = 0; i < n; ++i) {
     for (int k = 0; k < 2 * i + 1; ++k) {
@@ -107,9 +108,10 @@ std::optional<double> SeatHeight(const std::vector<SurfacePoint>& points) {
   const TopSurface top(points);
   std::array<double, kBins> area{};
   const double step = (kHighest - kLowest) / kBins;
-  for (const SurfacePoint& s : points)
-    if (const int bin = static_cast<int>((s.p.z - kLowest) / step); s.level && s.p.z >= kLowest && bin < kBins && top.Has(s))
-      area[static_cast<size_t>(bin)] += s.area;
+  for (const SurfacePoint& s : points) {
+    if (!s.level || s.p.z < kLowest || s.p.z >= kHighest || !top.Has(s)) continue;
+    area[std::min<size_t>(static_cast<size_t>((s.p.z - kLowest) / step), kBins - 1)] += s.area;
+  }
   double best = 0, height = 0;
   for (int i = 0; i + 2 < kBins; ++i) {
     const double sum = area[static_cast<size_t>(i)] + area[static_cast<size_t>(i) + 1] + area[static_cast<size_t>(i) + 2];
@@ -132,20 +134,40 @@ bool IsSeat(std::string_view path) {
   return false;
 }
 
-/// Which parts of which instances a piece of furniture is made of, and boxes of all instances.
+/// Which parts of which instances a piece of furniture is made of, and boxes of the parts of all instances.
 struct SeatFinder::Index {
+  struct PartBox {
+    Box3f box;  ///< around the corners of the part's own box
+    size_t instance = 0, part = 0;
+  };
+
   explicit Index(const Scene& s) : scene(s) {
+    std::vector<std::vector<Box3f>> of_mesh;
+    for (const Mesh& mesh : scene.meshes) of_mesh.push_back(BoxesOf(mesh));
     for (size_t i = 0; i < scene.instances.size(); ++i) {
       const Instance& instance = scene.instances[i];
       const Mesh& mesh = scene.meshes[instance.mesh];
-      Box3f box;
-      for (const Vec3f& p : mesh.positions) box.Add(instance.X_WM * p);
-      boxes.push_back(box);
       for (size_t k = 0; k < mesh.parts.size(); ++k) {
+        const Box3f& own = of_mesh[instance.mesh][k];
+        if (own.empty()) continue;
+        Box3f box;
+        for (int c = 0; c < 8; ++c)
+          box.Add(instance.X_WM * Vec3f{c & 1 ? own.max.x : own.min.x, c & 2 ? own.max.y : own.min.y, c & 4 ? own.max.z : own.min.z});
+        boxes.push_back({box, i, k});
         const EntityId entity = mesh.parts[k].entity != kNoEntity ? mesh.parts[k].entity : instance.entity;
         if (entity != kNoEntity && IsSeat(scene.tree[scene.entity(entity).category].path)) parts[entity].emplace_back(i, k);
       }
     }
+  }
+
+  static std::vector<Box3f> BoxesOf(const Mesh& mesh) {
+    std::vector<Box3f> found;
+    for (const MeshPart& part : mesh.parts) {
+      Box3f& box = found.emplace_back();
+      for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+        for (int k = 0; k < 3; ++k) box.Add(mesh.positions[mesh.triangles[t][k]]);
+    }
+    return found;
   }
 
   Corners At(const Instance& instance, uint32_t triangle) const {
@@ -155,27 +177,31 @@ struct SeatFinder::Index {
     return t;
   }
 
-  /// Everything of other things within `reach` of a place, in the frame of a seat: f(category path, corners).
+  /// Everything of other things within `reach` of a place, in the frame of a seat, until f(category path, corners) is false.
   template <class F>
   void Around(EntityId self, const SeatFrame& frame, double reach, const F& f) const {
     Box3f near;
     near.Add(VecCast<float>(frame.origin - Vec3d{reach, reach, -0.05}));
     near.Add(VecCast<float>(frame.origin + Vec3d{reach, reach, 1.6}));
-    for (size_t i = 0; i < scene.instances.size(); ++i) {
-      const Box3f& box = boxes[i];
-      if (box.empty() || box.min.x > near.max.x || box.max.x < near.min.x || box.min.y > near.max.y || box.max.y < near.min.y ||
-          box.min.z > near.max.z || box.max.z < near.min.z)
-        continue;
-      const Instance& instance = scene.instances[i];
-      for (const MeshPart& part : scene.meshes[instance.mesh].parts) {
-        const EntityId entity = part.entity != kNoEntity ? part.entity : instance.entity;
-        if (entity == self) continue;
-        const std::string_view path =
-            entity == kNoEntity ? std::string_view() : std::string_view(scene.tree[scene.entity(entity).category].path);
-        for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
-          const Corners corners = At(instance, t);
-          f(path, Corners{frame.In(corners[0]), frame.In(corners[1]), frame.In(corners[2])});
-        }
+    const auto apart = [&](Vec3f low, Vec3f high) {
+      return low.x > near.max.x || high.x < near.min.x || low.y > near.max.y || high.y < near.min.y || low.z > near.max.z ||
+             high.z < near.min.z;
+    };
+    for (const PartBox& candidate : boxes) {
+      if (apart(candidate.box.min, candidate.box.max)) continue;
+      const Instance& instance = scene.instances[candidate.instance];
+      const Mesh& mesh = scene.meshes[instance.mesh];
+      const MeshPart& part = mesh.parts[candidate.part];
+      const EntityId entity = part.entity != kNoEntity ? part.entity : instance.entity;
+      if (entity == self) continue;
+      const std::string_view path =
+          entity == kNoEntity ? std::string_view() : std::string_view(scene.tree[scene.entity(entity).category].path);
+      for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
+        Box3f box;
+        for (int k = 0; k < 3; ++k) box.Add(instance.X_WM * mesh.positions[mesh.triangles[t][k]]);
+        if (apart(box.min, box.max)) continue;
+        const Corners corners = At(instance, t);
+        if (!f(path, Corners{frame.In(corners[0]), frame.In(corners[1]), frame.In(corners[2])})) return;
       }
     }
   }
@@ -236,16 +262,17 @@ struct SeatFinder::Index {
     Around(self, frame, 0.9, [&](std::string_view path, const Corners& t) {
       for (const LocalBox& box : boxes_of_body) room = room && !Touch(t, box);
       const Vec3d normal = Cross(t[1] - t[0], t[2] - t[0]);
-      if (!room || !IsTable(path) || std::abs(normal.z) < 0.95 * Norm(normal) || !Touch(t, before)) return;
+      if (!room || !IsTable(path) || std::abs(normal.z) < 0.95 * Norm(normal) || !Touch(t, before)) return room;
       top = std::max({top, t[0].z, t[1].z, t[2].z});
       edge = std::min({edge, t[0].x, t[1].x, t[2].x});
+      return true;
     });
     if (top > 0 && edge < kFarthestDesk) seating.desk = top;
     return room;
   }
 
   const Scene& scene;
-  std::vector<Box3f> boxes;
+  std::vector<PartBox> boxes;
   std::map<EntityId, std::vector<std::pair<size_t, size_t>>> parts;
 };
 
@@ -254,6 +281,8 @@ SeatFinder::~SeatFinder() = default;
 
 std::vector<Seat> SeatFinder::Seats(EntityId furniture, Vec2d front) const {
   const Box3f& bounds = index_->scene.entity(furniture).bounds;
+  const Vec3f size = bounds.size();
+  if (!(std::max({size.x, size.y, size.z}) < kLargestPiece)) return {};
   SeatFrame piece{{bounds.center().x, bounds.center().y, bounds.min.z}, {}};
   std::vector<SurfacePoint> points = index_->PointsOf(furniture, piece.origin);
   const std::optional<double> height = points.empty() ? std::nullopt : SeatHeight(points);
@@ -265,7 +294,7 @@ std::vector<Seat> SeatFinder::Seats(EntityId furniture, Vec2d front) const {
     s.p = piece.In(piece.origin + s.p);
     if (s.level && std::abs(s.p.z - *height) < 0.04) left = std::max(left, s.p.y), right = std::min(right, s.p.y);
   }
-  const int count = std::clamp(static_cast<int>((left - right) / kPlaceWidth), 1, 6);
+  const int count = static_cast<int>(std::clamp((left - right) / kPlaceWidth, 1.0, 6.0));
   std::vector<Seat> seats;
   for (int i = 0; i < count; ++i) {
     const double y = 0.5 * (left + right) + kPlaceWidth * (i - (count - 1) / 2.0);

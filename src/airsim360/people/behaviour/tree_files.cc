@@ -45,7 +45,8 @@ namespace internal {
 
 ParsePort PersonPorts(TreeVocabulary words) {
   return [words = std::move(words)](char what, const std::string& text) {
-    static const std::vector<std::string> kinds(kPlaceKindNames, std::end(kPlaceKindNames));
+    // Of a line only Queue knows which place is next.
+    static const std::vector<std::string> kinds(kPlaceKindNames, kPlaceKindNames + static_cast<size_t>(PlaceKind::kQueue));
     switch (what) {
       case 's':
         return Choice("state", text, words.states);

@@ -182,8 +182,9 @@ TEST(Tree, ErrorsNameTheLineAndTheNearestChoice) {
 TEST(Tree, TheDefaultTreesReadAndTheModelForEditorsIsXml) {
   TreeSet set;
   ReadTrees(DefaultTreesXml(), "default", PersonPalette(), Parse, set);
-  for (const auto& [name, weight] : DefaultMix(false))
-    EXPECT_TRUE(std::any_of(set.trees.begin(), set.trees.end(), [&](const Tree& t) { return t.name == name; })) << name;
+  for (const bool furnished : {false, true})
+    for (const auto& [name, weight] : DefaultMix(furnished))
+      EXPECT_TRUE(std::any_of(set.trees.begin(), set.trees.end(), [&](const Tree& t) { return t.name == name; })) << name;
   const XmlElement model = ReadXml(PersonPalette().ModelXml(), "model");
   EXPECT_EQ(model.tag, "TreeNodesModel");
   EXPECT_GT(model.children.size(), 15u);
@@ -211,6 +212,8 @@ TEST(Tree, FilesOfTreesAreCheckedWithTheWordsOfTheCrowd) {
   EXPECT_EQ(error("<SetState state=\"cheering\"/>", {.states = {"cheering"}, .messages = {}, .areas = {}}), "");
   EXPECT_NE(error("<GoTo point=\"1;2;3;4\"/>").find("expected 'x;y'"), std::string::npos);
   EXPECT_EQ(error("<GoTo point=\"1;2\"/>"), "");
+  EXPECT_EQ(error("<GoToPlace kind=\"bench\"/>"), "");
+  EXPECT_NE(error("<GoToPlace kind=\"queue\"/>").find("unknown kind of place 'queue'"), std::string::npos);  // Queue is for that
   EXPECT_NE(error("<WanderTo area=\"plasa\"/>", {.states = {}, .messages = {}, .areas = {"plaza"}, .any_area = false})
                 .find("did you mean 'plaza'"),
             std::string::npos);

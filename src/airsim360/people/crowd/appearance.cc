@@ -52,9 +52,10 @@ void Show(CrowdTick& tick, PersonIndex i, double dt) {
     if (speed > 0.2 && !walker.still) upper = lower;  // still on the way to their place
   }
   const int64_t now = tick.t_ns;
-  // Who gets up keeps it until they sit again.
+  // Who gets up keeps it until they sit again, perhaps where nothing was measured.
   if (agent.at_place) person.seating = tick.plan.places[static_cast<size_t>(agent.place)].seating;
   if (lower != person.lower) {
+    if (lower == Behaviour::kSit && !agent.at_place) person.seating = {};
     person.lower = lower;
     person.lower_since_ns = now;
   }

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
+#include <set>
+#include <span>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
-#include "airsim360/math/angles.h"
 #include "airsim360/people/behaviour/person_nodes.h"
 #include "airsim360/people/behaviour/plan.h"
 #include "airsim360/people/crowd/crowd.h"
@@ -23,7 +23,6 @@ constexpr uint32_t kNoRoads = ~(1u << static_cast<int>(GroundKind::kRoad) | 1u <
                                 1u << static_cast<int>(GroundKind::kParking));
 constexpr uint32_t kEverything = ~0u;
 constexpr const char* kDefaultArea = "the default area";  // where its name stands
-constexpr double kFarthestSeat = 60;                      // metres from where somebody would stand to the seat that they begin on
 
 template <class T>
 size_t IndexOf(const std::vector<T>& names, const T& name) {
@@ -35,50 +34,6 @@ size_t Look(const std::vector<std::string>& names, const Placed<std::string>& wo
   const size_t i = IndexOf(names, word.value);
   if (i == names.size()) throw InputError(word.where + ": " + UnknownChoiceMessage(what, word.value, names));
   return i;
-}
-
-/// From person `first` on. In rooms those who like to sit begin on the nearest free seat, customers in the nearest line, and every third pair of those who like to talk begins so.
-void PlanBeginnings(const CrowdModel& model, PersonIndex first, CrowdPlan& plan) {
-  const NavMesh& mesh = *model.navmesh;
-  const size_t n = model.people.size();
-  plan.start_seats.assign(n, -1);
-  plan.start_partners.assign(n, kNoPerson);
-  std::vector<char> taken(plan.places.size(), 0);
-  std::map<uint32_t, PersonIndex> waiting;  // for the second of a pair, by the part of the mesh that they live on
-  for (PersonIndex i = first; i < n; ++i) {
-    const std::string& tree = plan.trees.trees[plan.tree_of_person[i]].name;
-    NavPoint& start = plan.starts[i];
-    if (!start.valid()) continue;
-    if (tree == "sitter" || tree == "customer") {
-      const PlaceKind kind = tree == "sitter" ? PlaceKind::kBench : PlaceKind::kQueue;
-      double nearest = kFarthestSeat;
-      for (size_t k = 0; k < plan.places.size(); ++k) {
-        const Place& place = plan.places[k];
-        const double distance = Norm(place.p_W - start.p_W);
-        const bool free = !taken[k] && (place.rank == 0 || taken[k - 1]);
-        if (!free || place.kind != kind || distance >= nearest || !Fits(place, model.people[i].stature) ||
-            mesh.Component(place.approach) != mesh.Component(start))
-          continue;
-        nearest = distance;
-        plan.start_seats[i] = static_cast<int32_t>(k);
-      }
-      if (plan.start_seats[i] >= 0) taken[static_cast<size_t>(plan.start_seats[i])] = 1;
-    } else if (tree == "walker" && RngStream(model.seed, "begins to talk", i).Chance(0.5)) {
-      const auto [found, is_first] = waiting.try_emplace(mesh.Component(start), i);
-      if (is_first) continue;
-      const PersonIndex waits = found->second;
-      // The second stands a metre before the first, on whichever side there is room.
-      const NavPoint& beside_whom = plan.starts[waits];
-      for (int k = 0; k < 8 && plan.start_partners[i] == kNoPerson; ++k) {
-        const double angle = k * kPi / 4;
-        const NavPoint beside = mesh.Move(beside_whom, {beside_whom.p_W.x + std::cos(angle), beside_whom.p_W.y + std::sin(angle)});
-        if (std::abs(Norm(beside.p_W - beside_whom.p_W) - 1) > 0.05) continue;
-        start = beside;
-        plan.start_partners[i] = waits, plan.start_partners[waits] = i;
-      }
-      waiting.erase(found);
-    }
-  }
 }
 
 class Builder {
@@ -99,13 +54,16 @@ class Builder {
     }
     model_.seed = file_.seed.value_or(request_.seed);
     model_.navmesh = mesh_;
-    if (furnished_) SplitIntoRooms();
+    for (size_t k = 0; k < file_.areas.size(); ++k)
+      if (std::string& name = file_.areas[k].name.value; name.empty()) name = "area " + std::to_string(k + 1);
+    SplitIntoRooms();
     States();
     Areas();
     Trees();
-    plan_.places = FindPlaces(scene_, *mesh_);
-    People();
-    if (furnished_) PlanBeginnings(model_, static_cast<PersonIndex>(file_.people.size()), plan_);
+    plan_.places = FindPlaces(scene_, *mesh_, !ceilings_.empty());
+    Placement placement(*mesh_, model_.seed);
+    People(placement);
+    if (!ceilings_.empty()) PlanBeginnings(model_, static_cast<PersonIndex>(file_.people.size()), in_rooms_, placement, plan_);
     model_.plan = std::make_shared<const CrowdPlan>(std::move(plan_));
     return std::make_shared<const CrowdModel>(std::move(model_));
   }
@@ -149,44 +107,64 @@ class Builder {
     return {};
   }
 
+  bool IsUnderCeiling(const NavPoint& point) const {
+    constexpr float kHighestCeiling = 30;  // metres: the glass over an atrium
+    const Vec3f p = VecCast<float>(point.p_W);
+    return point.valid() && std::ranges::any_of(ceilings_, [&](const Box3f& box) {
+             return box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y && box.max.z > p.z + 1.5f &&
+                    box.min.z < p.z + kHighestCeiling;
+           });
+  }
+
   /// Whether an area lies under ceilings, by places in it.
   bool IsUnderCeilings(const NavArea& area) const {
     constexpr int kPlaces = 12;
-    constexpr float kHighest = 30;  // metres: the glass over an atrium
     RngStream rng(1, "under ceilings", area.component);
     int under = 0;
-    for (int k = 0; k < kPlaces; ++k) {
-      const Vec3f p = VecCast<float>(mesh_->Pick(area, rng).p_W);
-      under += std::ranges::any_of(scene_.entities, [&](const Entity& entity) {
-        const Box3f& box = entity.bounds;
-        return !box.empty() && box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y && box.max.z > p.z + 1.5f &&
-               box.min.z < p.z + kHighest && scene_.tree[entity.category].path.starts_with("construction/ceiling");
-      });
-    }
+    for (int k = 0; k < kPlaces && !ceilings_.empty(); ++k) under += IsUnderCeiling(mesh_->Pick(area, rng));
     return 2 * under > kPlaces;
   }
 
-  /// An area without an outline means everywhere: in a building that is its rooms, and who lives behind a door that is shut
-  /// stays there. Such an area becomes one for each part of the floors that hangs together.
-  void SplitIntoRooms() {
+  /// The parts of the floors that hang together, the largest first; none where the world is not a building: a street with
+  /// rooms behind some of its doors is lived in outdoors.
+  std::vector<NavArea> RoomsOfBuilding() const {
     constexpr double kLeastRoom = 5;  // square metres
+    if (ceilings_.empty()) return {};
+    std::vector<NavArea> rooms = mesh_->AreasOf({}, kNoRoads, kLeastRoom);
+    double all = 0, under = 0;
+    for (const NavArea& area : rooms) all += area.square_metres;
+    std::erase_if(rooms, [&](const NavArea& area) { return !IsUnderCeilings(area); });
+    for (const NavArea& room : rooms) under += room.square_metres;
+    const bool begins_inside = scene_.spawn && IsUnderCeiling(mesh_->Nearest(VecCast<double>(*scene_.spawn), 3));
+    if (!begins_inside && 2 * under <= all) rooms.clear();
+    return rooms;
+  }
+
+  /// An area without an outline means everywhere: in a building that is its rooms, and who lives behind a door that is shut
+  /// stays there. Such an area becomes one for each part of the floors that hangs together; the first keeps the name.
+  void SplitIntoRooms() {
     std::vector<AreaEntry> areas;
+    std::set<std::string> names;
+    for (const AreaEntry& entry : file_.areas) names.insert(entry.name.value);
+    const std::vector<NavArea> rooms_of_all = RoomsOfBuilding();
     for (AreaEntry& entry : file_.areas) {
       const bool by_us = entry.name.where == kDefaultArea;
       std::vector<NavArea> rooms;
-      if (entry.polygon.empty() || by_us) rooms = mesh_->AreasOf({}, kNoRoads, kLeastRoom);
-      std::erase_if(rooms, [&](const NavArea& room) { return !IsUnderCeilings(room); });
+      if (entry.polygon.empty() || by_us) rooms = rooms_of_all;
+      entries_.push_back({entry, std::max<size_t>(rooms.size(), 1)});
       if (rooms.empty()) {
         areas.push_back(std::move(entry));
         rooms_.emplace_back();
         continue;
       }
+      size_t number = 1;
       double whole = 0, done = 0, given = 0;
       for (const NavArea& room : rooms) whole += room.square_metres;
       for (size_t k = 0; k < rooms.size(); ++k) {
         AreaEntry part = entry;
         part.polygon.clear();
-        if (k > 0 && !entry.name.value.empty()) part.name.value += " " + std::to_string(k + 1);
+        while (k > 0 && !names.insert(part.name.value = entry.name.value + " " + std::to_string(++number)).second) {
+        }
         if (entry.count) {
           done += rooms[k].square_metres / whole;
           part.count = std::floor(done * *entry.count + 0.5) - given;
@@ -248,7 +226,7 @@ class Builder {
 
   void Areas() {
     for (const AreaEntry& entry : file_.areas) {
-      const std::string name = entry.name.value.empty() ? "area " + std::to_string(model_.areas.size() + 1) : entry.name.value;
+      const std::string& name = entry.name.value;
       for (const CrowdArea& other : model_.areas)
         if (other.name == name) throw InputError(entry.where + ": two areas are called '" + name + "'");
       const size_t index = model_.areas.size();
@@ -256,6 +234,7 @@ class Builder {
       if (ground.square_metres < 1) ground = mesh_->AreaOf(entry.polygon, kEverything);
       if (ground.square_metres < 1)
         throw InputError((entry.polygon_where.empty() ? entry.where : entry.polygon_where) + ": " + WhyEmpty(entry, name));
+      in_rooms_.push_back((index < rooms_.size() && !rooms_[index].polygons.empty()) || IsUnderCeilings(ground));
       plan_.ground.push_back(std::move(ground));
       model_.areas.push_back({name, entry.polygon});
     }
@@ -303,7 +282,7 @@ class Builder {
     for (const Tree& tree : plan_.trees.trees) tree_names_.push_back(tree.name);
   }
 
-  void People() {
+  void People(Placement& placement) {
     // How many in each area; a count asked for outside the file is shared out in proportion.
     std::vector<double> counts;
     for (size_t a = 0; a < file_.areas.size(); ++a) {
@@ -321,25 +300,46 @@ class Builder {
     }
 
     // Single people first: they have their places.
-    Placement placement(*mesh_, model_.seed);
     for (const PersonEntry& entry : file_.people) Single(entry, placement);
-    for (uint32_t a = 0; a < file_.areas.size(); ++a) {
-      const AreaEntry& entry = file_.areas[a];
-      const auto [trees, weights] = Mix(entry);
-      const auto count = static_cast<size_t>(counts[a]);
-      const std::string& where = request_.count ? std::string("--people") : entry.count_where;
-      const std::vector<NavPoint> starts = placement.Fill(plan_.ground[a], count, a);
-      if (starts.size() < count)
-        throw InputError(where + ": " + std::to_string(count) + " people do not fit area '" + model_.areas[a].name + "' (" +
-                         std::to_string(static_cast<int>(plan_.ground[a].square_metres)) + " m2); at most " +
-                         std::to_string(starts.size()) + " do");
-      for (const NavPoint& start : starts) Add(a, start, trees, weights, false);
+    uint32_t first = 0;
+    for (const auto& [entry, parts] : entries_) {
+      FillParts(entry, first, std::span(counts).subspan(first, parts), placement);
+      first += static_cast<uint32_t>(parts);
     }
-    const auto [trees, weights] = Mix(file_.areas[0]);
+    const auto [trees, weights] = Mix(0);
     for (size_t k = 0; k < request_.reserve; ++k) Add(0, {}, trees, weights, true);
   }
 
-  std::pair<std::vector<uint16_t>, std::vector<double>> Mix(const AreaEntry& entry) const {
+  /// The people of one entry of the file in its rooms, from area `first` on. Who does not fit a room lives in another one.
+  void FillParts(const AreaEntry& entry, uint32_t first, std::span<const double> counts, Placement& placement) {
+    constexpr uint64_t kSecondRound = uint64_t{1} << 32;  // streams of places are numbered by area
+    std::vector<std::vector<NavPoint>> starts(counts.size());
+    size_t wanted = 0, left = 0;
+    double square_metres = 0;
+    for (uint32_t k = 0; k < counts.size(); ++k) {
+      const auto count = static_cast<size_t>(counts[k]);
+      wanted += count;
+      square_metres += plan_.ground[first + k].square_metres;
+      starts[k] = placement.Fill(plan_.ground[first + k], count + left, first + k);
+      left += count - starts[k].size();
+    }
+    for (uint32_t k = 0; k + 1 < counts.size() && left > 0; ++k) {
+      const std::vector<NavPoint> more = placement.Fill(plan_.ground[first + k], left, kSecondRound + first + k);
+      starts[k].insert(starts[k].end(), more.begin(), more.end());
+      left -= more.size();
+    }
+    if (left > 0)
+      throw InputError((request_.count ? std::string("--people") : entry.count_where) + ": " + std::to_string(wanted) +
+                       " people do not fit area '" + entry.name.value + "' (" + std::to_string(static_cast<int>(square_metres)) +
+                       " m2); at most " + std::to_string(wanted - left) + " do");
+    for (uint32_t k = 0; k < counts.size(); ++k) {
+      const auto [trees, weights] = Mix(first + k);
+      for (const NavPoint& start : starts[k]) Add(first + k, start, trees, weights, false);
+    }
+  }
+
+  std::pair<std::vector<uint16_t>, std::vector<double>> Mix(uint32_t area) const {
+    const AreaEntry& entry = file_.areas[area];
     std::pair<std::vector<uint16_t>, std::vector<double>> mix;
     for (const auto& [name, weight] : entry.mix) {
       mix.first.push_back(static_cast<uint16_t>(Look(tree_names_, name, "behaviour")));
@@ -347,7 +347,7 @@ class Builder {
     }
     if (std::accumulate(mix.second.begin(), mix.second.end(), 0.0) > 0) return mix;
     if (!entry.mix.empty()) throw InputError(entry.mix[0].first.where + ": all weights of the mix are 0");
-    for (const auto& [name, weight] : DefaultMix(furnished_)) {
+    for (const auto& [name, weight] : DefaultMix(in_rooms_[area])) {
       mix.first.push_back(static_cast<uint16_t>(IndexOf(tree_names_, name)));
       mix.second.push_back(weight);
     }
@@ -374,7 +374,7 @@ class Builder {
     std::vector<std::string> areas;
     for (const CrowdArea& a : model_.areas) areas.push_back(a.name);
     if (!entry.area.value.empty()) area = static_cast<uint32_t>(Look(areas, entry.area, "area"));
-    const auto [trees, weights] = Mix(file_.areas[area]);
+    const auto [trees, weights] = Mix(area);
 
     NavPoint start;
     if (entry.at) {
@@ -417,8 +417,10 @@ class Builder {
   CrowdModel model_;
   CrowdPlan plan_;
   std::vector<std::string> tree_names_;
-  std::vector<NavArea> rooms_;  // as the areas of the file, where they are rooms
-  const bool furnished_ = IsFurnished(scene_);
+  std::vector<NavArea> rooms_;                         // as the areas, where they are rooms
+  std::vector<std::pair<AreaEntry, size_t>> entries_;  // of the file, and how many areas each became
+  std::vector<char> in_rooms_;                         // of each area: it lies under ceilings
+  const std::vector<Box3f> ceilings_ = Ceilings(scene_);
 };
 
 }  // namespace

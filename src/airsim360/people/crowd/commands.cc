@@ -122,6 +122,7 @@ class Commander {
   }
   void operator()(const MovePerson& move) {
     HaltPerson(tick_, i_);
+    tick_.state.people[i_].seating = {};
     Place(move.yaw);
   }
   void operator()(const RemovePerson&) {

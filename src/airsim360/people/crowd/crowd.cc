@@ -232,6 +232,8 @@ uint64_t HashCrowd(const CrowdState& state) {
     hasher.Add(walker.v.y);
     hasher.Add(static_cast<uint64_t>(agent.state) << 32 | static_cast<uint64_t>(agent.walk) << 16 | agent.gate);
     hasher.Add(agent.state_until_ns);
+    hasher.Add(static_cast<uint64_t>(static_cast<uint32_t>(agent.place)) << 2 | static_cast<uint64_t>(agent.at_place) << 1 |
+               static_cast<uint64_t>(agent.begins));
     hasher.Add(agent.pace);
     hasher.Add(static_cast<uint64_t>(agent.gates.size()));
     for (const internal::Gate& gate : agent.gates) {
@@ -242,10 +244,13 @@ uint64_t HashCrowd(const CrowdState& state) {
     hasher.Add(agent.near_drones);
     hasher.Add(static_cast<uint64_t>(agent.inbox.size()));
     for (const internal::Message& message : agent.inbox) hasher.Add(static_cast<uint64_t>(message.type) << 32 | message.from);
-    for (const internal::NodeMemory& memory : agent.run.nodes)
+    for (const internal::NodeMemory& memory : agent.run.nodes) {
       hasher.Add(static_cast<uint64_t>(memory.status) << 48 | static_cast<uint64_t>(memory.child) << 32 |
                  static_cast<uint32_t>(memory.count));
+      hasher.Add(memory.t_ns);
+    }
   }
+  for (const PersonIndex taken_by : in.place_taken) hasher.Add(static_cast<uint64_t>(taken_by));
   return hasher.hash();
 }
 

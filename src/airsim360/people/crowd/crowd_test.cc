@@ -7,59 +7,20 @@
 #include <map>
 #include <set>
 
-#include <unistd.h>
-
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
-#include "airsim360/people/crowd/test_crowd.h"
+#include "airsim360/people/crowd/test_crowd_files.h"
 
 namespace airsim360 {
 namespace {
 
+using internal::CrowdFiles;
+using internal::Default;
+using internal::Park;
 using internal::ReserveOf;
 using internal::TestCrowd;
 using internal::TestGround;
 using internal::WriteTestFile;
-
-/// A square with a few boxes, a lawn and two benches with back rests.
-std::shared_ptr<const Scene> Park() {
-  TestGround ground;
-  ground.Floor("ground/sidewalk", 0, 0, 40, 30);
-  ground.Floor("ground/grass", 40, 0, 50, 30);
-  for (const float x : {8.0f, 20.0f, 30.0f}) ground.Box("furniture/planter/pot", {x, 14, 0}, {x + 2, 15, 0.8f});
-  for (const float x : {10.0f, 25.0f}) ground.Seat("furniture/seating/bench/wood", x, 25, 1.8f);
-  return ground.Build();
-}
-
-class CrowdFiles : public testing::Test {
- protected:
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / ("crowd_" + std::to_string(::getpid()));
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  CrowdRequest File(const std::string& yaml, const std::string& xml = "") {
-    if (!xml.empty()) WriteTestFile(folder_, "trees.xml", xml);
-    CrowdRequest request;
-    request.file = WriteTestFile(folder_, "people.yaml", yaml);
-    return request;
-  }
-  std::string ErrorOf(const std::string& yaml, const std::string& xml = "") {
-    try {
-      const auto scene = Park();
-      BuildCrowd(*scene, NavMesh::Build(*scene), File(yaml, xml));
-    } catch (const InputError& error) {
-      std::string text = error.what();
-      const size_t at = text.find(folder_.string());
-      return at == std::string::npos ? text : text.replace(at, folder_.string().size() + 1, "");
-    }
-    return "none";
-  }
-};
-
-CrowdRequest Default(size_t n, uint64_t seed = 1) {
-  CrowdRequest request;
-  request.count = n;
-  request.seed = seed;
-  return request;
-}
 
 TEST(Crowd, SameSeedSameHashForOneThreadManyThreadsSnapshotsAndOtherSteps) {
   const auto scene = Park();
@@ -230,30 +191,6 @@ TEST_F(CrowdFiles, ASitterFindsABenchAndSitsWithTheBackToIt) {
   EXPECT_EQ(crowd[0].p_WP, seat);
   crowd.Run(30);
   EXPECT_GT(Norm(crowd[0].p_WP - seat), 3);
-}
-
-// In the open chairs belong to somebody; in rooms people sit at desks and tables.
-TEST_F(CrowdFiles, ChairsAtTablesAreSatOnInBuildingsAndNotInTheOpen) {
-  const char* tree =
-      R"(<root BTCPP_format="4"><BehaviorTree ID="rest"><Sequence><GoToPlace kind="bench"/><SetState state="sitting" min_s="20" max_s="20"/></Sequence></BehaviorTree></root>)";
-  for (const auto& [building, legroom] : {std::pair{true, true}, {true, false}, {false, true}}) {
-    TestGround ground;
-    ground.Floor("ground/floor", 0, 0, 12, 10);
-    ground.Box("furniture/table/dining_table", {4, 3.2f, legroom ? 0.7f : 0.0f}, {7, 4, 0.75f});
-    ground.Seat("furniture/seating/office_chair", 5, 4.1f, 0.5f);
-    if (building) ground.Box("construction/ceiling", {0, 0, 2.7f}, {12, 10, 2.8f});
-    TestCrowd crowd(ground.Build(), File("trees: [trees.xml]\nseed: 4\npeople:\n  - {at: [6, 8], behaviour: rest, age: 40}\n", tree));
-    crowd.Run(15);
-    // Not in the open, and not where there is no room for the legs.
-    ASSERT_EQ(crowd[0].lower == Behaviour::kSit, building && legroom);
-    if (!building || !legroom) continue;
-    EXPECT_NEAR(crowd[0].seating.height, 0.45, 0.02);
-    EXPECT_NEAR(crowd[0].seating.desk, 0.75, 1e-6);
-    // The feet before the chair, under the table; looks south.
-    EXPECT_NEAR(crowd[0].p_WP.x, 5.25, 0.1);
-    EXPECT_NEAR(crowd[0].p_WP.y, 4.0, 0.15);
-    EXPECT_NEAR(std::remainder(crowd[0].yaw + 1.5708, 6.28318), 0, 0.35);
-  }
 }
 
 // A branch that is tried and fails gives up the bench that another one is on its way to.

@@ -30,6 +30,10 @@ bool Placement::Take(const NavPoint& point) {
   return true;
 }
 
+void Placement::Leave(const NavPoint& point) {
+  if (const auto cell = taken_.find(CellOf(point.p_W.x, point.p_W.y)); cell != taken_.end()) std::erase(cell->second, point.p_W);
+}
+
 std::vector<NavPoint> Placement::Fill(const NavArea& area, size_t count, uint64_t stream) {
   RngStream rng(seed_, "places of people", stream);
   std::vector<NavPoint> points;

@@ -4,6 +4,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "airsim360/people/behaviour/plan.h"
+#include "airsim360/people/crowd/crowd.h"
 #include "airsim360/people/navigation/navmesh.h"
 
 namespace airsim360::internal {
@@ -15,6 +17,8 @@ class Placement {
   std::vector<NavPoint> Fill(const NavArea& area, size_t count, uint64_t stream);
   /// False if somebody stands there.
   bool Take(const NavPoint& point);
+  /// Whoever took exactly this point is elsewhere.
+  void Leave(const NavPoint& point);
   /// The place nearest to (x, y) whatever its height.
   NavPoint AnyHeight(Vec3d p, double reach) const;
 
@@ -25,5 +29,8 @@ class Placement {
   uint64_t seed_;
   std::unordered_map<uint64_t, std::vector<Vec3d>> taken_;  // by square metre
 };
+
+/// How people from `first` on begin whose area is one of those in rooms: on seats, in lines, in talks of two.
+void PlanBeginnings(const CrowdModel& model, PersonIndex first, const std::vector<char>& in_rooms, Placement& placement, CrowdPlan& plan);
 
 }  // namespace airsim360::internal

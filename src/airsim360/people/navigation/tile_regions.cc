@@ -45,6 +45,15 @@ class Patchwork {
   // One that is not the border of the tile.
   bool HasRegion(SpanPlace place) const { return RegionOf(place) != 0 && (RegionOf(place) & RC_BORDER_REG) == 0; }
 
+  // Whether its column has another span of that region: it may not join it then, for the outline of a region that lies above
+  // itself (a spiral stair, a ramp) cannot be filled.
+  bool LiesAboveItself(SpanPlace place, int region) const {
+    const rcCompactCell& cell = tile_.cells[place.x + place.y * tile_.width];
+    for (size_t i = cell.index; i < size_t{cell.index} + cell.count; ++i)
+      if (static_cast<int>(i) != place.span && tile_.spans[i].reg == region) return true;
+    return false;
+  }
+
   // Whether it may leave its region: what is left of that hangs together round it.
   bool CanGive(SpanPlace place) const {
     if (!HasRegion(place)) return false;
@@ -76,7 +85,7 @@ class Patchwork {
     SpanPlace best;
     for (int side = 0; side < 4; ++side) {
       const SpanPlace beside = At(stray, side);
-      if (!HasRegion(beside)) continue;
+      if (!HasRegion(beside) || LiesAboveItself(stray, RegionOf(beside))) continue;
       const bool same = KindOf(beside) == KindOf(stray);
       if (best.span < 0 || (same && KindOf(best) != KindOf(stray))) best = beside;
     }
@@ -94,13 +103,13 @@ class Patchwork {
     const int of_a = RegionOf(a), of_b = RegionOf(b);
     if (RegionOf(across) != region || of_a == region || of_b == region || of_a == of_b) return false;
     for (const SpanPlace beside : {a, b}) {
-      if (!CanGive(beside)) continue;
+      if (!CanGive(beside) || LiesAboveItself(beside, region)) continue;
       Give(beside, own);
       return true;
     }
     const SpanPlace other = HasRegion(a) ? a : b;
     for (const SpanPlace mine : {own, across}) {
-      if (!HasRegion(other) || !CanGive(mine)) continue;
+      if (!HasRegion(other) || !CanGive(mine) || LiesAboveItself(mine, RegionOf(other))) continue;
       Give(mine, other);
       return true;
     }

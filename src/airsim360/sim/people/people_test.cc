@@ -183,6 +183,28 @@ TEST(SimPeople, DetailFollowsTheDistance) {
   }
 }
 
+TEST(SimPeople, TheBoxOfWhoSitsHoldsTheirPelvis) {
+  const SimPeople& people = *Room().populated.people;
+  PeopleState state = *people.start;
+  PersonState& person = state.crowd.people[0];
+  person.v_WP = {};
+  person.lower = person.upper = Behaviour::kSit;
+  person.seating = {.height = 0.45, .reach = 0.43, .desk = 0};
+  for (const double yaw : {0.0, 2.0}) {
+    person.yaw = yaw;
+    const Body& body = *people.cast[0].body;
+    MotionState motion = StartMotion(body, person, 1, state.crowd.t_ns);
+    for (int k = 1; k <= 60; ++k) StepMotion(body, person, state.crowd.t_ns + k * 50'000'000ll, nullptr, motion);
+    const Vec3d pelvis = PoseOf(body, motion, person)[Joint::kPelvis].p;
+    const std::vector<PersonBox> boxes = PeopleNear(people, state, state.crowd.t_ns, person.p_WP, 0.1);
+    ASSERT_FALSE(boxes.empty());
+    ASSERT_EQ(boxes[0].entity, people.refs[0].entity);
+    const Vec3d p = boxes[0].X_WB.inverse() * pelvis;
+    for (int k = 0; k < 3; ++k) EXPECT_LT(std::abs(p[k]), boxes[0].half_size_B[k]) << "axis " << k;
+    EXPECT_GT(Norm(pelvis - Vec3d{person.p_WP.x, person.p_WP.y, pelvis.z}), 0.3);  // well behind the feet
+  }
+}
+
 TEST(SimPeople, ADroneThatComesNearIsToldOfIt) {
   const Peopled& probe = Room();
   const Vec3d p = probe.populated.people->start->crowd.people[0].p_WP;
