@@ -82,6 +82,10 @@ class WorldTest(ProgramTest):
             world.write_text(f"world: car.obj\n{key}\n")
             self.run_bad(2, "world", "entities", world, says=["lot.yaml", says])
         self.run_bad(2, "world", "import", model, "--scale", "-1", says=["--scale", "-1"])
+        self.run_bad(2, "world", "import", model, "--light", "bakt", says=["--light", "'bakt'", "baked"])
+        self.run_ok("world", "import", model, "--light", "baked", "--out", world)
+        self.assertIn("\nlight: baked\n", world.read_text())
+        self.run_ok("world", "entities", world)
         world.write_text("world: box_room\nscale: 2\n")
         self.run_bad(2, "world", "entities", world, says=["model files"])
 

@@ -196,7 +196,8 @@ console.log(JSON.stringify({ profile: reader.header.profile, messages, count, do
                                  (frame["t_ns"], "map", "people", person["track_id"], 1, 0))
                 np.testing.assert_allclose(markers.numbers(3), person["box3d_world"]["center"])
                 x, y, z, w = markers.numbers(4)
-                self.assertAlmostEqual(2 * np.arctan2(z, w), person["box3d_world"]["yaw"] % (2 * np.pi), delta=1e-6) if w >= 0 else None
+                turn = 2 * np.arctan2(z, w) - person["box3d_world"]["yaw"]
+                self.assertAlmostEqual(np.sin(turn / 2), 0, delta=1e-6)
                 np.testing.assert_allclose(markers.numbers(3), person["box3d_world"]["lwh"])
                 [markers.get("f") for _ in range(4)], markers.get("i"), markers.get("I"), markers.get("B"), markers.get("I"), markers.get("I")
                 self.assertEqual(markers.text(), "")

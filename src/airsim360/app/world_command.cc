@@ -63,7 +63,7 @@ struct ImportArguments {
   std::string file, out, heights;
   bool no_fill = false, buildings = false;
   ModelPlacement placement;
-  std::string offset;
+  std::string offset, light;
 };
 
 // Counts of what a map's buildings became.
@@ -129,9 +129,16 @@ std::string WorldFileOf(const ImportArguments& arguments, const GlobalOptions& g
   if (placement.scale) text += "scale: " + number(*placement.scale) + "\n";
   if (!placement.up.empty()) text += "up: " + placement.up + "\n";
   if (placement.ground) text += "ground: true\n";
+  if (placement.baked) text += std::string("light: ") + (*placement.baked ? "baked" : "lit") + "\n";
   const Vec3d o = placement.offset;
   if (!(o == Vec3d{})) text += "offset: {x: " + number(o.x) + ", y: " + number(o.y) + ", z: " + number(o.z) + "}\n";
   return text;
+}
+
+bool IsBaked(const std::string& light) {
+  static const std::vector<std::string> kLights = {"baked", "lit"};
+  if (light != "baked" && light != "lit") throw InputError("--light: " + UnknownChoiceMessage("light", light, kLights));
+  return light == "baked";
 }
 
 void RunImport(ImportArguments arguments, const GlobalOptions& globals) {
@@ -139,6 +146,7 @@ void RunImport(ImportArguments arguments, const GlobalOptions& globals) {
     const std::vector<double> xyz = ParseNumbers("--offset", arguments.offset, 3, "x,y,z in metres");
     arguments.placement.offset = {xyz[0], xyz[1], xyz[2]};
   }
+  if (!arguments.light.empty()) arguments.placement.baked = IsBaked(arguments.light);
   ValidatePlacement(arguments.placement, "--");
   fs::path out = arguments.out;
   if (!out.empty() && out.extension().empty()) out += ".yaml";
@@ -287,6 +295,8 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   from_file->add_option("--up", importing->placement.up, "models: axis of the file that points up: x, y, z, -x, -y, -z");
   from_file->add_option("--offset", importing->offset, "models: x,y,z in metres to move it by");
   from_file->add_flag("--ground", importing->placement.ground, "models: stands on a plain at z = 0");
+  from_file->add_option("--light", importing->light,
+                        "models: baked: scanned rooms whose colours have their light in them; lit: sun, sky, lamps");
   from_file->add_flag("--buildings", importing->buildings, "maps: with --json, list every building with its height");
   from_file->callback([importing, &globals] { RunImport(*importing, globals); });
 

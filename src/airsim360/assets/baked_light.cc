@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "airsim360/math/angles.h"
 
@@ -12,6 +14,7 @@ constexpr double kLeastFloor = 4;        // square metres
 constexpr double kCeilingOfFloor = 0.4;  // least share of the one in the other
 constexpr double kHeadroom = 1.2;        // metres from the mean floor to the mean ceiling, at least
 constexpr float kLuxOfRooms = 300;
+constexpr uint64_t kMostMeasured = uint64_t{1} << 27;  // triangles of all nodes: a file may show one mesh a million times
 
 /// Areas in square metres of what a file shows.
 struct Surfaces {
@@ -22,14 +25,33 @@ struct Surfaces {
   Box3f box;
 };
 
+// The file's own: a plain that was added says nothing of it.
+bool IsShown(const ImportedNode& node) { return node.mesh >= 0 && !node.added; }
+
+bool IsTooMuch(const ImportedFile& file) {
+  uint64_t seen = 0;
+  for (const ImportedNode& node : file.nodes) {
+    if (IsShown(node)) seen += file.meshes[static_cast<size_t>(node.mesh)].triangles.size();
+    if (seen > kMostMeasured) return true;
+  }
+  return false;
+}
+
+std::vector<bool> UnlitByMaterial(const ImportedFile& file) {
+  std::vector<bool> unlit(file.materials.size());
+  for (const MaterialId id : file.unlit) unlit[id] = true;
+  return unlit;
+}
+
 Surfaces MeasureSurfaces(const ImportedFile& file) {
+  const std::vector<bool> is_unlit = UnlitByMaterial(file);
   Surfaces s;
   for (const ImportedNode& node : file.nodes) {
-    if (node.mesh < 0) continue;
+    if (!IsShown(node)) continue;
     const Mesh& mesh = file.meshes[static_cast<size_t>(node.mesh)];
     for (const MeshPart& part : mesh.parts) {
       const Material& material = file.materials[part.material];
-      const bool unlit = std::ranges::count(file.unlit, part.material) > 0;
+      const bool unlit = is_unlit[part.material];
       const bool colored = material.base_color_texture != kNoTexture || !mesh.colors.empty();
       s.shines |= material.emission != Vec3f{} || material.kind == SurfaceKind::kGlass;
       for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
@@ -61,7 +83,7 @@ bool HasRooms(const Surfaces& s) {
 
 std::string WhyBaked(const ImportedFile& file, bool named) {
   const bool could = !file.unlit.empty() || !named;
-  if (!could) return "";
+  if (!could || IsTooMuch(file)) return "";
   const Surfaces s = MeasureSurfaces(file);
   if (!HasRooms(s)) return "";
   if (s.unlit >= 0.5 * s.all) return "rooms of unlit materials";
@@ -76,11 +98,12 @@ Vec3f LightOfBakedRooms() {
 
 std::string GuessUp(const ImportedFile& file, const std::string& as_read) {
   constexpr float kLowest = 1.8f, kHighest = 15, kFlat = 0.6f;  // metres of a building's height, and its share of the width
+  // Only of files that are read with y up: their z, which many scans take for up, has come to lie along -y.
+  if (as_read != "y" || IsTooMuch(file)) return "";
   const Surfaces s = MeasureSurfaces(file);
-  if (s.box.empty() || s.shines || s.plain > 0.02 * s.all) return "";
+  if (s.box.empty() || s.shines || s.plain > 0.02 * s.all || !HasRooms(s)) return "";
   const Vec3f size = s.box.size();
-  // The axis of the file that has come to lie along -y is the one that many scans take for up.
-  if (as_read != "y" || size.y < kLowest || size.y > kHighest || size.y > kFlat * size.x || size.y > kFlat * size.z) return "";
+  if (size.y < kLowest || size.y > kHighest || size.y > kFlat * size.x || size.y > kFlat * size.z) return "";
   return "looks as if it lay on its side: use up: z";
 }
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "airsim360/assets/place_model.h"
 #include "airsim360/assets/scene_assembly.h"
+#include "airsim360/base/error.h"
 #include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
@@ -58,6 +60,50 @@ TEST(BakedLight, TurnsWithTheModel) {
   ImportedFile upright = ScannedRoom();
   upright.nodes[0].X_WM.A = Mat3f::FromColumns({3, 0, 0}, {0, 2, 0}, {0, 0, 1});
   EXPECT_EQ(GuessUp(upright, "y"), "");
+  // A textured slab of a house without rooms, 30 x 15 x 60 m, stands.
+  ImportedFile slab = ScannedRoom(false);
+  slab.nodes[0].X_WM.A = Mat3f::FromColumns({7.5f, 0, 0}, {0, 3, 0}, {0, 0, 20});
+  EXPECT_EQ(GuessUp(slab, "y"), "");
+}
+
+// A plain that the user asks for is no part of the file: the guesses are as without it.
+TEST(BakedLight, IsGuessedWithAPlainToo) {
+  const auto placed = [](ImportedFile file) {
+    PlaceModel({.ground = true}, "y", file);
+    return file;
+  };
+  EXPECT_FALSE(WhyBaked(placed(ScannedRoom()), false).empty());
+  EXPECT_NE(AssembleScene(placed(ScannedRoom()), {}, "my_house", "my_house.glb")->interior_light, Vec3f{});
+  EXPECT_TRUE(WhyBaked(placed(ScannedRoom(true, false)), false).empty());
+  ImportedFile side = ScannedRoom();
+  side.nodes[0].X_WM.A = Mat3f::FromColumns({3, 0, 0}, {0, 0, 2}, {0, -1, 0});
+  EXPECT_NE(GuessUp(placed(side), "y"), "");
+}
+
+// One mesh that a file shows too often to be measured is left as it is.
+TEST(BakedLight, IsNotGuessedOfEndlessCopies) {
+  ImportedFile many = ScannedRoom();
+  many.meshes[0].triangles.resize(size_t{1} << 16, many.meshes[0].triangles[0]);
+  many.meshes[0].parts[0].triangle_count = 1 << 16;
+  many.nodes.resize((size_t{1} << 11) + 1, many.nodes[0]);
+  EXPECT_EQ(WhyBaked(many, false), "");
+  EXPECT_EQ(GuessUp(many, "y"), "");
+}
+
+TEST(BakedLight, OfAnExportedWorldIsItsOwn) {
+  ImportedFile file = ScannedRoom();
+  file.written.emplace();
+  for (const bool baked : {false, true}) {
+    try {
+      AssembleScene(file, {}, "town", "town.glb", baked);
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      const std::string what = error.what();
+      for (const char* part : {"town.glb", baked ? "light: baked" : "light: lit", "leave light out"})
+        EXPECT_NE(what.find(part), std::string::npos) << what;
+    }
+  }
+  EXPECT_EQ(AssembleScene(file, {}, "town", "town.glb")->interior_light, Vec3f{});
 }
 
 TEST(BakedLight, AScanHasTheLightOfRoomsAndASkyInName) {

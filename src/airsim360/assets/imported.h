@@ -30,6 +30,7 @@ struct ImportedNode {
   uint64_t number = 0;        ///< place among the world's instances; 0 = not said
   Vec3f tint{1, 1, 1}, glow{1, 1, 1};
   Vec3d p_exact = {};  ///< X_WM.p as glTF files have it, in double precision; zero = there is no more to it
+  bool added = false;  ///< not of the file: the plain that a placement asks for
 };
 
 /// What a file written by `world export` says of the world beside its surfaces.

@@ -95,6 +95,7 @@ void AddPlain(ImportedFile& file) {
   node.name = "plain";
   node.mesh = static_cast<int32_t>(file.meshes.size() - 1);
   node.category = "ground/terrain/landscape";
+  node.added = true;
   file.nodes.push_back(node);
 }
 

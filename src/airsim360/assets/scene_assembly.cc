@@ -55,6 +55,9 @@ class Assembler {
   std::shared_ptr<const Scene> Assemble() {
     const std::vector<std::vector<PartLabel>> labels = LabelNodes(file_, rules_, title_);
     for (const std::string& warning : UnusedRules(file_, rules_, labels)) LogWarning(warning);
+    if (baked_ && file_.written)
+      throw InputError(where_ + ": light: " + (*baked_ ? "baked" : "lit") +
+                       ": a world written by world export keeps its own light; leave light out");
     if (!baked_ && !file_.written) GuessLight();
     for (Texture& texture : file_.textures) builder_.AddTexture(std::move(texture));
     for (size_t i = 0; i < file_.materials.size(); ++i) builder_.AddMaterial(file_.materials[i]);
@@ -72,10 +75,13 @@ class Assembler {
   void GuessLight() {
     // What a name other than the file's says; of many nodes some have one.
     constexpr size_t kMostOfScan = 2000;
-    const auto told = [](const std::vector<PartLabel>& parts) {
-      return std::ranges::any_of(parts, [](const PartLabel& label) { return label.category != kNothingKnown; });
-    };
-    const bool named = file_.nodes.size() > kMostOfScan || std::ranges::any_of(LabelNodes(file_, {}, ""), told);
+    bool named = file_.nodes.size() > kMostOfScan;
+    if (!named) {
+      const std::vector<std::vector<PartLabel>> labels = LabelNodes(file_, {}, "");
+      for (size_t i = 0; i < labels.size(); ++i)
+        named |=
+            !file_.nodes[i].added && std::ranges::any_of(labels[i], [](const PartLabel& label) { return label.category != kNothingKnown; });
+    }
     const std::string why = WhyBaked(file_, named);
     baked_ = !why.empty();
     if (*baked_)

@@ -88,6 +88,7 @@ void TileGatherer::AddGltf(const std::string& name, const std::string& uri, std:
     }
     out_.materials.push_back(std::move(material));
   }
+  for (const MaterialId id : tile.unlit) out_.unlit.push_back(id + materials);
   for (Mesh& mesh : tile.meshes) {
     for (MeshPart& part : mesh.parts) part.material += materials;
     Spend(mesh.positions.size(), limits_.max_vertices);

@@ -166,8 +166,21 @@ TEST_F(TilesTest, CompositeTilesHoldSeveralAndSayWhatTheyLeaveOut) {
   files_["c.cmpt"] = "cmpt" + U32(1) + U32(16 + a.size() + b.size() + points.size()) + U32(3) + a + points + b;
   const ImportedFile file = Read(Tileset(Tile(0, "ADD", "c.cmpt")));
   EXPECT_EQ(Names(file), (Names_{"a", "b"}));
+  EXPECT_TRUE(file.unlit.empty());
   ASSERT_EQ(file.warnings.size(), 1u);
   EXPECT_TRUE(Contains(file.warnings[0], {"c.cmpt", "point cloud is left out"}));
+}
+
+TEST_F(TilesTest, UnlitMaterialsStayUnlit) {
+  GltfDocument doc = GltfDocument::Triangle();
+  doc.json["materials"] = {{{"name", "scan"}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
+  doc.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const std::string a = Batched(Glb("a")), b = Batched(doc.Glb());
+  files_["c.cmpt"] = "cmpt" + U32(1) + U32(16 + a.size() + b.size()) + U32(2) + a + b;
+  const ImportedFile file = Read(Tileset(Tile(0, "ADD", "c.cmpt")));
+  ASSERT_EQ(file.unlit.size(), 1u);
+  ASSERT_LT(file.unlit[0], file.materials.size());
+  EXPECT_EQ(file.materials[file.unlit[0]].name, "scan");
 }
 
 TEST_F(TilesTest, DamageNamesThePlace) {

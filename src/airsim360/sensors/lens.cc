@@ -58,9 +58,8 @@ Image<Rgb32f> RenderSensor(const Real360& lens, const RenderRequest& settings, c
     stats.rays += part.rays;
     stats.render_ms += part.render_ms;
     if (frame.radiance.empty()) throw InputError("lens real360: this tier or renderer gives no radiance");
-    const float scale = exposure > 0 ? exposure : frame.exposure;
-    std::transform(frame.radiance.pixels().begin(), frame.radiance.pixels().end(), &light(0, first), [scale](Rgb32f c) {
-      return Rgb32f{c.r * scale, c.g * scale, c.b * scale};
+    std::transform(frame.radiance.pixels().begin(), frame.radiance.pixels().end(), &light(0, first), [exposure](Rgb32f c) {
+      return Rgb32f{c.r * exposure, c.g * exposure, c.b * exposure};
     });
   }
   return Reduce(light, n);

@@ -46,8 +46,8 @@ using PoseAt = std::function<RigidTransform(double t)>;
 
 /// Renders both sensors and stitches them to `target` as if everything were far away: what is near does not
 /// fit at the seam. Rows of a sensor are exposed one after the other, top row first, the middle row at t = 0
-/// (in bands of 16 rows where `X_WC` moves). `request` gives tier, exposure, state and seed; its
-/// camera, pose and products are not used. `exposure` > 0 replaces the renderer's own. Noise is keyed by
+/// (in bands of 16 rows where `X_WC` moves). `request` gives tier, state and seed; its
+/// camera, pose and products are not used. Radiance times `exposure` is what a sensor sees. Noise is keyed by
 /// (seed, frame, sensor, pixel). Returns the counters of all rendering.
 RenderStats RenderReal360(const Real360& lens, const RenderRequest& request, const PoseAt& X_WC, bool moving, float exposure,
                           uint64_t frame, const Equirectangular& target, Renderer& renderer, const DevelopLight& develop, Image<Rgb8>& rgb);

@@ -180,6 +180,21 @@ TEST_F(LensTest, Real360IsDevelopedByTheLookToo) {
 }
 
 // What the sensors of a lens get is what the ideal picture gets, in a room too, where nothing asks for an exposure.
+/// Adds up what another renderer counts.
+class CountingRenderer : public Renderer {
+ public:
+  explicit CountingRenderer(Renderer& of) : of_(of) {}
+  RenderStats Render(const RenderRequest& request, Frame& frame) override {
+    const RenderStats stats = of_.Render(request, frame);
+    rays += stats.rays;
+    return stats;
+  }
+  uint64_t rays = 0;
+
+ private:
+  Renderer& of_;
+};
+
 TEST(LensInARoom, ItsSensorsShareTheExposureThatIsSaid) {
   test::RoomScene room("dim_room");
   room.builder().AddSky();
@@ -195,13 +210,23 @@ TEST(LensInARoom, ItsSensorsShareTheExposureThatIsSaid) {
   Capture ideal, real, photo;
   CaptureRig(rig, body, 0, *renderer, ideal);
   rig.lens = LensModel::kReal360, rig.real360 = Real360::Perfect();
-  CaptureRig(rig, body, 0, *renderer, real);
+  CountingRenderer counting(*renderer);
+  CaptureRig(rig, body, 0, counting, real);
+  EXPECT_EQ(real.stats.rays, counting.rays);
   EXPECT_NEAR(std::log2(real.frame.exposure / ideal.frame.exposure), 0, 0.1);
   Image<Rgb8> shown;
   ToneMapImage(ideal.frame.radiance, real.frame.exposure, rig.tone, shown);
   EXPECT_LT(MeanDifference(shown, real.frame.rgb), 4);
   ToneMapImage(ideal.frame.radiance, 1.3f * real.frame.exposure, rig.tone, shown);
   EXPECT_GT(MeanDifference(shown, real.frame.rgb), 8);
+
+  // Where stops are given, the exposure is the fixed one for both.
+  rig.exposure_ev = 5;
+  CaptureRig(rig, body, 0, *renderer, real);
+  rig.lens = LensModel::kIdeal;
+  CaptureRig(rig, body, 0, *renderer, ideal);
+  EXPECT_FLOAT_EQ(real.frame.exposure, ideal.frame.exposure);
+  rig.exposure_ev = 0;
 
   rig.lens = LensModel::kIdeal, rig.look = Look::kPhoto, rig.camera_look.metering = 0;
   CaptureRig(rig, body, 0, *renderer, photo);

@@ -70,15 +70,19 @@ PhotoRequest RequestPhoto(const PanoramicRig& rig, const Capture& capture) {
 }
 
 // The exposure of pictures that are not metered themselves: in a room the picture chooses its own, and both sensors must
-// have the same.
-float ExposureAt(const RenderRequest& request, Renderer& renderer) {
-  constexpr int kRows = 32;
+// have the same. Where stops are given it is the fixed one, whatever is seen.
+float ExposureAt(const RenderRequest& request, Renderer& renderer, RenderStats& stats) {
+  const int rows = request.exposure_ev == 0 ? 32 : 4;
   RenderRequest small = request;
-  small.camera = Equirectangular{2 * kRows, kRows};
+  small.camera = Equirectangular{2 * rows, rows};
+  small.edge_samples = 1;
   small.products = {.range = false, .semantic = false, .entity = false};
   small.X_WC_next.reset();
+  small.next_state.reset();
   Frame frame;
-  renderer.Render(small, frame);
+  const RenderStats own = renderer.Render(small, frame);
+  stats.rays += own.rays;
+  stats.render_ms += own.render_ms;
   return frame.exposure;
 }
 
@@ -97,7 +101,7 @@ void CaptureLens(const PanoramicRig& rig, const RenderRequest& request, Renderer
     for (Rgb32f& c : light.pixels()) c = {c.r / taken.exposure, c.g / taken.exposure, c.b / taken.exposure};
     capture.photo = TakePhoto(look, taken, light, rgb);
   };
-  if (!rig.auto_exposure && !photo) capture.frame.exposure = ExposureAt(request, renderer);
+  if (!rig.auto_exposure && !photo) capture.frame.exposure = ExposureAt(request, renderer, capture.stats);
   const RenderStats stats = RenderReal360(
       rig.real360, request, [&](double t) { return CameraPose(rig, Extrapolate(body, t)); }, Norm(body.v_WB) > 0 || Norm(body.w_WB_B) > 0,
       capture.frame.exposure, static_cast<uint64_t>(capture.t_ns), *target, renderer, develop, capture.frame.rgb);

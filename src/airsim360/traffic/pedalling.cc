@@ -10,11 +10,11 @@ namespace {
 
 // What slows a bicycle down that nobody pushes: 90 kg whose tyres roll at 0.006 of the weight, 0.6 m^2 in air of 1.2 kg/m^3.
 constexpr double kRolls = 0.006 * 9.81, kAir = 0.5 * 1.2 * 0.6 / 90;
-constexpr double kPace = 1;         // m/s: who is slower and does not gain speed lets it roll to its end
+constexpr double kPace = 1;         // m/s: who is slower and slows down lets it roll to its end
 constexpr double kLevel = kPi / 2;  // both pedals as high; again half a turn on
 
 // Whoever slows down by more than by himself does not push.
-bool Pushes(double v, double a) { return v < kPace ? a > 0 : a >= -(kRolls + kAir * v * v); }
+bool Pushes(double v, double a) { return v < kPace ? a >= 0 : a >= -(kRolls + kAir * v * v); }
 
 double Forwards(const RigidTransform& from, const RigidTransform& to) {
   return Dot(to.p - from.p, Normalized(from.R.column(0) + to.R.column(0)));
@@ -32,10 +32,12 @@ double CrankAfter(const VehicleShape& shape, double crank, double distance, doub
 }
 
 void Pedal(const TrafficModel& model, const TrafficState& before, uint32_t vehicle, TrafficState& state) {
+  // Whether the rider pushes is what it was at the beginning of the tick, as CyclingOf has shown until now: else cranks jumped back.
+  const DrivingVehicle& was = before.vehicles[vehicle];
   DrivingVehicle& own = state.vehicles[vehicle];
   const double way = Forwards(PoseOf(model, before, vehicle, before.t_ns), PoseOf(model, state, vehicle, state.t_ns));
-  own.rolled = before.vehicles[vehicle].rolled + way;
-  own.crank = CrankAfter(model.vehicles[vehicle].shape, before.vehicles[vehicle].crank, way, own.v, own.a);
+  own.rolled = was.rolled + way;
+  own.crank = CrankAfter(model.vehicles[vehicle].shape, was.crank, way, was.v, was.a);
 }
 
 }  // namespace internal

@@ -14,9 +14,8 @@ struct Cycling {
   double crank = 0;  ///< at 0 the left pedal is lowest
 };
 
-/// Where they are at t_ns, at most a tick after the state. Wheels roll without slip; cranks turn with them through the gear while the
-/// rider pushes, else only on until the pedals are level or the bicycle
-/// stands.
+/// Where they are at t_ns, at most a tick after the state. Wheels roll without slip; cranks turn with them through the gear while
+/// the rider pushes, else only on until the pedals are level or the bicycle stands.
 Cycling CyclingOf(const TrafficModel& model, const TrafficState& state, size_t vehicle, int64_t t_ns);
 
 namespace internal {

@@ -248,6 +248,8 @@ TEST(Riders, AreTheSameWhateverTheNumberOfThreads) {
   ASSERT_EQ(one.deformed.size(), many.deformed.size());
   ASSERT_GE(one.deformed.size(), 1u);
   for (size_t k = 0; k < one.deformed.size(); ++k) EXPECT_EQ(*one.deformed[k].positions, *many.deformed[k].positions);
+  ASSERT_EQ(one.moved.size(), many.moved.size());
+  ASSERT_GE(one.moved.size(), 1u);
   for (size_t k = 0; k < one.moved.size(); ++k) EXPECT_EQ(one.moved[k].X_WM, many.moved[k].X_WM);
 }
 

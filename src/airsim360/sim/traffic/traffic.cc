@@ -193,9 +193,12 @@ TrafficVehicle MakeVehicle(const Scene& scene, const Pattern& pattern, RngStream
   return vehicle;
 }
 
+// Metres a unit to a third of a percent, so that turned copies of one model, whose scale is told from their transforms, share lamps.
+float LampScale(float scale) { return std::exp2(std::round(std::log2(scale) * 128) / 128); }
+
 // Lit glasses and turning parts of the models, made once for each.
 struct MadeOfMeshes {
-  std::map<MeshId, internal::LampMeshes> lamps;
+  std::map<std::pair<MeshId, float>, internal::LampMeshes> lamps;  // by mesh and metres a unit
   std::map<MeshId, std::optional<internal::BicycleMeshes>> bicycles;
 };
 
@@ -209,8 +212,8 @@ void AddBody(const Pattern& pattern, size_t index, const TrafficModel& model, co
   body.instance = static_cast<uint32_t>(scene.instances.size());
   const AffineTransform X_WM = PlaceOf(body, PoseOf(model, state, index, state.t_ns));
   body.entity = AddInstanceEntity(scene, body.name, pattern.category, {pattern.mesh, X_WM, kNoEntity, pattern.tint, pattern.glow});
-  const auto [of_mesh, fresh] = made.lamps.try_emplace(pattern.mesh);
-  if (fresh) of_mesh->second = internal::AddLampMeshes(pattern.mesh, scene);
+  const auto [of_mesh, fresh] = made.lamps.try_emplace({pattern.mesh, LampScale(pattern.scale)});
+  if (fresh) of_mesh->second = internal::AddLampMeshes(pattern.mesh, of_mesh->first.second, scene);
   body.lamps = internal::AddLamps(of_mesh->second, body.entity, scene);
   if (!model.vehicles[index].shape.bicycle) return;
 

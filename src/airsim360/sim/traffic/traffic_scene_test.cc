@@ -76,7 +76,8 @@ TEST(TrafficScene, MeshesStandOnTheRoadWithTheirFrontAhead) {
 }
 
 // The ring with cars that have glasses: tail lamps at y = 2.2 and head lamps at y = -2.2 of the mesh, one each at x = -0.7 and 0.7.
-std::shared_ptr<const Scene> RingWithLamps() {
+// `unit`: metres of a unit of the mesh.
+std::shared_ptr<const Scene> RingWithLamps(float unit = 1) {
   SceneBuilder builder("lit ring");
   builder.AddSky();
   builder.AddMaterial({});
@@ -98,7 +99,10 @@ std::shared_ptr<const Scene> RingWithLamps() {
   plate(-0.7f, -2.2f, 0.1f, 0.6f, 0.8f), plate(0.7f, -2.2f, 0.1f, 0.6f, 0.8f);
   plate(-0.7f, 2.2f, 0.1f, 0.6f, 0.8f), plate(0.7f, 2.2f, 0.1f, 0.6f, 0.8f);
   car.parts = {{0, 4, 0, kNoEntity}, {4, 4, 1, kNoEntity}, {8, 4, 2, kNoEntity}};
-  builder.AddInstance({builder.AddMesh(car), PlaceUpright({300, 300, 0}), builder.AddEntity("car", builder.tree().At("vehicle/car"))});
+  for (Vec3f& p : car.positions) p = p / unit;
+  AffineTransform X_WM = PlaceUpright({300, 300, 0});
+  X_WM.A = X_WM.A * Mat3f::FromColumns({unit, 0, 0}, {0, unit, 0}, {0, 0, unit});
+  builder.AddInstance({builder.AddMesh(car), X_WM, builder.AddEntity("car", builder.tree().At("vehicle/car"))});
   builder.SetRoads(RingRoad(600, 10));
   return builder.Build();
 }
@@ -158,6 +162,21 @@ TEST(TrafficScene, BrakeLampsAndIndicatorsAreSeenWhenTheyBurn) {
 // Luminance times the area that is seen from behind or from the front is what the lamps of one end throw there.
 TEST(TrafficScene, LampsThrowWhatRegulationsAskForAndKeepTheirHue) {
   const TrafficScene scene = AddTraffic(RingWithLamps(), {.count = 1, .seed = 1, .warm_up = 0});
+  // The same car in centimetres: lamps as bright, as far before its glasses.
+  const TrafficScene small = AddTraffic(RingWithLamps(0.01f), {.count = 1, .seed = 1, .warm_up = 0});
+  for (const auto lamp : {&VehicleLamps::brake, &VehicleLamps::left, &VehicleLamps::right}) {
+    const auto mesh = [&](const TrafficScene& of) -> const Mesh& {
+      return of.scene->meshes[of.scene->instances[of.traffic->bodies[0].lamps.*lamp].mesh];
+    };
+    const Mesh &a = mesh(scene), &b = mesh(small);
+    ASSERT_EQ(a.positions.size(), b.positions.size());
+    for (size_t k = 0; k < a.positions.size(); ++k) EXPECT_LT(Norm(a.positions[k] - b.positions[k] * 0.01f), 1e-4f);
+    ASSERT_EQ(a.parts.size(), b.parts.size());
+    for (size_t k = 0; k < a.parts.size(); ++k) {
+      const float nits = Luminance(scene.scene->materials[a.parts[k].material].emission);
+      EXPECT_NEAR(Luminance(small.scene->materials[b.parts[k].material].emission), nits, 0.01f * nits);
+    }
+  }
   const auto thrown = [&](uint32_t lamp, float end) {
     const Mesh& mesh = scene.scene->meshes[scene.scene->instances[lamp].mesh];
     double candela = 0;

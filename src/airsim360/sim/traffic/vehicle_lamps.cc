@@ -77,7 +77,7 @@ std::vector<Piece> PiecesOf(const Mesh& mesh, const Scene& scene, Glass glass) {
   return pieces;
 }
 
-// Square metres that the glasses of one end of the vehicle show to somebody behind it, or before it.
+// What the glasses of one end of the vehicle show to somebody behind it, or before it, in squares of the mesh's unit.
 float AreaSeen(const Mesh& mesh, const std::vector<Piece>& pieces, const Scene& scene, bool rear) {
   float area = 0;
   for (const Piece& piece : pieces) {
@@ -91,7 +91,7 @@ float AreaSeen(const Mesh& mesh, const std::vector<Piece>& pieces, const Scene& 
   return area;
 }
 
-std::optional<MeshId> AddGlass(MeshId vehicle, Glass glass, Scene& scene) {
+std::optional<MeshId> AddGlass(MeshId vehicle, float scale, Glass glass, Scene& scene) {
   const Mesh& mesh = scene.meshes[vehicle];
   const std::vector<Piece> pieces = PiecesOf(mesh, scene, glass);
   if (pieces.empty()) return std::nullopt;
@@ -100,14 +100,14 @@ std::optional<MeshId> AddGlass(MeshId vehicle, Glass glass, Scene& scene) {
   const float lamps = tail ? 2 : 1;  // that share the glasses
   const auto nits = [&](bool rear) {
     const float candela = tail ? kBrakeCandela : rear ? kRearIndicatorCandela : kFrontIndicatorCandela;
-    return candela / std::max(AreaSeen(mesh, pieces, scene, rear) / lamps, kLeastArea);
+    return candela / std::max(AreaSeen(mesh, pieces, scene, rear) * scale * scale / lamps, kLeastArea);
   };
   const float nits_rear = nits(true), nits_front = nits(false);
   Mesh lit;
   lit.name = mesh.name + " " + name;
   for (const Piece& piece : pieces) {
     const Material& material = scene.materials[piece.material];
-    const float out = (tail ? kBrakeOut : kIndicatorOut) * (material.beam < 0 ? 1.0f : -1.0f);
+    const float out = (tail ? kBrakeOut : kIndicatorOut) * (material.beam < 0 ? 1.0f : -1.0f) / scale;
     lit.parts.push_back({static_cast<uint32_t>(lit.triangles.size()), static_cast<uint32_t>(piece.triangles.size()),
                          static_cast<MaterialId>(scene.materials.size()), kNoEntity});
     for (const uint32_t k : piece.triangles) {
@@ -138,8 +138,9 @@ uint32_t AddLamp(const std::optional<MeshId>& mesh, EntityId entity, Scene& scen
 
 }  // namespace
 
-LampMeshes AddLampMeshes(MeshId vehicle, Scene& scene) {
-  return {AddGlass(vehicle, Glass::kTail, scene), AddGlass(vehicle, Glass::kLeft, scene), AddGlass(vehicle, Glass::kRight, scene)};
+LampMeshes AddLampMeshes(MeshId vehicle, float scale, Scene& scene) {
+  return {AddGlass(vehicle, scale, Glass::kTail, scene), AddGlass(vehicle, scale, Glass::kLeft, scene),
+          AddGlass(vehicle, scale, Glass::kRight, scene)};
 }
 
 VehicleLamps AddLamps(const LampMeshes& meshes, EntityId entity, Scene& scene) {

@@ -15,7 +15,8 @@ struct LampMeshes {
 
 /// Adds them to the scene: where a mesh has head and tail lamps (materials that shine as beams), a copy of their glasses a few
 /// millimetres farther out. Brake lamps are red at the tail; indicators amber at nose and tail of one side. They burn by day, too.
-LampMeshes AddLampMeshes(MeshId vehicle, Scene& scene);
+/// `scale`: metres a unit of the mesh.
+LampMeshes AddLampMeshes(MeshId vehicle, float scale, Scene& scene);
 
 /// Adds an instance for each lamp, of the entity of the vehicle. They begin as points below the ground, so that nothing is lit
 /// by them where they were made.
