@@ -215,6 +215,7 @@ RigidTransform PickView(const HumanRecipe& recipe, const HumanSubset& subset, co
     if (world.Clearance(VecCast<float>(p), kFree) < kFree) continue;
     // Seen by those who are in the area: not from behind a wall.
     const bool hidden = world.Occluded(VecCast<float>(p), VecCast<float>(Vec3d{middle.x, middle.y, area.ground + 1}));
+    if (hidden && best) continue;
     const std::optional<double> seen = RatePeopleView(world, p, people);
     if (!seen) continue;
     if (!hidden) ++rated;

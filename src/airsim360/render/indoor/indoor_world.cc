@@ -191,12 +191,12 @@ MetSurface SurfaceUnder(const IndoorWorld& world, const RayPacket& packet, int l
   return met;
 }
 
-DirectLight SunFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, uint32_t seed, int rays) {
+Vec3f SunFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, uint32_t seed, int rays) {
   DirectLight sum;
   ShadowQueue queue(world, sum);
   AddSun(world, points, normal, rays, ShiftOf(seed), queue);
   queue.Send();
-  return sum;
+  return sum.sun;
 }
 
 DirectLight LampsAround(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, const LampMix& lamps, uint32_t seed) {

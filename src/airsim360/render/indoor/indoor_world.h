@@ -64,7 +64,8 @@ struct DirectLight {
   Vec3f others;            ///< of the others
   float held_squares = 0;  ///< of the luminances that the rays to held lamps brought, summed up
 };
-DirectLight SunFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, uint32_t seed, int rays);
+/// Irradiance of the sun, likewise.
+Vec3f SunFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, uint32_t seed, int rays);
 /// `lamps`: how many rays look for them, and what is left to other rays from the same points.
 DirectLight LampsAround(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, const LampMix& lamps, uint32_t seed);
 inline constexpr int kSunRays = 16;

@@ -181,7 +181,7 @@ void LightSolver::FindDirect() {
     const Surfel& s = surfels[i];
     const auto seed = static_cast<uint32_t>(i);
     const DirectLight d = LampsAround(world_, s.InPlane(), s.n, {&plain_, options_.lamp_rays, options_.rays}, seed);
-    const Vec3f sun = SunFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, seed, kSunRays).sun;
+    const Vec3f sun = SunFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, seed, kSunRays);
     others_[i] += d.others;
     coarse_light_.lamps[i] += d.held;
     coarse_light_.lamp_variance[i] = VarianceOf(d, options_.lamp_rays);
@@ -478,7 +478,7 @@ void LightSolver::Smooth(const SurfelSet& set, int passes, LevelLight& light) co
 
 Vec3f LightSolver::RadianceOutside(const OutsidePlace& place, size_t seed) const {
   if (place.n == Vec3f{}) return place.radiance;
-  Vec3f irradiance = SunFromAbove(world_, {&place.p, 1}, place.n, static_cast<uint32_t>(seed), 1).sun;
+  Vec3f irradiance = SunFromAbove(world_, {&place.p, 1}, place.n, static_cast<uint32_t>(seed), 1);
   if (world_.around) irradiance += world_.around(place.p, place.n);
   return place.radiance + place.albedo * irradiance * (1 / kPiF);
 }
