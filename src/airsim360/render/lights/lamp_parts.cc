@@ -4,9 +4,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <unordered_map>
 
+#include "airsim360/base/disjoint_sets.h"
 #include "airsim360/math/angles.h"
 
 namespace airsim360::internal {
@@ -17,24 +17,6 @@ struct PlaceHash {
   size_t operator()(const std::array<uint32_t, 3>& k) const {
     return (k[0] * 0x9e3779b97f4a7c15ull) ^ (k[1] * 0xc2b2ae3d27d4eb4full) ^ (k[2] * 0x165667b19e3779f9ull);
   }
-};
-
-// Sets of triangles that grow together.
-class Groups {
- public:
-  explicit Groups(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  uint32_t Root(uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  // The smaller index stays the root, so that groups are in the order of their first triangles.
-  void Join(uint32_t a, uint32_t b) {
-    a = Root(a), b = Root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<uint32_t> parent_;
 };
 
 }  // namespace
@@ -64,7 +46,7 @@ MeshLamps FindLamps(const Scene& scene, const Mesh& mesh, const Mat3f& A, const 
   }
 
   // Joined by common corners.
-  Groups groups(shining.size());
+  DisjointSets groups(shining.size());
   std::unordered_map<std::array<uint32_t, 3>, uint32_t, PlaceHash> first_at;
   for (uint32_t i = 0; i < shining.size(); ++i) {
     const Vec3u t = mesh.triangles[shining[i]];

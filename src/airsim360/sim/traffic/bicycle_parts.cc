@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
+
+#include "airsim360/base/disjoint_sets.h"
 
 namespace airsim360::internal {
 namespace {
@@ -20,23 +21,13 @@ constexpr size_t kFramePart = kBicycleParts, kStandPart = kBicycleParts + 1;
 // Numbers of what hangs together, by triangle.
 std::vector<uint32_t> Pieces(const Mesh& mesh) {
   std::map<std::tuple<float, float, float>, uint32_t> places;
-  std::vector<uint32_t> root;
   std::vector<uint32_t> vertex;
-  for (const Vec3f& p : mesh.positions) {
-    const auto [place, fresh] = places.try_emplace({p.x, p.y, p.z}, static_cast<uint32_t>(root.size()));
-    if (fresh) root.push_back(place->second);
-    vertex.push_back(place->second);
-  }
-  const auto find = [&](uint32_t v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
-  for (const Vec3u& t : mesh.triangles) {
-    root[find(vertex[t.y])] = find(vertex[t.x]);
-    root[find(vertex[t.z])] = find(vertex[t.x]);
-  }
+  for (const Vec3f& p : mesh.positions)
+    vertex.push_back(places.try_emplace({p.x, p.y, p.z}, static_cast<uint32_t>(places.size())).first->second);
+  DisjointSets sets(places.size());
+  for (const Vec3u& t : mesh.triangles) sets.Join(vertex[t.y], vertex[t.x]), sets.Join(vertex[t.z], vertex[t.x]);
   std::vector<uint32_t> pieces;
-  for (const Vec3u& t : mesh.triangles) pieces.push_back(find(vertex[t.x]));
+  for (const Vec3u& t : mesh.triangles) pieces.push_back(sets.Root(vertex[t.x]));
   return pieces;
 }
 
