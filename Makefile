@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 .PHONY: build demo people test bench bench-gpu wheel fuzz tidy docs install-packages clean
 
 build: install-packages
-	@tools/configure.sh $(BUILD)
+	@tools/configure.sh $(BUILD) all
 	@cmake --build $(BUILD) -j $(JOBS)
 
 demo: install-packages
@@ -19,6 +19,7 @@ test: build
 	@tools/test.sh $(BUILD) $(JOBS)
 
 bench: build
+	@cmake --build $(BUILD) -j $(JOBS) --target benchmarks
 	@tools/bench.sh $(BUILD)
 
 # dist/airsim360-*.whl, for Debian's python3, by scikit-build-core of bookworm-backports

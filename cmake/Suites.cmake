@@ -11,7 +11,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
     if(line MATCHES "^([A-Za-z0-9_/]+)\\.")
       set(suite ${CMAKE_MATCH_1})
       string(APPEND tests "add_test([=[${program}.${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
-             "set_tests_properties([=[${program}.${suite}]=] PROPERTIES WORKING_DIRECTORY [=[${FOLDER}]=] TIMEOUT 900 ENVIRONMENT [=[${ENVIRONMENT}]=])\n")
+             "set_tests_properties([=[${program}.${suite}]=] PROPERTIES WORKING_DIRECTORY [=[${FOLDER}]=] TIMEOUT 900 FIXTURES_REQUIRED test_cache ENVIRONMENT [=[${ENVIRONMENT}]=])\n")
     endif()
   endforeach()
   file(WRITE ${LIST} "${tests}")
@@ -20,8 +20,9 @@ endif()
 
 function(airsim360_suites target)
   cmake_parse_arguments(ARG "" "" "ENVIRONMENT" ${ARGN})
-  # The disk cache is off: tests write nothing into the home of the user.
-  set(environment "AIRSIM360_CACHE=" ${ARG_ENVIRONMENT})
+  # Suites of one program share skies and worlds, in a cache that is empty at first (tests/CMakeLists.txt); tests write nothing
+  # into the home of the user.
+  set(environment "AIRSIM360_CACHE=${CMAKE_BINARY_DIR}/test_cache" ${ARG_ENVIRONMENT})
   set(list ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
   add_custom_command(TARGET ${target} POST_BUILD BYPRODUCTS ${list}
                      COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${target}> -DLIST=${list} -DFOLDER=${CMAKE_SOURCE_DIR}

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "airsim360/opening/world_loader.h"
-#include "airsim360/tasks/agents/agent_server.h"
+#include "airsim360/tasks/agent_server/agent_server.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 set -eu
 build="$1"; jobs="$2"
 cd "$(dirname "$0")/.."
-[ "${FUZZ_SECONDS:-6}" -eq 0 ] || tools/fuzz.sh "$build" "$jobs" "${FUZZ_SECONDS:-6}" 1
+[ "${FUZZ_SECONDS:-2}" -eq 0 ] || tools/fuzz.sh "$build" "$jobs" "${FUZZ_SECONDS:-2}" 1
 tools/install_gpu_driver.sh
 tools/install_backport.sh python3-scikit-build-core || echo "the test of the wheel will be skipped" >&2
 cd "$build"

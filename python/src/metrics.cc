@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "airsim360/eval/image_metrics.h"
-#include "airsim360/eval/navigation_metrics.h"
+#include "airsim360/eval/navigation/path_metrics.h"
 #include "convert.h"
 
 namespace airsim360::python {

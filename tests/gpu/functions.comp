@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference2 : require
 #extension GL_EXT_scalar_block_layout : require
+#include "airsim360/render/shared/shading_constants.h"
 #include "airsim360/render/shared/shading_glsl.h"
 #include "airsim360/render/shared/shading_shared.h"
 // A name of the header that GLSL keeps for itself.
@@ -12,7 +13,7 @@
 #include "airsim360/render/shared/shading_air.h"
 #include "airsim360/render/shared/shading_tone.h"
 #include "airsim360/render/shared/shading_interior.h"
-#include "airsim360/render/shared/shading_weather.h"
+#include "airsim360/render/shared/shading_wet_snow.h"
 #include "airsim360/render/shared/shading_ground.h"
 #include "airsim360/render/shared/shading_marks.h"
 

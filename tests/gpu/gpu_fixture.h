@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/projection/camera_model.h"
+#include "airsim360/projection/camera_model_names.h"
 #include "airsim360/render/vulkan/gpu.h"
 #include "airsim360/worlds/worlds.h"
 

@@ -12,7 +12,7 @@ or give copy=True. Where Gymnasium is installed, importing this module registers
 airsim360/Search-v0 with it.
 """
 from .environments import Env, VectorEnv, make, make_vec
-from .spaces import HAS_GYMNASIUM, Box, Dict
+from .gymnasium_stand_ins import HAS_GYMNASIUM, Box, Dict
 
 __all__ = ["Box", "Dict", "Env", "HAS_GYMNASIUM", "VectorEnv", "make", "make_vec"]
 

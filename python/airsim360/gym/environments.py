@@ -9,7 +9,7 @@ import numpy.typing as npt
 import airsim360
 
 from .._words import did_you_mean
-from . import spaces
+from . import gymnasium_stand_ins as spaces
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -77,9 +77,6 @@ _NATIVE_OPTIONS = ("drone", "action", "width", "height", "period", "max_speed", 
 _IMAGES: Dict[str, Tuple[float, float, npt.DTypeLike]] = {
     "rgb": (0, 255, np.uint8), "range": (0, np.inf, np.float32),
     "semantic": (0, 2**16 - 1, np.uint16), "entity": (0, 2**32 - 1, np.uint32)}
-_STATE_SIZE = 17
-
-
 def _metadata() -> Dict[str, Any]:
     """Gymnasium's word for what auto_reset does here, where it has one."""
     try:
@@ -120,7 +117,7 @@ class _Base:
         self._views["state"] = self.native.state
         boxes = {name: spaces.Box(_IMAGES[name][0], _IMAGES[name][1], view.shape[1:], _IMAGES[name][2])
                  for name, view in self._views.items() if name != "state"}
-        boxes["state"] = spaces.Box(-np.inf, np.inf, (_STATE_SIZE,), np.float32)
+        boxes["state"] = spaces.Box(-np.inf, np.inf, self.native.state.shape[1:], np.float32)
         self._one_observation = spaces.Dict(boxes)
         self._one_action = spaces.Box(-1.0, 1.0, (self.native.action_size,), np.float32)
 

@@ -16,7 +16,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Exit status: 0, 1 for failures, 2 for bad input."""
     parsed = _parser().parse_args(arguments)
     try:
-        from .actions import run
+        from .run_commands import run
     except ImportError as error:
         print(f"error: learn needs Debian's python3-torch and python3-opencv ({error}): apt-get install python3-torch python3-opencv", file=sys.stderr)
         return 1

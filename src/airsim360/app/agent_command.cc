@@ -14,7 +14,7 @@
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
-#include "airsim360/tasks/agents/agent_server.h"
+#include "airsim360/tasks/agent_server/agent_server.h"
 #include "airsim360/vln/episodes/language_episode.h"
 #include "airsim360/worlds/worlds.h"
 
@@ -45,15 +45,7 @@ std::shared_ptr<AgentWorld> OpenForAgents(const StageOptions& options, const Ren
 std::vector<AgentTask> TasksOf(const std::string& file, bool tells_goal) {
   std::vector<AgentTask> tasks;
   for (const LanguageEpisode& e : ReadEpisodes(file)) {
-    EpisodeSpec spec;
-    spec.instruction = e.instruction;
-    spec.goal = e.goal;
-    spec.more_goals = e.places;
-    spec.start = e.start.p_W;
-    spec.start_yaw = e.start.yaw;
-    spec.reference_path = e.ref;
-    spec.seed = e.seed;
-    spec.success_radius = e.radius;
+    EpisodeSpec spec = SpecOf(e);
     spec.tells_goal = tells_goal;
     tasks.push_back({e.id, {e.world, e.world_seed, e.people, e.weather}, std::move(spec)});
   }

@@ -10,6 +10,7 @@
 #include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
+#include "airsim360/base/text.h"
 #include "airsim360/flight/drones/catalog.h"
 #include "airsim360/flight/prompt/drone_file.h"
 #include "airsim360/math/coordinate_limit.h"
@@ -35,12 +36,6 @@ bool ParseNumber(std::string_view text, Number& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-std::string Trimmed(const std::string& text) {
-  const size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
-}
-
 }  // namespace
 
 PoseArgument ParsePose(const std::string& text) {
@@ -48,7 +43,7 @@ PoseArgument ParsePose(const std::string& text) {
   double values[6] = {};
   bool good = parts.size() >= 3 && parts.size() <= 6;
   for (size_t i = 0; good && i < parts.size(); ++i) {
-    good = ParseNumber(Trimmed(parts[i]), values[i]) && std::isfinite(values[i]);
+    good = ParseNumber(std::string(Trimmed(parts[i], " \t")), values[i]) && std::isfinite(values[i]);
   }
   if (!good) {
     throw InputError("--pose: '" + text + "' is not x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] in metres and degrees");

@@ -80,10 +80,7 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, const GlobalOptions& glo
   DatasetSpec spec = arguments.picture.Spec();
   arguments.camera.Apply(spec);
   PictureArguments::Check(spec);
-  spec.command = "collect";
-  spec.world = DescribeWorld(arguments.world, globals);
-  spec.seed = globals.seed;
-  spec.labels = DescribeLabels(globals);
+  DescribeRun("collect", arguments.world, globals, spec);
   SetFormats(arguments, spec);
   const Shard shard = ParseShard(arguments.shard);
   spec.shard = shard.index;

@@ -8,7 +8,7 @@
 
 namespace airsim360 {
 
-/// Flags that every command takes; main.cc adds them to each command and applies --threads and --device.
+/// Flags that every command takes; program.cc adds them to each command and applies --threads and --device.
 struct GlobalOptions {
   bool json = false;            ///< machine-readable result on stdout
   uint64_t seed = 0;            ///< of the world, the route and everything random

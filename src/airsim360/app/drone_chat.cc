@@ -8,6 +8,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/process.h"
+#include "airsim360/base/text.h"
 #include "airsim360/flight/prompt/plain_text.h"
 
 namespace airsim360 {
@@ -54,15 +55,6 @@ std::string Key(const std::string& variable) {
   return key;
 }
 
-std::string Quoted(std::string_view text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
 std::string RequestBody(const DroneChat& chat, const std::string& words) {
   const std::string task =
       "You fill a form with what a description says about a multirotor drone. Answer with one flat JSON object of "
@@ -87,11 +79,11 @@ std::string Post(const std::string& address, const std::string& key, int seconds
                  complaints = folder.path() / "complaints";
   WriteFileAtomically(asked, body);
   // The key stands in a file that goes with its folder, which is this user's alone: never on a command line.
-  std::string flags = "url = " + Quoted(address) + "\ngloboff\nsilent\nshow-error\nproto = \"=http,https\"\n" +
+  std::string flags = "url = " + InQuotes(address) + "\ngloboff\nsilent\nshow-error\nproto = \"=http,https\"\n" +
                       "max-time = " + std::to_string(seconds) + "\nmax-filesize = " + std::to_string(kMostAnswer) +
-                      "\nheader = \"Content-Type: application/json\"\ndata-binary = " + Quoted("@" + asked.string()) +
+                      "\nheader = \"Content-Type: application/json\"\ndata-binary = " + InQuotes("@" + asked.string()) +
                       "\nwrite-out = \"%{stderr}status=%{http_code}\\n\"\n";
-  if (!key.empty()) flags += "header = " + Quoted("Authorization: Bearer " + key) + "\n";
+  if (!key.empty()) flags += "header = " + InQuotes("Authorization: Bearer " + key) + "\n";
   WriteFileAtomically(config, flags);
   const auto end = RunProgram({"curl", "--disable", "--config", config.string()},
                               {.out = answer, .complaints = complaints, .seconds = seconds + 5.0, .most_bytes = kMostAnswer});

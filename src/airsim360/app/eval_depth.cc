@@ -173,6 +173,18 @@ void WriteTable(const std::string& path, const std::vector<FilePair>& pairs, con
   WriteCsv(path, rows);
 }
 
+void AppendNotes(Json& json, const DepthArguments& a, const FilePairs& files, const std::vector<DepthResult>& results) {
+  Json notes = files.notes;
+  if (const Protocol* protocol = FindProtocol(a.protocol)) notes.push_back(std::string(protocol->name) + ": " + protocol->quirk);
+  int64_t not_positive = 0;
+  for (const DepthResult& r : results) not_positive += r.views[0].not_positive;
+  if (not_positive > 0)
+    json["warnings"].push_back(
+        std::to_string(not_positive) +
+        " predictions are not above 0: they have no logarithm, so rmselog, log10 and silog are infinite (null); --clip MIN,MAX holds them");
+  if (!notes.empty()) json["notes"] = notes;
+}
+
 void Run(DepthArguments a, const GlobalOptions& globals) {
   Check(a);
   const std::vector<std::string> endings = {".npy", ".exr", ".h5", ".hdf5", ".png"};
@@ -198,9 +210,7 @@ void Run(DepthArguments a, const GlobalOptions& globals) {
   if (!a.protocol.empty()) json["protocol"] = a.protocol;
   if (a.protocol == "unik3d")
     json.update(ToJson(WithNames(MeanFigures(results, [](const DepthResult& r) -> const DepthErrors& { return r.scaled; }), "_si")));
-  std::vector<std::pair<std::string, std::string>> mistakes;
-  for (size_t i = 0; i < results.size(); ++i) mistakes.emplace_back(files.pairs[i].prediction.string(), results[i].mistake);
-  JudgeMistakes(mistakes, a.view.force, json);
+  JudgeMistakes(results, a.view.force, json, [&](size_t i) { return files.pairs[i].prediction.string(); });
   if (Valid(results, 0) == 0)
     throw InputError(a.gt + ": no pixel has a truth above " + std::to_string(a.depth.min_depth) + " m" +
                      (a.depth.max_depth < 1e300 ? " and up to " + std::to_string(a.depth.max_depth) + " m" : ""));
@@ -223,15 +233,7 @@ void Run(DepthArguments a, const GlobalOptions& globals) {
     return DepthStrip(ReadScaled(files.pairs[i].prediction, a, true), ReadScaled(files.pairs[i].truth, a, false));
   });
 
-  Json notes = files.notes;
-  if (const Protocol* protocol = FindProtocol(a.protocol)) notes.push_back(std::string(protocol->name) + ": " + protocol->quirk);
-  int64_t not_positive = 0;
-  for (const DepthResult& r : results) not_positive += r.views[0].not_positive;
-  if (not_positive > 0)
-    json["warnings"].push_back(
-        std::to_string(not_positive) +
-        " predictions are not above 0: they have no logarithm, so rmselog, log10 and silog are infinite (null); --clip MIN,MAX holds them");
-  if (!notes.empty()) json["notes"] = notes;
+  AppendNotes(json, a, files, results);
   if (globals.json)
     PrintJson(json);
   else

@@ -132,9 +132,7 @@ void Run(PanopticArguments a, const GlobalOptions& globals) {
         results, categories.size(), [view](const PanopticResult& r) -> const Counts& { return r.views[view]; }, draws);
   };
   Json json;
-  std::vector<std::pair<std::string, std::string>> mistakes;
-  for (size_t i = 0; i < results.size(); ++i) mistakes.emplace_back(input.Prediction(i).file, results[i].mistake);
-  JudgeMistakes(mistakes, a.view.force, json);
+  JudgeMistakes(results, a.view.force, json, [&](size_t i) { return input.Prediction(i).file; });
   const Counts whole = of_view(0);
   AppendPanoptic(json, whole, categories, true);
   json["pictures"] = results.size();

@@ -189,9 +189,7 @@ void Run(SemanticArguments a, const GlobalOptions& globals) {
         results, n, [view](const SemanticResult& r) -> const Confusion& { return r.views[view]; }, draws);
   };
   Json json;
-  std::vector<std::pair<std::string, std::string>> mistakes;
-  for (size_t i = 0; i < results.size(); ++i) mistakes.emplace_back(files.pairs[i].prediction.string(), results[i].mistake);
-  JudgeMistakes(mistakes, a.view.force, json);
+  JudgeMistakes(results, a.view.force, json, [&](size_t i) { return files.pairs[i].prediction.string(); });
   const Confusion whole = of_view(0);
   if (std::isnan(whole.PixelAccuracy())) throw InputError(a.gt + ": no pixel is of a class of " + a.classes);
   const std::vector<Figure> main = FiguresOf(whole);

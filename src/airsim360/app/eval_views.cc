@@ -9,6 +9,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/text.h"
 #include "airsim360/eval/statistics/bootstrap.h"
 
 namespace airsim360 {
@@ -231,12 +232,7 @@ void PrintFigures(const nlohmann::ordered_json& json) {
   }
 }
 
-std::string NumberText(double value) {
-  if (!std::isfinite(value)) return "";
-  char text[32];
-  const auto result = std::to_chars(text, text + sizeof(text), value);
-  return {text, result.ptr};
-}
+std::string NumberText(double value) { return std::isfinite(value) ? ShortestText(value) : ""; }
 
 void WriteCsv(const std::string& path, const std::vector<std::vector<std::string>>& rows) {
   if (path.empty()) return;

@@ -89,6 +89,14 @@ void AppendIntervals(nlohmann::ordered_json& json, const ReportOptions& options,
 /// What most pictures show (texts that are not "") is refused by an InputError that names the first of them, or a warning in `json` if `force`.
 void JudgeMistakes(const std::vector<std::pair<std::string, std::string>>& files_and_mistakes, bool force, nlohmann::ordered_json& json);
 
+/// The same of the mistakes of `results`; file_of(i) names their files.
+template <class Result, class FileOf>
+void JudgeMistakes(const std::vector<Result>& results, bool force, nlohmann::ordered_json& json, const FileOf& file_of) {
+  std::vector<std::pair<std::string, std::string>> mistakes;
+  for (size_t i = 0; i < results.size(); ++i) mistakes.emplace_back(file_of(i), results[i].mistake);
+  JudgeMistakes(mistakes, force, json);
+}
+
 nlohmann::ordered_json ToJson(const std::vector<Figure>& figures);
 /// "name  value" lines of the numbers of an object, then its notes and warnings.
 void PrintFigures(const nlohmann::ordered_json& json);

@@ -189,10 +189,7 @@ void WriteFiles(const FlyArguments& arguments, const FlyResult& result) {
 // What frames and videos of the flight look like. A video is level unless told otherwise: nobody likes a sphere that rolls.
 DatasetSpec SpecOf(const FlyArguments& arguments, const GlobalOptions& globals, bool video) {
   DatasetSpec spec = arguments.picture.Spec();
-  spec.command = "fly";
-  spec.world = DescribeWorld(arguments.world, globals);
-  spec.seed = globals.seed;
-  spec.labels = DescribeLabels(globals);
+  DescribeRun("fly", arguments.world, globals, spec);
   const ImageSize size = ParseSize(arguments.size);
   CheckPanoramaSize(size);
   spec.width = size.width;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/text.h"
 #include "airsim360/math/coordinate_limit.h"
 
 namespace airsim360 {
@@ -26,18 +27,14 @@ std::string FormOf(std::string_view task) {
 
 [[noreturn]] void Fail(const std::string& task, const std::string& what) { throw InputError("--script: '" + task + "': " + what); }
 
-std::string Trimmed(const std::string& text) {
-  const size_t begin = text.find_first_not_of(" \t\n");
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\n") + 1 - begin);
-}
+constexpr const char* kBlanks = " \t\n";
 
 // "1, 2.5,3": from `least` to `most` numbers.
 std::vector<double> Numbers(const std::string& task, const std::string& text, size_t least, size_t most) {
   std::vector<double> numbers;
   for (size_t begin = 0; begin < text.size();) {
     const size_t end = std::min(text.find(',', begin), text.size());
-    const std::string part = Trimmed(text.substr(begin, end - begin));
+    const std::string part(Trimmed(std::string_view(text).substr(begin, end - begin), kBlanks));
     double value = 0;
     const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), value);
     if (error != std::errc() || stop != part.data() + part.size() || !std::isfinite(value))
@@ -58,7 +55,7 @@ double Positive(const std::string& task, double value) {
 FlyTask ParseTask(const std::string& task) {
   const size_t space = std::min(task.find_first_of(" \t"), task.size());
   const std::string word = task.substr(0, space), rest = task.substr(space);
-  const auto numbers = [&](size_t least, size_t most) { return Numbers(task, Trimmed(rest), least, most); };
+  const auto numbers = [&](size_t least, size_t most) { return Numbers(task, std::string(Trimmed(rest, kBlanks)), least, most); };
   if (word == "takeoff") {
     const auto n = numbers(0, 1);
     return {task, TakeoffCommand{.height = n.empty() ? 2 : Positive(task, n[0])}, kLongestTask, true};
@@ -89,7 +86,7 @@ std::vector<FlyTask> ParseFlyScript(const std::string& text) {
   std::vector<FlyTask> tasks;
   for (size_t begin = 0; begin <= text.size();) {
     const size_t end = std::min(text.find(';', begin), text.size());
-    const std::string task = Trimmed(text.substr(begin, end - begin));
+    const std::string task(Trimmed(std::string_view(text).substr(begin, end - begin), kBlanks));
     if (!task.empty()) tasks.push_back(ParseTask(task));
     begin = end + 1;
   }

@@ -5,6 +5,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
+#include "airsim360/base/text.h"
 
 namespace airsim360 {
 namespace {
@@ -53,9 +54,7 @@ std::string PeopleArguments::Describe() const {
   if (!Request(0).any()) return {};
   const std::optional<uint64_t> count = ParseCount(people);
   std::string text = count ? std::to_string(*count) : people.empty() ? "0" : "sha256:" + Sha256HexOfFile(people);
-  char warm[32];
-  const auto end = std::to_chars(warm, warm + sizeof warm, warm_up).ptr;
-  text += ", warm-up " + std::string(warm, end) + " s";
+  text += ", warm-up " + ShortestText(warm_up) + " s";
   if (level >= 0) text += ", level " + std::to_string(level);
   if (reserve > 0) text += ", reserve " + std::to_string(reserve);
   if (!sockets.empty()) text += ", sockets sha256:" + Sha256HexOfFile(sockets);

@@ -1,6 +1,5 @@
 // airsim360 render: one capture as a dataset of one frame.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/text.h"
 #include "airsim360/math/angles.h"
 #include "airsim360/scene/viewpoint.h"
 #include "airsim360/sim/people_survey.h"
@@ -35,11 +35,6 @@ struct RenderArguments {
   TrafficArguments traffic;
   bool overlay = false;
 };
-
-std::string Number(double value) {
-  char buffer[32];
-  return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
-}
 
 // The scene's first viewpoint: facing east, or from outside the scene facing its middle.
 PoseArgument ScenePose(const Scene& scene) {
@@ -71,10 +66,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   DatasetSpec spec = arguments.picture.Spec();
   arguments.camera.Apply(spec);
   PictureArguments::Check(spec);
-  spec.command = "render";
-  spec.world = DescribeWorld(arguments.world, globals);
-  spec.seed = globals.seed;
-  spec.labels = DescribeLabels(globals);
+  DescribeRun("render", arguments.world, globals, spec);
   spec.people = arguments.people.Describe();
   spec.traffic = arguments.traffic.Describe();
   spec.overlay = arguments.overlay;
@@ -88,8 +80,8 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   spec.environment = DescribeEnvironment(stage.environment());
   const SimModel model = stage.Model(kRouteStepNs);
   if (arguments.pose.empty()) pose = DefaultPose(model, spec);
-  spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," + Number(pose.yaw_deg) + "," +
-               Number(pose.pitch_deg) + "," + Number(pose.roll_deg);
+  spec.route = "pose " + ShortestText(pose.p.x) + "," + ShortestText(pose.p.y) + "," + ShortestText(pose.p.z) + "," +
+               ShortestText(pose.yaw_deg) + "," + ShortestText(pose.pitch_deg) + "," + ShortestText(pose.roll_deg);
   Flight flight = Hover(BodyPose(pose.p, pose.yaw_deg * kDegree, pose.pitch_deg * kDegree, pose.roll_deg * kDegree));
   if (stage.people()) flight.shots[0].people = stage.people()->start;
   if (stage.traffic()) flight.shots[0].traffic = stage.traffic()->start;

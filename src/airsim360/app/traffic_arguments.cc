@@ -1,6 +1,6 @@
 #include "airsim360/app/traffic_arguments.h"
 
-#include <charconv>
+#include "airsim360/base/text.h"
 
 namespace airsim360 {
 
@@ -13,9 +13,7 @@ void TrafficArguments::AddTo(CLI::App& command) {
 
 std::string TrafficArguments::Describe() const {
   if (count == 0) return {};
-  char warm[32];
-  const auto end = std::to_chars(warm, warm + sizeof warm, warm_up).ptr;
-  return std::to_string(count) + ", warm-up " + std::string(warm, end) + " s";
+  return std::to_string(count) + ", warm-up " + ShortestText(warm_up) + " s";
 }
 
 }  // namespace airsim360

@@ -66,10 +66,7 @@ std::string Save(Stage& stage, const ViewArguments& arguments, const GlobalOptio
                  const Environment& environment) {
   DatasetSpec spec;
   static_cast<RenderSettings&>(spec) = arguments.picture;
-  spec.command = "view";
-  spec.world = DescribeWorld(arguments.world, globals);
-  spec.seed = globals.seed;
-  spec.labels = DescribeLabels(globals);
+  DescribeRun("view", arguments.world, globals, spec);
   spec.people = arguments.people.Describe();
   spec.traffic = arguments.traffic.Describe();
   spec.environment = DescribeEnvironment(environment);

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <optional>
 
+#include "airsim360/app/arguments.h"
 #include "airsim360/base/error.h"
+#include "airsim360/dataset/record/spec.h"
 #include "airsim360/math/geodesy.h"
 #include "airsim360/math/place_text.h"
 
@@ -39,6 +41,13 @@ WorldRequest RequestOf(const std::string& world, const GlobalOptions& globals) {
 std::string DescribeWorld(const std::string& world, const GlobalOptions& globals) {
   if (!HasCut(globals)) return world;
   return world + " " + MapCutOf("--", globals.bbox, globals.centre, globals.radius)->text;
+}
+
+void DescribeRun(const char* command, const std::string& world, const GlobalOptions& globals, DatasetSpec& spec) {
+  spec.command = command;
+  spec.world = DescribeWorld(world, globals);
+  spec.seed = globals.seed;
+  spec.labels = DescribeLabels(globals);
 }
 
 std::string WithPlace(const char* flag, const std::string& text, const WorldRequest& request) {

@@ -9,6 +9,8 @@
 
 namespace airsim360 {
 
+struct DatasetSpec;
+
 /// Adds --labels, and --bbox, --centre and --radius, which cut a map.
 void AddWorldFlags(CLI::App& command, GlobalOptions& globals);
 /// Adds --bbox alone.
@@ -19,6 +21,9 @@ WorldRequest RequestOf(const std::string& world, const GlobalOptions& globals);
 
 /// What meta.json calls the world: its name, with the cut of a map behind it.
 std::string DescribeWorld(const std::string& world, const GlobalOptions& globals);
+
+/// Notes in a dataset's description which command draws what world, with which seed and labels.
+void DescribeRun(const char* command, const std::string& world, const GlobalOptions& globals, DatasetSpec& spec);
 
 /// `text` ("x,y,z…") with a place on the Earth for its first two numbers ("60.1708N,24.9375E,z…", in either order)
 /// brought to metres of that world; without one, as it is. InputError naming `flag` for a world that has no place on

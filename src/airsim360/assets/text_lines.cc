@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "airsim360/assets/imported.h"
+#include "airsim360/base/text.h"
 
 namespace airsim360::internal {
 namespace {
@@ -14,11 +15,7 @@ constexpr std::string_view kBlanks = " \t\r\v\f";
 
 }  // namespace
 
-std::string_view Trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
+std::string_view Trimmed(std::string_view text) { return airsim360::Trimmed(text, kBlanks); }
 
 std::string_view NextWord(std::string_view& line) {
   line = line.substr(std::min(line.find_first_not_of(kBlanks), line.size()));

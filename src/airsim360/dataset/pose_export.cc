@@ -1,9 +1,9 @@
 #include "airsim360/dataset/pose_export.h"
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "airsim360/base/text.h"
 #include "airsim360/dataset/people/json_lines.h"
 #include "airsim360/dataset/record/intrinsics.h"
 
@@ -12,11 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The shortest text that reads back exactly.
-std::string Number(double value) {
-  char buffer[32];
-  return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value + 0.0).ptr);
-}
+// Of -0 as of 0.
+std::string Number(double value) { return ShortestText(value + 0.0); }
 
 // A view with intrinsics; `id` is COLMAP's, from 1.
 struct ExportedView {

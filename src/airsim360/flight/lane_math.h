@@ -2,6 +2,10 @@
 // exactly rounded or a selection, so that any number of lanes gives the same bits.
 #pragma once
 
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
 #include <cmath>
 #include <concepts>
 
@@ -27,6 +31,11 @@ template <class Mask, class V>
 AIRSIM360_LANES V Select(Mask first, V a, V b) {
   if constexpr (std::floating_point<V>) {
     return first ? a : b;
+#if defined(__AVX512F__)
+  } else if constexpr (sizeof(Mask) == sizeof(__mmask16) && sizeof(V) == sizeof(__m512) && std::same_as<ScalarOf<V>, float>) {
+    // `where` of libstdc++ compiles a case for each lane of masks that are known beforehand: a third of the compiler's time.
+    return V(_mm512_mask_blend_ps(__builtin_bit_cast(__mmask16, first), static_cast<__m512>(b), static_cast<__m512>(a)));
+#endif
   } else {
     where(first, b) = a;
     return b;

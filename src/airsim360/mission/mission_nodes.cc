@@ -7,6 +7,7 @@ namespace airsim360 {
 
 using enum behaviour::NodeClass;
 
+// Longer than a screen because it is a table: a row for each node.
 const behaviour::Palette& MissionPalette() {
   constexpr auto Of = [](MissionNode node) { return static_cast<behaviour::Node>(node); };
   static const behaviour::Palette palette({

@@ -6,22 +6,15 @@
 #include <span>
 
 #include "airsim360/eval/mpde_metrics.h"
+#include "airsim360/eval/statistics/bootstrap.h"
 #include "airsim360/mpde/model.h"
 
 namespace airsim360 {
 
-/// An interval that holds the mean with 95 % confidence.
-struct Interval {
-  double low = 0, high = 0;
-};
-
-/// Of the mean of `values`, by 2,000 draws with replacement; a function of values and seed. NaN for no values.
-Interval BootstrapMean(std::span<const double> values, uint64_t seed);
-
 struct MpdeReport {
   MpdeErrors errors;
   std::array<MpdeErrors, kMpdeGroupEnds.size() + 1> groups;  ///< by true distance
-  Interval distance_interval;                                ///< of errors.distance_mae_m
+  Interval distance_interval;                                ///< of errors.distance_mae_m: 95 %, by 2,000 draws of people
   double within_spread = 0;  ///< share of distances within the predicted spread: 0.63 if it is right (Laplace)
   double constant_height_mae_m = 0, constant_trunk_mae_m = 0;
 };

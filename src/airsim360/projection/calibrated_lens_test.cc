@@ -7,7 +7,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/math/angles.h"
 #include "airsim360/projection/calibrated_lens.h"
-#include "airsim360/projection/camera_model.h"
+#include "airsim360/projection/camera_model_names.h"
 
 namespace airsim360 {
 namespace {

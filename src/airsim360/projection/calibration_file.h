@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "airsim360/projection/camera_model.h"
+#include "airsim360/projection/camera_model_names.h"
 
 namespace airsim360 {
 

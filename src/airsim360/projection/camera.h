@@ -69,7 +69,7 @@ enum class LensLaw {
 ///   R  = (1 + radial0 q + radial1 q^2 + radial2 q^3 + radial3 q^4) / (1 + divisor0 q + divisor1 q^2 + divisor2 q^3)
 ///   u' = u R + 2 p1 u v + p2 (q + 2 u^2) + s1 q + s2 q^2
 ///   v' = v R + p1 (q + 2 v^2) + 2 p2 u v + s3 q + s4 q^2
-/// x = fx u' + cx, y = fy v' + cy. Nothing beyond max_theta is seen. projection/camera_model.h makes one by its name.
+/// x = fx u' + cx, y = fy v' + cy. Nothing beyond max_theta is seen. projection/camera_model_names.h makes one by its name.
 struct CalibratedLens {
   LensLaw law = LensLaw::kPerspective;
   int width = 1024, height = 768;

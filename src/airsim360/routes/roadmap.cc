@@ -81,4 +81,18 @@ CheapestWays FindCheapestWays(const Roadmap& map, int from) {
   return ways;
 }
 
+std::vector<Vec3d> ShortWay(const RayTracer& tracer, const Roadmap& map, const CheapestWays& ways, size_t to, double radius) {
+  std::vector<Vec3d> way, points;
+  for (int place = static_cast<int>(to); place >= 0; place = ways.previous[static_cast<size_t>(place)])
+    way.push_back(map.places[static_cast<size_t>(place)]);
+  std::ranges::reverse(way);
+  for (size_t i = 0; i + 1 < way.size();) {
+    size_t j = way.size() - 1;
+    while (j > i + 1 && !IsFree(tracer, way[i], way[j], radius)) --j;
+    points.push_back(way[j]);
+    i = j;
+  }
+  return points;
+}
+
 }  // namespace airsim360

@@ -65,4 +65,8 @@ struct CheapestWays {
 };
 CheapestWays FindCheapestWays(const Roadmap& map, int from);
 
+/// The cheapest way to `to` for a ball of `radius` with corners cut where the straight way is free; the place where `ways` begin is
+/// left out. Empty where no way leads.
+std::vector<Vec3d> ShortWay(const RayTracer& tracer, const Roadmap& map, const CheapestWays& ways, size_t to, double radius);
+
 }  // namespace airsim360

@@ -11,6 +11,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/text.h"
 #include "airsim360/math/coordinate_limit.h"
 
 namespace airsim360 {
@@ -34,12 +35,6 @@ struct Place {
 
 [[noreturn]] void Fail(Place place, size_t column, const std::string& what) {
   throw InputError(std::string(place.name) + ":" + std::to_string(place.line) + ":" + std::to_string(column) + ": " + what);
-}
-
-std::string_view Trimmed(std::string_view text) {
-  const size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
 }
 
 std::vector<Field> SplitFields(std::string_view line) {

@@ -113,15 +113,8 @@ std::vector<Vec3d> TourPoints(const RayTracer& tracer, const Roadmap& map, const
 
   std::vector<Vec3d> points = {map.places[stops[tour[0]]]};
   for (size_t k = 0; k + 1 < tour.size(); ++k) {
-    std::vector<Vec3d> way;
-    for (int place = stops[tour[k + 1]]; place >= 0; place = ways[tour[k]].previous[place]) way.push_back(map.places[place]);
-    std::reverse(way.begin(), way.end());
-    for (size_t i = 0; i + 1 < way.size();) {
-      size_t j = way.size() - 1;
-      while (j > i + 1 && !IsFree(tracer, way[i], way[j], radius)) --j;
-      points.push_back(way[j]);
-      i = j;
-    }
+    const std::vector<Vec3d> way = ShortWay(tracer, map, ways[tour[k]], static_cast<size_t>(stops[tour[k + 1]]), radius);
+    points.insert(points.end(), way.begin(), way.end());
   }
   return points;
 }

@@ -8,6 +8,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/box_overlap.h"
 #include "airsim360/planning/search.h"
 #include "airsim360/routes/roadmap.h"
 
@@ -82,13 +83,6 @@ Box3d Transformed(const AffineTransform& X, const Box3f& box) {
   const double error = kFloatRounding * (Norm(center) + Norm(reach));
   reach += Vec3d{error, error, error};
   return {center - reach, center + reach};
-}
-
-bool Overlap(const Box3d& a, const Box3d& b) {
-  for (int i = 0; i < 3; ++i) {
-    if (a.max[i] < b.min[i] || b.max[i] < a.min[i]) return false;
-  }
-  return true;
 }
 
 }  // namespace

@@ -1,19 +1,14 @@
 #include "airsim360/scene/environment.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
+#include "airsim360/base/text.h"
 
 namespace airsim360 {
 namespace {
-
-std::string Number(double value) {
-  char buffer[32];
-  return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
-}
 
 /// Light and weather of a preset.
 struct Preset {
@@ -82,21 +77,21 @@ void ValidateEnvironment(const Environment& environment, std::string_view where)
     const double value = environment.*field.value;
     if (value >= field.low && value <= field.high) continue;
     const double nearest = std::isnan(value) ? Environment{}.*field.value : std::clamp(value, field.low, field.high);
-    throw InputError(std::string(where) + ": " + field.name + " is " + Number(value) + ", not in " + Number(field.low) + " … " +
-                     Number(field.high) + "; the nearest is " + Number(nearest));
+    throw InputError(std::string(where) + ": " + field.name + " is " + ShortestText(value) + ", not in " + ShortestText(field.low) + " … " +
+                     ShortestText(field.high) + "; the nearest is " + ShortestText(nearest));
   }
   if (environment.sky_seed != std::floor(environment.sky_seed)) {
-    throw InputError(std::string(where) + ": sky_seed is " + Number(environment.sky_seed) + ", not a whole number; the nearest is " +
-                     Number(std::round(environment.sky_seed)));
+    throw InputError(std::string(where) + ": sky_seed is " + ShortestText(environment.sky_seed) + ", not a whole number; the nearest is " +
+                     ShortestText(std::round(environment.sky_seed)));
   }
   constexpr double kLowest = 100;  // below it a cloud is fog
   if (environment.cloud_base_m > 0 && environment.cloud_base_m < kLowest) {
-    throw InputError(std::string(where) + ": cloud_base_m is " + Number(environment.cloud_base_m) +
+    throw InputError(std::string(where) + ": cloud_base_m is " + ShortestText(environment.cloud_base_m) +
                      ", neither 0 (usual) nor at least 100; the nearest is 100");
   }
   constexpr double kThickest = 20;  // metres; a ray would see nothing else
   if (environment.visibility_m > 0 && environment.visibility_m < kThickest) {
-    throw InputError(std::string(where) + ": visibility_m is " + Number(environment.visibility_m) +
+    throw InputError(std::string(where) + ": visibility_m is " + ShortestText(environment.visibility_m) +
                      ", neither 0 (clear) nor at least 20; the nearest is 20");
   }
 }
@@ -148,7 +143,7 @@ std::string DescribeEnvironment(const Environment& environment) {
   std::string text;
   const auto add = [&](const std::string& name, const std::string& value) { text += (text.empty() ? "" : ",") + name + "=" + value; };
   for (const EnvironmentField& field : EnvironmentFields()) {
-    if (environment.*field.value != usual.*field.value) add(field.name, Number(environment.*field.value));
+    if (environment.*field.value != usual.*field.value) add(field.name, ShortestText(environment.*field.value));
   }
   if (environment.cloud_type != usual.cloud_type) add("cloud_type", kCloudTypeNames[static_cast<int>(environment.cloud_type)]);
   if (environment.lamps != usual.lamps) add("lamps", kLampsNames[static_cast<int>(environment.lamps)]);

@@ -1,9 +1,9 @@
 #include "airsim360/sim/fly_route.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "airsim360/base/text.h"
 #include "airsim360/sim/living_world.h"
 #include "airsim360/sim/people/people.h"
 
@@ -12,11 +12,7 @@ namespace {
 
 constexpr int64_t kRecordPeriodNs = 100'000'000;
 
-void AppendNumber(std::string& text, double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  text.append(buffer, end);
-}
+void AppendNumber(std::string& text, double value) { text += ShortestText(value); }
 
 }  // namespace
 

@@ -49,17 +49,14 @@ std::vector<CrowdDrone> DronesOf(const SimModel& model, const SimState& state) {
 
 void TickPeople(const SimModel& model, SimState& state, std::vector<SimEvent>* events) {
   const std::vector<CrowdDrone> drones = DronesOf(model, state);
-  std::vector<CrowdVehicle> vehicles;
-  if (state.traffic && model.traffic) vehicles = VehiclesNear(*model.traffic, *state.traffic, *state.people);
   std::vector<CrowdEvent> happened;
-  TickPeople(*model.people, drones, internal::OwnPeople(state), &happened, vehicles);
+  TickPeopleAmong(model, model.traffic ? state.traffic.get() : nullptr, drones, internal::OwnPeople(state), &happened);
   if (events != nullptr) ReportNearPasses(model, happened, *events);
 }
 
-// What vehicles stop for: the people, and drones that are low over a street.
+// Drones as vehicles see them, which stop for those that are low over a street.
 std::vector<TrafficObstacle> ObstaclesOf(const SimModel& model, const SimState& state) {
   std::vector<TrafficObstacle> obstacles;
-  if (state.people) obstacles = ObstaclesOf(*state.people);
   for (size_t i = 0; i < state.vehicles.size(); ++i) {
     const double radius = i < model.drones.size() ? model.drones[i]->radius() : 0.5;
     const RoadUser who{RoadUser::Kind::kDrone, static_cast<uint32_t>(i)};
@@ -71,7 +68,7 @@ std::vector<TrafficObstacle> ObstaclesOf(const SimModel& model, const SimState& 
 void TickTraffic(const SimModel& model, SimState& state, std::vector<SimEvent>* events) {
   auto traffic = std::make_shared<TrafficState>(*state.traffic);
   std::vector<NearMiss> over;
-  TickTraffic(model.traffic->model, ObstaclesOf(model, state), *traffic, &over);
+  TickTrafficAmong(model, state.people.get(), *traffic, &over, ObstaclesOf(model, state));
   state.traffic = std::move(traffic);
   if (events != nullptr) ReportNearMisses(model, over, *events);
 }
@@ -170,6 +167,21 @@ std::string TextOfNearMiss(const SimModel& model, const NearMiss& miss) {
   char text[48];
   std::snprintf(text, sizeof text, " %.2f s before a crash", miss.seconds);
   return NameOfRoadUser(model, miss.a) + " and " + NameOfRoadUser(model, miss.b) + text;
+}
+
+void TickPeopleAmong(const SimModel& model, const TrafficState* traffic, std::span<const CrowdDrone> drones, PeopleState& people,
+                     std::vector<CrowdEvent>* events) {
+  std::vector<CrowdVehicle> vehicles;
+  if (traffic != nullptr) vehicles = VehiclesNear(*model.traffic, *traffic, people);
+  TickPeople(*model.people, drones, people, events, vehicles);
+}
+
+void TickTrafficAmong(const SimModel& model, const PeopleState* people, TrafficState& traffic, std::vector<NearMiss>* over,
+                      std::span<const TrafficObstacle> others) {
+  std::vector<TrafficObstacle> obstacles;
+  if (people != nullptr) obstacles = ObstaclesOf(*people);
+  obstacles.insert(obstacles.end(), others.begin(), others.end());
+  TickTraffic(model.traffic->model, obstacles, traffic, over);
 }
 
 void StartLife(const SimModel& model, SimState& state) {

@@ -1,6 +1,7 @@
 // What lives in a world without being told: people and traffic.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,14 @@
 #include "airsim360/traffic/traffic.h"
 
 namespace airsim360 {
+
+/// One tick of the people among vehicles, which they look at where these are; `traffic` is null where nothing drives.
+void TickPeopleAmong(const SimModel& model, const TrafficState* traffic, std::span<const CrowdDrone> drones, PeopleState& people,
+                     std::vector<CrowdEvent>* events = nullptr);
+/// One tick of the traffic, which looks at people (null = nobody) and at what else is in its way. Near misses that are over are
+/// added to `over`.
+void TickTrafficAmong(const SimModel& model, const PeopleState* people, TrafficState& traffic, std::vector<NearMiss>* over,
+                      std::span<const TrafficObstacle> others = {});
 
 /// Puts the people and the traffic of the model where they are at time 0.
 void StartLife(const SimModel& model, SimState& state);

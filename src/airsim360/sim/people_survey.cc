@@ -121,21 +121,6 @@ std::optional<double> HeadingTo(const std::vector<Seen>& seen) {
   return std::atan2(sum.y, sum.x);
 }
 
-// The way of the map from one place to another with corners cut where the straight way is free; its first point left out.
-std::vector<Vec3d> ShortWay(const RayTracer& tracer, const Roadmap& map, const CheapestWays& ways, size_t to, double radius) {
-  std::vector<Vec3d> way, points;
-  for (int place = static_cast<int>(to); place >= 0; place = ways.previous[static_cast<size_t>(place)])
-    way.push_back(map.places[static_cast<size_t>(place)]);
-  std::ranges::reverse(way);
-  for (size_t i = 0; i + 1 < way.size();) {
-    size_t j = way.size() - 1;
-    while (j > i + 1 && !IsFree(tracer, way[i], way[j], radius)) --j;
-    points.push_back(way[j]);
-    i = j;
-  }
-  return points;
-}
-
 /// Flies from stop to stop, at rest at each.
 class Tour {
  public:

@@ -12,6 +12,7 @@
 #include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/text.h"
 #include "airsim360/routes/route_file.h"
 
 namespace airsim360 {
@@ -34,12 +35,6 @@ struct ParsedPose {
   Kinematics body;
   std::optional<double> t;
 };
-
-std::string_view Trimmed(std::string_view text) {
-  const size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
-}
 
 // Fields between commas, or where there are none between blanks.
 std::vector<std::string_view> Fields(std::string_view line) {

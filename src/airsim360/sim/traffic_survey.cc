@@ -102,10 +102,10 @@ TrafficSurvey SurveyTraffic(const SimModel& model, double seconds) {
   const int64_t ticks = std::llround(seconds * 1e9) / kTrafficTickNs;
   for (int64_t tick = 1; tick <= ticks; ++tick) {
     const Clock::time_point begin = Clock::now();
-    if (people) TickPeople(*model.people, {}, *people, nullptr, VehiclesNear(traffic, state, *people));
+    if (people) TickPeopleAmong(model, &state, {}, *people);
     survey.people_ms += since(begin);
     const Clock::time_point middle = Clock::now();
-    TickTraffic(traffic.model, people ? ObstaclesOf(*people) : std::vector<TrafficObstacle>{}, state, &survey.near_misses);
+    TickTrafficAmong(model, people ? &*people : nullptr, state, &survey.near_misses);
     survey.tick_ms += since(middle);
     for (const DrivingVehicle& vehicle : state.vehicles) survey.hardest_braking = std::max(survey.hardest_braking, -vehicle.a);
     if (tick * kTrafficTickNs % kLookNs == 0) looks.Add(state, people ? &*people : nullptr);

@@ -26,12 +26,8 @@ Flight VisitPoses(const SimModel& model, std::span<const TimedPose> poses) {
     if (traffic && ticked_ns + kCrowdTickNs <= pose.t_ns) driven = *traffic;
     for (; ticked_ns + kCrowdTickNs <= pose.t_ns && (people || traffic); ticked_ns += kCrowdTickNs) {
       const CrowdDrone drone{eye, {}};
-      if (people) {
-        const auto vehicles = driven ? VehiclesNear(*model.traffic, *driven, *people) : std::vector<CrowdVehicle>{};
-        TickPeople(*model.people, {&drone, 1}, *people, nullptr, vehicles);
-      }
-      if (driven)
-        TickTraffic(model.traffic->model, people ? ObstaclesOf(*people) : std::vector<TrafficObstacle>{}, *driven, &flight.near_misses);
+      if (people) TickPeopleAmong(model, driven ? &*driven : nullptr, {&drone, 1}, *people);
+      if (driven) TickTrafficAmong(model, people ? &*people : nullptr, *driven, &flight.near_misses);
       moved = true;
     }
     if (moved && people) shown = std::make_shared<const PeopleState>(*people);

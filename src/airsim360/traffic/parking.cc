@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/box_overlap.h"
 
 namespace airsim360 {
 namespace {
@@ -202,10 +203,6 @@ Box3f BoxOfBay(const LaneMap& lanes, const ParkingBay& bay) {
   return box;
 }
 
-bool Meet(const Box3f& a, const Box3f& b) {
-  return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y && a.min.z < b.max.z && b.min.z < a.max.z;
-}
-
 // A bay between two cars of a row when those between them are gone.
 struct BayBetween {
   ParkingBay bay;
@@ -225,7 +222,7 @@ class BayFinder {
     const ParkingBay bay{lane, f.rear - kInFront, (f.aside + b.aside) / 2, gap - kInFront};
     if (bay.s + kToTheEnd >= lanes_.length(lane)) return std::nullopt;
     const Box3f box = BoxOfBay(lanes_, bay);
-    if (std::ranges::any_of(others_, [&](const Box3f& other) { return Meet(box, other); })) return std::nullopt;
+    if (std::ranges::any_of(others_, [&](const Box3f& other) { return Overlap(box, other); })) return std::nullopt;
     return BayBetween{bay, row.subspan(behind + 1, front - behind - 1)};
   }
 

@@ -29,16 +29,10 @@ void CheckFree(const TrafficModel& model, const TrafficState& state, uint32_t ve
 
 TrafficState WithVehicleAt(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, Vec3d p) {
   const VehicleShape& shape = model.vehicles[vehicle].shape;
-  LaneId lane = kNoLane;
-  NearestLanePoint best;
-  for (LaneId id = 0; id < model.lanes.size(); ++id) {
-    const Lane& road = model.lanes.lane(id);
-    if (road.junction >= 0 || (road.bus && !shape.bus) || (road.cycle && !shape.bicycle) || model.lanes.length(id) < shape.length) continue;
-    const NearestLanePoint place = model.lanes.Nearest(id, p);
-    if (lane == kNoLane ? !(place.distance <= kFarthestLane) : place.distance >= best.distance) continue;
-    lane = id;
-    best = place;
-  }
+  const auto allowed = [&](const Lane& road) { return road.junction < 0 && (!road.bus || shape.bus) && (!road.cycle || shape.bicycle); };
+  const auto has_room = [&](LaneId id, const NearestLanePoint&) { return model.lanes.length(id) >= shape.length; };
+  const double beyond = std::nextafter(kFarthestLane, INFINITY);
+  const auto [lane, best] = internal::NearestLane(model.lanes, p, beyond, allowed, has_room);
   if (lane == kNoLane) throw InputError("point: no lane is within " + std::to_string(static_cast<int>(kFarthestLane)) + " m of it");
   TrafficState changed = state;
   const double front = std::clamp(best.s + shape.length / 2, shape.length, model.lanes.length(lane));

@@ -6,7 +6,7 @@
 #include "airsim360/dataset/export/export_job.h"
 #include "airsim360/dataset/export/range_points.h"
 #include "airsim360/image/codecs.h"
-#include "airsim360/projection/camera_model.h"
+#include "airsim360/projection/camera_model_names.h"
 #include "airsim360/projection/resample.h"
 
 namespace airsim360::internal {

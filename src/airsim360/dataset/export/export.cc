@@ -1,9 +1,8 @@
 #include "airsim360/dataset/export/export.h"
 
-#include <charconv>
-
 #include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/text.h"
 #include "airsim360/dataset/export/export_job.h"
 
 namespace airsim360 {
@@ -115,10 +114,7 @@ const View& ExportJob::Panorama() const {
   return data.views().front();
 }
 
-std::string Number(double value) {
-  char buffer[32];
-  return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value + 0.0).ptr);
-}
+std::string Number(double value) { return ShortestText(value + 0.0); }
 
 std::string RleText(const std::vector<uint32_t>& runs) {
   // Groups of five bits, least significant first, bit 5 = more follow; from the third run on the difference to the one

@@ -10,7 +10,7 @@
 #include "airsim360/dataset/export/export_job.h"
 #include "airsim360/dataset/export/vehicle_frames.h"
 #include "airsim360/dataset/people/nuscenes_tables.h"
-#include "airsim360/projection/camera_model.h"
+#include "airsim360/projection/camera_model_names.h"
 
 namespace airsim360::internal {
 namespace {

@@ -6,28 +6,36 @@
 
 namespace airsim360::internal {
 
-void ExportParquet(ExportJob& job) {
+namespace {
+
+ParquetFile FrameTable(ExportJob& job) {
   using Type = ParquetFile::Type;
+  return ParquetFile(job.out, "frames.parquet",
+                     {{"index", Type::kInt64},
+                      {"stem", Type::kText},
+                      {"t_ns", Type::kInt64},
+                      {"world", Type::kText},
+                      {"x", Type::kDouble},
+                      {"y", Type::kDouble},
+                      {"z", Type::kDouble},
+                      {"qw", Type::kDouble},
+                      {"qx", Type::kDouble},
+                      {"qy", Type::kDouble},
+                      {"qz", Type::kDouble},
+                      {"range_min", Type::kDouble},
+                      {"range_median", Type::kDouble},
+                      {"entities", Type::kInt64},
+                      {"people", Type::kInt64},
+                      {"categories", Type::kText, true},
+                      {"category_pixels", Type::kInt64, true},
+                      {"files", Type::kText, true}});
+}
+
+}  // namespace
+
+void ExportParquet(ExportJob& job) {
   using Values = std::vector<ParquetFile::Value>;
-  ParquetFile file(job.out, "frames.parquet",
-                   {{"index", Type::kInt64},
-                    {"stem", Type::kText},
-                    {"t_ns", Type::kInt64},
-                    {"world", Type::kText},
-                    {"x", Type::kDouble},
-                    {"y", Type::kDouble},
-                    {"z", Type::kDouble},
-                    {"qw", Type::kDouble},
-                    {"qx", Type::kDouble},
-                    {"qy", Type::kDouble},
-                    {"qz", Type::kDouble},
-                    {"range_min", Type::kDouble},
-                    {"range_median", Type::kDouble},
-                    {"entities", Type::kInt64},
-                    {"people", Type::kInt64},
-                    {"categories", Type::kText, true},
-                    {"category_pixels", Type::kInt64, true},
-                    {"files", Type::kText, true}});
+  ParquetFile file = FrameTable(job);
   for (size_t i = 0; i < job.data.size(); ++i) {
     const NativeFrame frame = job.data.Frame(i);
     const View& first = job.data.views().front();

@@ -3,7 +3,7 @@
 
 #include "airsim360/dataset/export/export_job.h"
 #include "airsim360/dataset/export/imu_log.h"
-#include "airsim360/projection/camera_model.h"
+#include "airsim360/projection/camera_model_names.h"
 
 namespace airsim360::internal {
 namespace {

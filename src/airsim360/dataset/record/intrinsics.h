@@ -8,7 +8,7 @@
 namespace airsim360 {
 
 /// {"model", "width", "height", "fx", "fy", "cx", "cy", "distortion"} with COLMAP's names of models, PINHOLE (no distortion)
-/// and OPENCV_FISHEYE (k1 … k4); of calibrated lenses the names and parameters of projection/camera_model.h and "max_theta",
+/// and OPENCV_FISHEYE (k1 … k4); of calibrated lenses the names and parameters of projection/camera_model_names.h and "max_theta",
 /// radians, beyond which nothing is seen. Pixel centres are at + 0.5. null for panoramas and cube faces.
 nlohmann::ordered_json IntrinsicsJson(const Camera& camera);
 

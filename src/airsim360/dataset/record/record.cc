@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "airsim360/dataset/record/intrinsics.h"
-#include "airsim360/projection/camera_model.h"
+#include "airsim360/projection/camera_model_names.h"
 
 namespace airsim360 {
 namespace {

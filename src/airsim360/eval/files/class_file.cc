@@ -6,6 +6,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/text.h"
 #include "airsim360/eval/files/json_cursor.h"
 
 namespace airsim360 {
@@ -22,17 +23,13 @@ bool ParseId(std::string_view word, uint32_t& id) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-std::string_view Trimmed(std::string_view text) {
-  constexpr const char* kBlank = " \t\r,:;";
-  const size_t first = text.find_first_not_of(kBlank);
-  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
+constexpr std::string_view kBetween = " \t\r,:;";
 
 std::vector<LabelClass> FromLines(std::string_view text) {
   std::vector<LabelClass> classes;
   for (size_t at = 0; at < text.size();) {
     const size_t end = std::min(text.find('\n', at), text.size());
-    const std::string_view line = Trimmed(text.substr(at, end - at));
+    const std::string_view line = Trimmed(text.substr(at, end - at), kBetween);
     at = end + 1;
     if (line.empty() || line[0] == '#') continue;
     constexpr const char* kBetween = " \t,:;";
@@ -40,9 +37,9 @@ std::vector<LabelClass> FromLines(std::string_view text) {
     uint32_t id = static_cast<uint32_t>(classes.size());
     std::string_view name = line;
     if (first != std::string_view::npos && ParseId(line.substr(0, first), id)) {
-      name = Trimmed(line.substr(first));
+      name = Trimmed(line.substr(first), kBetween);
     } else if (last != std::string_view::npos && ParseId(line.substr(last + 1), id)) {
-      name = Trimmed(line.substr(0, last));
+      name = Trimmed(line.substr(0, last), kBetween);
     }
     classes.push_back({id, std::string(name)});
   }

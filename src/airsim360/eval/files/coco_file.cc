@@ -14,6 +14,7 @@ namespace {
 
 using internal::JsonCursor;
 using internal::JsonFile;
+using internal::OwnId;
 
 int Size(const JsonCursor& value) {
   const int64_t size = value.Integer();
@@ -26,11 +27,10 @@ std::vector<CocoImage> Images(const JsonCursor& list, bool sized) {
   std::set<int64_t> ids;
   for (size_t i = 0; i < list.size(); ++i) {
     const JsonCursor one = list[i];
-    CocoImage image{.id = one["id"].Integer(), .name = one.Has("file_name") ? one["file_name"].Text() : ""};
+    CocoImage image{.id = OwnId(one, ids), .name = one.Has("file_name") ? one["file_name"].Text() : ""};
     if (sized || one.Has("width")) image.width = Size(one["width"]), image.height = Size(one["height"]);
     if (static_cast<int64_t>(image.width) * image.height > kMaxPixels)
       one.Fail("a picture of more than " + std::to_string(kMaxPixels) + " pixels");
-    if (!ids.insert(image.id).second) one.Fail("the id " + std::to_string(image.id) + " occurs twice");
     images.push_back(std::move(image));
   }
   std::stable_sort(images.begin(), images.end(), [](const CocoImage& a, const CocoImage& b) { return a.id < b.id; });
@@ -42,9 +42,8 @@ std::vector<CocoCategory> Categories(const JsonCursor& list) {
   std::set<int64_t> ids;
   for (size_t i = 0; i < list.size(); ++i) {
     const JsonCursor one = list[i];
-    CocoCategory category{.id = one["id"].Integer(), .name = one.Has("name") ? one["name"].Text() : ""};
+    CocoCategory category{.id = OwnId(one, ids), .name = one.Has("name") ? one["name"].Text() : ""};
     if (one.Has("sigmas")) category.sigmas = one["sigmas"].Numbers();
-    if (!ids.insert(category.id).second) one.Fail("the id " + std::to_string(category.id) + " occurs twice");
     categories.push_back(std::move(category));
   }
   std::stable_sort(categories.begin(), categories.end(), [](const CocoCategory& a, const CocoCategory& b) { return a.id < b.id; });
@@ -176,11 +175,7 @@ CocoTruths TruthsOf(const JsonCursor& top, CocoKind kind) {
     const auto image = images.find(object.image);
     if (image == images.end()) one.Fail("image_id " + std::to_string(object.image) + " is not among the images");
     if (!categories.contains(object.category)) one.Fail("category_id " + std::to_string(object.category) + " is not among the categories");
-    if (one.Has("id")) {
-      const int64_t id = one["id"].Integer();
-      if (!ids.insert(id).second) one.Fail("the id " + std::to_string(id) + " occurs twice");
-      zero |= id == 0;
-    }
+    if (one.Has("id")) zero |= OwnId(one, ids) == 0;
     object.crowd = one.FlagOr("iscrowd", false);
     ignored |= one.FlagOr("ignore", false) && !object.crowd;
     ReadShape(one, kind, *image->second, object);

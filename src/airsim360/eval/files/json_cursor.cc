@@ -165,4 +165,10 @@ void JsonCursor::Fail(const std::string& text) const {
   throw InputError(root_->name + ": " + (path.empty() ? "" : path + ": ") + text);
 }
 
+int64_t OwnId(const JsonCursor& entry, std::set<int64_t>& ids) {
+  const int64_t id = entry["id"].Integer();
+  if (!ids.insert(id).second) entry.Fail("the id " + std::to_string(id) + " occurs twice");
+  return id;
+}
+
 }  // namespace airsim360::internal

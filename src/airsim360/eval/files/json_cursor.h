@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,5 +66,8 @@ class JsonCursor {
   const JsonFile::Root* root_;
   const nlohmann::json* value_;
 };
+
+/// The field `id` of an entry of a list; InputError if it is among `ids` already, to which it is added.
+int64_t OwnId(const JsonCursor& entry, std::set<int64_t>& ids);
 
 }  // namespace airsim360::internal

@@ -11,14 +11,14 @@ namespace {
 namespace fs = std::filesystem;
 using internal::JsonCursor;
 using internal::JsonFile;
+using internal::OwnId;
 
 std::vector<PanopticCategory> PanopticCategories(const JsonCursor& list) {
   std::vector<PanopticCategory> categories;
   std::set<int64_t> ids;
   for (size_t i = 0; i < list.size(); ++i) {
     const JsonCursor one = list[i];
-    categories.push_back({one["id"].Integer(), one.Has("name") ? one["name"].Text() : "", one["isthing"].Flag()});
-    if (!ids.insert(categories.back().id).second) one.Fail("the id " + std::to_string(categories.back().id) + " occurs twice");
+    categories.push_back({OwnId(one, ids), one.Has("name") ? one["name"].Text() : "", one["isthing"].Flag()});
   }
   return categories;
 }

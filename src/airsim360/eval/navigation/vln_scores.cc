@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "airsim360/base/error.h"
-#include "airsim360/eval/navigation_metrics.h"
+#include "airsim360/eval/navigation/path_metrics.h"
 
 namespace airsim360 {
 namespace {

@@ -1,27 +1,12 @@
 #include "airsim360/flight/prompt/drone_file.h"
 
-#include <charconv>
-
 #include "airsim360/base/config.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/text.h"
 
 namespace airsim360 {
 namespace {
-
-std::string Number(double value) {
-  char text[40];
-  return std::string(text, std::to_chars(text, text + sizeof(text), value).ptr);
-}
-
-std::string Quoted(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + "\"";
-}
 
 /// Writes the fields that a reader would read.
 class YamlWriter : public ConfigVisitor {
@@ -29,14 +14,16 @@ class YamlWriter : public ConfigVisitor {
   explicit YamlWriter(int depth = 0) : indent_(2 * depth, ' '), depth_(depth) {}
   void Field(std::string_view name, std::string_view help, bool& value) override { Line(name, value ? "true" : "false", help); }
   void Field(std::string_view name, std::string_view help, uint64_t& value) override { Line(name, std::to_string(value), help); }
-  void Field(std::string_view name, std::string_view help, double& value, double, double) override { Line(name, Number(value), help); }
-  void Field(std::string_view name, std::string_view help, std::string& value) override { Line(name, Quoted(value), help); }
+  void Field(std::string_view name, std::string_view help, double& value, double, double) override {
+    Line(name, ShortestText(value), help);
+  }
+  void Field(std::string_view name, std::string_view help, std::string& value) override { Line(name, InQuotes(value), help); }
   void Field(std::string_view, std::string_view, std::vector<std::string>&) override {}
   void Count(std::string_view name, std::string_view help, int& value, int) override {
     if (value != 0) Line(name, std::to_string(value), help);
   }
   void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value, double, double) override {
-    Line(name, is_word ? std::string(word) : Number(value), help);
+    Line(name, is_word ? std::string(word) : ShortestText(value), help);
   }
   void Choice(std::string_view name, std::string_view help, std::span<const char* const> names, size_t index,
               const std::function<void(size_t)>&) override {

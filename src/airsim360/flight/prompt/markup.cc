@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "airsim360/base/text.h"
+
 namespace airsim360::internal {
 namespace {
 
@@ -18,17 +20,11 @@ std::string Replaced(std::string text, const std::vector<Rule>& rules) {
 
 bool HasDigit(std::string_view text) { return text.find_first_of("0123456789") != std::string_view::npos; }
 
-std::string Trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(" \t\r") - first + 1));
-}
-
 Row Split(std::string_view text, char at) {
   Row parts;
   for (size_t begin = 0;; ++begin) {
     const size_t end = std::min(text.find(at, begin), text.size());
-    parts.push_back(Trimmed(text.substr(begin, end - begin)));
+    parts.emplace_back(Trimmed(text.substr(begin, end - begin)));
     if (end == text.size()) return parts;
     begin = end;
   }

@@ -159,6 +159,7 @@ class Reader {
   void SetOwnMass(size_t noun, const Quantity& q);
   size_t WeighedThing(const Quantity& q, size_t noun) const;
   bool IsOfLoad(const Quantity& q) const;
+  bool IsHung(const Quantity& q) const;
   bool IsLoaded(const Quantity& q) const;
   bool IsWithThings(const Quantity& q) const;
   void SetLoadedMass(const Quantity& q);
@@ -222,6 +223,7 @@ class Reader {
   bool ReadQuantity(size_t i);
   void ReadLength(const Quantity& q);
   bool IsOfPlace(const Quantity& q) const;
+  void SetArmLength(const Quantity& q, WordKind kind, size_t noun, size_t head);
   int PlainnessOf(const Quantity& q, size_t head) const;
   bool IsTopSpeed(const Quantity& q) const;
   bool IsMinutes(const Quantity& q) const;
@@ -252,6 +254,7 @@ class Reader {
   bool ReadFactor(size_t i);
   bool ReadDifference(const Quantity& q);
   bool ReadLabelled(size_t i);
+  bool ReadLabelledPart(size_t i);
   bool ReadBareMass(size_t i);
   bool ReadCharge(size_t i);
   void NameElse(const Quantity& q, size_t noun);

@@ -192,15 +192,7 @@ void Reader::ReadMass(const Quantity& q) {
   const size_t next = q.last + 1;
   const bool of_thing =
       noun == kNone && next + 1 < tokens_.size() && tokens_[next].text == "of" && tokens_[next + 1].kind == Token::Kind::kUnknown;
-  const auto follows = [&](size_t k, std::initializer_list<const char*> words) {
-    return k < tokens_.size() && std::any_of(words.begin(), words.end(), [&](const char* word) { return tokens_[k].text == word; });
-  };
-  // "5.5 kg on the hook", "65 lb of cargo", "cargo 3 kg", "3 kg cargo, ..."
-  const bool ends = next + 1 >= tokens_.size() || tokens_[next + 1].kind == Token::Kind::kComma;
-  const bool hung = (follows(next, {"on"}) && (follows(next + 1, {"hook"}) || follows(next + 2, {"hook", "sling"}))) ||
-                    (follows(next, {"of"}) && follows(next + 1, {"cargo", "freight"})) || (ends && follows(next, {"cargo", "freight"})) ||
-                    (q.first > 0 && follows(q.first - 1, {"cargo", "freight", "charge"}));
-  if ((of_thing || hung) && !request_.payload) return Set(payload, request_.payload, q.value, q.words);
+  if ((of_thing || IsHung(q)) && !request_.payload) return Set(payload, request_.payload, q.value, q.words);
   const bool added = (noun == kNone || kind_of(noun) == WordKind::kMass || kind_of(noun) == WordKind::kDrone) &&
                      next + 3 < tokens_.size() && (tokens_[next].text == "+" || tokens_[next].text == "plus") &&
                      tokens_[next + 1].kind == Token::Kind::kNumber && Is(next + 2, WordKind::kMassUnit) &&
@@ -215,6 +207,18 @@ void Reader::ReadMass(const Quantity& q) {
     return;
   }
   SetMassOf(noun, q);
+}
+
+/// "5.5 kg on the hook", "65 lb of cargo", "cargo 3 kg", "3 kg cargo, ..."
+bool Reader::IsHung(const Quantity& q) const {
+  const size_t next = q.last + 1;
+  const auto is = [&](size_t k, std::initializer_list<const char*> words) {
+    return k < tokens_.size() && std::any_of(words.begin(), words.end(), [&](const char* word) { return tokens_[k].text == word; });
+  };
+  const bool ends = next + 1 >= tokens_.size() || tokens_[next + 1].kind == Token::Kind::kComma;
+  return (is(next, {"on"}) && (is(next + 1, {"hook"}) || is(next + 2, {"hook", "sling"}))) ||
+         (is(next, {"of"}) && is(next + 1, {"cargo", "freight"})) || (ends && is(next, {"cargo", "freight"})) ||
+         (q.first > 0 && is(q.first - 1, {"cargo", "freight", "charge"}));
 }
 
 /// "3 kg with camera"

@@ -248,11 +248,16 @@ bool Reader::ReadLabelled(size_t i) {
     SetRotors(token.value, tokens_[i - 2].text + " x " + token.text);
     return true;
   }
+  return ReadBareMass(i) || ReadLabelledPart(i);
+}
+
+/// A number beside arms, rotors, cells or propellers: how many of them, or how large.
+bool Reader::ReadLabelledPart(size_t i) {
+  const Token& token = tokens_[i];
   const auto label = [&](WordKind kind) {
     const size_t noun = Beside(i, kind, false);
     return noun != kNone && !claimed_[noun] ? noun : kNone;
   };
-  if (ReadBareMass(i)) return true;
   const bool count = token.value == std::floor(token.value) && token.value < 41;
   if (const size_t arms = label(WordKind::kArm);
       arms != kNone && token.Counts(12) && !arm_count_ && tokens_[arms].text == "arms" && (i + 1 >= tokens_.size() || EndsPhrase(i + 1))) {

@@ -238,17 +238,23 @@ void Reader::NameElse(const Quantity& q, size_t noun) {
   if (noun != kNone) claimed_[noun] = true;
 }
 
+namespace {
+
+// Whether a word says of what a length is.
+bool HasLength(WordKind kind) {
+  constexpr WordKind kKinds[] = {WordKind::kPropeller, WordKind::kArm,   WordKind::kWheelbase, WordKind::kPitch,  WordKind::kRotorNoun,
+                                 WordKind::kElse,      WordKind::kThing, WordKind::kFrame,     WordKind::kBlades, WordKind::kAcross};
+  return std::find(std::begin(kKinds), std::end(kKinds), kind) != std::end(kKinds);
+}
+
+}  // namespace
+
 void Reader::ReadLength(const Quantity& q) {
   const bool inches = q.unit->value == 0.0254;
   size_t noun = NounAfter(q);
   const size_t before = NounBefore(q, true);
   const auto kind_of = [&](size_t n) { return WordAt(n) ? WordAt(n)->kind : WordKind::kDrone; };
-  const auto says = [&](size_t n) {
-    return n != kNone && (kind_of(n) == WordKind::kPropeller || kind_of(n) == WordKind::kArm || kind_of(n) == WordKind::kWheelbase ||
-                          kind_of(n) == WordKind::kPitch || kind_of(n) == WordKind::kRotorNoun || kind_of(n) == WordKind::kElse ||
-                          kind_of(n) == WordKind::kThing || kind_of(n) == WordKind::kFrame || kind_of(n) == WordKind::kBlades ||
-                          kind_of(n) == WordKind::kAcross);
-  };
+  const auto says = [&](size_t n) { return n != kNone && HasLength(kind_of(n)); };
   const size_t head = noun;
   if (!says(noun)) noun = says(before) ? before : says(Apposed(q)) ? Apposed(q) : kNone;
   double value = q.value;
@@ -298,6 +304,11 @@ void Reader::ReadLength(const Quantity& q) {
     if (GivesWay("propeller", request_.propeller, value, blades ? 2 : PlainnessOf(q, head), q.words)) return NameElse(q, kNone);
     return Set(kPropellerRange, request_.propeller, value, q.words);
   }
+  SetArmLength(q, kind, noun, head);
+}
+
+/// A length between motors, which `noun` says (kNone: nothing does) as `kind`; `head` as PlainnessOf takes it.
+void Reader::SetArmLength(const Quantity& q, WordKind kind, size_t noun, size_t head) {
   CorrectWith("arm", request_.arm, q.first);
   if (noun != kNone && Is(noun, WordKind::kAcross)) {
     if (!across_) across_ = q;

@@ -87,7 +87,7 @@ const std::vector<Rule>& Numbers() {
   return kRules;
 }
 
-/// Turns of phrase whose words would mean something else one by one.
+/// Turns of phrase whose words would mean something else one by one. Longer than a screen because it is a table.
 const std::vector<Rule>& Phrases() {
   static const std::vector<Rule> kRules = {
       {std::regex(R"(\ben charge\b)"), " "},

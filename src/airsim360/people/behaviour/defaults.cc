@@ -52,8 +52,9 @@ const std::vector<std::pair<std::string, double>>& DefaultMix(bool furnished) {
   return mix;
 }
 
-std::string_view DefaultTreesXml() {
-  return R"(<root BTCPP_format="4" main_tree_to_execute="walker">
+namespace {
+
+constexpr std::string_view kDefaultTrees = R"(<root BTCPP_format="4" main_tree_to_execute="walker">
   <!-- Someone with no particular aim: strolls, meets people, looks up at drones. -->
   <BehaviorTree ID="walker">
     <ReactiveFallback>
@@ -218,6 +219,9 @@ std::string_view DefaultTreesXml() {
   </BehaviorTree>
 </root>
 )";
-}
+
+}  // namespace
+
+std::string_view DefaultTreesXml() { return kDefaultTrees; }
 
 }  // namespace airsim360::internal

@@ -4,6 +4,7 @@ namespace airsim360::internal {
 
 using enum behaviour::NodeClass;
 
+// Longer than a screen because it is a table: a row for each node.
 const behaviour::Palette& PersonPalette() {
   constexpr auto Of = [](PersonNode node) { return static_cast<behaviour::Node>(node); };
   static const behaviour::Palette palette({

@@ -123,10 +123,19 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
       return LookAtDrone(fresh, number(0), number(1), number(2), Cause(node));
     case PersonNode::kStepAway:
       return StepAway(fresh, number(0));
+    default:
+      return Condition(tree, node, memory, run);
+  }
+}
+
+Status Mind::Condition(const Tree& tree, const TreeNode& node, NodeMemory& memory, TreeRun& run) {
+  const auto number = [&](size_t i) { return NumberOf(tree, node, run, i); };
+  const auto choice = [&] { return Choice(tree, node, run, 0); };
+  switch (static_cast<PersonNode>(node.node)) {
     case PersonNode::kChance:
       return Yes(agent_.rng.Chance(number(0)));
     case PersonNode::kStateIs:
-      return Yes(agent_.state == choice(0));
+      return Yes(agent_.state == choice());
     case PersonNode::kDroneWithin: {
       double distance = 0;
       return Yes(NearestDrone(tick_, self_, &distance) >= 0 && distance <= number(0));
@@ -137,7 +146,7 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
       return Yes(other != kNoPerson);
     }
     case PersonNode::kMessageWaiting:
-      return Yes(std::any_of(agent_.inbox.begin(), agent_.inbox.end(), [&](const Message& m) { return m.type == choice(0); }));
+      return Yes(std::any_of(agent_.inbox.begin(), agent_.inbox.end(), [&](const Message& m) { return m.type == choice(); }));
     case PersonNode::kEvery:
       return Every(memory, number(0), number(1));
     default:

@@ -30,6 +30,7 @@ class Mind : public Leaves {
   Status WaitMessage(bool fresh, const Tree& tree, const TreeNode& node, NodeMemory& memory, TreeRun& run);
   Status FacePerson(PersonIndex other);
   Status Every(NodeMemory& memory, double period, double first);
+  Status Condition(const Tree& tree, const TreeNode& node, NodeMemory& memory, TreeRun& run);
 
   // errands.cc
   Status OnTheWay();

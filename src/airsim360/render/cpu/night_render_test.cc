@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "airsim360/base/parallel.h"
@@ -28,6 +29,41 @@ TEST(NightRender, LampsThatAreOffLeaveEveryByteOfADayAsItIs) {
     const Frame with = Picture(MakeNightStreet(true), clear, tier), without = Picture(MakeNightStreet(false), clear, tier);
     EXPECT_EQ(with.rgb, without.rgb);
     EXPECT_EQ(with.entity, without.entity);
+  }
+}
+
+TEST(NightRender, TheLightOfAHeadLampGoesWhereTheLampGoes) {
+  constexpr uint32_t kLitLens = 26;  // at (3, 0), looking away from the camera
+  auto moved = std::make_shared<SceneState>();
+  moved->moved = {{kLitLens, PlaceUpright({-3, 0, 0.7f}, 3.14159f), false}};
+  const auto scene = MakeNightStreet(true);
+  for (const Tier tier : {Tier::kFast, Tier::kHigh}) {
+    const auto make = [&] {
+      return MakeCpuRenderer(std::make_shared<const RayTracer>(scene), {.tier = tier, .environment = ParseEnvironmentPreset("night")});
+    };
+    RenderRequest request = MakeRequest(Equirectangular{160, 80}, BodyPose({0, -6, 2}, 1.5, 0, 0) * CameraInBody(), tier);
+    request.products.radiance = true;
+    // Light of the ground before the place on the left, and on the right.
+    const auto sides = [&](const Frame& frame) { return std::array{frame.radiance(68, 46).g, frame.radiance(88, 46).g}; };
+    Frame before, there, back;
+    const auto renderer = make();
+    renderer->Render(request, before);
+    request.state = moved;
+    renderer->Render(request, there);
+    const auto [left, right] = sides(before);
+    const auto [left_then, right_then] = sides(there);
+    EXPECT_GT(right, 5 * left);
+    EXPECT_GT(left_then, 5 * right_then);
+    EXPECT_NEAR(left_then / right, 1, 0.1);
+    {
+      const ThreadLimit limit(1);
+      Frame alone;
+      make()->Render(request, alone);
+      EXPECT_EQ(alone.rgb, there.rgb);
+    }
+    request.state = std::make_shared<SceneState>();
+    renderer->Render(request, back);
+    EXPECT_EQ(back.rgb, before.rgb);
   }
 }
 

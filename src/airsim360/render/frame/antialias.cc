@@ -8,6 +8,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
 #include "airsim360/image/color.h"
+#include "airsim360/render/frame/edge_rays.h"
 #include "airsim360/render/frame/interruption.h"
 #include "airsim360/render/shared/shading_constants.h"
 
@@ -31,15 +32,10 @@ uint8_t EncodeSrgb(float linear) {
   return table[static_cast<int>(linear * (kTableSize - 1) + 0.5f)];
 }
 
-// The edge pixels of a run of tiles and their rays on their way through tracing (16 at a time) and shading
-// (256 at a time).
-class EdgeRun {
+// The edge pixels of a run of tiles.
+class EdgeRun : public EdgeRays {
  public:
-  EdgeRun(const AntialiasTask& task, const TileKernels& kernels) : task_(task), kernels_(kernels) {
-    hits_.origin = task.origin;
-    hits_.cone_angle = static_cast<float>(task.rays->cone_angle() / std::sqrt(task.samples));
-    kernels.init(task.origin.x, task.origin.y, task.origin.z, packet_);
-  }
+  EdgeRun(const AntialiasTask& task, const TileKernels& kernels) : EdgeRays(task, kernels), task_(task) {}
 
   // Adds a pixel of the run with its place in the image, where the colour of its centre ray is, and its kind of
   // edge.
@@ -52,31 +48,12 @@ class EdgeRun {
     if (task_.light != nullptr) AddLight(pixel_count_, (*task_.light)(image_x, image_y));
     AddColor(pixel_count_++, (*task_.colors)(image_x, image_y));
   }
-  int pixel_count() const { return pixel_count_; }
   int x(int pixel) const { return x_[pixel]; }
   int y(int pixel) const { return y_[pixel]; }
   // Another entity that looks different: surely an edge that shows.
   bool on_visible_silhouette(int pixel) const { return edge_[pixel] == (kSilhouette | kContrastEdge); }
   // Darkest to lightest of the pixel's samples so far, of 255.
   int contrast(int pixel) const { return high_[pixel] - low_[pixel]; }
-  int ray_count() const { return ray_count_; }
-
-  // Adds a ray of a pixel; `key` chooses its random numbers.
-  void AddRay(int pixel, Vec3d direction, uint32_t key) {
-    packet_.direction_x[lanes_] = static_cast<float>(direction.x);
-    packet_.direction_y[lanes_] = static_cast<float>(direction.y);
-    packet_.direction_z[lanes_] = static_cast<float>(direction.z);
-    hits_.sample_key[hits_.count + lanes_] = key;
-    owner_[hits_.count + lanes_] = pixel;
-    ++ray_count_;
-    if (++lanes_ == 16) Trace();
-  }
-
-  // Traces and shades what is left.
-  void Finish() {
-    if (lanes_ > 0) Trace();
-    if (hits_.count > 0) Shade();
-  }
 
   Rgb8 Mean(int pixel) const {
     const float scale = 1.0f / static_cast<float>(weight_[pixel]);
@@ -109,16 +86,7 @@ class EdgeRun {
     high_[pixel] = std::max(high_[pixel], luma);
   }
 
-  void Trace() {
-    alignas(64) int valid[16];
-    TraceLanes(*task_.tracer, task_.labels.sky_entity != kNoEntity, lanes_, valid, packet_);
-    kernels_.append_hits(task_.labels, packet_, valid, hits_.count / 16, hits_);
-    hits_.count += lanes_;
-    lanes_ = 0;
-    if (hits_.count > HitBatch::kCapacity - 16) Shade();
-  }
-
-  void Shade() {
+  void Shade() override {
     RadianceBatch radiance;
     Rgb8 colors[HitBatch::kCapacity];
     int x[HitBatch::kCapacity], y[HitBatch::kCapacity];
@@ -129,21 +97,15 @@ class EdgeRun {
     task_.shader->ToneMap(radiance.r, radiance.g, radiance.b, hits_.count, task_.exposure_ev, colors, task_.tone);
     for (int i = 0; i < hits_.count; ++i) AddColor(owner_[i], colors[i]);
     for (int i = 0; i < hits_.count && task_.light != nullptr; ++i) AddLight(owner_[i], {radiance.r[i], radiance.g[i], radiance.b[i]});
-    hits_.count = 0;
   }
 
   const AntialiasTask& task_;
-  const TileKernels& kernels_;
-  int pixel_count_ = 0, lanes_ = 0, ray_count_ = 0;
   uint8_t x_[kRunPixels], y_[kRunPixels];  // of the pixels in the run
   int image_x_[kRunPixels], image_y_[kRunPixels];
   uint8_t edge_[kRunPixels], low_[kRunPixels], high_[kRunPixels] = {};
   float r_[kRunPixels] = {}, g_[kRunPixels] = {}, b_[kRunPixels] = {};
   int weight_[kRunPixels] = {};
   float light_r_[kRunPixels] = {}, light_g_[kRunPixels] = {}, light_b_[kRunPixels] = {}, light_weight_[kRunPixels] = {};
-  RayHit16 packet_;
-  HitBatch hits_;
-  int owner_[HitBatch::kCapacity];  // pixel of each ray
 };
 
 }  // namespace

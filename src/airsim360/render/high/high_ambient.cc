@@ -12,8 +12,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kFoliage = 1;  // SurfaceKind
-constexpr int kAtOnce = 4;     // rays of a pixel that are traced before their light is looked up
+constexpr int kAtOnce = 4;  // rays of a pixel that are traced before their light is looked up
 
 // The ambient rays of one tile.
 class AmbientTile {
@@ -132,7 +131,9 @@ class AmbientTile {
   void AddLamps(int i, const SurfaceRef& ref, Way& way) {
     const RayHit16& packet = way.packet;
     const uint32_t lamp = shader_.lights.LampOf(ref.instance, ref.triangle);
-    way.hits.shines[i] = lamp != LightTable::kNoLamp && shader_.lamps->Holds(lamp) ? 0.0f : 1.0f;
+    const bool held =
+        lamp != LightTable::kNoLamp && (shader_.lamps->Holds(lamp) || shader_.moving_lamps.Holds(shader_.lights.lamps()[lamp]));
+    way.hits.shines[i] = held ? 0.0f : 1.0f;
     const Vec3f d{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]};
     const Vec3f p = Vec3f{packet.origin_x[i], packet.origin_y[i], packet.origin_z[i]} + d * packet.t_far[i];
     // By the side that the ray came from: the grid's means are too coarse for normals to matter more.

@@ -8,6 +8,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
 #include "airsim360/render/frame/antialias.h"
+#include "airsim360/render/frame/edge_rays.h"
 #include "airsim360/render/shared/shading_constants.h"
 
 namespace airsim360::internal {
@@ -15,39 +16,19 @@ namespace {
 
 float Luminance(Rgb32f c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
-// One tile's edge pixels and their rays on the way through tracing (16) and shading (256 at a time).
-class EdgeTile {
+// One tile's edge pixels.
+class EdgeTile : public EdgeRays {
  public:
   EdgeTile(const HighEdgeTask& task, const TileKernels& kernels, HighBuffers& buffers, int column, int row)
-      : task_(task), kernels_(kernels), buffers_(buffers), column_(column), row_(row) {
-    hits_.origin = task.origin;
-    hits_.cone_angle = static_cast<float>(task.rays->cone_angle() / std::sqrt(task.samples));
-    kernels.init(task.origin.x, task.origin.y, task.origin.z, packet_);
-  }
+      : EdgeRays(task, kernels), task_(task), buffers_(buffers), column_(column), row_(row) {}
 
   void AddPixel(int x, int y) {
     x_[pixel_count_] = static_cast<uint8_t>(x), y_[pixel_count_] = static_cast<uint8_t>(y);
     AddColor(pixel_count_, Radiance(pixel_count_));
     ++pixel_count_;
   }
-  int pixel_count() const { return pixel_count_; }
-  int ray_count() const { return ray_count_; }
   int x(int pixel) const { return column_ + x_[pixel]; }
   int y(int pixel) const { return row_ + y_[pixel]; }
-
-  void AddRay(int pixel, Vec3d direction, uint32_t key) {
-    packet_.direction_x[lanes_] = static_cast<float>(direction.x);
-    packet_.direction_y[lanes_] = static_cast<float>(direction.y);
-    packet_.direction_z[lanes_] = static_cast<float>(direction.z);
-    hits_.sample_key[hits_.count + lanes_] = key;
-    owner_[hits_.count + lanes_] = pixel;
-    ++ray_count_;
-    if (++lanes_ == 16) Trace();
-  }
-  void Finish() {
-    if (lanes_ > 0) Trace();
-    if (hits_.count > 0) Shade();
-  }
 
   void StoreMeans() {
     for (int i = 0; i < pixel_count_; ++i) {
@@ -68,16 +49,7 @@ class EdgeTile {
     ++count_[pixel];
   }
 
-  void Trace() {
-    alignas(64) int valid[16];
-    TraceLanes(*task_.tracer, task_.labels.sky_entity != kNoEntity, lanes_, valid, packet_);
-    const int p = hits_.count / 16;
-    kernels_.append_hits(task_.labels, packet_, valid, p, hits_);
-    kernels_.resolve(task_.labels, packet_, valid, p, true, labels_);
-    hits_.count += lanes_;
-    lanes_ = 0;
-    if (hits_.count > HitBatch::kCapacity - 16) Shade();
-  }
+  void Traced(const int* valid, int packet) override { kernels_.resolve(task_.labels, packet_, valid, packet, true, labels_); }
 
   // The pixel around whose surface is most like what sample i met, and how unlike that is; -1 = none.
   int64_t MostAlike(int i, float& best_cost) const {
@@ -105,7 +77,7 @@ class EdgeTile {
 
   // Light of the pixels around; the sun too, where the surface is the same, for there it is known better than
   // by one ray.
-  void Shade() {
+  void Shade() override {
     Rgb32f around[HitBatch::kCapacity];
     int64_t pixel_of[HitBatch::kCapacity];
     alignas(64) float sun_known[HitBatch::kCapacity];
@@ -129,7 +101,6 @@ class EdgeTile {
                            t.ambient_g[i] * around[i].g + t.sun_g[i] * sun + t.rest_g[i],
                            t.ambient_b[i] * around[i].b + t.sun_b[i] * sun + t.rest_b[i]});
     }
-    hits_.count = 0;
   }
 
   // What the pixel around mirrors, if it does, is known better than by the sample alone.
@@ -148,19 +119,14 @@ class EdgeTile {
   }
 
   const HighEdgeTask& task_;
-  const TileKernels& kernels_;
   HighBuffers& buffers_;
   int column_, row_;
-  int pixel_count_ = 0, lanes_ = 0, ray_count_ = 0;
   uint8_t x_[kTilePixels], y_[kTilePixels];
   float r_[kTilePixels] = {}, g_[kTilePixels] = {}, b_[kTilePixels] = {};
   int count_[kTilePixels] = {};
-  RayHit16 packet_;
-  HitBatch hits_;
   LabelTile labels_;
   LightTerms terms_;
   HighTile shaded_;
-  int owner_[HitBatch::kCapacity];  // pixel of each ray
 };
 
 int RefineTile(const HighEdgeTask& task, const TileKernels& kernels, const std::vector<PixelOffset>& offsets, HighBuffers& buffers,

@@ -9,7 +9,7 @@
 #include "airsim360/render/lights/clear_panes.h"
 #include "airsim360/render/shading/sampling.h"
 #include "airsim360/render/shading/secondary_rays.h"
-#include "airsim360/render/shared/roofs_scalar.h"
+#include "airsim360/render/shared/precipitation_scalar.h"
 #include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {

@@ -7,7 +7,7 @@
 
 #include "airsim360/render/frame/test_room.h"
 #include "airsim360/render/reference/path_tracer.h"
-#include "airsim360/render/reference/statistics.h"
+#include "airsim360/render/reference/test_statistics.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360 {

@@ -16,9 +16,7 @@ namespace {
 // Lamps of one instance closer than this are one (the globes of a post, the two head lights of a car).
 constexpr float kMergeDistance = 1.5f;
 constexpr size_t kMergeAmong = 64;  // of the last ones
-// Dimmer surfaces light so evenly that probes do better; small scenes have room for all.
-constexpr float kBrightLamp = 300 * kLux;
-constexpr size_t kFewLamps = 256;
+constexpr size_t kFewLamps = 256;   // a small scene has room for dim ones, too
 // A lamp reaches as far as it brings 0.05 lx, or one part in 10,000 of the daylight; one that brings less
 // than a five-hundredth of the daylight at 2 m is left out.
 constexpr float kLeastLight = 0.05f * kLux, kLeastOfCell = 1e-4f, kNearShare = 2e-3f, kNearLamp = 2, kFarthest = 150;
@@ -95,6 +93,33 @@ Lamp Join(const Lamp& a, const Lamp& b) {
 
 }  // namespace
 
+size_t MergeLamp(const Lamp& lamp, size_t first, std::vector<Lamp>& merged) {
+  size_t at = std::max(first, merged.size() - std::min(merged.size(), kMergeAmong));
+  while (at < merged.size() && !(Norm(merged[at].center - lamp.center) <= kMergeDistance && merged[at].beam == lamp.beam)) ++at;
+  if (at == merged.size()) {
+    merged.push_back(lamp);
+  } else {
+    merged[at] = Join(merged[at], lamp);
+  }
+  return at;
+}
+
+float LeastLampLight(float daylight) { return std::max(kLeastLight, kLeastOfCell * daylight); }
+
+std::optional<LampRecord> RecordOf(const Lamp& lamp, float daylight) {
+  LampRecord record = Record(lamp);
+  const Vec3f color{record.color[0], record.color[1], record.color[2]};
+  const float intensity = Luminance(color) * (record.body + Norm(lamp.facing));
+  if (!(intensity > kNearShare * daylight * kNearLamp * kNearLamp) || !std::isfinite(intensity)) return std::nullopt;
+  record.reach = std::min(kFarthest, std::sqrt(intensity / LeastLampLight(daylight)));
+  return record;
+}
+
+float StrengthOf(const LampRecord& lamp, Vec3f p) {
+  return Luminance({lamp.color[0], lamp.color[1], lamp.color[2]}) *
+         FacedIrradiance(lamp, Vec3f{lamp.center[0], lamp.center[1], lamp.center[2]} - p);
+}
+
 // What one corner of the lattice knows.
 struct LampGrid::Corner {
   std::array<uint32_t, kSeenLamps> lamp;   // strongest first
@@ -120,29 +145,22 @@ void LampGrid::Merge(const LightTable& table, float daylight) {
     if (i == 0 || lamps[i - 1].instance != lamp.instance) first_of_instance = merged.size();
     const bool beam = Norm(lamp.beam) >= 1;  // head and tail lamps, however dim
     if (lamps.size() > kFewLamps && !beam && Luminance(lamp.power) / (kPiF * lamp.area) < kBrightLamp) continue;
-    size_t at = std::max(first_of_instance, merged.size() - std::min(merged.size(), kMergeAmong));
-    while (at < merged.size() && !(Norm(merged[at].center - lamp.center) <= kMergeDistance && merged[at].beam == lamp.beam)) ++at;
-    if (at == merged.size()) {
-      merged.push_back(lamp);
-    } else {
-      merged[at] = Join(merged[at], lamp);
-    }
-    record_of_[i] = static_cast<uint32_t>(at);
+    record_of_[i] = static_cast<uint32_t>(MergeLamp(lamp, first_of_instance, merged));
   }
 
   // Reach; what does not reach far is dropped.
-  const float least = std::max(kLeastLight, kLeastOfCell * daylight);
   std::vector<uint32_t> kept(merged.size(), LightTable::kNoLamp);
   for (size_t k = 0; k < merged.size(); ++k) {
-    LampRecord record = Record(merged[k]);
-    const Vec3f color{record.color[0], record.color[1], record.color[2]};
-    const float intensity = Luminance(color) * (record.body + Norm(merged[k].facing));
-    if (!(intensity > kNearShare * daylight * kNearLamp * kNearLamp) || !std::isfinite(intensity)) continue;
-    record.reach = std::min(kFarthest, std::sqrt(intensity / least));
+    const std::optional<LampRecord> record = RecordOf(merged[k], daylight);
+    if (!record) continue;
     kept[k] = static_cast<uint32_t>(records_.size());
-    records_.push_back(record);
+    records_.push_back(*record);
   }
   for (uint32_t& r : record_of_) r = r == LightTable::kNoLamp ? r : kept[r];
+  for (uint32_t i = 0; i < lamps.size(); ++i)
+    if (record_of_[i] != LightTable::kNoLamp) of_instance_.emplace_back(lamps[i].instance, record_of_[i]);
+  std::ranges::sort(of_instance_);
+  of_instance_.erase(std::unique(of_instance_.begin(), of_instance_.end()), of_instance_.end());
 }
 
 Vec3f LampGrid::CornerPosition(uint32_t corner) const {
@@ -165,11 +183,6 @@ void LampGrid::RaiseCorners(const RayTracer& tracer, const std::vector<uint32_t>
       if (MeetsBack(tracer, packet.rays, k)) raised_[corners[i]] = packet.rays.t_far[k] + kAboveGround;
     }
   });
-}
-
-float LampGrid::Strength(const LampRecord& lamp, Vec3f p) const {
-  return Luminance({lamp.color[0], lamp.color[1], lamp.color[2]}) *
-         FacedIrradiance(lamp, Vec3f{lamp.center[0], lamp.center[1], lamp.center[2]} - p);
 }
 
 void LampGrid::PlaceCells(const RayTracer& tracer) {
@@ -268,7 +281,7 @@ std::vector<LampGrid::Corner> LampGrid::SeeFromCorners(const RayTracer& tracer, 
       const Vec3f p = CornerPosition(places[i]);
       ranked.clear();
       for (uint32_t l : near) {
-        const float strength = Strength(records_[l], p);
+        const float strength = StrengthOf(records_[l], p);
         if (strength > 0) ranked.emplace_back(-strength, l);
       }
       LookAtLamps(tracer, p, ranked, corners[i]);
@@ -371,7 +384,7 @@ void LampGrid::AverageCells() {
         const LampRecord& lamp = records_[cell.lamp[k] & 0xffffffu];
         const Vec3f to = Normalized(Vec3f{lamp.center[0], lamp.center[1], lamp.center[2]} - p);
         const Vec3f color{lamp.color[0], lamp.color[1], lamp.color[2]};
-        const Vec3f light = color * (Strength(lamp, p) / std::max(Luminance(color), 1e-30f));
+        const Vec3f light = color * (StrengthOf(lamp, p) / std::max(Luminance(color), 1e-30f));
         for (int side = 0; side < 6; ++side) sum[side] += light * std::max(0.0f, side & 1 ? -to[side / 2] : to[side / 2]);
       }
     }
@@ -403,6 +416,19 @@ float LampGrid::TypicalLight() const {
 LampView LampGrid::view() const {
   if (records_.empty()) return {};
   return {records_.data(), cells_.data(), cell_of_.data(), origin_.x, origin_.y, origin_.z, 1 / cell_, nx_, ny_, nz_};
+}
+
+LampView LampGrid::ViewWithout(std::span<const uint32_t> instances, std::vector<LampRecord>& own) const {
+  own.clear();
+  LampView changed = view();
+  for (const uint32_t instance : instances) {
+    const auto same = std::ranges::equal_range(of_instance_, instance, {}, &std::pair<uint32_t, uint32_t>::first);
+    if (same.empty()) continue;
+    if (own.empty()) own = records_;
+    for (const auto& [_, record] : same) std::ranges::fill(own[record].color, 0.0f);
+  }
+  if (!own.empty()) changed.lamps = own.data();
+  return changed;
 }
 
 Vec3f LampGrid::Irradiance(Vec3f p, Vec3f normal) const {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "airsim360/render/lights/light_table.h"
@@ -10,6 +12,18 @@
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {
+
+/// Radiance below which a surface that throws no beam lights so evenly that probes do better.
+inline constexpr float kBrightLamp = 300 * kLux;
+
+/// Joins a lamp with one of the same beam close by among the last of `merged` from `first` on, or appends it; its index there.
+size_t MergeLamp(const Lamp& lamp, size_t first, std::vector<Lamp>& merged);
+/// A lamp as kernels see it, with how far it reaches; nullopt: it is nothing beside the daylight (irradiance on the ground).
+std::optional<LampRecord> RecordOf(const Lamp& lamp, float daylight);
+/// Irradiance with which a lamp still counts.
+float LeastLampLight(float daylight);
+/// Luminance of the irradiance on a surface at p that faces a lamp, unhidden.
+float StrengthOf(const LampRecord& lamp, Vec3f p);
 
 /// Immutable. Lamps that stand close together on one instance are merged; each keeps its power, its place and
 /// the direction it shines to. Cells of space near surfaces know the fifteen lamps that bring most light and
@@ -23,6 +37,8 @@ class LampGrid {
 
   /// lamps == nullptr if none is left.
   LampView view() const;
+  /// The same with the lamps of these instances (ascending) switched off; `own` holds what differs, and outlives the view.
+  LampView ViewWithout(std::span<const uint32_t> instances, std::vector<LampRecord>& own) const;
   /// Whether a lamp (index into LightTable::lamps) is in the grid, or its light is for the probes to gather.
   bool Holds(uint32_t lamp) const { return record_of_[lamp] != LightTable::kNoLamp; }
   size_t lamps() const { return records_.size(); }
@@ -51,15 +67,15 @@ class LampGrid {
   std::vector<Corner> SeeFromCorners(const RayTracer& tracer, const std::vector<uint32_t>& places) const;
   void FillCells(const std::vector<uint32_t>& places, const std::vector<Corner>& corners, const std::vector<uint32_t>& corner_of);
   Vec3f CornerPosition(uint32_t corner) const;
-  float Strength(const LampRecord& lamp, Vec3f p) const;
   void AverageCells();
   void RaiseCorners(const RayTracer& tracer, const std::vector<uint32_t>& corners);
   /// Index in the lattice of corners of corner c of a cell: x + 2 y + 4 z.
   uint32_t CornerOf(size_t place, uint32_t c) const;
 
   std::vector<LampRecord> records_;
-  std::vector<uint32_t> record_of_;  ///< by lamp of the table
-  std::vector<LampCell> cells_;      ///< 0: none
+  std::vector<uint32_t> record_of_;                         ///< by lamp of the table
+  std::vector<std::pair<uint32_t, uint32_t>> of_instance_;  ///< (instance, record), ascending
+  std::vector<LampCell> cells_;                             ///< 0: none
   std::vector<uint32_t> cell_of_;
   std::vector<std::array<Vec3f, 6>> sides_;  ///< by cell: mean irradiance on surfaces that face +x, -x, +y …
   std::vector<float> raised_;                ///< by corner, metres; while the grid is made

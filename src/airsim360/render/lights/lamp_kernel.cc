@@ -7,8 +7,8 @@ namespace {
 
 #define KERNEL static inline __attribute__((always_inline, unused))
 
-constexpr int kSlots = 16;     // lamps of a cell, one spare
-constexpr float kFoliage = 1;  // SurfaceKind
+constexpr int kSlots = 16;         // lamps of a cell, one spare
+constexpr float kBesideStill = 3;  // how much more than moving lamps those that stand count where a ray to a moving one is weighed
 static_assert(kSlots % kLanes == 0 && LampCell::kLamps < kSlots);
 
 /// The lamps of one cell as lanes. Unused slots send nothing.
@@ -137,9 +137,7 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
 
 /// A point of the lamp's sphere instead of its centre.
 KERNEL void Soften(uint32_t key, float radius, LampRays::Ray& ray) {
-  key = (key ^ (key >> 16)) * 0x7feb352du;
-  key = (key ^ (key >> 15)) * 0x846ca68bu;
-  key ^= key >> 16;
+  key = hash_bits(key);
   const float z = 2 * static_cast<float>(key & 0xffff) * (1.0f / 65536) - 1;
   const float turn = static_cast<float>(key >> 16) * (1.0f / 65536);
   const float whole = ray.distance + radius * kLampEnd;
@@ -184,9 +182,9 @@ KERNEL void ChooseRays(const CellLanes& c, Effects& e, float total, int count, b
   }
 }
 
-}  // namespace
-
-void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool soft, SurfaceSet& s, LampRays& wanted) {
+/// Light of the lamps of every surface's cell. `moving`: lamps in columns, which come on top of the others.
+template <bool moving>
+KERNEL void LightBy(const LampView& lamps, const RaySet& rays, int count, bool soft, SurfaceSet& s, LampRays& wanted) {
   CellLanes cell;
   cell.count = 0;
   uint32_t loaded = 0;
@@ -194,15 +192,16 @@ void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool sof
   for (int i = 0; i < padded; ++i) {
     float front[3] = {}, back[3] = {}, shine[3] = {};
     for (int k = 0; k < count; ++k) wanted.ray[k][i].share = 0;
-    const Place at = i < rays.count ? Locate(view.lamps, s.px[i], s.py[i], s.pz[i]) : Place{0, 0, 0, 0};
+    const Place at = i < rays.count ? Locate(lamps, s.px[i], s.py[i], moving ? lamps.origin_z : s.pz[i]) : Place{0, 0, 0, 0};
     if (at.cell != 0) {
-      if (at.cell != loaded) LoadCell(view.lamps, view.lamps.cells[at.cell], cell);
+      if (at.cell != loaded) LoadCell(lamps, lamps.cells[at.cell], cell);
       loaded = at.cell;
       float weight[8];
-      CornerWeights(view.lamps.cells[at.cell].header, at, weight);
+      CornerWeights(lamps.cells[at.cell].header, at, weight);
       Effects e;
       Evaluate(s, rays, i, cell, weight, e);
-      float total = 0;
+      // A moving lamp that is nothing beside those that stand needs no ray.
+      float total = moving ? kBesideStill * (0.2126f * s.lamp_r[i] + 0.7152f * s.lamp_g[i] + 0.0722f * s.lamp_b[i]) : 0.0f;
       for (int k = 0; k < cell.count; ++k) {
         for (int q = 0; q < 3; ++q) front[q] += e.front[q][k] * e.guess[k];
         for (int q = 0; q < 3 && e.leaf; ++q) back[q] += e.back[q][k] * e.guess[k];
@@ -211,10 +210,32 @@ void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool sof
       }
       if (count > 0) ChooseRays(cell, e, total, count, soft, rays.key[i], i, wanted);
     }
-    s.lamp_r[i] = front[0], s.lamp_g[i] = front[1], s.lamp_b[i] = front[2];
-    s.lamp_back_r[i] = back[0], s.lamp_back_g[i] = back[1], s.lamp_back_b[i] = back[2];
-    s.lamp_shine_r[i] = shine[0], s.lamp_shine_g[i] = shine[1], s.lamp_shine_b[i] = shine[2];
+    if (moving) {
+      s.lamp_r[i] += front[0], s.lamp_g[i] += front[1], s.lamp_b[i] += front[2];
+      s.lamp_back_r[i] += back[0], s.lamp_back_g[i] += back[1], s.lamp_back_b[i] += back[2];
+      s.lamp_shine_r[i] += shine[0], s.lamp_shine_g[i] += shine[1], s.lamp_shine_b[i] += shine[2];
+    } else {
+      s.lamp_r[i] = front[0], s.lamp_g[i] = front[1], s.lamp_b[i] = front[2];
+      s.lamp_back_r[i] = back[0], s.lamp_back_g[i] = back[1], s.lamp_back_b[i] = back[2];
+      s.lamp_shine_r[i] = shine[0], s.lamp_shine_g[i] = shine[1], s.lamp_shine_b[i] = shine[2];
+    }
   }
+}
+
+}  // namespace
+
+bool LightByMovingLamps(const ShadeView& view, const RaySet& rays, int count, SurfaceSet& s, LampRays& wanted) {
+  // Most surfaces are far from all of them.
+  const LampView& lamps = view.moving_lamps;
+  uint32_t near = 0;
+  for (int i = 0; i < rays.count; ++i) near |= Locate(lamps, s.px[i], s.py[i], lamps.origin_z).cell;
+  if (near == 0) return false;
+  LightBy<true>(lamps, rays, count, false, s, wanted);
+  return true;
+}
+
+void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool soft, SurfaceSet& s, LampRays& wanted) {
+  LightBy<false>(view.lamps, rays, count, soft, s, wanted);
 }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

@@ -12,15 +12,6 @@ constexpr float kBlur[3] = {0.3065f, 0.2280f, 0.1188f};
 
 KERNEL real Take(const float* p) { return real(p, stdx::element_aligned); }
 
-// Hash of 32 bits with good avalanche (Wellons' lowbias32).
-KERNEL ureal Hash(ureal x) {
-  x ^= x >> 16;
-  x *= 0x7feb352du;
-  x ^= x >> 15;
-  x *= 0x846ca68bu;
-  return x ^ (x >> 16);
-}
-
 // About normal with variance 1: the sum of four bytes (Irwin-Hall), at most 3.45.
 KERNEL real NormalOf(ureal bits) {
   const ureal even = bits & 0x00ff00ffu, odd = (bits >> 8) & 0x00ff00ffu;
@@ -90,10 +81,10 @@ void ExposeRow(const ExposeRowTask& task, ColorRow row) {
     real c[3] = {load(row.r + x) * task.exposure, load(row.g + x) * task.exposure, load(row.b + x) * task.exposure};
     if (noisy) {
       const ireal column = to_int((order + (static_cast<float>(x) + 0.5f)) * task.grain);
-      ureal bits = Hash(stdx::static_simd_cast<ureal>(column) * 0x9e3779b1u + task.key);
+      ureal bits = hash_bits(stdx::static_simd_cast<ureal>(column) * 0x9e3779b1u + task.key);
       const real common = NormalOf(bits);
       for (int k = 0; k < 3; ++k) {
-        bits = Hash(bits + 0x9e3779b9u);
+        bits = hash_bits(bits + 0x9e3779b9u);
         const real own = NormalOf(bits);
         c[k] = c[k] + rroot(c[k] * task.slope + task.floor) * ((common + own) * kHalf);
       }

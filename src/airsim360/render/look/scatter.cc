@@ -109,6 +109,39 @@ ScatterMixture MakeScatterMixture(double angle_deg, double cell) {
   return mixture;
 }
 
+namespace {
+
+// Column by column of the frequencies in `planes`, of `h` rows and `length` frequencies.
+void Solve(const ScatterMixture& mixture, const Grid& grid, int h, int length, int stride, std::vector<float> (&planes)[4]) {
+  // Frequency 0 on its own.
+  std::vector<double> means[4];
+  for (size_t k = 0; k < 4; ++k) {
+    std::vector<double> column(static_cast<size_t>(h));
+    for (size_t y = 0; y < column.size(); ++y) column[y] = planes[k][y * static_cast<size_t>(stride)];
+    means[k] = SolveMean(mixture, grid, column);
+  }
+  std::vector<float> t, weight;
+  for (const ScatterMixture::Part& part : mixture.parts)
+    t.push_back(static_cast<float>(part.t)), weight.push_back(static_cast<float>(part.weight));
+  const ScatterSystem system{h,
+                             stride,
+                             grid.area.data(),
+                             grid.flux.data(),
+                             grid.across.data(),
+                             grid.eigen.data(),
+                             static_cast<int>(t.size()),
+                             t.data(),
+                             weight.data(),
+                             {planes[0].data(), planes[1].data(), planes[2].data(), planes[3].data()}};
+  const auto solve = AIRSIM360_SELECT_KERNEL(SolveColumns);
+  ParallelFor(length / kScatterBlock, [&](int64_t block) { solve(system, static_cast<int>(block) * kScatterBlock); });
+  for (size_t k = 0; k < 4; ++k) {
+    for (size_t y = 0; y < means[k].size(); ++y) planes[k][y * static_cast<size_t>(stride)] = static_cast<float>(means[k][y]);
+  }
+}
+
+}  // namespace
+
 void Scatter(const ScatterMixture& mixture, const LightCells& light, LightCells& out) {
   const int w = light.width, h = light.height, length = light.sphere ? w : 2 * w;
   const int padded = (h + kScatterBlock - 1) / kScatterBlock * kScatterBlock;
@@ -136,31 +169,7 @@ void Scatter(const ScatterMixture& mixture, const LightCells& light, LightCells&
     for (const ScatterRows& rows : pairs) fourier(rows, first, false);
   });
 
-  // Frequency 0 on its own.
-  std::vector<double> means[4];
-  for (size_t k = 0; k < 4; ++k) {
-    std::vector<double> column(static_cast<size_t>(h));
-    for (size_t y = 0; y < column.size(); ++y) column[y] = planes[k][y * static_cast<size_t>(stride)];
-    means[k] = SolveMean(mixture, grid, column);
-  }
-  std::vector<float> t, weight;
-  for (const ScatterMixture::Part& part : mixture.parts)
-    t.push_back(static_cast<float>(part.t)), weight.push_back(static_cast<float>(part.weight));
-  const ScatterSystem system{h,
-                             stride,
-                             grid.area.data(),
-                             grid.flux.data(),
-                             grid.across.data(),
-                             grid.eigen.data(),
-                             static_cast<int>(t.size()),
-                             t.data(),
-                             weight.data(),
-                             {planes[0].data(), planes[1].data(), planes[2].data(), planes[3].data()}};
-  const auto solve = AIRSIM360_SELECT_KERNEL(SolveColumns);
-  ParallelFor(length / kScatterBlock, [&](int64_t block) { solve(system, static_cast<int>(block) * kScatterBlock); });
-  for (size_t k = 0; k < 4; ++k) {
-    for (size_t y = 0; y < means[k].size(); ++y) planes[k][y * static_cast<size_t>(stride)] = static_cast<float>(means[k][y]);
-  }
+  Solve(mixture, grid, h, length, stride, planes);
 
   const float scale = 1.0f / static_cast<float>(length);
   ParallelFor(padded / kScatterBlock, [&](int64_t block) {

@@ -6,7 +6,7 @@
 #include "airsim360/math/angles.h"
 #include "airsim360/render/reference/path_rays.h"
 #include "airsim360/render/shading/secondary_rays.h"
-#include "airsim360/render/shared/roofs_scalar.h"
+#include "airsim360/render/shared/precipitation_scalar.h"
 #include "airsim360/render/shared/shading_constants.h"
 #include "airsim360/scene/luminance.h"
 
@@ -19,9 +19,7 @@ constexpr uint32_t kPairsPerStep = 6, kFirstPair = 1;
 constexpr int kFirstRoulette = 3;
 
 // The normal that lamps are chosen for: leaves take light from both sides.
-Vec3f LampNormal(const SurfaceSet& s, int i) {
-  return s.kind[i] == static_cast<float>(SurfaceKind::kFoliage) ? Vec3f{} : Vec3f{s.gx[i], s.gy[i], s.gz[i]};
-}
+Vec3f LampNormal(const SurfaceSet& s, int i) { return s.kind[i] == kFoliage ? Vec3f{} : Vec3f{s.gx[i], s.gy[i], s.gz[i]}; }
 
 Vec3f DirectionAt(const RaySet& r, int i) { return {r.dx[i], r.dy[i], r.dz[i]}; }
 

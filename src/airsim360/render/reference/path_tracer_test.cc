@@ -10,7 +10,7 @@
 #include "airsim360/math/angles.h"
 #include "airsim360/render/frame/test_room.h"
 #include "airsim360/render/reference/path_lights.h"
-#include "airsim360/render/reference/statistics.h"
+#include "airsim360/render/reference/test_statistics.h"
 #include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/render/sky/sky.h"
 

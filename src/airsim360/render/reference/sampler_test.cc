@@ -8,7 +8,7 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/render/reference/path_sampler.h"
-#include "airsim360/render/reference/statistics.h"
+#include "airsim360/render/reference/test_statistics.h"
 #include "airsim360/render/shading/sampling.h"
 
 namespace airsim360::internal {

@@ -59,8 +59,8 @@ KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
     const real tint[3] = {m2.y, m2.z, m2.w};
     for (int k = 0; k < 3; ++k) store(met.albedo[k] + first, rmin(load(mean[k]) * tint[k], real(kMostBounced)));
     const real4 b = quad(material, 2);  // transmission, …, kind
-    store(met.foliage + first, sel(b.w == BSDF_FOLIAGE, real(1.0f), real(0.0f)));
-    store(met.leaf + first, sel(b.w == BSDF_FOLIAGE, b.x, real(0.0f)));
+    store(met.foliage + first, sel(b.w == kFoliage, real(1.0f), real(0.0f)));
+    store(met.leaf + first, sel(b.w == kFoliage, b.x, real(0.0f)));
   }
 }
 
@@ -91,10 +91,7 @@ KERNEL real3 NearProbe(const ShadeView& view, mask_t wanted, real3 p, real3 n) {
   if (grid.probes == nullptr) return UniformAmbient(view, n, n).front;
   const ProbePlace place = FindProbes(grid, p, n);
   const auto bits = [](real x) __attribute__((always_inline)) { return stdx::static_simd_cast<ureal>(to_int(rfloor(x * kProbeGrains))); };
-  ureal hash = bits(p.x) * 0x9e3779b1u ^ bits(p.y) * 0x85ebca77u ^ bits(p.z) * 0xc2b2ae3du;
-  hash = (hash ^ (hash >> 16)) * 0x7feb352du;
-  hash = (hash ^ (hash >> 15)) * 0x846ca68bu;
-  hash = hash ^ (hash >> 16);
+  const ureal hash = hash_bits(bits(p.x) * 0x9e3779b1u ^ bits(p.y) * 0x85ebca77u ^ bits(p.z) * 0xc2b2ae3du);
   const auto step = [&](real f, int shift, int32_t stride) __attribute__((always_inline)) {
     const real u = to_real(stdx::static_simd_cast<ireal>((hash >> shift) & 0x3ffu)) * kTenBits;
     return to_int(sel(u < f, real(static_cast<float>(stride * 16)), real(0.0f)));

@@ -1,13 +1,12 @@
 // Kernel: from surfaces and their visibility of the sun to radiance; the sky itself; display colours.
 #include "airsim360/render/indoor/indoor_kernels.h"
-#include "airsim360/render/shared/roofs_simd.h"
+#include "airsim360/render/shared/precipitation_simd.h"
 #include "airsim360/render/shared/shading_ambient.h"
 #include "airsim360/render/shared/shading_kernels.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-constexpr float kFoliage = BSDF_FOLIAGE;
 constexpr int kAgx = 1, kLinear = 2;  // ToneCurve
 
 KERNEL real3 Grey(float v) { return make3(real(v), real(v), real(v)); }
@@ -100,7 +99,7 @@ KERNEL real3 Behind(const SurfaceSet& s, int i, real3 straight) {
 /// Emission, and the light of lamps.
 KERNEL real3 OwnAndLamps(const ShadeView& view, const SurfaceSet& s, int i, const Response& surface) {
   real3 light = load3(s.er + i, s.eg + i, s.eb + i);
-  if (view.lamps.lamps == nullptr) return light;
+  if (view.lamps.lamps == nullptr && view.moving_lamps.lamps == nullptr) return light;
   const real3 front = load3(s.lamp_r + i, s.lamp_g + i, s.lamp_b + i);
   const real3 back = load3(s.lamp_back_r + i, s.lamp_back_g + i, s.lamp_back_b + i);
   light = light + (surface.body * front + surface.leaf * back) * real(SHADE_INV_PI);

@@ -1,5 +1,5 @@
 // Kernel: rain and snow in the air before the picture.
-#include "airsim360/render/shared/roofs_simd.h"
+#include "airsim360/render/shared/precipitation_simd.h"
 #include "airsim360/render/shared/shading_kernels.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {

@@ -7,7 +7,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/render/indoor/ray_packet.h"
 #include "airsim360/render/shading/probe_rays.h"
-#include "airsim360/render/shared/roofs_scalar.h"
+#include "airsim360/render/shared/precipitation_scalar.h"
 #include "airsim360/scene/material.h"
 
 namespace airsim360::internal {
@@ -39,7 +39,7 @@ void AlongRows(int size, int reach, const Choose& choose, const TableVector<floa
 bool IsLeaf(const RayTracer& tracer, const SurfaceTables& tables, const RayHit16& rays, int lane) {
   const SurfaceRef ref = tracer.Resolve(rays.geometry[lane], rays.instance[lane], rays.primitive[lane]);
   const TriangleRecord& triangle = tables.triangles[tables.instances[ref.instance].first_triangle + ref.triangle];
-  return tables.materials[triangle.material & ~kMirroredUv].kind == static_cast<float>(SurfaceKind::kFoliage);
+  return tables.materials[triangle.material & ~kMirroredUv].kind == kFoliage;
 }
 
 struct FallingRay {

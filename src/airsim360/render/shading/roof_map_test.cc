@@ -10,7 +10,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/render/indoor/test_rooms.h"
 #include "airsim360/render/renderer.h"
-#include "airsim360/render/shared/roofs_scalar.h"
+#include "airsim360/render/shared/precipitation_scalar.h"
 
 namespace airsim360::internal {
 namespace {

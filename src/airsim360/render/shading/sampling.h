@@ -9,6 +9,7 @@
 
 namespace airsim360::internal {
 
+using scalar::hash_bits;
 #define SHARED inline
 #define word uint32_t
 #include "airsim360/render/shared/shading_points.h"
@@ -24,8 +25,9 @@ inline Vec2f SobolPoint(uint32_t index, uint32_t seed) {
 
 /// Unit vector of a point of the unit square, areas kept.
 inline Vec3f SpherePoint(Vec2f u) {
-  const float z = 1 - 2 * u.x, s = std::sqrt(std::max(0.0f, 1 - z * z)), angle = 2 * SHADE_PI * u.y;
-  return {s * scalar::sin_approx(angle + 0.5f * SHADE_PI), s * scalar::sin_approx(angle), z};
+  const float z = 1 - 2 * u.x;
+  const auto [x, y] = scalar::disc_place(std::sqrt(std::max(0.0f, 1 - z * z)), u.y);
+  return {x, y, z};
 }
 
 /// Directions to points of the sun's disc of 0.53 degrees.
@@ -41,9 +43,8 @@ class SunDisc {
   Vec3f up() const { return up_; }
   /// Even over the disc for u even over the unit square.
   Vec3f At(Vec2f u) const {
-    const float radius = std::sqrt(u.x), angle = 2 * SHADE_PI * u.y;
-    return Normalized(to_sun_ + right_ * (radius * scalar::sin_approx(angle + 0.5f * SHADE_PI)) +
-                      up_ * (radius * scalar::sin_approx(angle)));
+    const auto [x, y] = scalar::disc_place(std::sqrt(u.x), u.y);
+    return Normalized(to_sun_ + right_ * x + up_ * y);
   }
 
  private:

@@ -224,7 +224,6 @@ void TraceReflections(const RayTracer& tracer, const RaySet& rays, const Surface
 }
 
 void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, PaneTint* panes, RaySet& hits, RaySet& misses) {
-  constexpr float kGlass = 2;  // SurfaceKind
   hits.count = misses.count = 0;
   const int first = FirstSet(s.transmission, rays.count);
   if (first >= rays.count) return;

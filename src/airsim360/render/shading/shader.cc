@@ -195,6 +195,16 @@ bool Shader::IsIndoors(Vec3f p) const { return HasRooms() && impl_->enclosure->H
 void Shader::Apply(std::shared_ptr<const RayTracer> tracer) {
   impl_->tables.Apply(tracer->scene(), tracer->moved(), tracer->deformed());
   impl_->tracer = std::move(tracer);
+  impl_->FollowLamps();
+}
+
+void Shader::Impl::FollowLamps() {
+  const std::vector<MovedInstance> away = internal::AwayFromHome(*tracer);
+  std::vector<uint32_t> instances;
+  for (const MovedInstance& moved : away) instances.push_back(moved.instance);
+  view.lamps = lamps->ViewWithout(instances, still_lamps);
+  moving_lamps.Follow(*tracer, tables, environment, away, Daylight());
+  view.moving_lamps = moving_lamps.view();
 }
 
 float Shader::Exposure() const { return impl_->exposure; }
@@ -309,6 +319,17 @@ void Shader::Impl::LightByLamps(const RaySet& rays, int count, SurfaceSet& s) co
   internal::TraceLamps(*tracer, tables, rays, wanted, count, s);
 }
 
+void Shader::Impl::LightByMovingLamps(const RaySet& rays, int count, SurfaceSet& s) const {
+  if (view.moving_lamps.lamps == nullptr) return;
+  if (view.lamps.lamps == nullptr) {
+    for (float* sum :
+         {s.lamp_r, s.lamp_g, s.lamp_b, s.lamp_back_r, s.lamp_back_g, s.lamp_back_b, s.lamp_shine_r, s.lamp_shine_g, s.lamp_shine_b})
+      std::fill_n(sum, kBatch, 0.0f);
+  }
+  internal::LampRays wanted;
+  if (kernels.moving_lamps(view, rays, count, s, wanted)) internal::TraceLamps(*tracer, tables, rays, wanted, count, s);
+}
+
 void Shader::Impl::FindSun(const RaySet& rays, SurfaceSet& s, const SunNeighbours* around, SunPixel* sun) const {
   if (around == nullptr && sun == nullptr) {
     internal::TraceSun(*tracer, tables, rays, s);
@@ -338,6 +359,7 @@ void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light, cons
   const bool indoors = LookIndoors(rays, surfaces, room);
   LightByLamps(rays, bounce == 0 && !indoors ? internal::kLampRays : 0, surfaces);
   if (indoors && view.lamps.lamps != nullptr) kernels.mix_lamps(room, rays.count, surfaces);
+  LightByMovingLamps(rays, bounce == 0 ? internal::kLampRays : 0, surfaces);
   if (bounce == 0) {
     internal::TraceContact(*tracer, rays, surfaces);
     FollowRays(rays, surfaces, around, sun);

@@ -9,6 +9,7 @@
 #include "airsim360/render/indoor/indoor_kernels.h"
 #include "airsim360/render/lights/lamp_grid.h"
 #include "airsim360/render/lights/light_table.h"
+#include "airsim360/render/lights/moving_lamps.h"
 #include "airsim360/render/shading/light_probes.h"
 #include "airsim360/render/shading/roof_map.h"
 #include "airsim360/render/shading/shader.h"
@@ -29,6 +30,7 @@ struct Shader::Impl {
     decltype(&internal::isa_sse42::AmbientRays) ambient_rays = AIRSIM360_SELECT_KERNEL(AmbientRays);
     decltype(&internal::isa_sse42::ShadeAmbient) shade_ambient = AIRSIM360_SELECT_KERNEL(ShadeAmbient);
     decltype(&internal::isa_sse42::LightByLamps) lamps = AIRSIM360_SELECT_KERNEL(LightByLamps);
+    decltype(&internal::isa_sse42::LightByMovingLamps) moving_lamps = AIRSIM360_SELECT_KERNEL(LightByMovingLamps);
     decltype(&internal::isa_sse42::LookUpIndoors) indoors = AIRSIM360_SELECT_KERNEL(LookUpIndoors);
     decltype(&internal::isa_sse42::MixLampsIndoors) mix_lamps = AIRSIM360_SELECT_KERNEL(MixLampsIndoors);
     decltype(&internal::isa_sse42::LightSurfacesIndoors) light_indoors = AIRSIM360_SELECT_KERNEL(LightSurfacesIndoors);
@@ -52,6 +54,10 @@ struct Shader::Impl {
   bool LookIndoors(const internal::RaySet& rays, const internal::SurfaceSet& surfaces, internal::IndoorLight& light) const;
   /// Fills lamp_* of surfaces, with `count` rays each.
   void LightByLamps(const internal::RaySet& rays, int count, internal::SurfaceSet& surfaces) const;
+  /// Adds the light of lamps that moved, after all that is known of rooms.
+  void LightByMovingLamps(const internal::RaySet& rays, int count, internal::SurfaceSet& surfaces) const;
+  /// Lamps of what moved shine where it is now, and no longer where it was.
+  void FollowLamps();
   /// Traces the rays that mirrors and clear panes send on (where the surfaces say so) and shades what they
   /// meet in the same way, once.
   /// `around` and `sun` as in Shader::Shade, for what is seen in panes.
@@ -72,6 +78,8 @@ struct Shader::Impl {
   internal::LightTable lights;
   std::shared_ptr<const internal::Sky> sky;
   std::shared_ptr<const internal::LampGrid> lamps;
+  std::vector<internal::LampRecord> still_lamps;  ///< of `lamps`, where some have moved away
+  internal::MovingLamps moving_lamps;
   std::shared_ptr<const internal::LightProbes> probes;
   std::shared_ptr<const internal::IndoorCache> indoor;   ///< nullptr: no rooms, or not wanted (yet)
   std::shared_ptr<const RayTracer> built;                ///< of the scene as built

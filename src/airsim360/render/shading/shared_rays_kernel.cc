@@ -35,9 +35,9 @@ void SharedSphere(uint32_t first, uint32_t seed, float* x, float* y, float* z) {
   alignas(64) float u[16], v[16];
   SobolPoints(first, seed, u, v);
   for (int i = 0; i < 16; i += kLanes) {
-    const real height = 1.0f - 2.0f * load(u + i), angle = (2 * SHADE_PI) * load(v + i);
-    const real s = rroot(rmax(real(0.0f), 1.0f - height * height));
-    store3(x + i, y + i, z + i, {s * sin_approx(angle + 0.5f * SHADE_PI), s * sin_approx(angle), height});
+    const real height = 1.0f - 2.0f * load(u + i);
+    const PlanePoint at = disc_place(rroot(rmax(real(0.0f), 1.0f - height * height)), load(v + i));
+    store3(x + i, y + i, z + i, {at.x, at.y, height});
   }
 }
 
@@ -47,8 +47,8 @@ void SharedSun(const SunFrame& sun, uint32_t seed, int count, bool of_pixel, Sun
     alignas(64) float u[16], v[16];
     SobolPoints(static_cast<uint32_t>(first), seed ^ 0x68bc21ebu, u, v);
     for (int i = 0; i < 16; i += kLanes) {
-      const real radius = rroot(load(u + i)), angle = (2 * SHADE_PI) * load(v + i);
-      const real3 d = middle + right * (radius * sin_approx(angle + 0.5f * SHADE_PI)) + up * (radius * sin_approx(angle));
+      const PlanePoint at = disc_place(rroot(load(u + i)), load(v + i));
+      const real3 d = middle + right * at.x + up * at.y;
       store3(out.x + first + i, out.y + first + i, out.z + first + i, Divided(d, rroot(dot3(d, d))));
     }
     if (!of_pixel) continue;

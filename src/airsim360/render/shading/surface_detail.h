@@ -3,7 +3,7 @@
 #pragma once
 
 #include "airsim360/render/shading/surface_fetch.h"
-#include "airsim360/render/shared/roofs_simd.h"
+#include "airsim360/render/shared/precipitation_simd.h"
 #include "airsim360/render/shared/shading_ambient.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {

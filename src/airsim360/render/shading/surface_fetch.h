@@ -8,8 +8,6 @@
 
 namespace airsim360::internal::AIRSIM360_ISA {
 
-constexpr float kFoliage = 1, kGlass = 2, kWater = 3;  // SurfaceKind
-
 using BitLanes = uint32_t[kLanes];
 
 /// Records of the triangles under one vector of rays, turned into lanes. The first rows are the words of

@@ -25,9 +25,7 @@ KERNEL real3 TowardsSun(const ShadeView& view, const RaySet& rays, int i, real3 
   const ufloat3 s{view.to_sun[0], view.to_sun[1], view.to_sun[2]};
   const ureal key = Bits(rays.key + i);
   if (stdx::all_of(key == 0u)) return center;
-  ureal h = (key ^ (key >> 16)) * 0x7feb352du;
-  h = (h ^ (h >> 15)) * 0x846ca68bu;
-  h = h ^ (h >> 16);
+  const ureal h = hash_bits(key);
   const auto part = [](ureal bits) __attribute__((always_inline)) {
     return to_real(stdx::static_simd_cast<ireal>(bits & 0xfffu)) * kTwelveBits;
   };

@@ -10,8 +10,6 @@ namespace airsim360::internal::AIRSIM360_ISA {
 
 #define KERNEL static inline __attribute__((always_inline, unused))
 
-using ureal = stdx::rebind_simd_t<uint32_t, real>;
-
 struct real4 {
   real x, y, z, w;
 };
@@ -108,7 +106,18 @@ KERNEL ireal GatherWords(const uint32_t* base, ireal index) {
   return ireal(lanes, stdx::vector_aligned);
 #endif
 }
-KERNEL real GatherFloats(const float* base, ireal index) { return from_bits(GatherWords(reinterpret_cast<const uint32_t*>(base), index)); }
+// Not by GatherWords: floats that are read as words count as never read, and compilers drop what was stored there.
+KERNEL real GatherFloats(const float* base, ireal index) {
+#if defined(__AVX512F__)
+  return real(_mm512_i32gather_ps(static_cast<__m512i>(index), base, 4));
+#else
+  alignas(64) int32_t at[kLanes];
+  alignas(64) float lanes[kLanes];
+  index.copy_to(at, stdx::vector_aligned);
+  for (int i = 0; i < kLanes; ++i) lanes[i] = base[at[i]];
+  return real(lanes, stdx::vector_aligned);
+#endif
+}
 /// bases[lane][index] of every lane.
 KERNEL ireal GatherWordsAt(const uint32_t* const* bases, ireal index) {
   alignas(64) int32_t at[kLanes], lanes[kLanes];

@@ -16,9 +16,6 @@
 //
 // Directions are unit vectors away from the surface; n is the shading normal on the viewer's side.
 
-#define BSDF_FOLIAGE 1.0f
-#define BSDF_GLASS 2.0f
-#define BSDF_WATER 3.0f
 #define BSDF_LEAST_ROUGHNESS 0.03f
 #define BSDF_COAT_F0 0.04f
 
@@ -58,9 +55,9 @@ SHARED real bsdf_pane(real cos_i) {
 
 SHARED real3 bsdf_fresnel(Bsdf b, real cos_i) {
   real3 f = fresnel_schlick3(b.f0, cos_i);
-  mask_t dielectric = b.kind > 1.5f;
+  mask_t dielectric = (b.kind == kGlass) || (b.kind == kWater);
   if (any_lane(dielectric)) {
-    real s = sel(b.kind < 2.5f, bsdf_pane(cos_i), fresnel_dielectric(real(1.33f), cos_i));
+    real s = sel(b.kind == kGlass, bsdf_pane(cos_i), fresnel_dielectric(real(1.33f), cos_i));
     f = sel3(dielectric, make3(s, s, s), f);
   }
   return f;
@@ -102,8 +99,8 @@ SHARED BsdfSide bsdf_side(Bsdf b, real mu) {
 // What lies under the layers: the part of a BSDF that the base colour decides where nothing is metallic.
 SHARED Bsdf bsdf_bodies(Bsdf b, real3 base, real metallic, real transmission) {
   real zero = real(0.0f);
-  mask_t leaf = (b.kind > 0.5f) && (b.kind < 1.5f);
-  mask_t glass = (b.kind > 1.5f) && (b.kind < 2.5f);
+  mask_t leaf = b.kind == kFoliage;
+  mask_t glass = b.kind == kGlass;
   real3 inside = base * (1.0f - metallic);
   real t = sel(leaf, transmission, zero);
   real3 color = leaf_color();
@@ -121,8 +118,8 @@ SHARED Bsdf bsdf_bodies(Bsdf b, real3 base, real metallic, real transmission) {
 SHARED Bsdf bsdf_make(real kind, real3 base, real metallic, real roughness, real transmission, real coat, real coat_roughness) {
   Bsdf b;
   real zero = real(0.0f);
-  mask_t leaf = (kind > 0.5f) && (kind < 1.5f);
-  mask_t glass = (kind > 1.5f) && (kind < 2.5f);
+  mask_t leaf = kind == kFoliage;
+  mask_t glass = kind == kGlass;
   b.kind = kind;
   real r = rmin(rmax(roughness, real(BSDF_LEAST_ROUGHNESS)), real(1.0f));
   b.alpha = r * r;
@@ -145,7 +142,7 @@ SHARED Bsdf bsdf_make(real kind, real3 base, real metallic, real roughness, real
   // errors would be all of it.
   real3 mean = b.f0 * 0.952381f + make3(real(0.047619f), real(0.047619f), real(0.047619f));
   real spread = (1.0f / rmax(b.lost, real(0.02f)));
-  mask_t plain_kind = kind < 1.5f;
+  mask_t plain_kind = (kind != kGlass) && (kind != kWater);
   b.multiple = sel3(plain_kind,
                     make3(mean.x * mean.x * white / (1.0f - mean.x * b.lost), mean.y * mean.y * white / (1.0f - mean.y * b.lost),
                           mean.z * mean.z * white / (1.0f - mean.z * b.lost)) *
@@ -254,9 +251,8 @@ SHARED real3 bsdf_evaluate(Bsdf b, BsdfSide seen, BsdfLobes p, real3 n, real3 v,
 SHARED real3 bsdf_facet(real alpha, real3 v, real u, real w) {
   real3 s = normalize3(make3(v.x * alpha, v.y * alpha, v.z));
   real z = (1.0f - w) * (1.0f + s.z) - s.z;
-  real sine = rroot(clamp01(1.0f - z * z));
-  real phi = u * (2.0f * SHADE_PI);
-  real3 h = make3(sine * sin_approx(phi + 0.5f * SHADE_PI) + s.x, sine * sin_approx(phi) + s.y, z + s.z);
+  PlanePoint rim = disc_place(rroot(clamp01(1.0f - z * z)), u);
+  real3 h = make3(rim.x + s.x, rim.y + s.y, z + s.z);
   return normalize3(make3(h.x * alpha, h.y * alpha, h.z));
 }
 
@@ -280,10 +276,9 @@ SHARED real3 bsdf_sample(Bsdf b, BsdfLobes p, real3 n, real3 v, real choice, rea
   real3 h = bsdf_facet(sel(coat, b.coat_alpha, b.alpha), local, u, w);
   real3 mirrored = h * (2.0f * dot3(local, h)) - local;
   // Cosine over the hemisphere, or below.
-  real radius = rroot(u);
-  real phi = w * (2.0f * SHADE_PI);
+  PlanePoint foot = disc_place(rroot(u), w);
   real height = rroot(rmax(1.0f - u, real(1e-9f)));
-  real3 even = make3(radius * sin_approx(phi + 0.5f * SHADE_PI), radius * sin_approx(phi), sel(up, height, 0.0f - height));
+  real3 even = make3(foot.x, foot.y, sel(up, height, 0.0f - height));
 
   real3 l = sel3(facet, mirrored, even);
   real3 out_l = normalize3(t * l.x + s * l.y + n * l.z);

@@ -4,12 +4,15 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
-#include "airsim360/render/reference/statistics.h"
+#include "airsim360/render/reference/test_statistics.h"
 #include "airsim360/render/shared/shading_scalar.h"
 
 namespace airsim360 {
 namespace {
 
+using internal::kFoliage;
+using internal::kGlass;
+using internal::kWater;
 using internal::scalar::Bsdf;
 using internal::scalar::bsdf_evaluate;
 using internal::scalar::bsdf_lobes;
@@ -18,7 +21,7 @@ using internal::scalar::bsdf_sample;
 using internal::scalar::bsdf_side;
 using internal::scalar::bsdf_straight;
 
-constexpr float kStandard = 0, kFoliage = 1, kGlass = 2, kWater = 3;
+constexpr float kStandard = 0;
 constexpr Vec3f kUp{0, 0, 1};
 // The fits of albedo are within 0.007.
 constexpr float kMost = 1.008f;

@@ -8,6 +8,8 @@ namespace airsim360::internal {
 #endif
 
 // ---- surfaces
+/// SurfaceKind; 0 is all else.
+constexpr float kFoliage = 1.0f, kGlass = 2.0f, kWater = 3.0f;
 /// Steps of packed directions, of vertex colours and of colours in bytes.
 constexpr float kDirectionStep = 2.0f / 65534.0f, kColorStep = 1.0f / 65535.0f, kByteStep = 1.0f / 255.0f;
 /// Material::beam of a lit window without a room.

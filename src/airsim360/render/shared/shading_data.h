@@ -190,6 +190,7 @@ struct ShadeView {
   float sun_seen;                ///< share of the sun's disc that clouds leave to the eye
   float open_sky;                ///< luminance of the irradiance of the whole sky on level ground; 0 = no sky
   RoofView roofs;                ///< known where something falls or fog lies
+  LampView moving_lamps;  ///< lamps that are not where the scene was built with them, in columns: one layer; see lights/moving_lamps.h
 };
 
 inline constexpr int kBatch = 256;
@@ -223,7 +224,7 @@ struct alignas(64) SurfaceSet {
   float coat[kBatch], coat_roughness[kBatch];  ///< clear coat: share, roughness
   float clear[kBatch];                         ///< 1 if behind_* is the radiance behind a clear pane
   float behind_r[kBatch], behind_g[kBatch], behind_b[kBatch];
-  // Only where ShadeView::lamps has some: irradiance of lamps on the front and on the back, and what the skin
+  // Only where ShadeView::lamps or moving_lamps has some: irradiance of lamps on the front and on the back, and what the skin
   // reflects of them (radiance).
   float lamp_r[kBatch], lamp_g[kBatch], lamp_b[kBatch];
   float lamp_back_r[kBatch], lamp_back_g[kBatch], lamp_back_b[kBatch];

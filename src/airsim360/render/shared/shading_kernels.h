@@ -39,6 +39,9 @@ AIRSIM360_DECLARE_KERNEL(void ShadeAmbient(const ShadeView& view, const SunMapVi
 /// centres.
 AIRSIM360_DECLARE_KERNEL(void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool soft, SurfaceSet& surfaces,
                                            LampRays& wanted))
+/// Adds the light of ShadeView::moving_lamps in the same way; false: there is none on any of the surfaces.
+AIRSIM360_DECLARE_KERNEL(bool LightByMovingLamps(const ShadeView& view, const RaySet& rays, int count, SurfaceSet& surfaces,
+                                                 LampRays& wanted))
 /// Radiance of rays that met nothing; `sun_disc`: also the sun itself.
 AIRSIM360_DECLARE_KERNEL(void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSet& light))
 /// Rain and snow before what camera rays show: up to the surface, or of sky where `sky`. `cone_angle` is the

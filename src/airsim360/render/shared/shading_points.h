@@ -1,5 +1,5 @@
 // Even random points, once for C++ and GLSL: words of 32 bits are `word`. Include after defining SHARED and that, and
-// reverse_bits where the language has it.
+// reverse_bits where the language has it, and after shading_hash.h.
 
 #ifndef reverse_bits
 // The bits in the other order.
@@ -23,14 +23,6 @@ SHARED word owen_hash(word x, word seed) {
   return x;
 }
 SHARED word owen_scramble(word x, word seed) { return reverse_bits(owen_hash(reverse_bits(x), seed)); }
-
-// A hash of 32 bits (Wellons's lowbias32). Seeds of scrambles must go through one: neighbouring or related ones would tie the
-// coordinates of a point together.
-SHARED word hash_bits(word x) {
-  x = (x ^ (x >> 16)) * 0x7feb352du;
-  x = (x ^ (x >> 15)) * 0x846ca68bu;
-  return x ^ (x >> 16);
-}
 
 // The second coordinate of Sobol's point `index` in units of 2^-32; the first is the index with its bits reversed.
 SHARED word sobol_second(word index) {

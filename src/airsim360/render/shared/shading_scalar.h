@@ -37,6 +37,9 @@ SHARED real octave16(const float* table, real a) { return table[(std::bit_cast<u
 SHARED real octave32(const float* table, real a) { return table[(std::bit_cast<uint32_t>(a) >> 23) & 31]; }
 SHARED bool any_lane(mask_t m) { return m; }
 SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+#define word uint32_t
+#include "airsim360/render/shared/shading_hash.h"
+#undef word
 // Each uses what the one before defines.
 // clang-format off
 #include "airsim360/render/shared/shading_shared.h"
@@ -47,7 +50,7 @@ SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 #include "airsim360/render/shared/shading_sky.h"
 #include "airsim360/render/shared/shading_tone.h"
 #include "airsim360/render/shared/shading_interior.h"
-#include "airsim360/render/shared/shading_weather.h"
+#include "airsim360/render/shared/shading_wet_snow.h"
 #include "airsim360/render/shared/shading_moon.h"
 #include "airsim360/render/shared/shading_ground.h"
 // clang-format on

@@ -1,6 +1,6 @@
 // The shading functions of all tiers, once, in a subset that is C++ (scalar and SIMD) and GLSL at the same
 // time. Not a normal header: it is included inside a namespace by shading_scalar.h and shading_simd.h, or
-// pasted into a shader after shading_glsl.h; no include guard, no types of its own. The one who includes it
+// pasted into a shader after shading_glsl.h; no include guard. The one who includes it
 // provides
 //   real real3 (per lane), ufloat ufloat3 (same for all lanes), mask_t, SHARED, INOUT, sel sel3 make3 rmin
 //   rmax rroot rsqrt_exact rfloor rabs pow2_int exponent_of mantissa_of dot3 any_lane.
@@ -92,6 +92,20 @@ SHARED real sin_approx(real x) {
   real y2 = y * y;
   real s = y * (1.0f + y2 * (-0.166666667f + y2 * (0.00833333333f + y2 * (-0.000198412698f + y2 * 2.75573192e-6f))));
   return s * (1.0f - 2.0f * odd);
+}
+SHARED real cos_approx(real x) { return sin_approx(x + 0.5f * SHADE_PI); }
+
+// Two coordinates on some plane.
+struct PlanePoint {
+  real x, y;
+};
+// A place on a disc: `radius` from its middle (the root of an even number, times the disc's), `b` of a turn.
+SHARED PlanePoint disc_place(real radius, real b) {
+  real angle = b * (2.0f * SHADE_PI);
+  PlanePoint at;
+  at.x = radius * cos_approx(angle);
+  at.y = radius * sin_approx(angle);
+  return at;
 }
 
 // Angle of (x, y) in (-pi, pi]; absolute error below 2e-6 (Abramowitz & Stegun 4.4.49).

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -10,8 +11,8 @@
 
 #define AIRSIM360_ISA isa_test
 #include "airsim360/base/random.h"
-#include "airsim360/render/shared/roofs_scalar.h"
-#include "airsim360/render/shared/roofs_simd.h"
+#include "airsim360/render/shared/precipitation_scalar.h"
+#include "airsim360/render/shared/precipitation_simd.h"
 #include "airsim360/render/sky/sky_table.h"
 #include "airsim360/scene/material.h"
 
@@ -154,6 +155,31 @@ TEST(ShadingShared, ToneCurveGrowsWithLightAndKeepsGreyGrey) {
   EXPECT_LT(scalar::tone_curve({1e-4f, 1e-4f, 1e-4f}).y, 1e-3f);
 }
 
+TEST(ShadingShared, ToneCurveKeepsTheHueOfPureColoursHoweverBrightAndLeavesAllOthersAsTheyAre) {
+  for (const float bright : {30.0f, 300.0f, 3000.0f}) {
+    const Vec3f red = scalar::tone_curve(Vec3f{1, 0.02f, 0.01f} * bright), green = scalar::tone_curve(Vec3f{0.03f, 1, 0.05f} * bright);
+    EXPECT_GT(red.x, 0.95f) << bright;
+    EXPECT_LT(std::max(red.y, red.z), 0.1f) << bright;
+    EXPECT_GT(green.y, 0.85f) << bright;
+    EXPECT_LT(std::max(green.x, green.z), 0.1f) << bright;
+    const Vec3f amber = scalar::tone_curve(Vec3f{1, 0.12f, 0} * bright);
+    EXPECT_GT(amber.x, amber.y);
+    EXPECT_LT(amber.z, 0.3f * amber.y) << bright;
+    // White, sodium light and the sun on the horizon burn out as on film.
+    EXPECT_GT(scalar::tone_curve(Vec3f{1, 0.3f, 0.2f} * bright).y, 0.85f) << bright;
+  }
+  // Nothing changes up to white, and where the second channel is a fifth of the first or more.
+  RngStream rng(1, "tones");
+  for (int i = 0; i < 4000; ++i) {
+    const auto value = [&](double most) { return static_cast<float>(most * rng.Uniform(0, 1) * rng.Uniform(0, 1)); };
+    const float most = i % 2 == 0 ? 3.0f : 500.0f,
+                second = i % 2 == 0 ? value(3) : most * (0.21f + 0.79f * static_cast<float>(rng.Uniform(0, 1)));
+    Vec3f c{most, second, std::min(second, value(most))};
+    for (int k = i % 3; k > 0; --k) c = {c.y, c.z, c.x};
+    EXPECT_EQ(scalar::keep_hue(c), c);
+  }
+}
+
 TEST(ShadingShared, AgxGrowsWithLightKeepsGreyGreyAndMiddleGreyInPlace) {
   float last = -1;
   for (double x = 1e-5; x < 1e3; x *= 1.02) {
@@ -253,6 +279,7 @@ TEST(ShadingShared, ScalarAndSimdAgree) {
   SAME(0.001, 50, log2_approx(a) + pow_approx(b, c * 0.1f) + pow_display(c, b * 0.03f));
   SAME(0.001, 1, srgb_encode(a) + srgb_decode_approx(b) + asin_approx(c));
   SAME(0, 4, luminance(tone_curve(make3(a, b, c))));
+  SAME(0, 40, luminance(keep_hue(make3(a, b * 0.1f, c * 0.2f))));
   SAME(0, 20, luminance(agx_curve(make3(a, b, c))) + linear_curve(make3(a, b, c)).x);
   SAME(0.02, 1, luminance(specular_brdf(make3(a, b, c), a, b, c, a, b)));
   SAME(0.02, 1, luminance(environment_brdf(make3(a, b, c), b, c)));
@@ -411,7 +438,7 @@ TEST(ShadingShared, CompilesAsGlsl) {
     out << "#version 450\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer Values { float v[]; };\n"
         << read("shading_constants.h") << read("shading_glsl.h") << shared << read("shading_sky.h")
         << "#define ROOFS\n#define ROOFS_ARGUMENT\n#define ROOFS_TEXELS_PER_METRE 4.0\nbool roof_hides(vec3 p) { return p.z < 2.0; }\n"
-        << read("shading_roofs.h") << read("shading_tone.h") << read("shading_interior.h") << read("shading_weather.h")
+        << read("shading_precipitation.h") << read("shading_tone.h") << read("shading_interior.h") << read("shading_wet_snow.h")
         << read("shading_moon.h") << read("shading_ground.h") << read("shading_marks.h") << "#define in in_\n"
         << read("shading_bsdf.h") << "#undef in\n"
         << read("shading_surface.h")

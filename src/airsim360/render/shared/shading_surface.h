@@ -15,11 +15,6 @@
 #define GROUND_ROOF 7.0f
 #define GROUND_ROOF_ROLLS 8.0f
 
-// Two coordinates on some plane.
-struct PlanePoint {
-  real x, y;
-};
-
 // ---- Texture coordinates
 
 // Cosine between a ray and a surface, not too small to divide by.
@@ -319,7 +314,7 @@ SHARED real3 glass_normal(real hash, real3 n, real3 p) {
 
 // Panes are smooth; behind some hangs something. `window`: those with a room behind them; `hash`, `area`, `p`, `facing`: of the pane.
 SHARED void glaze(mask_t window, real hash, real area, real3 p, real3 facing, INOUT(Skin) s) {
-  mask_t glass = s.kind == BSDF_GLASS;
+  mask_t glass = s.kind == kGlass;
   s.n = sel3(glass, glass_normal(hash, s.n, p), s.n);
   s.roughness = sel(glass, rmin(s.roughness, real(0.08f)), s.roughness);
   // Behind some large panes without a room hang blinds: brighter than the dark.
@@ -360,8 +355,8 @@ SHARED Bed bed_of(IN(Skin) k, real ground, real3 facing, real across) {
   Bed b;
   real zero = real(0.0f);
   b.ground = ground;
-  b.leaf = k.kind == BSDF_FOLIAGE;
-  b.solid = (k.kind != BSDF_GLASS) && (k.kind != BSDF_WATER);
+  b.leaf = k.kind == kFoliage;
+  b.solid = (k.kind != kGlass) && (k.kind != kWater);
   b.grass = (ground == GROUND_LAWN) || (ground == GROUND_SOIL);
   // Blades stand, but they hold what falls on their lawn.
   b.up = sel(b.leaf, rmax(rabs(facing.z), sel(b.grass, real(0.8f), zero)), facing.z);
@@ -405,7 +400,7 @@ SHARED void snowy_skin(IN(Bed) b, IN(Noises) s, real3 facing, real open, ufloat 
   real exposed =
       smooth01(clamp01((open - 0.15f) * 3.4f)) * (1.0f - 0.62f * b.track) * sel(b.ground > 0.5f && !b.grass, real(0.85f), real(1.0f));
   real relief = 0.45f * s.mid.z + 0.55f * s.fine.x;
-  real cover = sel(b.solid || ((k.kind == BSDF_GLASS) && (b.up > 0.25f)), snow_cover(real(depth), b.up, relief, exposed), zero);
+  real cover = sel(b.solid || ((k.kind == kGlass) && (b.up > 0.25f)), snow_cover(real(depth), b.up, relief, exposed), zero);
   real3 white = make3(real(0.83f), real(0.85f), real(0.88f)) * (0.97f + 0.25f * (s.fine.z - 0.5f));
   // Some slush stays dark at the edge.
   k.color = lerp3(k.color, white, cover);
@@ -440,7 +435,7 @@ SHARED real3 reflect_above(real3 d, real3 n, real3 facing) {
 
 // Whether it reflects sharply enough for a traced ray.
 SHARED mask_t mirrors(IN(Skin) s) {
-  return (s.kind == BSDF_GLASS) || (s.kind == BSDF_WATER) || ((s.roughness < SURFACE_MIRROR_ROUGHNESS) && (s.metallic > 0.3f)) ||
+  return (s.kind == kGlass) || (s.kind == kWater) || ((s.roughness < SURFACE_MIRROR_ROUGHNESS) && (s.metallic > 0.3f)) ||
          ((s.coat > 0.25f) && (s.coat_roughness < SURFACE_MIRROR_ROUGHNESS));
 }
 
@@ -448,15 +443,6 @@ SHARED mask_t mirrors(IN(Skin) s) {
 // disagree about the side.
 SHARED mask_t takes_sun(real3 n, real3 facing, real kind, real3 l) {
   real above = dot3(n, l);
-  return (above * dot3(facing, l) > 0.0f) && ((above > 0.0f) || (kind == BSDF_FOLIAGE));
+  return (above * dot3(facing, l) > 0.0f) && ((above > 0.0f) || (kind == kFoliage));
 }
 SHARED mask_t sun_is_up(ufloat sun_z) { return mask_t(sun_z > -0.02f); }
-
-// A place on a disc: `radius` from its middle (the root of an even number, times the disc's), `b` of a turn.
-SHARED PlanePoint disc_place(real radius, real b) {
-  real angle = b * (2.0f * SHADE_PI);
-  PlanePoint at;
-  at.x = radius * sin_approx(angle + 0.5f * SHADE_PI);
-  at.y = radius * sin_approx(angle);
-  return at;
-}

@@ -60,9 +60,20 @@ SHARED real film_curve(real light) {
   return octave32(FILM_OCTAVE_0, x) + m * (octave32(FILM_OCTAVE_1, x) + m * (octave32(FILM_OCTAVE_2, x) + m * octave32(FILM_OCTAVE_3, x)));
 }
 
+// Brake lamps, signals and neon by night are hundreds of times as bright as white, and film would make white of them. Pure
+// colours, whose second channel is less than a fifth of the first, get no brighter than `white`: from a twelfth on they keep all
+// of their hue. What is less pure, and all that is no brighter, stays as it is.
+SHARED real3 keep_hue(real3 c) {
+  real white = real(3.0f);
+  real most = rmax(rmax(c.x, c.y), c.z), second = rmax(rmin(c.x, c.y), rmin(rmax(c.x, c.y), c.z));
+  real over = clamp01(1.6667f - 8.3333f * second / rmax(most, white)) * (most * (1.0f / 3.0f) - 1.0f);
+  return sel3(over > 0.0f, c * (1.0f / (1.0f + rmax(over, real(0.0f)))), c);
+}
+
 // A little of each channel reaches the others, as in film, so that very bright colours turn white instead of
 // clipping; saturation is given back after the curve, but not in the shadows, where the eye sees little of it.
-SHARED real3 tone_curve(real3 c) {
+SHARED real3 tone_curve(real3 light) {
+  real3 c = keep_hue(light);
   real mean = (c.x + c.y + c.z) * 0.333333333f;
   real3 mixed = lerp3(c, make3(mean, mean, mean), real(0.05f));
   real3 shown = make3(film_curve(mixed.x), film_curve(mixed.y), film_curve(mixed.z));

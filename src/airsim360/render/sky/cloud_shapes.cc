@@ -17,7 +17,7 @@ using Columns = std::vector<CloudLayer::Column>;
 
 float Pow(float x, float y) { return scalar::pow_approx(x, y); }
 float Sin(float x) { return scalar::sin_approx(x); }
-float Cos(float x) { return scalar::sin_approx(x + kTauF / 4); }
+float Cos(float x) { return scalar::cos_approx(x); }
 
 // Nearly normal with deviation 1, within ±3.5 and without a library's logarithm.
 float Normal(RngStream& random) {

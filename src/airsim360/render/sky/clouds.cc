@@ -45,7 +45,7 @@ float Phase(float g, float mu) {
 
 Vec2f WindOf(uint32_t seed) {
   const float angle = static_cast<float>(RngStream(seed, "wind").Uniform(0, 2 * kPiF));
-  return {scalar::sin_approx(angle + 0.5f * kPiF), scalar::sin_approx(angle)};
+  return {scalar::cos_approx(angle), scalar::sin_approx(angle)};
 }
 
 // The type of the low clouds, where nobody named one.

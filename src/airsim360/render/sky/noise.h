@@ -5,20 +5,15 @@
 #include <vector>
 
 #include "airsim360/math/vector.h"
+#include "airsim360/render/shared/shading_scalar.h"
 
 namespace airsim360::internal {
 
 /// Well mixed hash of lattice coordinates.
 inline uint32_t HashLattice(int32_t x, int32_t y, int32_t z) {
-  auto mix = [](uint32_t h) {
-    h ^= h >> 16;
-    h *= 0x7feb352du;
-    h ^= h >> 15;
-    h *= 0x846ca68bu;
-    return h ^ (h >> 16);
-  };
-  return mix(static_cast<uint32_t>(x) * 73856093u ^
-             mix(static_cast<uint32_t>(y) * 19349663u ^ mix(static_cast<uint32_t>(z) * 83492791u + 17u)));
+  using scalar::hash_bits;
+  return hash_bits(static_cast<uint32_t>(x) * 73856093u ^
+                   hash_bits(static_cast<uint32_t>(y) * 19349663u ^ hash_bits(static_cast<uint32_t>(z) * 83492791u + 17u)));
 }
 /// The same as a number in [0, 1).
 inline float HashUnit(int32_t x, int32_t y, int32_t z) { return static_cast<float>(HashLattice(x, y, z) >> 8) * 0x1p-24f; }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "airsim360/render/shared/roofs_scalar.h"
+#include "airsim360/render/shared/precipitation_scalar.h"
 #include "airsim360/render/sky/sky.h"
 
 namespace airsim360::internal {

@@ -8,10 +8,9 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kScale = 32767;
-constexpr int kLeastPixels = 3;            // fewer are no surface but a detail
-constexpr float kFoliage = 1, kGlass = 2;  // SurfaceKind
-constexpr float kAlike = 1.25f;            // brightest to darkest of reflections that stand for one another
-constexpr float kLeafReach = 8;            // how far apart leaves may be that share the sun: widths of an edge sample's ray
+constexpr int kLeastPixels = 3;  // fewer are no surface but a detail
+constexpr float kAlike = 1.25f;  // brightest to darkest of reflections that stand for one another
+constexpr float kLeafReach = 8;  // how far apart leaves may be that share the sun: widths of an edge sample's ray
 
 constexpr int kLeastExponent = -23;  // of packed light
 

@@ -16,7 +16,9 @@
 namespace airsim360::internal {
 namespace {
 
-// The kernels know the kinds of wear by number.
+// The kernels know the kinds of surfaces and of wear by number.
+static_assert(static_cast<float>(SurfaceKind::kFoliage) == kFoliage && static_cast<float>(SurfaceKind::kGlass) == kGlass &&
+              static_cast<float>(SurfaceKind::kWater) == kWater);
 static_assert(static_cast<int>(GroundWear::kAsphalt) == 1 && static_cast<int>(GroundWear::kPaving) == 3 &&
               static_cast<int>(GroundWear::kSoil) == 6 && static_cast<int>(GroundWear::kRoofRolls) == 8);
 

@@ -6,6 +6,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/render/surface/bent_normals.h"
+#include "airsim360/render/vulkan/gpu_structure.h"
 
 namespace airsim360::internal {
 namespace {
@@ -14,21 +15,9 @@ constexpr int kRefitsOfABuild = 30;
 constexpr VkBuildAccelerationStructureFlagsKHR kBodyFlags =
     VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_UPDATE_BIT_KHR | VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
 
-VkDeviceSize Up(VkDeviceSize n, VkDeviceSize to) { return (n + to - 1) / to * to; }
-
-VkDeviceSize ScratchAlign(const GpuDevice& device) {
-  return std::max<VkDeviceSize>(device.structure_limits().minAccelerationStructureScratchOffsetAlignment, 256);
-}
-
 VkAccelerationStructureKHR Create(GpuDevice& device, VkBuffer buffer, size_t offset, size_t size, VkAccelerationStructureTypeKHR type,
                                   VkDeviceAddress& address) {
-  VkAccelerationStructureCreateInfoKHR info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR, nullptr};
-  info.buffer = buffer;
-  info.offset = offset;
-  info.size = size;
-  info.type = type;
-  VkAccelerationStructureKHR structure;
-  CheckVk(device.rt().create_structure(device.device(), &info, nullptr, &structure), "making a structure");
+  const VkAccelerationStructureKHR structure = CreateStructure(device, buffer, offset, size, type);
   const VkAccelerationStructureDeviceAddressInfoKHR ask{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR, nullptr,
                                                         structure};
   address = device.rt().structure_address(device.device(), &ask);

@@ -4,16 +4,16 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/render/vulkan/gpu_scene.h"
+#include "airsim360/render/vulkan/gpu_structure.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr VkDeviceSize kBatchBytes = VkDeviceSize{256} << 20;  // of structures and scratch at once
 constexpr size_t kBatchMeshes = 1024;
+constexpr VkAccelerationStructureTypeKHR kBottom = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
 constexpr VkBuildAccelerationStructureFlagsKHR kFlags =
     VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR | VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
-
-VkDeviceSize Up(VkDeviceSize n, VkDeviceSize to) { return (n + to - 1) / to * to; }
 
 void Wait(VkCommandBuffer commands, VkAccessFlags from, VkAccessFlags to) {
   const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, from, to};
@@ -22,17 +22,6 @@ void Wait(VkCommandBuffer commands, VkAccessFlags from, VkAccessFlags to) {
 }
 
 constexpr VkAccessFlags kWrite = VK_ACCESS_ACCELERATION_STRUCTURE_WRITE_BIT_KHR, kRead = VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR;
-
-VkAccelerationStructureKHR Create(GpuDevice& device, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) {
-  VkAccelerationStructureCreateInfoKHR info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR, nullptr};
-  info.buffer = buffer;
-  info.offset = offset;
-  info.size = size;
-  info.type = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
-  VkAccelerationStructureKHR structure;
-  CheckVk(device.rt().create_structure(device.device(), &info, nullptr, &structure), "making a structure");
-  return structure;
-}
 
 // A pool of queries that goes with its scope.
 struct SizeQueries {
@@ -106,7 +95,7 @@ void GpuScene::BuildStructures(const std::vector<MeshId>& used) {
 
 void GpuScene::BuildBatch(const std::vector<MeshId>& batch) {
   const auto count = static_cast<uint32_t>(batch.size());
-  const VkDeviceSize scratch_align = std::max<VkDeviceSize>(device_.structure_limits().minAccelerationStructureScratchOffsetAlignment, 256);
+  const VkDeviceSize scratch_align = ScratchAlign(device_);
   const auto builds = std::make_unique<MeshBuild[]>(count);
   std::vector<VkDeviceSize> at(count), scratch_at(count);
   VkDeviceSize size = 0, scratch_size = 0;
@@ -123,7 +112,7 @@ void GpuScene::BuildBatch(const std::vector<MeshId>& batch) {
   std::vector<VkAccelerationStructureBuildGeometryInfoKHR> infos;
   std::vector<const VkAccelerationStructureBuildRangeInfoKHR*> ranges;
   for (uint32_t i = 0; i < count; ++i) {
-    loose.list.push_back(Create(device_, storage.handle(), at[i], builds[i].sizes.accelerationStructureSize));
+    loose.list.push_back(CreateStructure(device_, storage.handle(), at[i], builds[i].sizes.accelerationStructureSize, kBottom));
     builds[i].info.dstAccelerationStructure = loose.list.back();
     builds[i].info.scratchData.deviceAddress = Up(scratch.address(), scratch_align) + scratch_at[i];
     infos.push_back(builds[i].info);
@@ -145,7 +134,7 @@ void GpuScene::BuildBatch(const std::vector<MeshId>& batch) {
   // Copy to what they need.
   for (uint32_t i = 0; i < count; ++i) {
     const GpuRange place = arena_.Take(sizes[i]);
-    structures_[batch[i]] = Create(device_, place.buffer, place.offset, sizes[i]);
+    structures_[batch[i]] = CreateStructure(device_, place.buffer, place.offset, sizes[i], kBottom);
     const VkAccelerationStructureDeviceAddressInfoKHR address{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR, nullptr,
                                                               structures_[batch[i]]};
     addresses_[batch[i]] = device_.rt().structure_address(device_.device(), &address);

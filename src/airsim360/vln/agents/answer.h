@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "airsim360/tasks/agents/agent_action.h"
+#include "airsim360/tasks/agent_server/agent_action.h"
 
 namespace airsim360 {
 

@@ -6,7 +6,7 @@
 
 #include "airsim360/image/codecs.h"
 #include "airsim360/math/angles.h"
-#include "airsim360/tasks/agents/agent_action.h"
+#include "airsim360/tasks/agent_server/agent_action.h"
 
 namespace airsim360 {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/tasks/agents/episode.h"
+#include "airsim360/tasks/agent_server/episode.h"
 #include "airsim360/vln/agents/answer.h"
 #include "airsim360/vln/agents/eyes.h"
 

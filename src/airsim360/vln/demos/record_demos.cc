@@ -6,7 +6,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/math/transform.h"
-#include "airsim360/tasks/agents/episode.h"
+#include "airsim360/tasks/agent_server/episode.h"
 #include "airsim360/video/video_writer.h"
 #include "airsim360/vln/demos/demo_writer.h"
 #include "airsim360/vln/demos/demos.h"

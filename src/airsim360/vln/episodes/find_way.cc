@@ -4,9 +4,8 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kOpenWay = 0.6;    // metres free around a way
-constexpr double kMargin = 4;       // metres of the lattice within rooms around both ends
-constexpr double kHeuristic = 1.1;  // as of FindShortestWay
+constexpr double kOpenWay = 0.6;  // metres free around a way
+constexpr double kMargin = 4;     // metres of the lattice within rooms around both ends
 
 // How ways are looked for within rooms: with room on all sides; then through doors, of which those of bathrooms leave 0.76 m.
 struct RoomSearch {
@@ -23,7 +22,7 @@ ShortestWay FindWay(const VlnGround& ground, Vec3d start, Vec3d goal) {
   const BoundedClearance world(surfaces, BoxAround(start, goal, kMargin, ground.inhabited()));
   for (const auto& [radius, spacing, most] : kRoomSearches) {
     const SearchResult found =
-        FindPath(start, goal, world, {.radius = radius, .spacing = spacing, .heuristic = kHeuristic, .max_expanded = most});
+        FindPath(start, goal, world, {.radius = radius, .spacing = spacing, .heuristic = kWayHeuristic, .max_expanded = most});
     if (found.outcome == SearchOutcome::kFound) return {Shortcut(found.path, world, radius), true};
   }
   return {{start, goal}, false};

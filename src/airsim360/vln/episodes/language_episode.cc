@@ -9,6 +9,7 @@
 #include "airsim360/base/file.h"
 #include "airsim360/math/angles.h"
 #include "airsim360/planning/search.h"
+#include "airsim360/tasks/agent_server/episode.h"
 #include "airsim360/vln/predicates/query_json.h"
 
 namespace airsim360 {
@@ -196,6 +197,19 @@ LanguageEpisode ParseEpisodeLine(const std::string& line, const std::string& whe
   if (const VlnJson* proof = fields.Find("proof")) e.proof = proof->dump();
   fields.Finish();
   return e;
+}
+
+EpisodeSpec SpecOf(const LanguageEpisode& episode) {
+  EpisodeSpec spec;
+  spec.instruction = episode.instruction;
+  spec.goal = episode.goal;
+  spec.more_goals = episode.places;
+  spec.start = episode.start.p_W;
+  spec.start_yaw = episode.start.yaw;
+  spec.reference_path = episode.ref;
+  spec.seed = episode.seed;
+  spec.success_radius = episode.radius;
+  return spec;
 }
 
 std::vector<LanguageEpisode> ReadEpisodes(const std::filesystem::path& file) {

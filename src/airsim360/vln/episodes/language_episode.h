@@ -13,6 +13,8 @@
 
 namespace airsim360 {
 
+struct EpisodeSpec;
+
 /// What a level panorama at the start shows of the goal's things.
 struct SeenAtStart {
   int64_t pixels = 0;      ///< of kSeenWidth * kSeenWidth / 2
@@ -60,6 +62,8 @@ struct LanguageEpisode {
   std::string source = {};  ///< JSON: the form that it was imported from, and its record there
 };
 
+/// As a navigation task, with the radius of the episode.
+EpisodeSpec SpecOf(const LanguageEpisode& episode);
 /// Whether it has a query, so that there is something to prove.
 bool IsBound(const LanguageEpisode& episode);
 /// One line, without its end.

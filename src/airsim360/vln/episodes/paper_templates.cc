@@ -4,8 +4,9 @@
 
 namespace airsim360 {
 
-std::string_view PaperTemplatesText() {
-  return R"json([
+namespace {
+
+constexpr std::string_view kPaperTemplates = R"json([
   {"id": "paper37/01",
    "text": "Find the nearest traffic light and stop when you reach it.",
    "query": {"noun": {"word": "traffic light", "categories": ["traffic/control/traffic_light"]},
@@ -187,6 +188,9 @@ std::string_view PaperTemplatesText() {
    "query": {"noun": {"word": "food truck", "categories": ["vehicle/food_truck"]},
              "predicates": [{"is": "nearest"}]}}
 ])json";
-}
+
+}  // namespace
+
+std::string_view PaperTemplatesText() { return kPaperTemplates; }
 
 }  // namespace airsim360

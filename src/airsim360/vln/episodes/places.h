@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "airsim360/base/random.h"
-#include "airsim360/tasks/agents/shortest_way.h"
+#include "airsim360/routes/shortest_way.h"
 #include "airsim360/vln/episodes/ground.h"
 #include "airsim360/vln/episodes/template_syntax.h"
 

@@ -26,7 +26,7 @@ struct Clause {
 
 class Teller {
  public:
-  Teller(const Speaker& speaker, RngStream& random, size_t picture) : speaker_(speaker), random_(random), picture_(picture) {
+  Teller(const NamedPlace& named, RngStream& random, size_t picture) : named_(named), random_(random), picture_(picture) {
     if (picture == 0)
       places_.assign(std::begin(kAround), std::end(kAround));
     else
@@ -61,10 +61,10 @@ class Teller {
   // Where a thing is; places_.size() where it could be in two.
   size_t PlaceOf(const Seen& seen) const {
     if (picture_ == 0) {
-      const std::string sector = Speaker::SectorOf(seen);
+      const std::string sector = NamedPlace::SectorOf(seen);
       return static_cast<size_t>(std::ranges::find_if(places_, [&](const Place& p) { return sector == p.name; }) - places_.begin());
     }
-    const double share = seen.x / speaker_.glance(picture_).picture.width;
+    const double share = seen.x / named_.glance(picture_).picture.width;
     for (size_t i = 0; i < places_.size(); ++i)
       if (share > (i == 0 ? -1 : i * kThird + kBand) && share < (i == 2 ? 2 : (i + 1) * kThird - kBand)) return i;
     return places_.size();
@@ -73,8 +73,8 @@ class Teller {
   // Words of which every thing in sight is clear and has a clear place.
   std::vector<Clause> Clauses() {
     std::vector<Clause> all;
-    for (uint16_t word = 0; word < speaker_.groups(picture_).size(); ++word) {
-      const Sighted& sighted = speaker_.groups(picture_)[word];
+    for (uint16_t word = 0; word < named_.groups(picture_).size(); ++word) {
+      const Sighted& sighted = named_.groups(picture_)[word];
       if (sighted.clear.empty() || !sighted.doubtful.empty()) continue;
       std::vector<Clause> own(places_.size());
       bool sure = true;
@@ -97,7 +97,7 @@ class Teller {
   }
 
   std::string Things(const Clause& clause) const {
-    const Word& word = speaker_.lexicon().words()[clause.word];
+    const Word& word = named_.lexicon().words()[clause.word];
     return clause.count == 1 ? WithArticle(word.one) : std::string(kNumbers[clause.count]) + " " + word.many;
   }
 
@@ -130,7 +130,7 @@ class Teller {
 
   bool IsTrue(const std::vector<Clause>& clauses) const {
     return std::ranges::all_of(clauses, [&](const Clause& clause) {
-      const auto& clear = speaker_.groups(picture_)[clause.word].clear;
+      const auto& clear = named_.groups(picture_)[clause.word].clear;
       return std::ranges::count_if(clear, [&](const Seen* s) { return PlaceOf(*s) == clause.place; }) ==
              static_cast<std::ptrdiff_t>(clause.count);
     });
@@ -140,15 +140,15 @@ class Teller {
     VlnJson things = VlnJson::array();
     for (const Seen* s : clause.things) {
       d.entities.push_back(s->entity);
-      things.push_back(Figures(*s, speaker_.scene()));
+      things.push_back(Figures(*s, named_.scene()));
     }
     if (std::ranges::find(d.words, clause.word) == d.words.end()) d.words.push_back(clause.word);
     d.query["clauses"].push_back(
-        {{"word", speaker_.lexicon().words()[clause.word].one}, {"count", clause.count}, {"place", places_[clause.place].name}});
+        {{"word", named_.lexicon().words()[clause.word].one}, {"count", clause.count}, {"place", places_[clause.place].name}});
     d.proof["clauses"].push_back(things);
   }
 
-  const Speaker& speaker_;
+  const NamedPlace& named_;
   RngStream& random_;
   size_t picture_;
   std::vector<Place> places_;
@@ -156,9 +156,9 @@ class Teller {
 
 }  // namespace
 
-std::vector<Draft> CaptionsAt(const Speaker& speaker, RngStream& random) {
+std::vector<Draft> CaptionsAt(const NamedPlace& named, RngStream& random) {
   std::vector<Draft> drafts;
-  for (size_t picture = 0; picture < speaker.pictures(); ++picture) Teller(speaker, random, picture).Tell(drafts);
+  for (size_t picture = 0; picture < named.pictures(); ++picture) Teller(named, random, picture).Tell(drafts);
   return drafts;
 }
 

@@ -15,32 +15,32 @@ constexpr const char* kOrder[] = {"", "", "second ", "third "};
 
 class Pointer {
  public:
-  Pointer(const Speaker& speaker, RngStream& random) : speaker_(speaker), random_(random) {}
+  Pointer(const NamedPlace& named, RngStream& random) : named_(named), random_(random) {}
 
   std::vector<Draft> Point() {
-    for (size_t picture = 0; picture < speaker_.pictures(); ++picture) {
-      for (const Name& name : speaker_.names(picture))
+    for (size_t picture = 0; picture < named_.pictures(); ++picture) {
+      for (const Name& name : named_.names(picture))
         if (name.where != "nearest") PointByName(picture, name);
-      for (uint16_t word = 0; word < speaker_.groups(picture).size(); ++word) {
-        const Sighted& sighted = speaker_.groups(picture)[word];
+      for (uint16_t word = 0; word < named_.groups(picture).size(); ++word) {
+        const Sighted& sighted = named_.groups(picture)[word];
         if (sighted.clear.size() + sighted.doubtful.size() < 2 || sighted.clear.empty()) continue;
         PointNearest(picture, word, sighted);
         if (picture > 0) PointInRow(picture, word, sighted);
-        if (!speaker_.names(picture).empty()) PointBeside(picture, word, sighted);
+        if (!named_.names(picture).empty()) PointBeside(picture, word, sighted);
       }
     }
     return std::move(drafts_);
   }
 
  private:
-  const std::string& One(uint16_t word) const { return speaker_.lexicon().words()[word].one; }
+  const std::string& One(uint16_t word) const { return named_.lexicon().words()[word].one; }
 
   // Boxes of the thing and of others like it; others at all where there are none.
   void AddBoxes(Draft& d, const Seen& target, uint16_t word) {
-    const auto& seen = speaker_.glance(d.picture).seen;
+    const auto& seen = named_.glance(d.picture).seen;
     std::vector<const Seen*> others;
-    for (const Seen* s : speaker_.groups(d.picture)[word].clear) others.push_back(s);
-    for (const Name& name : speaker_.names(d.picture)) others.push_back(name.thing);
+    for (const Seen* s : named_.groups(d.picture)[word].clear) others.push_back(s);
+    for (const Name& name : named_.names(d.picture)) others.push_back(name.thing);
     std::vector<EntityId> used = {target.entity};
     d.answers = {Box(target)};
     for (const Seen* other : others) {
@@ -57,7 +57,7 @@ class Pointer {
   static VlnJson Box(const Seen& s) { return {s.x0, s.y0, s.x1 - s.x0 + 1, s.y1 - s.y0 + 1}; }
 
   VlnJson Mask(const Seen& target) const {
-    const Image<EntityId>& pixels = speaker_.glance(drafts_.back().picture).pixels;
+    const Image<EntityId>& pixels = named_.glance(drafts_.back().picture).pixels;
     std::vector<uint8_t> inside(static_cast<size_t>(pixels.width()) * pixels.height());
     for (int y = target.y0; y <= target.y1; ++y)
       for (int x = target.x0; x <= target.x1; ++x) inside[static_cast<size_t>(y) * pixels.width() + x] = pixels(x, y) == target.entity;
@@ -78,12 +78,12 @@ class Pointer {
     d.query = {{"is", "refer"}, {"word", One(word)}};
     d.query.update(query);
     d.proof = std::move(proof);
-    d.proof["target"] = Figures(target, speaker_.scene());
+    d.proof["target"] = Figures(target, named_.scene());
     if (anchor != nullptr) {
       d.entities.push_back(anchor->thing->entity);
       d.words.push_back(anchor->word);
-      d.query["anchor"] = ToJson(*anchor, speaker_.lexicon());
-      d.proof["anchor"] = Figures(*anchor->thing, speaker_.scene());
+      d.query["anchor"] = ToJson(*anchor, named_.lexicon());
+      d.proof["anchor"] = Figures(*anchor->thing, named_.scene());
     }
     AddBoxes(d, target, word);
   }
@@ -92,26 +92,26 @@ class Pointer {
     VlnJson list = VlnJson::array();
     for (const auto* group : {&sighted.clear, &sighted.doubtful})
       for (const Seen* s : *group)
-        if (s != &target && list.size() < 4) list.push_back(Figures(*s, speaker_.scene()));
+        if (s != &target && list.size() < 4) list.push_back(Figures(*s, named_.scene()));
     return list;
   }
 
   void PointByName(size_t picture, const Name& name) {
     const bool only = name.where == "only";
-    if (only && speaker_.names(picture).size() < 2) return;
-    const Sighted& sighted = speaker_.groups(picture)[name.word];
+    if (only && named_.names(picture).size() < 2) return;
+    const Sighted& sighted = named_.groups(picture)[name.word];
     Add(only ? "only" : "direction", picture, name.text, *name.thing, name.word, {{"where", name.where}},
         {{"competitors", Competitors(sighted, *name.thing)}});
   }
 
   void PointNearest(size_t picture, uint16_t word, const Sighted& sighted) {
-    const Picture& from = speaker_.glance(picture).picture;
-    const Seen* best = speaker_.NearestOf(sighted, from);
+    const Picture& from = named_.glance(picture).picture;
+    const Seen* best = named_.NearestOf(sighted, from);
     if (best == nullptr || best->nearest > 60) return;
     double next = 1e9;
     for (const auto* group : {&sighted.clear, &sighted.doubtful})
       for (const Seen* s : *group)
-        if (s != best) next = std::min(next, speaker_.Range(*s, from).least);
+        if (s != best) next = std::min(next, named_.Range(*s, from).least);
     Add("nearest", picture, "the " + One(word) + " nearest to you", *best, word, {{"where", "nearest"}},
         {{"range", Rounded(best->nearest)}, {"next_at_least", Rounded(next)}, {"competitors", Competitors(sighted, *best)}});
   }
@@ -122,7 +122,7 @@ class Pointer {
     std::vector<const Seen*> row = sighted.clear;
     row.insert(row.end(), sighted.doubtful.begin(), sighted.doubtful.end());
     std::ranges::stable_sort(row, {}, &Seen::x);
-    const double gap = kColumns * speaker_.glance(picture).picture.width;
+    const double gap = kColumns * named_.glance(picture).picture.width;
     for (const bool left : {true, false}) {
       if (!left) std::ranges::reverse(row);
       for (size_t k = 0; k < std::min<size_t>(3, row.size()); ++k) {
@@ -141,14 +141,14 @@ class Pointer {
 
   // Next to a thing that is named: much nearer to it than any other of its kind.
   void PointBeside(size_t picture, uint16_t word, const Sighted& sighted) {
-    const auto& names = speaker_.names(picture);
+    const auto& names = named_.names(picture);
     const Name& anchor = names[random_.Index(static_cast<uint32_t>(names.size()))];
-    const auto named = speaker_.lexicon().NamedBy(anchor.thing->entity);
+    const auto named = named_.lexicon().NamedBy(anchor.thing->entity);
     if (anchor.where != "only" || anchor.word == word || std::ranges::find(named, word) != named.end()) return;
     const Seen* best = nullptr;
     double most = 1e9, next = 1e9;
     for (const Seen* s : sighted.clear) {
-      const double reach = speaker_.Apart(s->entity, anchor.thing->entity).most;
+      const double reach = named_.Apart(s->entity, anchor.thing->entity).most;
       if (reach < most) {
         most = reach;
         best = s;
@@ -156,19 +156,19 @@ class Pointer {
     }
     for (const auto* group : {&sighted.clear, &sighted.doubtful})
       for (const Seen* s : *group)
-        if (s != best) next = std::min(next, speaker_.Apart(s->entity, anchor.thing->entity).least);
+        if (s != best) next = std::min(next, named_.Apart(s->entity, anchor.thing->entity).least);
     if (best == nullptr || most * kShare + kBy > next || most > 15 || best->nearest > 50) return;
     Add("beside", picture, "the " + One(word) + " nearest to " + anchor.text, *best, word, {{"where", "beside"}},
         {{"metres_at_most", Rounded(most)}, {"next_at_least", Rounded(next)}, {"competitors", Competitors(sighted, *best)}}, &anchor);
   }
 
-  const Speaker& speaker_;
+  const NamedPlace& named_;
   RngStream& random_;
   std::vector<Draft> drafts_;
 };
 
 }  // namespace
 
-std::vector<Draft> ExpressionsAt(const Speaker& speaker, RngStream& random) { return Pointer(speaker, random).Point(); }
+std::vector<Draft> ExpressionsAt(const NamedPlace& named, RngStream& random) { return Pointer(named, random).Point(); }
 
 }  // namespace airsim360::internal

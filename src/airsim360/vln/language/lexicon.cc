@@ -20,6 +20,7 @@ const std::vector<std::string>& Merged() {
   return kMerged;
 }
 
+// Longer than a screen because it is a table: a row for each word.
 const std::vector<Row>& Rows() {
   static const std::vector<Row> kRows = {
       {"fountain", "fountains", {"construction/fountain"}},

@@ -100,13 +100,13 @@ class LanguageMaker {
                                                 .masks = options_.kind == "refer"});
     if (!lookout) return {};
     RngStream random(stage_.seed(), "language drafts " + options_.kind, number);
-    const internal::Speaker speaker(stage_.scene(), lexicon_, *lookout);
+    const internal::NamedPlace named(stage_.scene(), lexicon_, *lookout);
     std::vector<Draft> drafts;
-    if (options_.kind == "caption") drafts = internal::CaptionsAt(speaker, random);
-    if (options_.kind == "refer") drafts = internal::ExpressionsAt(speaker, random);
+    if (options_.kind == "caption") drafts = internal::CaptionsAt(named, random);
+    if (options_.kind == "refer") drafts = internal::ExpressionsAt(named, random);
     if (vqa) {
-      drafts = internal::QuestionsAt(speaker, random);
-      for (Draft& d : internal::QuestionsOfFlight(speaker, random)) drafts.push_back(std::move(d));
+      drafts = internal::QuestionsAt(named, random);
+      for (Draft& d : internal::QuestionsOfFlight(named, random)) drafts.push_back(std::move(d));
     }
     Thin(drafts, balance_, random);
     std::vector<Placed> placed;
@@ -114,17 +114,17 @@ class LanguageMaker {
       Placed& item = placed.emplace_back(Placed{number, {}, std::move(d)});
       const size_t shown = item.draft.picture;
       if (shown == 0 || shown == internal::kFlight)
-        item.pictures.push_back(PanoramaOf(speaker, item.draft.quarters));
+        item.pictures.push_back(PanoramaOf(named, item.draft.quarters));
       else
-        item.pictures.emplace_back("camera" + std::to_string(shown), speaker.glance(shown).picture);
-      if (shown == internal::kFlight) item.pictures.emplace_back("later", speaker.glance(shown).picture);
+        item.pictures.emplace_back("camera" + std::to_string(shown), named.glance(shown).picture);
+      if (shown == internal::kFlight) item.pictures.emplace_back("later", named.glance(shown).picture);
     }
     return placed;
   }
 
   // Turned by whole columns: the same pixels in another order.
-  static std::pair<std::string, Picture> PanoramaOf(const internal::Speaker& speaker, int quarters) {
-    Picture picture = speaker.glance(0).picture;
+  static std::pair<std::string, Picture> PanoramaOf(const internal::NamedPlace& named, int quarters) {
+    Picture picture = named.glance(0).picture;
     picture.from.yaw = std::remainder(picture.from.yaw + quarters * std::numbers::pi / 2, 2 * std::numbers::pi);
     return {quarters == 0 ? "panorama" : "panorama" + std::to_string(quarters * 90), picture};
   }

@@ -22,20 +22,20 @@ const char* At(size_t picture) { return picture == 0 ? "" : " in this picture"; 
 
 class Asker {
  public:
-  Asker(const Speaker& speaker, RngStream& random) : speaker_(speaker), random_(random) {}
+  Asker(const NamedPlace& named, RngStream& random) : named_(named), random_(random) {}
 
   std::vector<Draft> Ask() {
-    for (size_t picture = 0; picture < speaker_.pictures(); ++picture) {
+    for (size_t picture = 0; picture < named_.pictures(); ++picture) {
       quarters_ = 0;
       AskOfWords(picture);
-      for (const auto& [a, b] : Pairs(speaker_.names(picture))) {
+      for (const auto& [a, b] : Pairs(named_.names(picture))) {
         const Name& turns = IsPlain(*a) ? *b : *a;
         quarters_ = picture == 0 ? QuartersTo(turns, a->word * 31U + b->word) : 0;
-        AskOfPair(picture, speaker_.Turned(*a, quarters_), speaker_.Turned(*b, quarters_));
+        AskOfPair(picture, named_.Turned(*a, quarters_), named_.Turned(*b, quarters_));
       }
-      for (const Name& name : speaker_.names(picture)) {
+      for (const Name& name : named_.names(picture)) {
         quarters_ = picture == 0 ? QuartersTo(name, name.word) : 0;
-        AskDistance(picture, speaker_.Turned(name, quarters_));
+        AskDistance(picture, named_.Turned(name, quarters_));
         if (picture == 0) AskDirection(name);
       }
     }
@@ -45,8 +45,8 @@ class Asker {
  private:
   void AskOfWords(size_t picture) {
     std::set<uint16_t> words;
-    for (uint16_t word = 0; word < speaker_.groups(picture).size(); ++word)
-      if (!speaker_.groups(picture)[word].none()) words.insert(word);
+    for (uint16_t word = 0; word < named_.groups(picture).size(); ++word)
+      if (!named_.groups(picture)[word].none()) words.insert(word);
     for (int i = 0; i < kAbsent; ++i) words.insert(PickWord());
     for (const uint16_t word : words) {
       AskExists(picture, word);
@@ -88,7 +88,7 @@ class Asker {
         AskSide(picture, *first, *second);
     }
     for (int i = 0; i < kThirds; ++i) {
-      const Name c = speaker_.Turned(Pick(speaker_.names(picture)), quarters_);
+      const Name c = named_.Turned(Pick(named_.names(picture)), quarters_);
       if (!AreTwo(a, c) || !AreTwo(b, c)) continue;
       // From there another one would be the nearest.
       const bool elsewhere = a.where == "nearest" || b.where == "nearest" || c.where == "nearest";
@@ -101,15 +101,15 @@ class Asker {
   // Without a side: what it is called does not change with the heading.
   static bool IsPlain(const Name& name) { return name.where == "only" || name.where == "nearest"; }
   const Name& Pick(const std::vector<Name>& names) { return names[random_.Index(static_cast<uint32_t>(names.size()))]; }
-  uint16_t PickWord() { return static_cast<uint16_t>(random_.Index(static_cast<uint32_t>(speaker_.lexicon().words().size()))); }
-  const std::string& One(uint16_t word) const { return speaker_.lexicon().words()[word].one; }
-  const Picture& PictureOf(size_t picture) const { return speaker_.glance(picture).picture; }
+  uint16_t PickWord() { return static_cast<uint16_t>(random_.Index(static_cast<uint32_t>(named_.lexicon().words().size()))); }
+  const std::string& One(uint16_t word) const { return named_.lexicon().words()[word].one; }
+  const Picture& PictureOf(size_t picture) const { return named_.glance(picture).picture; }
 
   // Of different words, so that a question never says "the cab or the car" of one thing.
   bool AreTwo(const Name& a, const Name& b) const {
     if (a.word == b.word || a.thing->entity == b.thing->entity) return false;
-    const auto named = speaker_.lexicon().NamedBy(b.thing->entity);
-    const auto also = speaker_.lexicon().NamedBy(a.thing->entity);
+    const auto named = named_.lexicon().NamedBy(b.thing->entity);
+    const auto also = named_.lexicon().NamedBy(a.thing->entity);
     return std::ranges::find(named, a.word) == named.end() && std::ranges::find(also, b.word) == also.end();
   }
 
@@ -126,8 +126,8 @@ class Asker {
     for (const Name* name : names) {
       d.entities.push_back(name->thing->entity);
       d.words.push_back(name->word);
-      of.push_back(ToJson(*name, speaker_.lexicon()));
-      VlnJson& figures = things.emplace_back(Figures(*name->thing, speaker_.scene()));
+      of.push_back(ToJson(*name, named_.lexicon()));
+      VlnJson& figures = things.emplace_back(Figures(*name->thing, named_.scene()));
       if (d.quarters > 0) figures["azimuth_deg"] = Rounded(std::remainder(name->thing->azimuth_deg + 90 * d.quarters, 360));
     }
     if (!names.empty()) {
@@ -148,7 +148,7 @@ class Asker {
   static std::string KeyOf(const Name& a, const Name& b) { return std::min(a.text, b.text) + "|" + std::max(a.text, b.text); }
 
   void AskExists(size_t picture, uint16_t word) {
-    const Sighted& sighted = speaker_.groups(picture)[word];
+    const Sighted& sighted = named_.groups(picture)[word];
     if (sighted.clear.empty() && !sighted.none()) return;
     Draft& d = Add("exists", picture, One(word), {}, {{"word", One(word)}});
     d.words = {word};
@@ -164,7 +164,7 @@ class Asker {
   void ProveCount(Draft& d, const Sighted& sighted) {
     VlnJson counted = VlnJson::array();
     for (const Seen* seen : sighted.clear) {
-      counted.push_back(Figures(*seen, speaker_.scene()));
+      counted.push_back(Figures(*seen, named_.scene()));
       d.entities.push_back(seen->entity);
     }
     d.proof["counted"] = counted;
@@ -173,9 +173,9 @@ class Asker {
   }
 
   void AskCount(size_t picture, uint16_t word) {
-    const Sighted& sighted = speaker_.groups(picture)[word];
+    const Sighted& sighted = named_.groups(picture)[word];
     if (!sighted.doubtful.empty() || sighted.clear.size() > kMostCounted) return;
-    const std::string& many = speaker_.lexicon().words()[word].many;
+    const std::string& many = named_.lexicon().words()[word].many;
     Draft& d = Add("count", picture, One(word), {}, {{"word", One(word)}});
     d.words = {word};
     d.texts = picture == 0 ? std::vector<std::string>{"How many " + many + " do you see from here?", "How many " + many + " are in sight?"}
@@ -189,7 +189,7 @@ class Asker {
   void AskDirection(const Name& a) {
     if (!IsPlain(a)) return;
     static const std::vector<VlnJson> kAnswers = {"front", "right", "behind", "left"};
-    const auto sector = std::ranges::find(kAnswers, VlnJson(Speaker::SectorOf(*a.thing)));
+    const auto sector = std::ranges::find(kAnswers, VlnJson(NamedPlace::SectorOf(*a.thing)));
     if (sector == kAnswers.end()) return;
     for (quarters_ = 0; quarters_ < 4; ++quarters_) {
       Draft& d = Add("direction", 0, a.text, {&a}, {});
@@ -203,7 +203,7 @@ class Asker {
 
   // -1: a is surely nearer, 1: b is, 0: nobody can tell.
   int Compare(size_t picture, const Name& a, const Name& b) const {
-    const DistanceBounds da = speaker_.Range(*a.thing, PictureOf(picture)), db = speaker_.Range(*b.thing, PictureOf(picture));
+    const DistanceBounds da = named_.Range(*a.thing, PictureOf(picture)), db = named_.Range(*b.thing, PictureOf(picture));
     if (da.most > kFarthest || db.most > kFarthest * 2) return 0;
     if (da.most * kFartherShare + kFartherBy < db.least) return -1;
     return db.most * kFartherShare + kFartherBy < da.least ? 1 : 0;
@@ -212,7 +212,7 @@ class Asker {
   void ProveRanges(Draft& d, size_t picture, std::initializer_list<const Name*> names) {
     VlnJson bounds = VlnJson::array();
     for (const Name* name : names) {
-      const DistanceBounds b = speaker_.Range(*name->thing, PictureOf(picture));
+      const DistanceBounds b = named_.Range(*name->thing, PictureOf(picture));
       bounds.push_back({Rounded(b.least), Rounded(b.most)});
     }
     d.proof["range_between"] = bounds;
@@ -298,7 +298,7 @@ class Asker {
 
   // From `a`, looking at `b`: all corners of the box of `c` lie on one side.
   void AskSeenFrom(const Name& a, const Name& b, const Name& c) {
-    const Box3d box = speaker_.BoxOf(c.thing->entity);
+    const Box3d box = named_.BoxOf(c.thing->entity);
     const Vec3d from = Middle(a), to = Middle(b);
     const Viewpoint view{from, std::atan2(to.y - from.y, to.x - from.x)};
     if (Apart(from, to) < 4) return;
@@ -308,7 +308,7 @@ class Asker {
       least = std::min(least, azimuth);
       most = std::max(most, azimuth);
     }
-    const Box3d own = speaker_.BoxOf(a.thing->entity);
+    const Box3d own = named_.BoxOf(a.thing->entity);
     const double size = std::max(own.max.x - own.min.x, own.max.y - own.min.y);
     const bool right = least > kLeastTurn && most < kMostTurn, left = most < -kLeastTurn && least > -kMostTurn;
     if (left == right || size > 12 || Apart(from, Middle(c)) < size + 3) return;
@@ -322,13 +322,13 @@ class Asker {
   }
 
   Vec3d Middle(const Name& name) const {
-    const Box3d box = speaker_.BoxOf(name.thing->entity);
+    const Box3d box = named_.BoxOf(name.thing->entity);
     return (box.min + box.max) * 0.5;
   }
   static double Apart(Vec3d a, Vec3d b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
   void AskNearTo(size_t picture, const Name& a, const Name& b, const Name& c) {
-    const DistanceBounds to_b = speaker_.Apart(a.thing->entity, b.thing->entity), to_c = speaker_.Apart(a.thing->entity, c.thing->entity);
+    const DistanceBounds to_b = named_.Apart(a.thing->entity, b.thing->entity), to_c = named_.Apart(a.thing->entity, c.thing->entity);
     const bool b_is = to_b.most * kFartherShare + kFartherBy < to_c.least, c_is = to_c.most * kFartherShare + kFartherBy < to_b.least;
     if (b_is == c_is || std::min(to_b.most, to_c.most) > 40) return;
     Draft& d = Add("near_to", picture, a.text + "|" + KeyOf(b, c), {&a, &b, &c}, {});
@@ -341,7 +341,7 @@ class Asker {
 
   void AskDistance(size_t picture, const Name& a) {
     static constexpr double kMetres[] = {4, 12, 36};
-    const DistanceBounds range = speaker_.Range(*a.thing, PictureOf(picture));
+    const DistanceBounds range = named_.Range(*a.thing, PictureOf(picture));
     for (size_t i = 0; i < std::size(kMetres); ++i) {
       if (range.least < kMetres[i] / 1.4 || range.most > kMetres[i] * 1.4) continue;
       Draft& d = Add("distance", picture, a.text, {&a}, {});
@@ -354,7 +354,7 @@ class Asker {
     }
   }
 
-  const Speaker& speaker_;
+  const NamedPlace& named_;
   RngStream& random_;
   int quarters_ = 0;  // of the panorama that is asked about
   std::vector<Draft> drafts_;
@@ -362,6 +362,6 @@ class Asker {
 
 }  // namespace
 
-std::vector<Draft> QuestionsAt(const Speaker& speaker, RngStream& random) { return Asker(speaker, random).Ask(); }
+std::vector<Draft> QuestionsAt(const NamedPlace& named, RngStream& random) { return Asker(named, random).Ask(); }
 
 }  // namespace airsim360::internal

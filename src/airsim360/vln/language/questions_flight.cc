@@ -15,11 +15,11 @@ constexpr int kTries = 24;
 
 class FlightAsker {
  public:
-  FlightAsker(const Speaker& speaker, RngStream& random) : speaker_(speaker), random_(random) {}
+  FlightAsker(const NamedPlace& named, RngStream& random) : named_(named), random_(random) {}
 
   std::vector<Draft> Ask() {
-    for (uint16_t word = 0; word < speaker_.lexicon().words().size(); ++word) {
-      const Sighted &before = speaker_.groups(0)[word], &after = speaker_.groups(kFlight)[word];
+    for (uint16_t word = 0; word < named_.lexicon().words().size(); ++word) {
+      const Sighted &before = named_.groups(0)[word], &after = named_.groups(kFlight)[word];
       const Seen *first = before.only(), *second = after.only();
       if (first != nullptr && second != nullptr && first->entity == second->entity) same_.push_back({word, first, second});
       if (before.none() && !after.clear.empty()) appeared_.push_back({word, nullptr, after.clear[0]});
@@ -40,7 +40,7 @@ class FlightAsker {
     const Seen *before, *after;
   };
   const Pair& Pick(const std::vector<Pair>& list) { return list[random_.Index(static_cast<uint32_t>(list.size()))]; }
-  std::string The(const Pair& a) const { return "the " + speaker_.lexicon().words()[a.word].one; }
+  std::string The(const Pair& a) const { return "the " + named_.lexicon().words()[a.word].one; }
 
   Draft& Add(const char* type, const std::string& key, std::initializer_list<const Pair*> things) {
     Draft& d = drafts_.emplace_back();
@@ -52,9 +52,9 @@ class FlightAsker {
     for (const Pair* a : things) {
       d.words.push_back(a->word);
       d.entities.push_back((a->before != nullptr ? a->before : a->after)->entity);
-      of.push_back({{"word", speaker_.lexicon().words()[a->word].one}, {"where", "only"}});
-      before.push_back(a->before != nullptr ? Figures(*a->before, speaker_.scene()) : VlnJson());
-      after.push_back(a->after != nullptr ? Figures(*a->after, speaker_.scene()) : VlnJson());
+      of.push_back({{"word", named_.lexicon().words()[a->word].one}, {"where", "only"}});
+      before.push_back(a->before != nullptr ? Figures(*a->before, named_.scene()) : VlnJson());
+      after.push_back(a->after != nullptr ? Figures(*a->after, named_.scene()) : VlnJson());
     }
     d.query["of"] = of;
     d.proof = {{"before", before}, {"after", after}};
@@ -93,8 +93,8 @@ class FlightAsker {
 
   // By what surely holds of the whole thing, not only of what is seen of it.
   void AskApproach(const Pair& a) {
-    const DistanceBounds before = speaker_.Range(*a.before, speaker_.glance(0).picture),
-                         after = speaker_.Range(*a.after, speaker_.glance(kFlight).picture);
+    const DistanceBounds before = named_.Range(*a.before, named_.glance(0).picture),
+                         after = named_.Range(*a.after, named_.glance(kFlight).picture);
     const bool nearer = after.most + kChangedBy < before.least * kNearer, farther = before.most + kChangedBy < after.least * kNearer;
     if (nearer == farther) return;
     Draft& d = Add("approach", The(a), {&a});
@@ -107,7 +107,7 @@ class FlightAsker {
   }
 
   void AskAppeared(const Pair& shown, const Pair& hidden) {
-    const auto a = WithArticle(speaker_.lexicon().words()[shown.word].one), b = WithArticle(speaker_.lexicon().words()[hidden.word].one);
+    const auto a = WithArticle(named_.lexicon().words()[shown.word].one), b = WithArticle(named_.lexicon().words()[hidden.word].one);
     Draft& d = Add("came_into_view", std::min(a, b) + "|" + std::max(a, b), {&shown, &hidden});
     d.query["of"][0]["where"] = d.query["of"][1]["where"] = "any";
     d.answer_type = "thing";
@@ -118,7 +118,7 @@ class FlightAsker {
                         d.answers[turned].get<std::string>() + " or " + d.answers[1 - turned].get<std::string>() + "?");
   }
 
-  const Speaker& speaker_;
+  const NamedPlace& named_;
   RngStream& random_;
   std::vector<Pair> same_, appeared_, gone_;
   std::vector<Draft> drafts_;
@@ -126,9 +126,9 @@ class FlightAsker {
 
 }  // namespace
 
-std::vector<Draft> QuestionsOfFlight(const Speaker& speaker, RngStream& random) {
-  if (!speaker.lookout().later) return {};
-  return FlightAsker(speaker, random).Ask();
+std::vector<Draft> QuestionsOfFlight(const NamedPlace& named, RngStream& random) {
+  if (!named.lookout().later) return {};
+  return FlightAsker(named, random).Ask();
 }
 
 }  // namespace airsim360::internal

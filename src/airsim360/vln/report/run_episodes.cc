@@ -47,14 +47,7 @@ std::unique_ptr<VlnAgent> MakeAgent(const VlnRunOptions& options, const Language
 }
 
 EpisodeSpec SpecOf(const LanguageEpisode& e, const FlightRules& protocol, double radius) {
-  EpisodeSpec spec;
-  spec.instruction = e.instruction;
-  spec.goal = e.goal;
-  spec.more_goals = e.places;
-  spec.start = e.start.p_W;
-  spec.start_yaw = e.start.yaw;
-  spec.reference_path = e.ref;
-  spec.seed = e.seed;
+  EpisodeSpec spec = SpecOf(e);
   spec.success_radius = radius;
   spec.speed = kSpeed;
   spec.presets = {protocol.forward, protocol.lateral, protocol.vertical, protocol.turn_deg * kDegree, 1};

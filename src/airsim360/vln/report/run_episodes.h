@@ -10,7 +10,7 @@
 
 #include "airsim360/stage/stage.h"
 #include "airsim360/vln/agents/told_agents.h"
-#include "airsim360/vln/report/protocol.h"
+#include "airsim360/vln/report/flight_rules.h"
 
 namespace airsim360 {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "airsim360/base/hash.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/worlds/built_in.h"
 #include "airsim360/worlds/city_park/layout.h"
+#include "airsim360/worlds/kit/test_scene_hash.h"
 #include "airsim360/worlds/props/placer.h"
 
 namespace airsim360 {
@@ -94,36 +94,9 @@ TEST(CityPark, HasThePapersCategoriesAndAnnouncesExactlyWhatItHas) {
   EXPECT_LE(counts.unique_triangles, 6'000'000u);
 }
 
-std::string HashOf(const Scene& scene) {
-  std::vector<std::byte> bytes;
-  const auto add = [&](const auto* data, size_t count) {
-    const auto* p = reinterpret_cast<const std::byte*>(data);
-    bytes.insert(bytes.end(), p, p + count * sizeof(*data));
-  };
-  for (const Mesh& mesh : scene.meshes) {
-    add(mesh.positions.data(), mesh.positions.size());
-    add(mesh.normals.data(), mesh.normals.size());
-    add(mesh.triangles.data(), mesh.triangles.size());
-    add(mesh.parts.data(), mesh.parts.size());
-  }
-  for (const Instance& instance : scene.instances) {
-    add(&instance.mesh, 1);
-    add(&instance.X_WM, 1);
-    add(&instance.entity, 1);
-    add(&instance.tint, 1);
-  }
-  for (const Entity& entity : scene.entities) {
-    add(entity.name.data(), entity.name.size());
-    add(&entity.category, 1);
-    add(&entity.bounds, 1);
-  }
-  for (const Texture& texture : scene.textures) add(texture.levels[0].pixels().data(), texture.levels[0].size());
-  return Sha256Hex(bytes);
-}
-
 TEST(CityPark, IsAFunctionOfItsSeedAlone) {
   const ThreadLimit one(1);
-  EXPECT_EQ(HashOf(*SharedPark().scene), HashOf(*internal::BuildCityPark({.seed = 0}, nullptr)));
+  EXPECT_EQ(internal::SceneHash(*SharedPark().scene), internal::SceneHash(*internal::BuildCityPark({.seed = 0}, nullptr)));
 }
 
 TEST(CityPark, NothingFloatsSharesGroundOrStandsInTheSpawn) {

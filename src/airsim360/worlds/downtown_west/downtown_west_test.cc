@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
-#include "airsim360/base/hash.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/worlds/building/massing.h"
 #include "airsim360/worlds/built_in.h"
+#include "airsim360/worlds/kit/test_scene_hash.h"
 #include "airsim360/worlds/props/placer.h"
 
 namespace airsim360 {
@@ -37,34 +37,6 @@ class DowntownWest : public ::testing::Test {
   static inline std::shared_ptr<const Scene> scene_;
   static inline std::vector<Placement> placements_;
 };
-
-std::string HashOf(const Scene& scene) {
-  std::vector<std::byte> bytes;
-  const auto add = [&](const auto* data, size_t count) {
-    const auto* p = reinterpret_cast<const std::byte*>(data);
-    bytes.insert(bytes.end(), p, p + count * sizeof(*data));
-  };
-  for (const Mesh& mesh : scene.meshes) {
-    add(mesh.positions.data(), mesh.positions.size());
-    add(mesh.normals.data(), mesh.normals.size());
-    add(mesh.uvs.data(), mesh.uvs.size());
-    add(mesh.triangles.data(), mesh.triangles.size());
-    add(mesh.parts.data(), mesh.parts.size());
-  }
-  for (const Instance& instance : scene.instances) {
-    add(&instance.mesh, 1);
-    add(&instance.X_WM, 1);
-    add(&instance.entity, 1);
-    add(&instance.tint, 1);
-  }
-  for (const Entity& entity : scene.entities) {
-    add(entity.name.data(), entity.name.size());
-    add(&entity.category, 1);
-    add(&entity.bounds, 1);
-  }
-  for (const Texture& texture : scene.textures) add(texture.levels[0].pixels().data(), texture.levels[0].size());
-  return Sha256Hex(bytes);
-}
 
 // The 29 categories that the paper's table lists for Downtown West.
 constexpr const char* kPaperCategories[] = {"barrier/fence/wood_fence",
@@ -156,14 +128,14 @@ TEST_F(DowntownWest, ReachesTheStructuralFloor) {
 }
 
 TEST_F(DowntownWest, IsAFunctionOfItsSeedAlone) {
-  const std::string hash = HashOf(*scene_);
+  const std::string hash = internal::SceneHash(*scene_);
   std::string again;
   {
     const ThreadLimit one(1);
-    again = HashOf(*BuildWorld("downtown_west", {.seed = 0}));
+    again = internal::SceneHash(*BuildWorld("downtown_west", {.seed = 0}));
   }
   EXPECT_EQ(hash, again);
-  EXPECT_NE(hash, HashOf(*BuildWorld("downtown_west", {.seed = 1})));
+  EXPECT_NE(hash, internal::SceneHash(*BuildWorld("downtown_west", {.seed = 1})));
 }
 
 TEST_F(DowntownWest, EveryEntityButTheSkyIsSomewhereInTheWorld) {

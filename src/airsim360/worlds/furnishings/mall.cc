@@ -12,67 +12,79 @@
 namespace airsim360::internal {
 namespace {
 
-// Slats on steel, a padded island, a curved one of solid surface.
-Model MakeBenchMall(uint32_t variant, uint64_t) {
-  PropBuilder b("bench_mall");
-  if (variant == 0) {
-    UseTimber(b, Timber::kOak, Grain::kAlongX);
-    for (int i = 0; i < 7; ++i)
-      b.BevelBox({-0.90f, -0.255f + 0.0735f * static_cast<float>(i), 0.415f}, {0.90f, -0.195f + 0.0735f * static_cast<float>(i), 0.45f},
-                 0.006f);
-    for (int i = 0; i < 3; ++i) {
-      b.Place(Turn(-12, 0, 0, {0, 0.25f, 0.52f + 0.10f * static_cast<float>(i)}));
-      b.BevelBox({-0.90f, -0.015f + 0.02f * static_cast<float>(i), 0}, {0.90f, 0.015f + 0.02f * static_cast<float>(i), 0.075f}, 0.006f);
-    }
-    b.Place({});
-    b.Use(Paint({0.04f, 0.042f, 0.045f}, 0.4f));
-    for (float x : {-0.70f, 0.70f}) {
-      b.Bar(std::array<Vec3f, 4>{Vec3f{x, 0.18f, 0.02f}, Vec3f{x, 0.21f, 0.40f}, Vec3f{x, 0.275f, 0.55f}, Vec3f{x, 0.34f, 0.82f}}, 0.020f,
-            8);
-      b.Bar(std::array<Vec3f, 3>{Vec3f{x, -0.20f, 0.02f}, Vec3f{x, -0.22f, 0.39f}, Vec3f{x, 0.22f, 0.40f}}, 0.020f, 8);
-      for (float y : {-0.20f, 0.18f}) b.BevelBox({x - 0.05f, y - 0.05f, 0}, {x + 0.05f, y + 0.05f, 0.02f}, 0.005f);
-    }
-  } else if (variant == 1) {
-    UseLacquer(b, {0.05f, 0.052f, 0.055f});
-    const Vec2f plinth[] = {{0.62f, 0}, {0.62f, 0.10f}, {0, 0.10f}};
-    b.Lathe(plinth, 48);
-    for (int i = 0; i < 6; ++i) {
-      UseLeather(b, i % 2 ? Vec3f{0.10f, 0.26f, 0.28f} : Vec3f{0.44f, 0.36f, 0.24f});
-      const float a0 = 1.0472f * static_cast<float>(i) + 0.012f, a1 = a0 + 1.0472f - 0.024f;
-      const auto at = [&](float u, float v) {
-        // From the plinth up the outside, over the seat to the middle.
-        const float a = a0 + (a1 - a0) * u, edge = 1 - std::pow(std::abs(2 * u - 1), 14.0f);
-        const float r = v < 0.4f ? 0.80f : 0.80f - 0.56f * (v - 0.4f) / 0.6f, z = v < 0.4f ? 0.10f + 0.33f * v / 0.4f : 0.43f;
-        const float round = std::max(0.0f, 1 - std::abs(v - 0.4f) / 0.08f);
-        return Vec3f{(r - 0.04f * round) * std::cos(a), (r - 0.04f * round) * std::sin(a),
-                     z - 0.02f * round + (v > 0.45f ? 0.015f * edge : -0.01f * (1 - edge))};
-      };
-      b.Sheet(14, 20, at, {0.85f, 0.9f});
-    }
-    UseLeather(b, {0.06f, 0.062f, 0.066f});
-    const Vec2f back[] = {{0.25f, 0.42f}, {0.24f, 0.60f}, {0.21f, 0.84f}, {0.17f, 0.88f}, {0, 0.885f}};
-    b.Lathe(back, 40);
-  } else {
-    UseCeramic(b, {0.70f, 0.69f, 0.66f});
+// Slats on steel.
+void BuildSlatBench(PropBuilder& b) {
+  UseTimber(b, Timber::kOak, Grain::kAlongX);
+  for (int i = 0; i < 7; ++i)
+    b.BevelBox({-0.90f, -0.255f + 0.0735f * static_cast<float>(i), 0.415f}, {0.90f, -0.195f + 0.0735f * static_cast<float>(i), 0.45f},
+               0.006f);
+  for (int i = 0; i < 3; ++i) {
+    b.Place(Turn(-12, 0, 0, {0, 0.25f, 0.52f + 0.10f * static_cast<float>(i)}));
+    b.BevelBox({-0.90f, -0.015f + 0.02f * static_cast<float>(i), 0}, {0.90f, 0.015f + 0.02f * static_cast<float>(i), 0.075f}, 0.006f);
+  }
+  b.Place({});
+  b.Use(Paint({0.04f, 0.042f, 0.045f}, 0.4f));
+  for (float x : {-0.70f, 0.70f}) {
+    b.Bar(std::array<Vec3f, 4>{Vec3f{x, 0.18f, 0.02f}, Vec3f{x, 0.21f, 0.40f}, Vec3f{x, 0.275f, 0.55f}, Vec3f{x, 0.34f, 0.82f}}, 0.020f, 8);
+    b.Bar(std::array<Vec3f, 3>{Vec3f{x, -0.20f, 0.02f}, Vec3f{x, -0.22f, 0.39f}, Vec3f{x, 0.22f, 0.40f}}, 0.020f, 8);
+    for (float y : {-0.20f, 0.18f}) b.BevelBox({x - 0.05f, y - 0.05f, 0}, {x + 0.05f, y + 0.05f, 0.02f}, 0.005f);
+  }
+}
+
+// A padded island.
+void BuildIslandBench(PropBuilder& b) {
+  UseLacquer(b, {0.05f, 0.052f, 0.055f});
+  const Vec2f plinth[] = {{0.62f, 0}, {0.62f, 0.10f}, {0, 0.10f}};
+  b.Lathe(plinth, 48);
+  for (int i = 0; i < 6; ++i) {
+    UseLeather(b, i % 2 ? Vec3f{0.10f, 0.26f, 0.28f} : Vec3f{0.44f, 0.36f, 0.24f});
+    const float a0 = 1.0472f * static_cast<float>(i) + 0.012f, a1 = a0 + 1.0472f - 0.024f;
     const auto at = [&](float u, float v) {
-      // A loop of section swept along a shallow arc.
-      const float a = 6.2831853f * v, s = 2 * u - 1;
-      const float y = 0.23f * std::copysign(std::pow(std::abs(std::cos(a)), 0.5f), std::cos(a)) + 0.28f * s * s - 0.10f;
-      const float z = 0.225f + 0.22f * std::copysign(std::pow(std::abs(std::sin(a)), 0.5f), std::sin(a));
-      return Vec3f{1.1f * s, y, z};
+      // From the plinth up the outside, over the seat to the middle.
+      const float a = a0 + (a1 - a0) * u, edge = 1 - std::pow(std::abs(2 * u - 1), 14.0f);
+      const float r = v < 0.4f ? 0.80f : 0.80f - 0.56f * (v - 0.4f) / 0.6f, z = v < 0.4f ? 0.10f + 0.33f * v / 0.4f : 0.43f;
+      const float round = std::max(0.0f, 1 - std::abs(v - 0.4f) / 0.08f);
+      return Vec3f{(r - 0.04f * round) * std::cos(a), (r - 0.04f * round) * std::sin(a),
+                   z - 0.02f * round + (v > 0.45f ? 0.015f * edge : -0.01f * (1 - edge))};
     };
-    b.Sheet(24, 24, [&](float u, float v) { return at(u, v); }, {2.2f, 1.4f});
-    for (const bool right : {false, true}) {
-      std::vector<Vec3f> rim;
-      for (int i = 0; i < 24; ++i) rim.push_back(at(right ? 1.0f : 0.0f, static_cast<float>(i) / 24));
-      Vec3f middle{};
-      for (Vec3f p : rim) middle = middle + p * (1.0f / 24);
-      for (size_t i = 0; i < rim.size(); ++i) {
-        const Vec3f p = rim[i], q = rim[(i + 1) % rim.size()];
-        right ? b.mesh().Triangle(middle, p, q) : b.mesh().Triangle(middle, q, p);
-      }
+    b.Sheet(14, 20, at, {0.85f, 0.9f});
+  }
+  UseLeather(b, {0.06f, 0.062f, 0.066f});
+  const Vec2f back[] = {{0.25f, 0.42f}, {0.24f, 0.60f}, {0.21f, 0.84f}, {0.17f, 0.88f}, {0, 0.885f}};
+  b.Lathe(back, 40);
+}
+
+// A curved one of solid surface.
+void BuildCurvedBench(PropBuilder& b) {
+  UseCeramic(b, {0.70f, 0.69f, 0.66f});
+  const auto at = [&](float u, float v) {
+    // A loop of section swept along a shallow arc.
+    const float a = 6.2831853f * v, s = 2 * u - 1;
+    const float y = 0.23f * std::copysign(std::pow(std::abs(std::cos(a)), 0.5f), std::cos(a)) + 0.28f * s * s - 0.10f;
+    const float z = 0.225f + 0.22f * std::copysign(std::pow(std::abs(std::sin(a)), 0.5f), std::sin(a));
+    return Vec3f{1.1f * s, y, z};
+  };
+  b.Sheet(24, 24, [&](float u, float v) { return at(u, v); }, {2.2f, 1.4f});
+  for (const bool right : {false, true}) {
+    std::vector<Vec3f> rim;
+    for (int i = 0; i < 24; ++i) rim.push_back(at(right ? 1.0f : 0.0f, static_cast<float>(i) / 24));
+    Vec3f middle{};
+    for (Vec3f p : rim) middle = middle + p * (1.0f / 24);
+    for (size_t i = 0; i < rim.size(); ++i) {
+      const Vec3f p = rim[i], q = rim[(i + 1) % rim.size()];
+      right ? b.mesh().Triangle(middle, p, q) : b.mesh().Triangle(middle, q, p);
     }
   }
+}
+
+Model MakeBenchMall(uint32_t variant, uint64_t) {
+  PropBuilder b("bench_mall");
+  if (variant == 0)
+    BuildSlatBench(b);
+  else if (variant == 1)
+    BuildIslandBench(b);
+  else
+    BuildCurvedBench(b);
   return b.Finish();
 }
 

@@ -14,6 +14,46 @@ F HomeWall(RngStream& rng) {
   return kWalls[rng.Index(7)];
 }
 
+// Of rooms that no home and no office desk stands in.
+RoomFinish FinishOfHall(const InteriorPlan& plan, const PlanRoom& room, F carpet, RngStream& rng) {
+  switch (room.type) {
+    case T::kPrintRoom:
+    case T::kDispatchOffice:
+      return {F::kEpoxy, F::kPlasterGrey, F::kCeilingTiles, true};
+    case T::kLobby:
+      return {plan.spec.use == BuildingUse::kMall ? F::kTerrazzo : F::kStone, F::kPlasterWhite, F::kCeilingPlaster, false};
+    case T::kStairwell:
+      return {F::kConcreteFloor, F::kPlasterGrey, F::kCeilingConcrete, false};
+    case T::kLiftShaft:
+      return {F::kConcreteFloor, F::kConcreteWall, F::kCeilingConcrete, false};
+    case T::kWarehouseHall:
+      return {F::kEpoxy, F::kRibbedWhite, F::kSteelDeck, false};
+    case T::kShop:
+      return {rng.Chance(0.4)   ? F::kOak
+              : rng.Chance(0.5) ? F::kTileWhite
+                                : F::kTileGrey,
+              rng.Chance(0.4) ? HomeWall(rng) : F::kPlasterWhite, F::kCeilingPlaster, true};
+    case T::kSupermarket:
+      return {F::kTileWhite, F::kPlasterWhite, F::kCeilingTiles, false};
+    case T::kFoodCourt:
+      return {F::kTileGrey, F::kPlasterWarm, F::kCeilingPlaster, false};
+    case T::kConcourse:
+    case T::kAtrium:
+    case T::kGallery:
+      if (plan.spec.use == BuildingUse::kLibrary)
+        return {room.storey == 0 ? F::kStone : carpet, F::kPlasterWhite, F::kCeilingPlaster, false};
+      return {plan.spec.use == BuildingUse::kOffice ? F::kStone : F::kTerrazzo, F::kPlasterWhite, F::kCeilingPlaster, false};
+    case T::kParkingDeck:
+    case T::kRamp:
+      return {F::kDeck, F::kConcreteWall, F::kCeilingConcrete, false};
+    case T::kReadingRoom:
+    case T::kBookStacks:
+      return {carpet, rng.Chance(0.5) ? F::kPlasterWarm : F::kPlasterWhite, F::kCeilingTiles, true};
+    default:
+      return {F::kConcreteFloor, F::kPlasterWhite, F::kCeilingPlaster, false};
+  }
+}
+
 }  // namespace
 
 RoomFinish FinishOf(const InteriorPlan& plan, int index) {
@@ -50,40 +90,9 @@ RoomFinish FinishOf(const InteriorPlan& plan, int index) {
     case T::kPantry:
     case T::kBreakRoom:
       return {F::kTileWhite, F::kPlasterWarm, F::kCeilingTiles, true};
-    case T::kPrintRoom:
-    case T::kDispatchOffice:
-      return {F::kEpoxy, F::kPlasterGrey, F::kCeilingTiles, true};
-    case T::kLobby:
-      return {plan.spec.use == BuildingUse::kMall ? F::kTerrazzo : F::kStone, F::kPlasterWhite, F::kCeilingPlaster, false};
-    case T::kStairwell:
-      return {F::kConcreteFloor, F::kPlasterGrey, F::kCeilingConcrete, false};
-    case T::kLiftShaft:
-      return {F::kConcreteFloor, F::kConcreteWall, F::kCeilingConcrete, false};
-    case T::kWarehouseHall:
-      return {F::kEpoxy, F::kRibbedWhite, F::kSteelDeck, false};
-    case T::kShop:
-      return {rng.Chance(0.4)   ? F::kOak
-              : rng.Chance(0.5) ? F::kTileWhite
-                                : F::kTileGrey,
-              rng.Chance(0.4) ? HomeWall(rng) : F::kPlasterWhite, F::kCeilingPlaster, true};
-    case T::kSupermarket:
-      return {F::kTileWhite, F::kPlasterWhite, F::kCeilingTiles, false};
-    case T::kFoodCourt:
-      return {F::kTileGrey, F::kPlasterWarm, F::kCeilingPlaster, false};
-    case T::kConcourse:
-    case T::kAtrium:
-    case T::kGallery:
-      if (plan.spec.use == BuildingUse::kLibrary)
-        return {room.storey == 0 ? F::kStone : carpet, F::kPlasterWhite, F::kCeilingPlaster, false};
-      return {plan.spec.use == BuildingUse::kOffice ? F::kStone : F::kTerrazzo, F::kPlasterWhite, F::kCeilingPlaster, false};
-    case T::kParkingDeck:
-    case T::kRamp:
-      return {F::kDeck, F::kConcreteWall, F::kCeilingConcrete, false};
-    case T::kReadingRoom:
-    case T::kBookStacks:
-      return {carpet, rng.Chance(0.5) ? F::kPlasterWarm : F::kPlasterWhite, F::kCeilingTiles, true};
+    default:
+      return FinishOfHall(plan, room, carpet, rng);
   }
-  return {F::kConcreteFloor, F::kPlasterWhite, F::kCeilingPlaster, false};
 }
 
 Finish FacadeOf(const InteriorPlan& plan) {

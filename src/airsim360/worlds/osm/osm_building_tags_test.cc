@@ -8,7 +8,7 @@
 #include "airsim360/worlds/kit/mesh_builder.h"
 #include "airsim360/worlds/kit/test_mesh.h"
 #include "airsim360/worlds/osm/osm_areas.h"
-#include "airsim360/worlds/osm/osm_buildings.h"
+#include "airsim360/worlds/osm/osm_building_plans.h"
 #include "airsim360/worlds/osm/osm_scene.h"
 #include "airsim360/worlds/osm/test_map.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "airsim360/base/error.h"
-#include "airsim360/worlds/osm/osm_buildings.h"
+#include "airsim360/worlds/osm/osm_building_plans.h"
 #include "airsim360/worlds/osm/patches.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

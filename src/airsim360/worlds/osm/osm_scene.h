@@ -11,7 +11,7 @@
 #include "airsim360/worlds/kit/mesh_builder.h"
 #include "airsim360/worlds/osm/line_index.h"
 #include "airsim360/worlds/osm/map_dress.h"
-#include "airsim360/worlds/osm/osm_buildings.h"
+#include "airsim360/worlds/osm/osm_building_plans.h"
 #include "airsim360/worlds/osm/osm_relief.h"
 #include "airsim360/worlds/osm/osm_world.h"
 #include "airsim360/worlds/props/placer.h"

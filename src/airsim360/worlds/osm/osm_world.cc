@@ -99,6 +99,27 @@ void SetLanes(const std::string& name, RoadNetwork roads, SceneBuilder& builder)
   builder.SetRoads(std::make_shared<const RoadNetwork>(std::move(roads)));
 }
 
+// What stands where, for party walls, fronts and free places. Points into `buildings`.
+Neighbours NeighboursOf(const OsmData& data, const std::vector<OsmBuilding>& buildings) {
+  Neighbours near;
+  for (size_t i = 0; i < buildings.size(); ++i)
+    for (const OsmVolume& volume : buildings[i].volumes) {
+      Bounds2d box;
+      for (const Patch& patch : volume.footprint)
+        for (Vec2d p : patch.outer) box.Add(p);
+      if (volume.footprint.empty()) continue;
+      near.boxes.Add(box, static_cast<uint32_t>(near.volumes.size()));
+      near.volumes.push_back({&volume, i});
+    }
+  for (const OsmNode& node : data.nodes) {
+    const std::string_view amenity = node.tags.Get("amenity");
+    if (node.tags.Has("shop") || amenity == "cafe" || amenity == "restaurant" || amenity == "fast_food" || amenity == "bar" ||
+        amenity == "pub" || amenity == "bank" || amenity == "pharmacy")
+      near.shops.Add(node.p, node.p, 0);
+  }
+  return near;
+}
+
 }  // namespace
 
 std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmData& data, const OsmOptions& options,
@@ -125,23 +146,7 @@ std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmDat
                  dress};
   const std::vector<OsmBuilding> buildings = PlanOsmBuildings(data, areas);
 
-  // What stands where, for party walls, fronts and free places.
-  Neighbours near;
-  for (size_t i = 0; i < buildings.size(); ++i)
-    for (const OsmVolume& volume : buildings[i].volumes) {
-      Bounds2d box;
-      for (const Patch& patch : volume.footprint)
-        for (Vec2d p : patch.outer) box.Add(p);
-      if (volume.footprint.empty()) continue;
-      near.boxes.Add(box, static_cast<uint32_t>(near.volumes.size()));
-      near.volumes.push_back({&volume, i});
-    }
-  for (const OsmNode& node : data.nodes) {
-    const std::string_view amenity = node.tags.Get("amenity");
-    if (node.tags.Has("shop") || amenity == "cafe" || amenity == "restaurant" || amenity == "fast_food" || amenity == "bar" ||
-        amenity == "pub" || amenity == "bank" || amenity == "pharmacy")
-      near.shops.Add(node.p, node.p, 0);
-  }
+  Neighbours near = NeighboursOf(data, buildings);
   BuildOsmGround(scene, buildings, near);
   SetLanes(name, OsmLanes(scene, *near.graph), builder);
   const std::vector<EntityId> entities = BuildOsmBuildings(scene, buildings, near);

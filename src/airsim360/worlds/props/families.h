@@ -36,7 +36,8 @@ std::vector<PropKind> NewYorkKinds();       // road works, newspaper boxes, fenc
 std::vector<PropKind> SanFranciscoKinds();  // its lamps, poles, bins, ropes and barriers
 std::vector<PropKind> Cars1950sKinds();     // and its buses
 std::vector<PropKind> Signs1950sKinds();    // painted boards, neon
-std::vector<PropKind> Street1950sKinds();   // lamps, signals, call boxes, roofs
+std::vector<PropKind> Street1950sKinds();   // lamps, signals, call boxes
+std::vector<PropKind> Roofs1950sKinds();    // aerials, ventilators
 std::vector<PropKind> BroadleafKinds();
 std::vector<PropKind> ConiferKinds();
 std::vector<PropKind> FurnishingKinds();  // worlds/furnishings: furniture and fittings of interiors

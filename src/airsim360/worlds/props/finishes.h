@@ -7,6 +7,8 @@ namespace airsim360::internal {
 
 class PropBuilder;
 
+inline constexpr Vec3f kZinc{0.42f, 0.43f, 0.44f};  ///< of cans and sheets on roofs
+
 /// Linear colours. Names describe the finish, so that equal finishes of different props are shared.
 Material MakeFinish(const char* name, Vec3f color, float roughness, float metallic = 0);
 Material Paint(Vec3f color, float roughness = 0.4f);  ///< painted or powder-coated metal

@@ -53,11 +53,12 @@ const std::vector<PropKind>& PropKinds() {
   static const std::vector<PropKind> kinds = [] {
     using namespace internal;
     std::vector<PropKind> all;
-    for (auto family : {BarrierKinds,      BusKinds,          CarKinds,        CycleKinds,     FountainKinds,   LampKinds,
-                        RockKinds,         RooftopKinds,      SeatingKinds,    ShadeKinds,     SignageKinds,    StreetKinds,
-                        TrafficLightKinds, UtilityKinds,      VendingKinds,    WasteKinds,     PlanterKinds,    GroundPlantKinds,
-                        ShrubKinds,        BroadleafKinds,    ConiferKinds,    ParkKinds,      BillboardKinds,  LandmarkKinds,
-                        NewYorkKinds,      SanFranciscoKinds, FurnishingKinds, Cars1950sKinds, Signs1950sKinds, Street1950sKinds}) {
+    for (auto family :
+         {BarrierKinds,    BusKinds,         CarKinds,       CycleKinds,       FountainKinds,     LampKinds,         RockKinds,
+          RooftopKinds,    SeatingKinds,     ShadeKinds,     SignageKinds,     StreetKinds,       TrafficLightKinds, UtilityKinds,
+          VendingKinds,    WasteKinds,       PlanterKinds,   GroundPlantKinds, ShrubKinds,        BroadleafKinds,    ConiferKinds,
+          ParkKinds,       BillboardKinds,   LandmarkKinds,  NewYorkKinds,     SanFranciscoKinds, FurnishingKinds,   Cars1950sKinds,
+          Signs1950sKinds, Street1950sKinds, Roofs1950sKinds}) {
       std::vector<PropKind> rows = family();
       std::move(rows.begin(), rows.end(), std::back_inserter(all));
     }

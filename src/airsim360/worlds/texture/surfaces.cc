@@ -1,7 +1,9 @@
 #include "airsim360/worlds/texture/surfaces.h"
 
+#include <array>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -168,23 +170,59 @@ Vec2f UnitsOf(Recipe recipe) {
   }
 }
 
-std::vector<TextureIds> AddTextures(SceneBuilder& builder) {
-  // Generated in parallel, added in order.
-  constexpr auto kCount = static_cast<size_t>(R::kCount);
-  std::vector<std::optional<TextureSet>> sets(kCount);
-  std::vector<TextureIds> ids(kCount);
-  ParallelFor(static_cast<int64_t>(kCount), [&](int64_t i) {
+struct MadeSurface {
+  float tile = 1;  // metres
+  TextureSet set;
+  std::optional<Texture> lights;
+};
+using MadeSurfaces = std::vector<MadeSurface>;  // by Recipe
+
+MadeSurfaces MakeSurfaces() {
+  MadeSurfaces made(static_cast<size_t>(R::kCount));
+  ParallelFor(static_cast<int64_t>(made.size()), [&](int64_t i) {
     const auto recipe = static_cast<Recipe>(i);
-    const TextureRecipe made = internal::MakeRecipe(recipe);
-    ids[static_cast<size_t>(i)].tile = made.tile;
-    sets[static_cast<size_t>(i)] = SynthesizeTextures(made, internal::SizeOf(recipe));
+    const TextureRecipe texels = internal::MakeRecipe(recipe);
+    made[static_cast<size_t>(i)] = {texels.tile, SynthesizeTextures(texels, internal::SizeOf(recipe)), internal::MakeNightLights(recipe)};
   });
-  for (size_t i = 0; i < kCount; ++i) {
-    ids[i].color = builder.AddTexture(std::move(sets[i]->color));
-    if (IsPicture(static_cast<Recipe>(i))) continue;
-    ids[i].normal = builder.AddTexture(std::move(sets[i]->normal));
-    ids[i].roughness = builder.AddTexture(std::move(sets[i]->roughness));
-    if (auto lights = internal::MakeNightLights(static_cast<Recipe>(i))) ids[i].lights = builder.AddTexture(*std::move(lights));
+  return made;
+}
+
+// What is the same in all worlds, and most of the work of a small one. A process that makes one world does not keep it for another;
+// one that makes a second has it for all that follow.
+template <class Made>
+class OnceMade {
+ public:
+  template <class Make>
+  Made Get(const Make& make) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (kept_) return *kept_;
+    }
+    Made made = make();  // not under the lock: it runs on all threads, which may be making other worlds
+    const std::lock_guard lock(mutex_);
+    if (asked_) kept_ = made;
+    asked_ = true;
+    return made;
+  }
+
+ private:
+  std::mutex mutex_;
+  bool asked_ = false;
+  std::optional<Made> kept_;
+};
+
+std::vector<TextureIds> AddTextures(SceneBuilder& builder) {
+  std::vector<TextureIds> ids;
+  static OnceMade<MadeSurfaces> surfaces;
+  MadeSurfaces all = surfaces.Get(MakeSurfaces);
+  for (MadeSurface& made : all) {
+    TextureIds& of = ids.emplace_back();
+    of.tile = made.tile;
+    of.color = builder.AddTexture(std::move(made.set.color));
+    if (IsPicture(static_cast<Recipe>(ids.size() - 1))) continue;
+    of.normal = builder.AddTexture(std::move(made.set.normal));
+    of.roughness = builder.AddTexture(std::move(made.set.roughness));
+    if (made.lights) of.lights = builder.AddTexture(*std::move(made.lights));
   }
   return ids;
 }
@@ -193,7 +231,9 @@ std::vector<TextureIds> AddTextures(SceneBuilder& builder) {
 
 Surfaces AddSurfaces(SceneBuilder& builder, ShopSigns shop_signs) {
   const std::vector<TextureIds> textures = AddTextures(builder);
-  const TextureId signs = builder.AddTexture(internal::MakeShopSigns(shop_signs));
+  static std::array<OnceMade<Texture>, 2> sheets;
+  const TextureId signs =
+      builder.AddTexture(sheets.at(static_cast<size_t>(shop_signs)).Get([&] { return internal::MakeShopSigns(shop_signs); }));
   Surfaces surfaces;
   for (const Row& row : kRows) {
     Material material;

@@ -126,7 +126,7 @@ void StreetRect(Ground& ground, const StreetStretch& street, float s0, float s1,
 
 void LayMarkings(Ground& ground, const StreetStretch& street, const std::string& name, bool bike_lane) {
   if (street.line.kind != StreetKind::kTwoWay) return LayAvenueMarkings(ground, street, name);
-  const float hw = street.line.half_width, s0 = street.s0 + 5.6f, s1 = street.s1 - 5.6f, parking = hw - 2.35f;
+  const float s0 = street.s0 + 5.6f, s1 = street.s1 - 5.6f, parking = street.line.half_width - 2.35f;
   if (bike_lane) {
     ground.Begin("bike lane " + name, "ground/bike_lane", Surface::kBikeLane);
     StreetRect(ground, street, s0, s1, parking - 1.6f, parking - 0.12f, kPaintLift);
@@ -139,14 +139,7 @@ void LayMarkings(Ground& ground, const StreetStretch& street, const std::string&
   ground.Use(Surface::kPaintWhite);
   StreetRect(ground, street, s0 - 0.6f, s0 - 0.15f, 0.3f, parking, kPaintLift);
   StreetRect(ground, street, s1 + 0.15f, s1 + 0.6f, -parking, -0.3f, kPaintLift);
-  for (float side : {-1.0f, 1.0f}) {
-    const float d = side * parking;
-    StreetRect(ground, street, s0, s1, d - 0.05f, d + 0.05f, kPaintLift);
-    for (float s = s0 + 2; s < s1 - 2; s += 6.2f) {
-      StreetRect(ground, street, s - 0.05f, s + 0.05f, std::min(d, side * (hw - 0.5f)) + 0.05f, std::max(d, side * (hw - 0.5f)) - 0.05f,
-                 kPaintLift);
-    }
-  }
+  for (float side : {-1.0f, 1.0f}) LayParkingBays(ground, street, side);
 }
 
 void LayWhiteLines(Ground& ground, const StreetStretch& street, const std::string& name) {

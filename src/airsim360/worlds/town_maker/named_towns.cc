@@ -18,6 +18,7 @@ struct Named {
   double area_m2;  ///< that can be walked on, of seed 0
 };
 
+// Longer than a screen because it is a table: a town for each name.
 const std::array<Named, 6>& Towns() {
   static const std::array<Named, 6> towns{{
       {"downtown_city",

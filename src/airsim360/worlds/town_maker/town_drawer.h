@@ -59,8 +59,9 @@ class TownDrawer {
   void Row(const Patch& block, std::vector<Patch>& built);
   void Detached(const Patch& block, std::vector<Patch>& built);
   void Scatter();
-  bool HouseIn(const Ring& ring, const Patch& block, std::vector<Patch>& built, Vec2d front);
-  void AddHouse(const Ring& ring, Vec2d front, double most_floors = 1e9);
+  bool HouseIn(const Ring& ring, const Patch& block, std::vector<Patch>& built);
+  void AddHouse(const Ring& ring);
+  void AddTower(const Ring& ring, Vec2d middle, double floors, const std::string& material, const std::string& colour);
   bool Full() const { return spec_.houses > 0 && houses_ >= spec_.houses; }
   double Floors();
 

@@ -103,20 +103,20 @@ void TownDrawer::Row(const Patch& block, std::vector<Patch>& built) {
     const Vec2d v = edge(i);
     const double length = Length(v);
     if (length < 4) continue;
-    const Vec2d along = v * (1 / length), in{-along.y, along.x}, front{along.y, -along.x};
+    const Vec2d along = v * (1 / length), in{-along.y, along.x};
     for (double s = 0; s < length - 1;) {
       double w = rng_.Uniform(style.least_front, style.most_front);
       const double left = length - s;
       if (left < w + 0.6 * style.least_front) w = left;
       const double depth = depth0 * (room < 1.6 * style.depth ? 1 : rng_.Uniform(0.82, 1.1));
       const bool gap = !rng_.Chance(spec_.built);
-      if (!gap && !Full()) HouseIn(Box(ring[i] + along * s, along, in, w, depth), block, built, front);
+      if (!gap && !Full()) HouseIn(Box(ring[i] + along * s, along, in, w, depth), block, built);
       s += w;
     }
   }
 }
 
-bool TownDrawer::HouseIn(const Ring& ring, const Patch& block, std::vector<Patch>& built, Vec2d front) {
+bool TownDrawer::HouseIn(const Ring& ring, const Patch& block, std::vector<Patch>& built) {
   Patches free = Intersect(Patches{block}, Patches{{ring, {}}});
   const Bounds2d box = BoundsOf(ring);
   std::vector<Patch> near;
@@ -127,7 +127,7 @@ bool TownDrawer::HouseIn(const Ring& ring, const Patch& block, std::vector<Patch
   const auto largest = std::max_element(free.begin(), free.end(), [](const Patch& a, const Patch& b) { return Area(a) < Area(b); });
   if (Area(*largest) < kLeastHouse || !largest->holes.empty() || Narrowest(largest->outer) < 3) return false;
   built.push_back(*largest);
-  AddHouse(largest->outer, front);
+  AddHouse(largest->outer);
   return true;
 }
 
@@ -138,7 +138,7 @@ void TownDrawer::Detached(const Patch& block, std::vector<Patch>& built) {
     const Vec2d v = ring[(i + 1) % ring.size()] - ring[i];
     const double length = Length(v);
     if (length < 12) continue;
-    const Vec2d along = v * (1 / length), in{-along.y, along.x}, front{along.y, -along.x};
+    const Vec2d along = v * (1 / length), in{-along.y, along.x};
     const double gap = std::clamp(spec_.setback, 2.5, 9.0);
     for (double s = gap; s < length - style.least_front;) {
       const double w = rng_.Uniform(style.least_front, style.most_front), d = style.depth * rng_.Uniform(0.85, 1.2);
@@ -150,7 +150,7 @@ void TownDrawer::Detached(const Patch& block, std::vector<Patch>& built) {
       const Patches inside = Intersect(Patches{block}, Patches{{house, {}}});
       if (std::abs(Area(inside) - w * d) > 0.5 || !Intersect(built, Patches{{around, {}}}).empty()) continue;
       built.push_back({house, {}});
-      AddHouse(house, front);
+      AddHouse(house);
       // A hedge or a fence before the garden, a tree in it.
       const Vec2d a = ring[i] + along * (s - w - gap), b = a + along * (w * 0.62);
       if (spec_.setback > 2.5 && rng_.Chance(0.6))
@@ -193,7 +193,7 @@ void TownDrawer::Scatter() {
     if (u.x * n.y - u.y * n.x < 0) std::reverse(ring.begin(), ring.end());
     if (!Intersect(built, Patches{{ring, {}}}).empty()) continue;
     built.push_back({ring, {}});
-    AddHouse(ring, n * -1.0);
+    AddHouse(ring);
     AddSpot("porch", c - n * (d / 2), n * -1.0, w);
     // A path to the track.
     const Vec2d door = c - n * (d / 2 + 2.2);
@@ -202,7 +202,7 @@ void TownDrawer::Scatter() {
   }
 }
 
-void TownDrawer::AddHouse(const Ring& ring, Vec2d front, double most_floors) {
+void TownDrawer::AddHouse(const Ring& ring) {
   const HouseStyle& style = StyleOf(spec_.style);
   const auto pick = [&](std::span<const std::string_view> names) {
     return std::string(names[rng_.Index(static_cast<uint32_t>(names.size()))]);
@@ -213,7 +213,7 @@ void TownDrawer::AddHouse(const Ring& ring, Vec2d front, double most_floors) {
   double reach = 0;
   for (Vec2d p : ring) reach = std::max(reach, Length(p - middle));
   bodies_.emplace_back(middle, reach);
-  const double floors = std::min(Floors(), most_floors), span = Narrowest(ring);
+  const double floors = Floors(), span = Narrowest(ring);
   const bool tall = floors > 9;
   std::string material = pick(style.materials), roof = tall ? "flat" : pick(style.roofs);
   if (spec_.roofs != TownRoofs::kStyle && !tall) roof = spec_.roofs == TownRoofs::kFlat ? "flat" : rng_.Chance(0.5) ? "hipped" : "gabled";
@@ -243,32 +243,33 @@ void TownDrawer::AddHouse(const Ring& ring, Vec2d front, double most_floors) {
   const bool own = (material.starts_with("azulejo") && spec_.colours == TownColours::kStyle) || material == "glass" || colour.empty();
   if (!own) tags.emplace_back("building:colour", colour);
   AddArea(ring, tags);
-  if (tall && spec_.style == TownStyle::kModern && Area(Patch{ring, {}}) > 500 && ring.size() <= 6 && rng_.Chance(0.75)) {
-    // A tower on its podium.
-    OsmTags& base = map_.data.ways.back().tags;
-    OsmTags low;
-    for (const auto& tag : base.all())
-      low.Add(tag.first, tag.first == "height" ? Metres(std::round(rng_.Uniform(3, 7)) * 3.6) : tag.second);
-    Ring upper;
-    const double inset = rng_.Uniform(0.12, 0.24);
-    for (Vec2d p : ring) upper.push_back(p + (middle - p) * inset);
-    TagList part{
-        {"building:part", "yes"}, {"height", std::string(base.Get("height"))}, {"roof:shape", "flat"}, {"building:material", material}};
-    if (!own) part.emplace_back("building:colour", colour);
-    TagList podium{{"building:part", "yes"},
-                   {"height", std::string(low.Get("height"))},
-                   {"roof:shape", "flat"},
-                   {"building:material", rng_.Chance(0.5) ? "stone" : material}};
-    AddArea(ring, podium);
-    AddArea(upper, part);
-    if (floors > 22 && rng_.Chance(0.5)) {
-      Ring top;
-      for (Vec2d p : ring) top.push_back(p + (middle - p) * (inset + 0.24));
-      part[1].second = Metres(floors * 3.3 * rng_.Uniform(1.1, 1.25));
-      AddArea(top, part);
-    }
+  if (tall && spec_.style == TownStyle::kModern && Area(Patch{ring, {}}) > 500 && ring.size() <= 6 && rng_.Chance(0.75))
+    AddTower(ring, middle, floors, material, own ? "" : colour);
+}
+
+// Of the house that was added last, a tower on its podium.
+void TownDrawer::AddTower(const Ring& ring, Vec2d middle, double floors, const std::string& material, const std::string& colour) {
+  OsmTags& base = map_.data.ways.back().tags;
+  OsmTags low;
+  for (const auto& tag : base.all()) low.Add(tag.first, tag.first == "height" ? Metres(std::round(rng_.Uniform(3, 7)) * 3.6) : tag.second);
+  Ring upper;
+  const double inset = rng_.Uniform(0.12, 0.24);
+  for (Vec2d p : ring) upper.push_back(p + (middle - p) * inset);
+  TagList part{
+      {"building:part", "yes"}, {"height", std::string(base.Get("height"))}, {"roof:shape", "flat"}, {"building:material", material}};
+  if (!colour.empty()) part.emplace_back("building:colour", colour);
+  TagList podium{{"building:part", "yes"},
+                 {"height", std::string(low.Get("height"))},
+                 {"roof:shape", "flat"},
+                 {"building:material", rng_.Chance(0.5) ? "stone" : material}};
+  AddArea(ring, podium);
+  AddArea(upper, part);
+  if (floors > 22 && rng_.Chance(0.5)) {
+    Ring top;
+    for (Vec2d p : ring) top.push_back(p + (middle - p) * (inset + 0.24));
+    part[1].second = Metres(floors * 3.3 * rng_.Uniform(1.1, 1.25));
+    AddArea(top, part);
   }
-  static_cast<void>(front);
 }
 
 }  // namespace airsim360::internal

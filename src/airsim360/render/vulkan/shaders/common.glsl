@@ -38,6 +38,7 @@ layout(push_constant, scalar) uniform Push { Frames frame; int pass; int paths; 
 #include "airsim360/render/shared/shading_shared.h"
 #define word uint
 #define reverse_bits bitfieldReverse
+#include "airsim360/render/shared/shading_hash.h"
 #include "airsim360/render/shared/shading_points.h"
 
 const uint kMiss = 0xffffffffu;

@@ -34,16 +34,17 @@ vec2 SobolPoint(uint index, uint seed) {
 }
 
 vec3 SpherePoint(vec2 u) {
-  const float z = 1.0 - 2.0 * u.x, s = sqrt(max(0.0, 1.0 - z * z)), angle = 2.0 * SHADE_PI * u.y;
-  return vec3(s * sin_approx(angle + 0.5 * SHADE_PI), s * sin_approx(angle), z);
+  const float z = 1.0 - 2.0 * u.x;
+  const PlanePoint at = disc_place(sqrt(max(0.0, 1.0 - z * z)), u.y);
+  return vec3(at.x, at.y, z);
 }
 
 /// Direction to a point of the sun's disc.
 vec3 SunDiscPoint(vec2 u) {
   const vec3 s = Vec(view.to_sun), reference = abs(s.z) < kUpright ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
   const vec3 right = normalize(cross(reference, s)) * kSunRayRadius, up = cross(s, right);
-  const float radius = sqrt(u.x), angle = 2.0 * SHADE_PI * u.y;
-  return normalize(s + right * (radius * sin_approx(angle + 0.5 * SHADE_PI)) + up * (radius * sin_approx(angle)));
+  const PlanePoint at = disc_place(sqrt(u.x), u.y);
+  return normalize(s + right * at.x + up * at.y);
 }
 
 /// How the pixels of a 16 x 16 tile share random directions (TileLayout, TileSampling).

@@ -19,7 +19,6 @@ struct LightRay {
   float pdf, reach;
 };
 
-float Cosine(float x) { return sin_approx(x + kHalfPi); }
 float ArcCosine(float x) { return kHalfPi - asin_approx(clamp(x, -1.0, 1.0)); }
 
 float SunPdf(vec3 d) {
@@ -39,7 +38,7 @@ LightRay SampleSun(vec3 p, vec2 u) {
   const vec3 right = normalize(cross(reference, s)), up = cross(s, right);
   // The chord to the disc's centre squared is even over solid angle.
   const float chord = SUN_RADIUS * sqrt(u.x), turn = kTau * u.y, side = chord * sqrt(1.0 - 0.25 * chord * chord);
-  const vec3 d = normalize(s * (1.0 - 0.5 * chord * chord) + right * (side * Cosine(turn)) + up * (side * sin_approx(turn)));
+  const vec3 d = normalize(s * (1.0 - 0.5 * chord * chord) + right * (side * cos_approx(turn)) + up * (side * sin_approx(turn)));
   return LightRay(d, SunRadiance(p, d), SunPdf(d), 1e30);
 }
 
@@ -62,7 +61,7 @@ LightRay SampleSkyLight(vec2 u) {
   const int column = FindShare(tables.sky_cumulative, uint(row * kSkyCells), u.x, across);
   const float z = clamp((float(row) + up) * (2.0 / float(kSkyCells)) - 1.0, -1.0, 1.0);
   const float azimuth = (float(column) + across) * (kTau / float(kSkyCells)), s = sqrt(max(0.0, 1.0 - z * z));
-  const vec3 d = vec3(s * Cosine(azimuth), s * sin_approx(azimuth), z);
+  const vec3 d = vec3(s * cos_approx(azimuth), s * sin_approx(azimuth), z);
   return LightRay(d, vec3(1.0), tables.sky_density.v[row * kSkyCells + column], 1e30);
 }
 
@@ -76,7 +75,7 @@ float SkyPdf(vec3 d) {
 
 float CosineWithin(float angle, float cone) {
   const float left = max(0.0, angle - cone);
-  return left > kHalfPi + kLampMargin ? 0.0 : max(Cosine(left), kLampLeastCosine);
+  return left > kHalfPi + kLampMargin ? 0.0 : max(cos_approx(left), kLampLeastCosine);
 }
 
 float Importance(uint node, vec3 p, vec3 normal) {

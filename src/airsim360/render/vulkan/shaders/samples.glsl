@@ -28,7 +28,7 @@ vec3 ProjectionRay(GpuCamera camera, vec2 at) {
   if (camera.projection == 1) return normalize(vec3(q, 1.0));
   const float r = length(q), theta = FisheyeTheta(camera, r);
   if (theta < 0.0) return vec3(0.0);
-  return vec3(q * (r > 0.0 ? sin_approx(theta) / r : 1.0), sin_approx(theta + 0.5 * SHADE_PI));
+  return vec3(q * (r > 0.0 ? sin_approx(theta) / r : 1.0), cos_approx(theta));
 }
 
 /// Ray of a lens half a pixel or less from a pixel's centre; 0 0 0 = none, also where the centre has none. The rays of the

@@ -25,7 +25,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Shade { Gpu
 #include "airsim360/render/shared/shading_sky.h"
 #include "airsim360/render/shared/shading_tone.h"
 #include "airsim360/render/shared/shading_interior.h"
-#include "airsim360/render/shared/shading_weather.h"
+#include "airsim360/render/shared/shading_wet_snow.h"
 #include "airsim360/render/shared/shading_moon.h"
 #include "airsim360/render/shared/shading_ground.h"
 #include "airsim360/render/shared/shading_marks.h"
@@ -43,9 +43,8 @@ bool roof_hides(vec3 p) {
 #define ROOFS_ARGUMENT
 #define ROOFS
 #define ROOFS_TEXELS_PER_METRE view.roof_cells_per_metre
-#include "airsim360/render/shared/shading_roofs.h"
+#include "airsim360/render/shared/shading_precipitation.h"
 
-const float kFoliage = 1.0, kGlass = 2.0, kWater = 3.0;
 const uint kMirroredUv = 0x80000000u;
 
 vec3 UnpackDirection(uint p) {
