@@ -16,6 +16,7 @@ namespace {
 constexpr float kColumn = 6;           // metres
 constexpr float kFarthestMoving = 80;  // metres; low beams reach 50 to 75
 constexpr int64_t kMostOfColumns = 1 << 20;
+constexpr float kFarthestPlace = 1e6f;   // metres from the origin: what a user puts beyond lights nobody
 constexpr float kRoadBelow = 0.3f;       // metres below a lamp where its columns are weighed: beams are cut off above
 constexpr uint32_t kOpenColumn = 0xf00;  // header: four corners count
 
@@ -89,7 +90,7 @@ void MovingLamps::Follow(const RayTracer& tracer, const SurfaceTables& tables, c
       MergeLamp(PlaceMeshLamp(lamp, m.X_WM, glow, m.instance), 0, placed);
     for (const Lamp& lamp : placed) {
       std::optional<LampRecord> record = RecordOf(lamp, daylight);
-      if (!record) continue;
+      if (!record || !(std::fabs(lamp.center.x) < kFarthestPlace && std::fabs(lamp.center.y) < kFarthestPlace)) continue;
       record->reach = std::min(record->reach, kFarthestMoving);
       records_.push_back(*record);
       if (instances_.empty() || instances_.back() != m.instance) instances_.push_back(m.instance);

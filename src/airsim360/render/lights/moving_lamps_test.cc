@@ -164,6 +164,14 @@ TEST(MovingLamps, AreHiddenByAWall) {
   EXPECT_GT(road.Light({6, 66, 0}, {0, 0, 1}), 0);
 }
 
+TEST(MovingLamps, FarBeyondTheWorldLightNobodyAndTakeNoRoom) {
+  Road road(2);
+  for (const float far : {2e6f, 1e30f, -3e38f}) {
+    road.Show({PlaceUpright({far, 0, kLensHeight}, 0), PlaceUpright({0, 0, kLensHeight}, 0)});
+    EXPECT_EQ(road.moving.lamps(), 1u) << far;
+  }
+}
+
 TEST(MovingLamps, AreNothingByDay) {
   Road off(1, false);
   off.Show({PlaceUpright({12, -7, kLensHeight}, 0)});
