@@ -1,3 +1,11 @@
+# airsim360_for_python(TARGET): the Python module is a shared object of our libraries; kernels (Kernels.cmake) need no such code.
+# What takes the precompiled headers must be compiled as they are.
+function(airsim360_for_python target)
+  if(AIRSIM360_PYTHON)
+    target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition)
+  endif()
+endfunction()
+
 # Standard headers and GoogleTest, parsed once: they are a third of a cold build. Off under a compiler cache, which
 # gains nothing from them, and when fuzzing, where clang finds the includes that they hide.
 option(AIRSIM360_PCH "precompile standard headers" ${AIRSIM360_PARSE_ONCE})
@@ -10,10 +18,7 @@ if(AIRSIM360_PCH)
   file(WRITE ${CMAKE_BINARY_DIR}/empty.cc "")
   add_library(airsim360_standard_headers OBJECT ${CMAKE_BINARY_DIR}/empty.cc)
   target_precompile_headers(airsim360_standard_headers PRIVATE ${standard_headers})
-  # As in cmake/Module.cmake: the options must agree.
-  if(AIRSIM360_PYTHON)
-    target_compile_options(airsim360_standard_headers PRIVATE -fPIC -fno-semantic-interposition)
-  endif()
+  airsim360_for_python(airsim360_standard_headers)
   add_library(airsim360_test_headers OBJECT ${CMAKE_BINARY_DIR}/empty.cc)
   target_link_libraries(airsim360_test_headers PRIVATE GTest::gtest)
   target_compile_options(airsim360_test_headers PRIVATE -O1)
@@ -25,8 +30,6 @@ function(airsim360_parse_once target)
   if(NOT AIRSIM360_PCH)
     return()
   endif()
-  if(AIRSIM360_PYTHON)
-    target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition)
-  endif()
+  airsim360_for_python(${target})
   target_precompile_headers(${target} REUSE_FROM airsim360_standard_headers)
 endfunction()

@@ -1,8 +1,9 @@
 """What `render` and `collect` write is right: checked against the analytic room with formulas of our own."""
 import math
+import subprocess
 import unittest
 
-from program import ProgramTest, read_exr, read_gray, read_ids, read_json, tree
+from program import PROGRAM, ProgramTest, read_exr, read_gray, read_ids, read_json, tree
 
 HALF, HEIGHT = 5.0, 6.0                               # the room: x, y in +-5, z in 0..6
 BOX_MIN, BOX_MAX = (2.5, -0.5, 0.0), (3.5, 0.5, 1.0)  # the cube
@@ -44,6 +45,15 @@ def cast(p, d):
         best = (near, "box")
     margin = min(hits[1][0] - hits[0][0], abs(far - near))
     return best[0], best[1], margin
+
+
+class Demo(ProgramTest):
+    def test_the_program_that_the_demo_builds_first_collects_the_same_files(self):
+        folders = [self.folder / "whole", self.folder / "pictures"]
+        for program, out in zip((PROGRAM, PROGRAM + "_pictures"), folders):
+            subprocess.run([program, "collect", "--world", "box_room", "--frames", "2", "--size", "64x32", "--people", "1", "--out", out],
+                           check=True, capture_output=True, timeout=240)
+        self.assertEqual(*map(tree, folders))
 
 
 class Render(ProgramTest):

@@ -14,6 +14,7 @@
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
+#include "airsim360/base/steady_clock.h"
 #include "airsim360/tasks/agent_server/agent_server.h"
 #include "airsim360/vln/episodes/language_episode.h"
 #include "airsim360/worlds/worlds.h"
@@ -30,8 +31,6 @@ struct AgentArguments {
   PeopleArguments people;
   TrafficArguments traffic;
 };
-
-double SteadySeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // A world that can be looked at at once. Its renderer says how far the light of rooms is, which takes tens of seconds.
 std::shared_ptr<AgentWorld> OpenForAgents(const StageOptions& options, const RenderSettings& picture) {
@@ -75,8 +74,6 @@ AgentApiOptions OptionsOf(const AgentArguments& arguments, const GlobalOptions& 
   api.max_episodes = static_cast<size_t>(arguments.episodes);
   return api;
 }
-
-constexpr std::chrono::milliseconds kLastJob{800};  // that an action or a picture has to end when the server is stopped
 
 void Serve(const AgentArguments& arguments, const GlobalOptions& globals) {
   if (arguments.port < 0 || arguments.port > 65535)

@@ -48,7 +48,7 @@ void AddBenchCommand(CLI::App& app, GlobalOptions& globals);
 void AddDoctorCommand(CLI::App& app, GlobalOptions& globals);
 /// Its flags are those of python/airsim360/learn.
 void AddLearnCommand(CLI::App& app);
-/// About the program itself: `app` with all its commands, once they are there.
+/// About the program itself, which read no world: `app` with all its commands, once they are there.
 void AddCompletionCommand(CLI::App& app);
 void AddManCommand(CLI::App& app);
 

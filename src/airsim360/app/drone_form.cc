@@ -98,7 +98,7 @@ std::string Shown(std::string_view text) {
 
 std::string ShownValue(const Json& value) { return Shown(value.dump(-1, ' ', true, Json::error_handler_t::replace)); }
 
-std::string Figure(double value, const char* unit) {
+std::string WithUnit(double value, const char* unit) {
   char text[64];
   std::snprintf(text, sizeof(text), "%.6g%s%s", value, *unit ? " " : "", unit);
   return text;
@@ -140,13 +140,13 @@ void ReadNumber(const NumberField& field, const Json& value, DroneRequest& reque
   if (!value.is_number()) Refuse(name + " is " + ShownValue(value) + ", not a number");
   const double number = value.get<double>();
   if (!(number >= field.low && number <= field.high)) {
-    Refuse(name + " is " + ShownValue(value) + ", not in " + Figure(field.low, "") + " ... " + Figure(field.high, field.unit));
+    Refuse(name + " is " + ShownValue(value) + ", not in " + WithUnit(field.low, "") + " ... " + WithUnit(field.high, field.unit));
   }
   if (field.whole && number != std::floor(number)) Refuse(name + " is " + ShownValue(value) + ", not a whole number");
   if (field.field == &DroneRequest::rotors && number != 4 && number != 6 && number != 8)
     Refuse("rotors is " + ShownValue(value) + "; a drone here has 4, 6 or 8 rotors");
   request.*field.field = number;
-  request.words[name] = name + " " + Figure(number, field.unit);
+  request.words[name] = name + " " + WithUnit(number, field.unit);
 }
 
 void ReadChoice(const ChoiceField& field, const Json& value, DroneRequest& request) {
@@ -191,7 +191,8 @@ void JoinMasses(DroneRequest& request) {
   }
   const double whole = *request.empty_mass + request.payload.value_or(0);
   if (request.mass && std::abs(*request.mass - whole) > 0.02 * std::max(*request.mass, whole)) {
-    Refuse("'" + request.words.at("mass") + "' contradicts '" + words + "' and a payload of " + Figure(request.payload.value_or(0), "kg"));
+    Refuse("'" + request.words.at("mass") + "' contradicts '" + words + "' and a payload of " +
+           WithUnit(request.payload.value_or(0), "kg"));
   }
   if (request.mass) return;
   request.mass = whole;

@@ -49,7 +49,7 @@ struct FlyArguments {
 };
 
 // The waypoints as a trajectory within the limits, and where it begins.
-std::shared_ptr<const PolynomialTrajectory> PlanWaypoints(const FlyArguments& arguments) {
+std::shared_ptr<const PolynomialTrajectory> PlanThroughWaypoints(const FlyArguments& arguments) {
   std::vector<Vec3d> points;
   for (const Waypoint& waypoint : ReadRouteFile(arguments.waypoints)) points.push_back(waypoint.p);
   if (points.size() < 2) throw InputError("--waypoints: " + arguments.waypoints + " holds one point only");
@@ -298,7 +298,7 @@ FlyPlan PlanFlight(FlyArguments& arguments, const GlobalOptions& globals) {
   plan.setup = {.name = "drone", .model = FindDrone(arguments.drone)};
   plan.setup.autopilot.controller = ParseControllerKind(arguments.controller);
   plan.setup.sensors = ReadSensors(arguments.sensors);
-  if (!arguments.waypoints.empty()) plan.trajectory = PlanWaypoints(arguments);
+  if (!arguments.waypoints.empty()) plan.trajectory = PlanThroughWaypoints(arguments);
   FlyJob& job = plan.job;
   job.tasks = TasksOf(arguments, plan.trajectory);
   double longest = arguments.mission.empty() ? 0 : arguments.longest;

@@ -17,8 +17,6 @@ constexpr int64_t kRecordPeriodNs = 10'000'000;
 constexpr int64_t kLookPeriodNs = 5'000'000;  // how often a task may end; divides the period above
 constexpr float kClearanceRange = 50;         // metres: farther is not told
 
-double Seconds(int64_t t_ns) { return static_cast<double>(t_ns) * 1e-9; }
-
 /// Flies one task after the other and notes what happens.
 class Pilot {
  public:

@@ -61,7 +61,7 @@ class Parser {
       throw Parsed();
     });
   }
-  Program program_;
+  Program program_{AllCommands()};
 };
 
 std::string HelpOf(const CLI::App& command) {
@@ -86,7 +86,7 @@ TEST(Help, EveryExampleParses) {
 TEST(Help, EveryCommandThatDoesSomethingHasTwoExamples) {
   std::map<std::string, int> counts;
   for (const CommandExample& example : CommandExamples()) ++counts[std::string(example.command)];
-  Program program;
+  Program program(AllCommands());
   for (const CLI::App* command : CommandsOf(program.app())) {
     if (command->get_subcommands([](const CLI::App*) { return true; }).empty()) {
       EXPECT_GE(counts[CommandPath(*command)], 2) << CommandPath(*command);
@@ -97,7 +97,7 @@ TEST(Help, EveryCommandThatDoesSomethingHasTwoExamples) {
 }
 
 TEST(Help, NoLineIsLongerThanAHundredColumnsAndEveryFlagIsThereOnce) {
-  Program program;
+  Program program(AllCommands());
   for (const CLI::App* command : CommandsOf(program.app())) {
     const std::string help = HelpOf(*command);
     std::istringstream lines(help);
@@ -120,7 +120,7 @@ TEST(Help, NoLineIsLongerThanAHundredColumnsAndEveryFlagIsThereOnce) {
 }
 
 TEST(Help, FlagsAreInGroupsAndRequiredOnesSaySo) {
-  Program program;
+  Program program(AllCommands());
   const std::string help = HelpOf(*program.app().get_subcommand("collect"));
   size_t last = 0;
   for (const char* heading : {"\nWorld:\n", "\nRoute:\n", "\nCamera:\n", "\nQuality:\n", "\nPeople:\n", "\nWeather:\n", "\nOutput:\n",

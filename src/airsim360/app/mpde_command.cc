@@ -41,7 +41,7 @@ struct TableArguments {
 };
 
 // JSON has no NaN: a mean over nobody is null.
-Json Figure(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json NumberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 void RunTrain(TrainArguments arguments, const GlobalOptions& globals) {
   arguments.training.seed = globals.seed;
@@ -84,9 +84,9 @@ void RunTrain(TrainArguments arguments, const GlobalOptions& globals) {
 
 Json ErrorsJson(const MpdeErrors& errors) {
   return {{"count", errors.count},
-          {"distance_mae_m", Figure(errors.distance_mae_m)},
-          {"angle_mae_deg", Figure(errors.angle_mae_deg)},
-          {"angle_unwrapped_mae_deg", Figure(errors.angle_unwrapped_mae_deg)}};
+          {"distance_mae_m", NumberOrNull(errors.distance_mae_m)},
+          {"angle_mae_deg", NumberOrNull(errors.angle_mae_deg)},
+          {"angle_unwrapped_mae_deg", NumberOrNull(errors.angle_unwrapped_mae_deg)}};
 }
 
 // Persons as `eval mpde` reads them.

@@ -18,6 +18,7 @@
 #include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
+#include "airsim360/base/steady_clock.h"
 #include "airsim360/math/coordinate_limit.h"
 #include "airsim360/planning/arc_length.h"
 #include "airsim360/planning/knots.h"
@@ -37,8 +38,6 @@ struct PlanArguments {
   int order = 0;
   bool avoid = false;
 };
-
-double Seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 GeoPoint ParseOrigin(const std::string& text) {
   GeoPoint p;
@@ -261,9 +260,9 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
   const PlanWaypoints waypoints = OpenWorld(arguments, globals, limits, world);
   if (world.tracer) output.plot.map = world.space->clearance().field();
 
-  const double start = Seconds();
+  const double start = SteadySeconds();
   Planned planned = Plan(arguments, limits, waypoints, world);
-  const double plan_ms = 1e3 * (Seconds() - start);
+  const double plan_ms = 1e3 * (SteadySeconds() - start);
   if (planned.certificate) planned.certificate->least_clearance = LeastClearance(planned, *world.bounded);
   const PolynomialTrajectory& path = planned.flight.trajectory;
   const PlanRecord record{.trajectory = path,

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,14 @@
 
 namespace airsim360 {
 namespace {
+
+constexpr int kFailed = 1;
+constexpr int kBadInput = 2;
+
+int Fail(const std::string& message, int status) {
+  std::fprintf(stderr, "airsim360: error: %s\n", message.c_str());
+  return status;
+}
 
 uint64_t ParseSeed(const std::string& text) {
   uint64_t seed = 0;
@@ -144,41 +154,16 @@ void AddHelpCommand(CLI::App& app) {
 
 }  // namespace
 
-Program::Program() : app_("Panoramic (360 degree) simulator for drones", "airsim360") {
+Program::Program(const CommandSet& commands) : app_("Panoramic (360 degree) simulator for drones", "airsim360") {
   app_.set_version_flag("-V,-v,--version", std::string("airsim360 ") + kVersion);
   app_.require_subcommand(1);
-  AddWorldsCommand(app_, globals_);
-  AddWorldCommand(app_, globals_);
-  AddRenderCommand(app_, globals_);
-  AddCollectCommand(app_, globals_);
-  AddPlanCommand(app_, globals_);
-  AddVerifyCommand(app_, globals_);
-  AddVideoCommand(app_, globals_);
-  AddDatasetCommand(app_, globals_);
-  AddStitchCommand(app_, globals_);
-  AddEvalCommand(app_, globals_);
-  AddMpdeCommand(app_, globals_);
-  AddFlyCommand(app_, globals_);
-  AddServeCommand(app_, globals_);
-  AddAgentCommand(app_, globals_);
-  AddVlnCommand(app_, globals_);
-  AddLanguageCommand(app_, globals_);
-  AddViewCommand(app_, globals_);
-  AddPeopleCommand(app_, globals_);
-  AddTrafficCommand(app_, globals_);
-  AddDroneCommand(app_, globals_);
-  AddEnvironmentsCommand(app_, globals_);
-  AddBenchCommand(app_, globals_);
-  AddDoctorCommand(app_, globals_);
+  for (const auto add : commands.commands) add(app_, globals_);
   for (CLI::App* command : app_.get_subcommands(Any)) {
     const auto nested = command->get_subcommands(Any);
     if (nested.empty()) AddGlobalFlags(*command, globals_, limit_);
     for (CLI::App* inner : nested) AddGlobalFlags(*inner, globals_, limit_);
   }
-  AddLearnCommand(app_);
-  // Those about the program itself, which read no world.
-  AddCompletionCommand(app_);
-  AddManCommand(app_);
+  for (const auto add : commands.own) add(app_);
   AddHelpCommand(app_);
   ArrangeHelp(app_);
 }
@@ -198,6 +183,22 @@ void Program::Run(int argc, const char* const* argv) {
     throw InputError(UnknownArgumentMessage(app_, error));
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw RuntimeError("cannot write to stdout");
+}
+
+int Main(int argc, const char* const* argv, const CommandSet& commands) {
+  // A file size limit or a closed pipe comes back as an error of the write, not as a signal.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    Program(commands).Run(argc, argv);
+    return 0;
+  } catch (const InputError& error) {
+    return Fail(error.what(), kBadInput);
+  } catch (const std::bad_alloc&) {
+    return Fail("out of memory", kFailed);
+  } catch (const std::exception& error) {
+    return Fail(error.what(), kFailed);
+  }
 }
 
 }  // namespace airsim360

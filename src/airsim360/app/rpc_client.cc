@@ -19,7 +19,7 @@ namespace {
 
 constexpr WireLimits kAnswer{.bytes = size_t{512} << 20, .values = size_t{1} << 24, .depth = 32};
 constexpr size_t kPiece = size_t{1} << 16;
-constexpr timeval kPatience{.tv_sec = 10, .tv_usec = 0};
+constexpr timeval kSocketPatience{.tv_sec = 10, .tv_usec = 0};
 
 bool IsPort(std::string_view text) {
   int port = 0;
@@ -62,8 +62,8 @@ void RpcClient::Connect() {
     if (socket_ < 0) continue;
     const int one = 1;
     ::setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
-    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
-    ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
+    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &kSocketPatience, sizeof kSocketPatience);
+    ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &kSocketPatience, sizeof kSocketPatience);
     if (::connect(socket_, at->ai_addr, at->ai_addrlen) != 0) Close();
   }
   ::freeaddrinfo(found);

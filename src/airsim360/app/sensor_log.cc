@@ -21,8 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr char kPoseColumns[] = "px,py,pz,qw,qx,qy,qz\n";
 
-double Seconds(int64_t t_ns) { return static_cast<double>(t_ns) * 1e-9; }
-
 void AddRow(std::string& csv, std::initializer_list<double> values) {
   for (const double value : values) {
     char number[32];

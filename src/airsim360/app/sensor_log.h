@@ -13,6 +13,9 @@
 
 namespace airsim360 {
 
+/// Of nanoseconds, as files of a flight have its times.
+inline double Seconds(int64_t t_ns) { return static_cast<double>(t_ns) * 1e-9; }
+
 /// Scans or pictures of one sensor at most: their files are numbered with six digits.
 inline constexpr int64_t kMaxSensorFiles = 1'000'000;
 

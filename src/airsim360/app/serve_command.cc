@@ -20,8 +20,6 @@
 namespace airsim360 {
 namespace {
 
-constexpr std::chrono::milliseconds kLastJob{800};  // that a job has to end when the server is stopped
-
 struct ServeArguments {
   std::string world, settings, host, wind;
   RenderSettings picture;

@@ -19,6 +19,9 @@ class StopSignals {
   void Stop() const;
 };
 
+/// What an action or a picture has to end in when a server is stopped.
+constexpr std::chrono::milliseconds kLastJob{800};
+
 /// From now on the process has that long to end by itself; then it ends with status 0, whatever still runs. For what
 /// cannot be stopped in the middle, as a picture. To be called once what is kept is on the disk.
 void EndWithin(std::chrono::milliseconds time);

@@ -25,6 +25,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
+#include "airsim360/base/steady_clock.h"
 #include "airsim360/opening/world_exists.h"
 #include "airsim360/opening/world_loader.h"
 #include "airsim360/view/coming_world.h"
@@ -47,10 +48,6 @@ struct ViewArguments {
   int port = 8360;
   bool is_plan = false, is_run = false;
 };
-
-constexpr std::chrono::milliseconds kLastJob{800};  // that a picture has to end when the server is stopped
-
-double SteadySeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // The next folder of a record that is not there yet: DIR/000, DIR/001, …
 fs::path NextFolder(const fs::path& record) {

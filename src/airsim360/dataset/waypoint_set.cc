@@ -8,6 +8,7 @@
 #include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/base/steady_clock.h"
 #include "airsim360/dataset/waypoint_part.h"
 #include "airsim360/planning/number_text.h"
 #include "airsim360/planning/trajectory_plot.h"
@@ -19,8 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr int64_t kRoutesOfPart = 500;
 constexpr size_t kShownRoutes = 250;
-
-double Seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 std::string PartFile(int64_t part, const char* extension) {
   char name[32];
@@ -153,14 +152,14 @@ WaypointSetResult WriteWaypointSet(const WaypointSetOptions& options) {
   ProgressBar progress("flights", to_do);
   for (size_t w = 0; w < worlds.size(); ++w) {
     if (missing[w].empty()) continue;
-    const double start = Seconds();
+    const double start = SteadySeconds();
     const WaypointSpace space(*options.open(worlds[w].name), options.radius);
     CreateWritableFolder(options.out / worlds[w].name);
-    const double prepared = Seconds();
+    const double prepared = SteadySeconds();
     for (const int64_t part : missing[w])
       WritePart(options.out / worlds[w].name, worlds[w], part, space, options, progress, result.written);
     result.preparing_s += prepared - start;
-    result.planning_s += Seconds() - prepared;
+    result.planning_s += SteadySeconds() - prepared;
   }
   result.complete = WriteSummary(options, worlds);
   return result;

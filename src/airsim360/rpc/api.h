@@ -22,27 +22,27 @@ class Api {
 
   /// f(const Snapshot&, …): answers from the present snapshot, in the server's own thread; must be quick.
   template <class F>
-  void Read(const char* name, F f, size_t optional = 0) {
-    Add<1>(name, optional, f, [this, f](auto arguments, const Reply& reply) {
+  void Read(const char* name, F function, size_t optional = 0) {
+    Add<1>(name, optional, internal::Plain(function), [this](const auto& f, auto arguments, const Reply& reply) {
       const SnapshotPointer snapshot = session_.snapshot();
-      std::apply([&](auto&... argument) { AnswerWith(reply, [&] { return f(*snapshot, argument...); })(); }, arguments);
+      std::apply([&](auto&... argument) { Answer(reply, [&] { return f(*snapshot, argument...); })(); }, arguments);
     });
   }
 
   /// f(Session&, …): runs between two steps.
   template <class F>
-  void Change(const char* name, F f, size_t optional = 0) {
-    Add<1>(name, optional, f, [this, f](auto arguments, const Reply& reply) {
+  void Change(const char* name, F function, size_t optional = 0) {
+    Add<1>(name, optional, internal::Plain(function), [this](const auto& f, auto arguments, const Reply& reply) {
       session_.Post([f, arguments, reply](Session& session) mutable {
-        return std::apply([&](auto&... argument) { return AnswerWith(reply, [&] { return f(session, argument...); }); }, arguments);
+        return std::apply([&](auto&... argument) { return Answer(reply, [&] { return f(session, argument...); }); }, arguments);
       });
     });
   }
 
   /// f(Session&, const Reply&, …): as Change, but answers later by itself.
   template <class F>
-  void Start(const char* name, F f) {
-    Add<2>(name, 0, f, [this, f](auto arguments, const Reply& reply) {
+  void Start(const char* name, F function) {
+    Add<2>(name, 0, internal::Plain(function), [this](const auto& f, auto arguments, const Reply& reply) {
       session_.Post([f, arguments, reply](Session& session) mutable -> std::function<void()> {
         try {
           std::apply([&](auto&... argument) { f(session, reply, argument...); }, arguments);
@@ -57,11 +57,11 @@ class Api {
   /// f(ImageService&, const SnapshotPointer&, …): runs in the thread of the pictures, with the snapshot of
   /// the moment of the call.
   template <class F>
-  void Picture(const char* name, F f, size_t optional = 0) {
-    Add<2>(name, optional, f, [this, f](auto arguments, const Reply& reply) {
+  void Picture(const char* name, F function, size_t optional = 0) {
+    Add<2>(name, optional, internal::Plain(function), [this](const auto& f, auto arguments, const Reply& reply) {
       images_.Post([f, arguments, reply, snapshot = session_.snapshot()](ImageService& images) mutable {
         if (!reply.wanted()) return;
-        std::apply([&](auto&... argument) { AnswerWith(reply, [&] { return f(images, snapshot, argument...); })(); }, arguments);
+        std::apply([&](auto&... argument) { Answer(reply, [&] { return f(images, snapshot, argument...); })(); }, arguments);
       });
     });
   }
@@ -69,24 +69,31 @@ class Api {
  private:
   // Calls and keeps the result; the function returned answers with it.
   template <class Call>
-  static std::function<void()> AnswerWith(const Reply& reply, const Call& call) {
+  static std::function<void()> Answer(const Reply& reply, const Call& call) {
+    using Result = std::invoke_result_t<Call>;
     try {
-      if constexpr (std::is_void_v<std::invoke_result_t<Call>>) {
+      if constexpr (std::is_void_v<Result>) {
         call();
-        return [reply] { reply.Nil(); };
+        return WithNothing(reply);
       } else {
-        return [reply, result = call()] { reply.Result(result); };
+        return With<Result>(reply, call());
       }
     } catch (const std::exception& error) {
-      return [reply, what = std::string(error.what())] { reply.Exception(what); };
+      return WithError(reply, error.what());
     }
   }
+  template <class Result>
+  static std::function<void()> With(const Reply& reply, Result result) {
+    return [reply, result = std::move(result)] { reply.Result(result); };
+  }
+  static std::function<void()> WithNothing(const Reply& reply);
+  static std::function<void()> WithError(const Reply& reply, const char* what);
 
   template <size_t Skip, class F, class Run>
-  void Add(const char* name, size_t optional, const F&, Run run) {
+  void Add(const char* name, size_t optional, F f, Run run) {
     using Arguments = typename internal::TupleTail<Skip, typename internal::Signature<F>::Arguments>::type;
     table_.Add(name, std::tuple_size_v<Arguments>, optional,
-               [run](const std::vector<WireValue>& values, const Reply& reply) { run(MethodTable::Read<F, Skip>(values), reply); });
+               [run, f](const std::vector<WireValue>& values, const Reply& reply) { run(f, MethodTable::Read<F, Skip>(values), reply); });
   }
 
   Session& session_;

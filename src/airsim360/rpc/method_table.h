@@ -19,6 +19,10 @@ template <class C, class R, class... A>
 struct Signature<R (C::*)(A...) const> {
   using Arguments = std::tuple<std::decay_t<A>...>;
 };
+template <class R, class... A>
+struct Signature<R (*)(A...)> {
+  using Arguments = std::tuple<std::decay_t<A>...>;
+};
 
 /// The rest of a tuple after its first N types.
 template <size_t N, class Tuple, class = void>
@@ -29,6 +33,16 @@ struct TupleTail<0, Tuple> {
 };
 template <size_t N, class First, class... Rest>
 struct TupleTail<N, std::tuple<First, Rest...>, std::enable_if_t<(N > 0)>> : TupleTail<N - 1, std::tuple<Rest...>> {};
+
+/// A lambda without captures as a pointer to a function, so that all of one signature are one type, and what takes them is compiled once.
+template <class F>
+auto Plain(F f) {
+  if constexpr (std::is_empty_v<F>) {
+    return +f;
+  } else {
+    return f;
+  }
+}
 }  // namespace internal
 
 class MethodTable {
@@ -47,7 +61,13 @@ class MethodTable {
   /// their defaults. Throws BadArgument.
   template <class F, size_t Skip>
   static auto Read(const std::vector<WireValue>& values) {
-    typename internal::TupleTail<Skip, typename internal::Signature<F>::Arguments>::type arguments{};
+    return ReadAll<typename internal::TupleTail<Skip, typename internal::Signature<F>::Arguments>::type>(values);
+  }
+
+ private:
+  template <class Arguments>
+  static Arguments ReadAll(const std::vector<WireValue>& values) {
+    Arguments arguments{};
     size_t i = 0;
     const auto read = [&](auto& argument) {
       if (i < values.size()) FromWire(values[i], argument);
@@ -62,7 +82,6 @@ class MethodTable {
     return arguments;
   }
 
- private:
   struct Method {
     size_t most = 0, optional = 0;
     Handler handler;

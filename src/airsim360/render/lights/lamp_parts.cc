@@ -88,24 +88,20 @@ LampTriangle PlaceTriangle(const Mesh& mesh, uint32_t triangle, const AffineTran
   return out;
 }
 
-PlacedLamp PlaceLamp(const Scene& scene, const SurfaceTables& tables, uint32_t instance, const LampShape& shape) {
-  const Instance& placed = scene.instances[instance];
-  const Mesh& mesh = scene.meshes[placed.mesh];
-  const uint32_t first = tables.instances[instance].first_triangle;
-
+PlacedLamp PlaceLamp(const Mesh& mesh, const SurfaceTables& tables, const InstanceRecord& record, const AffineTransform& X_WM, Vec3f glow,
+                     const LampShape& shape) {
   // Sums over the area.
   PlacedLamp out;
   Lamp& lamp = out.lamp;
-  lamp.instance = instance;
   std::vector<Vec3f> normals;
   for (uint32_t k : shape.triangles) {
-    const LampTriangle t = PlaceTriangle(mesh, k, placed.X_WM);
-    const uint32_t material = tables.triangles[first + k].material & ~kMirroredUv;
+    const LampTriangle t = PlaceTriangle(mesh, k, X_WM);
+    const uint32_t material = tables.triangles[record.first_triangle + k].material & ~kMirroredUv;
     lamp.area += t.area;
     lamp.center += (t.corner[0] + t.corner[1] + t.corner[2]) * (t.area / 3);
     lamp.facing += t.normal * t.area;
-    lamp.power += tables.mean_emissions[material] * tables.GlowOf(instance) * (kPiF * t.area);
-    lamp.beam = tables.BeamOf(tables.instances[instance], tables.materials[material]);
+    lamp.power += tables.mean_emissions[material] * glow * (kPiF * t.area);
+    lamp.beam = tables.BeamOf(record, tables.materials[material]);
     normals.push_back(t.normal);
     for (Vec3f p : t.corner) out.box.Add(p);
   }
@@ -113,7 +109,7 @@ PlacedLamp PlaceLamp(const Scene& scene, const SurfaceTables& tables, uint32_t i
 
   // Bounds of place and direction.
   for (uint32_t k : shape.triangles) {
-    for (Vec3f p : PlaceTriangle(mesh, k, placed.X_WM).corner) lamp.radius = std::max(lamp.radius, Norm(p - lamp.center));
+    for (Vec3f p : PlaceTriangle(mesh, k, X_WM).corner) lamp.radius = std::max(lamp.radius, Norm(p - lamp.center));
   }
   lamp.axis = Normalized(lamp.facing);
   if (Norm(lamp.facing) < 0.01f * lamp.area) {

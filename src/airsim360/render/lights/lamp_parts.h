@@ -45,6 +45,9 @@ struct PlacedLamp {
   Box3f box;
   uint32_t shape = 0;  ///< index into the shapes of its mesh
 };
-PlacedLamp PlaceLamp(const Scene& scene, const SurfaceTables& tables, uint32_t instance, const LampShape& shape);
+/// Of a mesh that stands at X_WM and shines by the colour `glow`, its triangles and the turn of its beams as `record` has them.
+/// Whose lamp it is, is left to the caller.
+PlacedLamp PlaceLamp(const Mesh& mesh, const SurfaceTables& tables, const InstanceRecord& record, const AffineTransform& X_WM, Vec3f glow,
+                     const LampShape& shape);
 
 }  // namespace airsim360::internal

@@ -93,8 +93,9 @@ LightTable::Impl::Impl(const Scene& s, const SurfaceTables& t, const Environment
     first_lamp[i] = static_cast<uint32_t>(lamps.size());
     const MeshLamps& found = mesh_lamps[lamps_of_instance[i]];
     for (uint32_t k = 0; k < found.shapes.size(); ++k) {
-      const PlacedLamp placed = PlaceLamp(scene, tables, i, found.shapes[k]);
+      const PlacedLamp placed = PlaceLamp(mesh, tables, tables.instances[i], instance.X_WM, tables.GlowOf(i), found.shapes[k]);
       lamps.push_back(placed.lamp);
+      lamps.back().instance = i;
       shape.push_back(k);
       bounds.push_back({placed.box, Luminance(placed.lamp.power), placed.lamp.axis, placed.lamp.spread});
     }

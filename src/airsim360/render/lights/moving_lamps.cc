@@ -60,19 +60,7 @@ const std::vector<Lamp>& MovingLamps::LampsOf(const Scene& scene, const SurfaceT
   InstanceRecord upright = tables.instances[instance];
   for (int k = 0; k < 9; ++k) upright.normal_matrix[k] = k % 4 == 0 ? 1.0f : 0.0f;
   for (const LampShape& shape : FindLamps(scene, mesh, Mat3f(), environment).shapes) {
-    Lamp lamp{};
-    for (const uint32_t k : shape.triangles) {
-      const LampTriangle t = PlaceTriangle(mesh, k, AffineTransform{});
-      const uint32_t material = tables.triangles[upright.first_triangle + k].material & ~kMirroredUv;
-      lamp.area += t.area;
-      lamp.center += (t.corner[0] + t.corner[1] + t.corner[2]) * (t.area / 3);
-      lamp.facing += t.normal * t.area;
-      lamp.power += tables.mean_emissions[material] * (kPiF * t.area);
-      lamp.beam = tables.BeamOf(upright, tables.materials[material]);
-    }
-    lamp.center = lamp.center / std::max(lamp.area, 1e-30f);
-    for (const uint32_t k : shape.triangles)
-      for (const Vec3f p : PlaceTriangle(mesh, k, AffineTransform{}).corner) lamp.radius = std::max(lamp.radius, Norm(p - lamp.center));
+    const Lamp lamp = PlaceLamp(mesh, tables, upright, AffineTransform{}, {1, 1, 1}, shape).lamp;
     if (IsStrong(lamp)) found->second.push_back(lamp);
   }
   return found->second;

@@ -14,43 +14,58 @@ int Wrap(int i, int period) { return period > 0 ? ((i % period) + period) % peri
 // Component of a lattice gradient from ten bits of its hash, -1 … 1.
 float Part(uint32_t hash, int shift) { return static_cast<float>((hash >> shift) & 1023) * (2.0f / 1023) - 1; }
 
-float GradientNoise3(Vec3f p, int period) {
-  const int x = FloorToInt(p.x), y = FloorToInt(p.y), z = FloorToInt(p.z);
-  const Vec3f f{p.x - static_cast<float>(x), p.y - static_cast<float>(y), p.z - static_cast<float>(z)};
-  float corner[8];
-  for (int k = 0; k < 8; ++k) {
-    const int i = k & 1, j = k >> 1 & 1, l = k >> 2;
-    const uint32_t h = HashLattice(Wrap(x + i, period), Wrap(y + j, period), Wrap(z + l, period) + 5000);
-    corner[k] = Part(h, 0) * (f.x - static_cast<float>(i)) + Part(h, 10) * (f.y - static_cast<float>(j)) +
-                Part(h, 20) * (f.z - static_cast<float>(l));
+// Gradient noise of a cube that wraps: hashes of its corners, those of the far faces are the near ones'.
+struct Gradients {
+  explicit Gradients(int period) : row(period + 1), of(static_cast<size_t>(row) * row * row) {
+    for (int k = 0; k < row * row * row; ++k)
+      of[k] = HashLattice(k % row % period, k / row % row % period, k / row / row % period + 5000);
   }
-  const float u = Quintic(f.x), v = Quintic(f.y), w = Quintic(f.z);
-  return 1.1f * Mix(Mix(Mix(corner[0], corner[1], u), Mix(corner[2], corner[3], u), v),
-                    Mix(Mix(corner[4], corner[5], u), Mix(corner[6], corner[7], u), v), w);
-}
+  // At p in [0, period).
+  float At(Vec3f p) const {
+    const int x = FloorToInt(p.x), y = FloorToInt(p.y), z = FloorToInt(p.z);
+    const Vec3f f{p.x - static_cast<float>(x), p.y - static_cast<float>(y), p.z - static_cast<float>(z)};
+    float corner[8];
+    for (int k = 0; k < 8; ++k) {
+      const int i = k & 1, j = k >> 1 & 1, l = k >> 2;
+      const uint32_t h = of[(static_cast<size_t>(z + l) * row + y + j) * row + x + i];
+      corner[k] = Part(h, 0) * (f.x - static_cast<float>(i)) + Part(h, 10) * (f.y - static_cast<float>(j)) +
+                  Part(h, 20) * (f.z - static_cast<float>(l));
+    }
+    const float u = Quintic(f.x), v = Quintic(f.y), w = Quintic(f.z);
+    return 1.1f * Mix(Mix(Mix(corner[0], corner[1], u), Mix(corner[2], corner[3], u), v),
+                      Mix(Mix(corner[4], corner[5], u), Mix(corner[6], corner[7], u), v), w);
+  }
+  int row;
+  std::vector<uint32_t> of;
+};
 
-// Random points, one a cell of a cube that wraps, relative to their cells' corners.
+// Random points, one a cell of a cube that wraps, relative to their cells' corners. A layer of cells around the cube repeats those of
+// its other side.
 struct Points {
-  explicit Points(int cells) : count(cells), of(static_cast<size_t>(cells) * cells * cells) {
-    for (int k = 0; k < cells * cells * cells; ++k) {
-      const uint32_t h = HashLattice(k % cells, k / cells % cells, k / cells / cells + 100 * cells);
+  explicit Points(int cells) : row(cells + 2), of(static_cast<size_t>(row) * row * row) {
+    for (int k = 0; k < row * row * row; ++k) {
+      const int x = Wrap(k % row - 1, cells), y = Wrap(k / row % row - 1, cells), z = Wrap(k / row / row - 1, cells);
+      const uint32_t h = HashLattice(x, y, z + 100 * cells);
       of[k] = {static_cast<float>(h & 1023) / 1024.0f, static_cast<float>((h >> 10) & 1023) / 1024.0f,
                static_cast<float>(h >> 20) / 4096.0f};
     }
   }
-  // Distance from p, in cells.
+  // Distance from p in the cube, in cells.
   float Nearest(Vec3f p) const {
     const int x = FloorToInt(p.x), y = FloorToInt(p.y), z = FloorToInt(p.z);
     float best = 9;
-    for (int k = 0; k < 27; ++k) {
-      const int i = x + k % 3 - 1, j = y + k / 3 % 3 - 1, l = z + k / 9 - 1;
-      const Vec3f q = of[(static_cast<size_t>(Wrap(l, count)) * count + Wrap(j, count)) * count + Wrap(i, count)];
-      const Vec3f d{static_cast<float>(i) + q.x - p.x, static_cast<float>(j) + q.y - p.y, static_cast<float>(l) + q.z - p.z};
-      best = std::min(best, Dot(d, d));
+    for (int k = 0; k < 9; ++k) {
+      const int j = k % 3 - 1, l = k / 3 - 1;
+      const Vec3f* const q = &of[(static_cast<size_t>(z + l + 1) * row + y + j + 1) * row + x + 1];
+      const auto fy = static_cast<float>(y + j), fz = static_cast<float>(z + l);
+      for (int i = -1; i <= 1; ++i) {
+        const Vec3f d{static_cast<float>(x + i) + q[i].x - p.x, fy + q[i].y - p.y, fz + q[i].z - p.z};
+        best = std::min(best, Dot(d, d));
+      }
     }
     return std::sqrt(best);
   }
-  int count;
+  int row;
   std::vector<Vec3f> of;
 };
 
@@ -112,6 +127,7 @@ const NoiseCube& NoiseCube::Details() {
 NoiseCube::NoiseCube(int size, std::vector<int> balls, std::vector<float> weights, float low, float range, float bend)
     : size_(size), mask_(size - 1), voxels_(static_cast<size_t>(size) * size * size) {
   const std::vector<Points> points(balls.begin(), balls.end());
+  const Gradients coarse(4), middle(8), fine(16);
   ParallelFor(size, [&](int64_t k) {
     for (int i = 0; i < size * size; ++i) {
       const Vec3f p =
@@ -120,7 +136,7 @@ NoiseCube::NoiseCube(int size, std::vector<int> balls, std::vector<float> weight
       for (size_t b = 0; b < points.size(); ++b) sum += weights[b] * (1 - points[b].Nearest(p * static_cast<float>(balls[b])));
       float value = (sum - low) / range;
       if (bend > 0) {
-        value += bend * (0.6f * GradientNoise3(p * 4.0f, 4) + 0.3f * GradientNoise3(p * 8.0f, 8) + 0.2f * GradientNoise3(p * 16.0f, 16));
+        value += bend * (0.6f * coarse.At(p * 4.0f) + 0.3f * middle.At(p * 8.0f) + 0.2f * fine.At(p * 16.0f));
       }
       voxels_[static_cast<size_t>(k) * size * size + i] = static_cast<uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
     }

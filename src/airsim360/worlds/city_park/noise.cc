@@ -8,11 +8,6 @@ using Floats __attribute__((vector_size(16))) = float;
 using Ints __attribute__((vector_size(16))) = int32_t;
 using Words __attribute__((vector_size(16))) = uint32_t;
 
-Words ScrambleLanes(Words h) {
-  h = (h ^ (h >> 16)) * 0x7feb352du;
-  h = (h ^ (h >> 15)) * 0x846ca68bu;
-  return h ^ (h >> 16);
-}
 Floats UnitLanes(Words h) { return __builtin_convertvector(reinterpret_cast<Ints>(h >> 8), Floats) * 0x1p-24f; }
 Floats MixLanes(Floats a, Floats b, Floats t) { return a + (b - a) * t; }
 Ints FloorLanes(Floats x) {
@@ -25,11 +20,11 @@ Floats NoiseLanes(Floats x, Floats y, Words seed) {
   Floats u = x - __builtin_convertvector(i, Floats), v = y - __builtin_convertvector(j, Floats);
   u = u * u * (3 - 2 * u);
   v = v * v * (3 - 2 * v);
-  const Words s = ScrambleLanes(seed * 83492791u + 17u), row = reinterpret_cast<Words>(j) * 19349663u;
-  const Words row0 = ScrambleLanes(row ^ s), row1 = ScrambleLanes((row + 19349663u) ^ s);
+  const Words s = Scramble(seed * 83492791u + 17u), row = reinterpret_cast<Words>(j) * 19349663u;
+  const Words row0 = Scramble(row ^ s), row1 = Scramble((row + 19349663u) ^ s);
   const Words c0 = reinterpret_cast<Words>(i) * 73856093u, c1 = c0 + 73856093u;
-  const Floats low = MixLanes(UnitLanes(ScrambleLanes(c0 ^ row0)), UnitLanes(ScrambleLanes(c1 ^ row0)), u);
-  return MixLanes(low, MixLanes(UnitLanes(ScrambleLanes(c0 ^ row1)), UnitLanes(ScrambleLanes(c1 ^ row1)), u), v);
+  const Floats low = MixLanes(UnitLanes(Scramble(c0 ^ row0)), UnitLanes(Scramble(c1 ^ row0)), u);
+  return MixLanes(low, MixLanes(UnitLanes(Scramble(c0 ^ row1)), UnitLanes(Scramble(c1 ^ row1)), u), v);
 }
 
 }  // namespace

@@ -4,15 +4,11 @@
 #include <cmath>
 #include <cstdint>
 
+#include "airsim360/base/scramble.h"
 #include "airsim360/math/vector.h"
 
 namespace airsim360::internal::park {
 
-inline uint32_t Scramble(uint32_t h) {
-  h = (h ^ (h >> 16)) * 0x7feb352du;
-  h = (h ^ (h >> 15)) * 0x846ca68bu;
-  return h ^ (h >> 16);
-}
 /// Well mixed hash of integers, and the same in [0, 1).
 inline uint32_t HashCell(int x, int y, int seed) {
   return Scramble(static_cast<uint32_t>(x) * 73856093u ^

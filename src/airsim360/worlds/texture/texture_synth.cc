@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "airsim360/base/scramble.h"
 #include "airsim360/image/color.h"
 #include "airsim360/scene/luminance.h"
 #include "airsim360/worlds/texture/texture_maps.h"
@@ -11,15 +12,7 @@
 namespace airsim360 {
 namespace {
 
-constexpr uint32_t Hash(uint32_t x) {
-  x ^= x >> 16;
-  x *= 0x7feb352du;
-  x ^= x >> 15;
-  x *= 0x846ca68bu;
-  return x ^ (x >> 16);
-}
-
-// Bits of the lattice cells of one tile: Hash of seed, column and row, the row's part of it made once for all columns.
+// Bits of the lattice cells of one tile: scramble of seed, column and row, the row's part of it made once for all columns.
 struct NoiseLattice {
   NoiseLattice(uint32_t seed, int period) : salt(seed * 0x9e3779b9u), cells(period) {}
   // Into [0, cells).
@@ -28,8 +21,8 @@ struct NoiseLattice {
     return static_cast<uint32_t>(rest < 0 ? rest + cells : rest);
   }
   uint32_t Next(uint32_t wrapped) const { return wrapped + 1 == static_cast<uint32_t>(cells) ? 0 : wrapped + 1; }
-  static uint32_t Row(uint32_t y) { return Hash(y + 0x51ed270bu); }
-  uint32_t Cell(uint32_t x, uint32_t row) const { return Hash(salt ^ Hash(x + row)); }
+  static uint32_t Row(uint32_t y) { return Scramble(y + 0x51ed270bu); }
+  uint32_t Cell(uint32_t x, uint32_t row) const { return Scramble(salt ^ Scramble(x + row)); }
 
   uint32_t salt;
   int cells;
@@ -41,7 +34,7 @@ uint8_t ToByte(float x) { return static_cast<uint8_t>(std::clamp(x, 0.0f, 1.0f) 
 
 }  // namespace
 
-float HashUnit(uint32_t a, uint32_t b, uint32_t c) { return ToUnit(Hash(a + Hash(b + Hash(c + 0x2545f491u)))); }
+float HashUnit(uint32_t a, uint32_t b, uint32_t c) { return ToUnit(Scramble(a + Scramble(b + Scramble(c + 0x2545f491u)))); }
 
 float TilingNoise(uint32_t seed, float x, float y, int period) {
   const float fx = std::floor(x), fy = std::floor(y);
@@ -77,7 +70,7 @@ WorleyResult TilingWorley(uint32_t seed, float u, float v, int period) {
     for (int dx = -1; dx <= 1; ++dx) {
       const uint32_t cell = lattice.Cell(lattice.Wrap(ix + dx), row);
       const float px = static_cast<float>(ix + dx) + ToUnit(cell) - x;
-      const float py = static_cast<float>(iy + dy) + ToUnit(Hash(cell)) - y;
+      const float py = static_cast<float>(iy + dy) + ToUnit(Scramble(cell)) - y;
       const float d = std::hypot(px, py);
       if (d < result.first) {
         result = {d, result.first, cell};
