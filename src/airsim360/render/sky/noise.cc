@@ -17,8 +17,7 @@ float Part(uint32_t hash, int shift) { return static_cast<float>((hash >> shift)
 // Gradient noise of a cube that wraps: hashes of its corners, those of the far faces are the near ones'.
 struct Gradients {
   explicit Gradients(int period) : row(period + 1), of(static_cast<size_t>(row) * row * row) {
-    for (int k = 0; k < row * row * row; ++k)
-      of[k] = HashLattice(k % row % period, k / row % row % period, k / row / row % period + 5000);
+    for (int k = 0; k < row * row * row; ++k) of[k] = HashLattice(k % row % period, k / row % row % period, k / row / row % period + 5000);
   }
   // At p in [0, period).
   float At(Vec3f p) const {

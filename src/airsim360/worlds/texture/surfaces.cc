@@ -5,9 +5,13 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "airsim360/base/disk_cache.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/worlds/texture/kept_textures.h"
 #include "airsim360/worlds/texture/recipe_shapes.h"
 #include "airsim360/worlds/texture/shop_signs.h"
 #include "airsim360/worlds/texture/surface_recipes.h"
@@ -170,19 +174,17 @@ Vec2f UnitsOf(Recipe recipe) {
   }
 }
 
-struct MadeSurface {
-  float tile = 1;  // metres
-  TextureSet set;
-  std::optional<Texture> lights;
-};
-using MadeSurfaces = std::vector<MadeSurface>;  // by Recipe
+// Of each Recipe in turn: colour, normal, roughness and lit windows, which most have not (no level).
+enum Layer { kColor, kNormal, kRoughness, kLights, kLayers };
 
-MadeSurfaces MakeSurfaces() {
-  MadeSurfaces made(static_cast<size_t>(R::kCount));
-  ParallelFor(static_cast<int64_t>(made.size()), [&](int64_t i) {
+std::vector<Texture> MakeSurfaces() {
+  std::vector<Texture> made(static_cast<size_t>(R::kCount) * kLayers);
+  ParallelFor(static_cast<int64_t>(R::kCount), [&](int64_t i) {
     const auto recipe = static_cast<Recipe>(i);
-    const TextureRecipe texels = internal::MakeRecipe(recipe);
-    made[static_cast<size_t>(i)] = {texels.tile, SynthesizeTextures(texels, internal::SizeOf(recipe)), internal::MakeNightLights(recipe)};
+    TextureSet set = SynthesizeTextures(internal::MakeRecipe(recipe), internal::SizeOf(recipe));
+    Texture* const of = &made[static_cast<size_t>(i) * kLayers];
+    of[kColor] = std::move(set.color), of[kNormal] = std::move(set.normal), of[kRoughness] = std::move(set.roughness);
+    if (std::optional<Texture> lights = internal::MakeNightLights(recipe)) of[kLights] = *std::move(lights);
   });
   return made;
 }
@@ -212,17 +214,18 @@ class OnceMade {
 };
 
 std::vector<TextureIds> AddTextures(SceneBuilder& builder) {
-  std::vector<TextureIds> ids;
-  static OnceMade<MadeSurfaces> surfaces;
-  MadeSurfaces all = surfaces.Get(MakeSurfaces);
-  for (MadeSurface& made : all) {
-    TextureIds& of = ids.emplace_back();
-    of.tile = made.tile;
-    of.color = builder.AddTexture(std::move(made.set.color));
-    if (IsPicture(static_cast<Recipe>(ids.size() - 1))) continue;
-    of.normal = builder.AddTexture(std::move(made.set.normal));
-    of.roughness = builder.AddTexture(std::move(made.set.roughness));
-    if (made.lights) of.lights = builder.AddTexture(*std::move(made.lights));
+  static OnceMade<std::vector<Texture>> surfaces;
+  std::vector<Texture> all = surfaces.Get([] { return internal::KeptTextures(DiskCache::OfUser(), "surfaces", MakeSurfaces); });
+  std::vector<TextureIds> ids(static_cast<size_t>(R::kCount));
+  for (size_t i = 0; i < ids.size(); ++i) {
+    const auto recipe = static_cast<Recipe>(i);
+    Texture* const of = &all[i * kLayers];
+    ids[i].tile = internal::MakeRecipe(recipe).tile;
+    ids[i].color = builder.AddTexture(std::move(of[kColor]));
+    if (IsPicture(recipe)) continue;
+    ids[i].normal = builder.AddTexture(std::move(of[kNormal]));
+    ids[i].roughness = builder.AddTexture(std::move(of[kRoughness]));
+    if (!of[kLights].levels.empty()) ids[i].lights = builder.AddTexture(std::move(of[kLights]));
   }
   return ids;
 }
@@ -231,9 +234,12 @@ std::vector<TextureIds> AddTextures(SceneBuilder& builder) {
 
 Surfaces AddSurfaces(SceneBuilder& builder, ShopSigns shop_signs) {
   const std::vector<TextureIds> textures = AddTextures(builder);
-  static std::array<OnceMade<Texture>, 2> sheets;
-  const TextureId signs =
-      builder.AddTexture(sheets.at(static_cast<size_t>(shop_signs)).Get([&] { return internal::MakeShopSigns(shop_signs); }));
+  static std::array<OnceMade<std::vector<Texture>>, 2> sheets;
+  const auto kind = static_cast<size_t>(shop_signs);
+  const TextureId signs = builder.AddTexture(std::move(sheets.at(kind).Get([&] {
+    return internal::KeptTextures(DiskCache::OfUser(), "shop signs " + std::to_string(kind),
+                                  [&] { return std::vector{internal::MakeShopSigns(shop_signs)}; });
+  })[0]));
   Surfaces surfaces;
   for (const Row& row : kRows) {
     Material material;
