@@ -18,15 +18,15 @@ inline constexpr float kLux = kNit;
 /// A connected emitting part of one instance. Surfaces shine to their front side only (counter-clockwise
 /// triangles face it), with the same radiance in all directions but for a beam.
 struct Lamp {
-  Vec3f center;       ///< mean of its area, in W
-  float radius = 0;   ///< of the sphere about `center` that holds it
-  Vec3f axis;         ///< unit, mean direction that it faces
-  float spread = 0;   ///< largest angle between `axis` and a normal of it, radians; pi = all ways
-  float area = 0;     ///< m^2
-  Vec3f facing;       ///< integral of the unit normal over its area: length `area` where flat, 0 where closed
-  Vec3f power;        ///< per channel: pi times the integral of radiance over its area
-  Vec3f beam;         ///< axis in W times sharpness, see beam_shape (shading_shared.h); zero = shines to all sides alike
-  uint32_t instance;  ///< index into Scene::instances
+  Vec3f center;           ///< mean of its area, in W
+  float radius = 0;       ///< of the sphere about `center` that holds it
+  Vec3f axis;             ///< unit, mean direction that it faces
+  float spread = 0;       ///< largest angle between `axis` and a normal of it, radians; pi = all ways
+  float area = 0;         ///< m^2
+  Vec3f facing;           ///< integral of the unit normal over its area: length `area` where flat, 0 where closed
+  Vec3f power;            ///< per channel: pi times the integral of radiance over its area
+  Vec3f beam;             ///< axis in W times sharpness, see beam_shape (shading_shared.h); zero = shines to all sides alike
+  uint32_t instance = 0;  ///< index into Scene::instances
 };
 
 /// A point on a lamp chosen for a shaded point.
