@@ -33,7 +33,8 @@ void ExpectTheCpus(Pair& pair, RenderRequest request, const std::string& what, d
   EXPECT_LE(d.mean, mean);
   EXPECT_LE(d.off, off);
   EXPECT_LE(d.mean, 0.15 * noise.mean);
-  EXPECT_NEAR(MeanOf(gpu.radiance), MeanOf(cpu.radiance), 2e-3 * MeanOf(cpu.radiance));
+  // A tile whose noise is near a limit may take another number of rounds of rays, and so have other noise.
+  EXPECT_NEAR(MeanOf(gpu.radiance), MeanOf(cpu.radiance), 6e-3 * MeanOf(cpu.radiance));
   EXPECT_EQ(Compare(cpu, gpu, true).far, 0);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "airsim360/base/error.h"
 #include "airsim360/image/codecs.h"
@@ -83,11 +84,17 @@ std::vector<Part> PartsOf(const SourceMesh& mesh, const std::vector<Vec3f>& at) 
   return whole && !mesh.uvs.empty() ? PartsBy(mesh.uv_faces, mesh, at) : parts;
 }
 
+// Fair skin of each of the package's three kinds, linear: CIELAB (66, 11, 18), (46, 11, 18) and (64, 10, 19) under D65, near the
+// light end of what Xiao et al. (2017, "Characterising the variations in ethnic skin colours") measured; the person's own
+// tone darkens it (MakePackBody).
+constexpr Vec3f kSkinAlbedo[] = {{0.522f, 0.317f, 0.219f}, {0.248f, 0.132f, 0.079f}, {0.482f, 0.296f, 0.194f}};
+
 // How a picture becomes one of the pack.
 struct Look {
   bool gray = false;   // it will be tinted
   bool plain = false;  // without its print
   double spread = 10;
+  std::optional<Vec3f> skin = {};              // albedo, linear, where it shows skin
   std::vector<std::array<Vec2f, 3>> uvs = {};  // what of it is used; empty: all
 };
 
@@ -98,6 +105,7 @@ TextureId AddPicture(BodyPack& pack, const std::filesystem::path& path, const Lo
   Image<Rgba8> image = DecodeRgba8(ReadFile(path), path.string());
   if (look.gray) MakeTintable(look.spread, image);
   if (look.plain) MakePlain(0.12, image);
+  if (look.skin) MakeSkin(*look.skin, look.uvs, image);
   if (!look.uvs.empty()) FillAround(look.uvs, image);
   pack.texture_names.push_back(name);
   pack.textures.push_back(EncodePng(image));
@@ -204,6 +212,7 @@ uint32_t Dressing::AddMaterial(const std::string& name, Cloth cloth, const std::
     look.plain = cloth == Cloth::kTop && recipe_.spec.look % 3 != 0;
     // Hair is cut out by its picture and stays as it is.
     if (mesh != nullptr && !cutout) look.uvs = UsedUvs(*mesh);
+    if (cloth == Cloth::kSkin) look.skin = kSkinAlbedo[recipe_.race];
     m.base_color_texture = AddPicture(pack_, picture, look);
   }
   c.materials.push_back(m);
@@ -265,8 +274,16 @@ void Dressing::WearSkin() {
   DropLegs(hem_ + 0.05f, skin);
   const std::string age = recipe_.spec.age < 36 ? "young" : recipe_.spec.age < 60 ? "middleage" : "old";
   const std::string races[] = {"caucasian", "african", "asian"};
-  skin.material = AddMaterial("skin", Cloth::kSkin, package_.Skin(age, races[recipe_.race], male() && recipe_.spec.age >= 16), false, 0.55f);
+  skin.material = AddMaterial("skin", Cloth::kSkin, package_.Skin(age, races[recipe_.race], male() && recipe_.spec.age >= 16), false, 0.55f, &base().mesh);
   pieces_.push_back(std::move(skin));
+}
+
+// The package's brows slope down to the nose, which makes a face that rests look angry: their inner ends are raised.
+void RelaxBrows(double stature, Piece& brows) {
+  float outer = 0;
+  for (const Vec3f& p : brows.positions) outer = std::max(outer, std::abs(p.y));
+  const auto rise = static_cast<float>(0.0042 * stature);
+  for (Vec3f& p : brows.positions) p.z += rise * (1 - std::abs(p.y) / outer);
 }
 
 void Dressing::Dress() {
@@ -287,6 +304,7 @@ void Dressing::Dress() {
   if (!scalp.indices.empty()) pieces_.push_back(std::move(scalp));
   const std::string brows = male() ? std::array{"eyebrow001", "eyebrow004", "eyebrow003"}[recipe_.spec.look % 3] : std::array{"eyebrow002", "eyebrow003"}[recipe_.spec.look % 2];
   Wear(package_.ReadProxy("eyebrows", brows), brows, Cloth::kOther, Layer::kLoose, true, all);
+  RelaxBrows(c.spec.stature, pieces_.back());
   const uint32_t white = AddMaterial("eye", Cloth::kOther, {}, false, 0.25f), iris = AddMaterial("iris", Cloth::kOther, {}, false, 0.15f), pupil = AddMaterial("pupil", Cloth::kOther, {}, false, 0.15f);
   c.materials[white].base_color = {0.50f, 0.46f, 0.43f};
   c.materials[iris].base_color = recipe_.race == 0 && recipe_.spec.look % 2 == 0 ? Vec3f{0.06f, 0.11f, 0.16f} : Vec3f{0.035f, 0.018f, 0.010f};

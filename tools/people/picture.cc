@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/image/color.h"
+
 namespace airsim360::bake {
 namespace {
 
@@ -92,6 +94,23 @@ Image<Sum> Halved(const Image<Sum>& fine) {
 }
 
 }  // namespace
+
+void MakeSkin(Vec3f albedo, const std::vector<std::array<Vec2f, 3>>& uvs, Image<Rgba8>& image) {
+  const Image<uint8_t> covered = Covered(uvs, image.width(), image.height());
+  uint8_t Rgba8::*const channels[] = {&Rgba8::r, &Rgba8::g, &Rgba8::b};
+  const float wanted[] = {albedo.x, albedo.y, albedo.z};
+  for (size_t k = 0; k < 3; ++k) {
+    std::vector<uint8_t> values;
+    for (size_t i = 0; i < image.pixels().size(); ++i) {
+      if (covered.pixels()[i]) values.push_back(image.pixels()[i].*channels[k]);
+    }
+    if (values.empty()) return;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    const float scale = wanted[k] / std::max(1e-3f, SrgbToLinear(*middle));
+    for (Rgba8& p : image.pixels()) p.*channels[k] = LinearToSrgb8(SrgbToLinear(p.*channels[k]) * scale);
+  }
+}
 
 void FillAround(const std::vector<std::array<Vec2f, 3>>& uvs, Image<Rgba8>& image) {
   const Image<uint8_t> covered = Covered(uvs, image.width(), image.height());

@@ -10,8 +10,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kSeatWidth = 0.6, kFeetAhead = 0.1;
-constexpr double kReach = 0.7, kReachOfChairs = 1.4;  // metres from the ground that is walked on to the feet before a seat
+constexpr double kReachOfSeats = 1.4;  // metres from the ground that is walked on to the feet before a seat
 
 // In buildings that are furnished chairs are sat on too: at desks, at tables, in waiting rooms.
 std::optional<PlaceKind> KindOfPlace(std::string_view path, bool furnished) {
@@ -30,62 +29,12 @@ std::optional<PlaceKind> KindOfPlace(std::string_view path, bool furnished) {
   return std::nullopt;
 }
 
-/// Vertices of the entities asked for.
-std::map<EntityId, std::vector<Vec3f>> Vertices(const Scene& scene, const std::map<EntityId, PlaceKind>& wanted) {
-  std::map<EntityId, std::vector<Vec3f>> found;
-  for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    for (const MeshPart& part : mesh.parts) {
-      const auto entity = wanted.find(part.entity != kNoEntity ? part.entity : instance.entity);
-      if (entity == wanted.end() || entity->second != PlaceKind::kBench) continue;
-      std::vector<Vec3f>& list = found[entity->first];
-      for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count && list.size() < 30000; ++t)
-        for (int k = 0; k < 3; ++k) list.push_back(instance.X_WM * mesh.positions[mesh.triangles[t][k]]);
-    }
-  }
-  return found;
-}
-
-/// Seats of a bench side by side. Its back rest, if it has one, says where its front is.
-void AddSeats(const std::vector<Vec3f>& vertices, const Box3f& box, const NavMesh& mesh, std::vector<Place>& places) {
-  const Vec2d centre{box.center().x, box.center().y};
-  Box3f back;
-  for (const Vec3f& v : vertices)
-    if (v.z > box.min.z + 0.6f) back.Add(v);
-  Vec2d front{};
-  if (!back.empty()) front = centre - Vec2d{back.center().x, back.center().y};
-  if (std::hypot(front.x, front.y) < 0.04) {
-    // No back rest: towards the nearest ground to walk on.
-    const NavPoint near = mesh.Nearest({centre.x, centre.y, box.min.z}, 1.5);
-    if (!near.valid()) return;
-    front = Vec2d{near.p_W.x, near.p_W.y} - centre;
-  }
-  const double length = std::hypot(front.x, front.y);
-  if (length < 1e-6) return;
-  front = front * (1 / length);
-  const Vec2d side{-front.y, front.x};
-  double depth = 0, half = 0;
-  for (const Vec3f& v : vertices) {
-    const Vec2d d = Vec2d{v.x, v.y} - centre;
-    if (v.z < box.min.z + 0.6f) depth = std::max(depth, d.x * front.x + d.y * front.y);
-    half = std::max(half, std::abs(d.x * side.x + d.y * side.y));
-  }
-  const int seats = static_cast<int>(std::clamp(2 * half / kSeatWidth, 1.0, 6.0));
-  for (int i = 0; i < seats; ++i) {
-    const Vec2d p = centre + front * (depth + kFeetAhead) + side * (kSeatWidth * (i - (seats - 1) / 2.0));
-    const NavPoint approach = mesh.Nearest({p.x, p.y, box.min.z}, kReach);
-    if (!approach.valid()) continue;
-    places.push_back(
-        {PlaceKind::kBench, approach, {p.x, p.y, mesh.GroundHeight(p.x, p.y, approach.p_W.z)}, std::atan2(front.y, front.x), {}});
-  }
-}
-
-/// The same in rooms, by the shape of what is sat on.
-void AddMeasuredSeats(const SeatFinder& finder, EntityId id, const Box3f& box, const NavMesh& mesh, std::vector<Place>& places) {
+/// Seats of a bench or chair, by its shape.
+void AddSeats(const SeatFinder& finder, EntityId id, const Box3f& box, const NavMesh& mesh, std::vector<Place>& places) {
   const Vec2d centre{box.center().x, box.center().y};
   const NavPoint near = mesh.Nearest({centre.x, centre.y, box.min.z}, 1.5);
   for (const Seat& seat : finder.Seats(id, near.valid() ? Vec2d{near.p_W.x, near.p_W.y} - centre : Vec2d{})) {
-    const NavPoint approach = mesh.Nearest(seat.feet, kReachOfChairs);
+    const NavPoint approach = mesh.Nearest(seat.feet, kReachOfSeats);
     if (approach.valid() && std::abs(approach.p_W.z - seat.feet.z) < 0.5)
       places.push_back({PlaceKind::kBench, approach, seat.feet, seat.yaw, seat.seating});
   }
@@ -143,17 +92,12 @@ std::vector<Place> FindPlaces(const Scene& scene, const NavMesh& mesh, bool furn
   for (const Entity& entity : scene.entities)
     if (const auto kind = KindOfPlace(scene.tree[entity.category].path, furnished); kind && !entity.bounds.empty())
       wanted[entity.id] = *kind;
-  const std::map<EntityId, std::vector<Vec3f>> vertices = furnished ? std::map<EntityId, std::vector<Vec3f>>() : Vertices(scene, wanted);
-  const std::optional<SeatFinder> finder = furnished ? std::optional<SeatFinder>(scene) : std::nullopt;
+  const SeatFinder finder(scene);
   std::vector<Place> places;
   for (const auto& [id, kind] : wanted) {
     const Box3f& box = scene.entity(id).bounds;
     if (kind == PlaceKind::kBench) {
-      if (finder) {
-        AddMeasuredSeats(*finder, id, box, mesh, places);
-      } else if (const auto found = vertices.find(id); found != vertices.end()) {
-        AddSeats(found->second, box, mesh, places);
-      }
+      AddSeats(finder, id, box, mesh, places);
       continue;
     }
     if (kind == PlaceKind::kQueue) {

@@ -150,12 +150,15 @@ struct SeatFinder::Index {
       for (size_t k = 0; k < mesh.parts.size(); ++k) {
         const Box3f& own = of_mesh[instance.mesh][k];
         if (own.empty()) continue;
+        const EntityId entity = mesh.parts[k].entity != kNoEntity ? mesh.parts[k].entity : instance.entity;
+        const std::string_view path =
+            entity == kNoEntity ? std::string_view() : std::string_view(scene.tree[scene.entity(entity).category].path);
+        if (path.starts_with("vegetation")) continue;  // people sit below leaves, and push twigs aside
         Box3f box;
         for (int c = 0; c < 8; ++c)
           box.Add(instance.X_WM * Vec3f{c & 1 ? own.max.x : own.min.x, c & 2 ? own.max.y : own.min.y, c & 4 ? own.max.z : own.min.z});
         boxes.push_back({box, i, k});
-        const EntityId entity = mesh.parts[k].entity != kNoEntity ? mesh.parts[k].entity : instance.entity;
-        if (entity != kNoEntity && IsSeat(scene.tree[scene.entity(entity).category].path)) parts[entity].emplace_back(i, k);
+        if (IsSeat(path)) parts[entity].emplace_back(i, k);
       }
     }
   }

@@ -160,6 +160,18 @@ Vec3f Worn(Vec3f color) {
   return color + (Vec3f{light, light, light} - color) * 0.4f;
 }
 
+// How much darker a person's skin is than the pack's picture of it, by channel. Melanin absorbs the more the shorter the wave:
+// about as its length to the power of -3.3 (Jacques 2013); the exponent of blue is lowered, for it saturates in dark skin.
+Vec3f SkinShade(double melanin) {
+  return {static_cast<float>(std::exp(-0.7 * melanin)), static_cast<float>(std::exp(-melanin)), static_cast<float>(std::exp(-1.3 * melanin))};
+}
+
+// Half of the people are about as fair as the picture, the others darker up to a lightness (CIELAB) of 14 less.
+double DrawMelanin(const BodySpec& spec) {
+  RngStream rng(spec.look, "melanin");
+  return rng.Chance(0.5) ? rng.Uniform(0, 0.15) : rng.Uniform(0.15, 0.65);
+}
+
 }  // namespace
 
 std::shared_ptr<const Body> MakePackBody(const BodyPack& pack, const BodySpec& spec, int finest_level) {
@@ -177,7 +189,10 @@ std::shared_ptr<const Body> MakePackBody(const BodyPack& pack, const BodySpec& s
   for (Socket& s : body->sockets) s = {s.name, s.joint, s.p_J * scale, s.radius * scale};
 
   // Materials, clothes tinted by the look.
-  const internal::Wardrobe wear = internal::DrawWardrobe(spec);
+  internal::Wardrobe wear = internal::DrawWardrobe(spec);
+  const double melanin = DrawMelanin(spec);
+  // Fair hair goes with fair skin; what is darker than brown, or grey, stays.
+  if (melanin > 0.3 && wear.hair_color.x > 1.3f * wear.hair_color.z) wear.hair_color = wear.hair_color * std::min(1.0f, 0.04f / wear.hair_color.x);
   std::map<TextureId, TextureId> own;
   for (size_t k = 0; k < c.materials.size(); ++k) {
     Material m = c.materials[k];
@@ -187,6 +202,7 @@ std::shared_ptr<const Body> MakePackBody(const BodyPack& pack, const BodySpec& s
       m.base_color_texture = slot->second;
     }
     const auto tint = [&](Vec3f color, float lift) { m.base_color = m.base_color * (Worn(color) * lift + Vec3f{0.02f, 0.02f, 0.02f}); };
+    if (c.cloths[k] == Cloth::kSkin) m.base_color = m.base_color * SkinShade(melanin);
     if (c.cloths[k] == Cloth::kTop) tint(wear.top_color, 1.7f);
     if (c.cloths[k] == Cloth::kBottom) tint(wear.bottom_color, 2.0f);
     if (c.cloths[k] == Cloth::kShoes) tint(wear.shoe_color, 1.6f);

@@ -35,8 +35,8 @@ class AmbientTile {
     }
   }
 
-  // All rays of up to sixteen surfaces of one phase.
-  void GatherPhase(int phase, const int* surfaces, int count) {
+  // All rays of up to sixteen surfaces of one phase; in later rounds as many again, which go on where all tiles' first end.
+  void GatherPhase(int phase, int round, const int* surfaces, int count) {
     any_leaf_ = false;
     for (int i = 0; i < 16; ++i) {
       index_[i] = surfaces[i < count ? i : 0];
@@ -47,8 +47,9 @@ class AmbientTile {
     shader_.kernels.gather_origins(rays_, s_, index_, origins_);
     // A whole number of rays, right on average over the phases.
     const uint32_t place = sampling_.tile * 16 + static_cast<uint32_t>(phase);
-    const uint32_t first = first_ray(place, sampling_.ambient_rays, sampling_.seed);
-    const int samples = static_cast<int>(first_ray(place + 1, sampling_.ambient_rays, sampling_.seed) - first);
+    const uint32_t of_round = first_ray(256, sampling_.ambient_rays, sampling_.seed) * static_cast<uint32_t>(round);
+    const uint32_t first = of_round + first_ray(place, sampling_.ambient_rays, sampling_.seed);
+    const int samples = static_cast<int>(of_round + first_ray(place + 1, sampling_.ambient_rays, sampling_.seed) - first);
     const int first_side = std::popcount(place);
     std::fill(std::begin(sum_r_), std::end(sum_r_), 0.0f);
     std::fill(std::begin(sum_g_), std::end(sum_g_), 0.0f);
@@ -66,11 +67,14 @@ class AmbientTile {
         AddLight(way_[k - begin], samples == 1 ? 2.0f : static_cast<float>(samples) / static_cast<float>(alike));
       }
     }
-    const float scale = kPiF / static_cast<float>(samples);
     for (int i = 0; i < count; ++i) {
       const uint32_t slot = rays_.slot[index_[i]];
-      tile_.light_samples[slot] = static_cast<uint8_t>(std::min(samples, 255));
-      tile_.light_r[slot] = sum_r_[i] * scale, tile_.light_g[slot] = sum_g_[i] * scale, tile_.light_b[slot] = sum_b_[i] * scale;
+      const int before = tile_.light_samples[slot];
+      const float share = static_cast<float>(samples) / static_cast<float>(before + samples), scale = kPiF / static_cast<float>(samples);
+      tile_.light_samples[slot] = static_cast<uint8_t>(std::min(before + samples, 255));
+      tile_.light_r[slot] += share * (sum_r_[i] * scale - tile_.light_r[slot]);
+      tile_.light_g[slot] += share * (sum_g_[i] * scale - tile_.light_g[slot]);
+      tile_.light_b[slot] += share * (sum_b_[i] * scale - tile_.light_b[slot]);
     }
   }
 
@@ -187,6 +191,33 @@ class AmbientTile {
   std::span<const uint32_t> first_slots_;
 };
 
+// How many rounds of rays a tile takes. All pixels of a phase look into the same directions, and phases lie between each other:
+// how far their means differ tells how well the tile knows its light. In a shady yard below a sunlit wall few rays meet the
+// wall, which is most of the light, and the filter cannot even out whole tiles. Noise counts as far as sunlight does not hide it;
+// leaves, which are speckled anyway, do not count.
+int RoundsFor(const TileSampling& sampling, const int16_t* of_slot, const SurfaceSet& s, const LightTerms& terms, const HighTile& tile) {
+  float sum = 0, squares = 0, around = 0, sun = 0;
+  int phases = 0;
+  for (const auto& members : sampling.layout->members) {
+    float light = 0;
+    int count = 0;
+    for (const uint8_t slot : members) {
+      const int i = of_slot[slot];
+      if (i < 0 || (s.kind[i] == kFoliage && s.transmission[i] > 0)) continue;
+      light += scalar::luminance({tile.light_r[slot], tile.light_g[slot], tile.light_b[slot]});
+      around += terms.ambient_g[i] * tile.light_g[slot];
+      sun += terms.sun_g[i] * s.sunlit[i];
+      ++count;
+    }
+    if (count < 4) continue;
+    light /= static_cast<float>(count);
+    sum += light, squares += light * light;
+    ++phases;
+  }
+  if (phases < 4 || sum <= 0 || around <= 0) return 1;
+  return static_cast<int>(rounds_of(sum, squares, static_cast<float>(phases), around / (around + sun), sampling.ambient_rays));
+}
+
 // By night probes, which know all windows around, count as some rays more.
 void CountProbes(const Shader::Impl& shader, const RaySet& rays, const SurfaceSet& s, int i, HighTile& tile) {
   const float known = scalar::probe_rays(shader.view.open_sky);
@@ -220,12 +251,15 @@ void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const 
     }
   }
   AmbientTile ambient(shader, sun_map, sampling, rays, s, tile);
-  for (int phase = 0; phase < 16; ++phase) {
-    int surfaces[16], count = 0;
-    for (const uint8_t slot : sampling.layout->members[phase]) {
-      if (of_slot[slot] >= 0) surfaces[count++] = of_slot[slot];
+  for (int round = 0, rounds = 1; round < rounds; ++round) {
+    for (int phase = 0; phase < 16; ++phase) {
+      int surfaces[16], count = 0;
+      for (const uint8_t slot : sampling.layout->members[phase]) {
+        if (of_slot[slot] >= 0) surfaces[count++] = of_slot[slot];
+      }
+      if (count > 0) ambient.GatherPhase(phase, round, surfaces, count);
     }
-    if (count > 0) ambient.GatherPhase(phase, surfaces, count);
+    if (round == 0) rounds = RoundsFor(sampling, of_slot, s, terms, tile);
   }
   if (shader.probes && shader.sky && scalar::probe_rays(shader.view.open_sky) > 0) {
     for (int i = 0; i < rays.count; ++i)

@@ -222,9 +222,10 @@ class VulkanRenderer : public GpuRenderer {
   void AddHighPasses(bool denoise, bool antialias, GpuSlot::Work& work) {
     // Numbers as in filter.rgen.
     constexpr int kLoad = 0, kLevel = 5, kLevels = 4, kRemember = 10, kKeep = 11;
+    constexpr int kMoreRounds = 2;  // the last of high_light.rgen
     const GpuPipeline* filter = Made(filter_, FilterRaygen());
     work.passes.push_back({Made(high_, HighRaygen())});
-    work.passes.push_back({Made(high_light_, HighLightRaygen())});
+    for (int pass = 0; pass <= kMoreRounds; ++pass) work.passes.push_back({Made(high_light_, HighLightRaygen()), pass});
     work.passes.push_back({filter, kLoad});
     if (work.history != nullptr) work.passes.insert(work.passes.end(), {{filter, kRemember}, {filter, kKeep}});
     for (int pass = kLoad + 1; pass < kLevel + kLevels && denoise; ++pass) work.passes.push_back({filter, pass});

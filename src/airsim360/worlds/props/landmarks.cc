@@ -225,7 +225,7 @@ Model MakeBankSign(uint32_t, uint64_t) {
 Model MakeRedTree(uint32_t, uint64_t seed) {
   Model model = FindPropKind("tree_generic").make(2, seed);
   for (Material& m : model.materials)
-    if (m.kind == SurfaceKind::kFoliage) m.base_color = {m.base_color.x * 5.0f, m.base_color.y * 0.30f, m.base_color.z * 0.55f};
+    if (m.kind == SurfaceKind::kFoliage) m.base_color = m.base_color * Vec3f{2.4f, 0.36f, 0.9f};  // of a purple-leaved maple
   return model;
 }
 
