@@ -40,6 +40,54 @@ TEST(Bicycles, KeepTheirDistanceFromTheMiddleInBends) {
   }
 }
 
+// Of the forces on a rider none is to the side: tan(lean) = v^2 / (r g), into the bend.
+TEST(Bicycles, LeanIntoBendsAsTheirWeightBalances) {
+  for (const double top_speed : {3.0, 5.0}) {
+    TrafficModel model = ModelOf(RingRoad(200, 13.9f), 1);
+    model.vehicles[0] = kBicycle;
+    model.vehicles[0].driver.top_speed = top_speed;
+    TrafficState state;
+    state.vehicles = {{.lane = 0, .ahead = {1, 0}, .behind = {1, 0, 1}, .s = 20}};
+    Drive(model, 40, state);
+    const double v = state.vehicles[0].v, radius = 200 / (2 * M_PI) + 1, expected = std::atan(v * v / (radius * 9.81));
+    EXPECT_NEAR(v, top_speed, 0.1);
+    for (int tick = 0; tick < 200; ++tick) {
+      TickTraffic(model, {}, state);
+      for (const int64_t later : {int64_t{0}, kTrafficTickNs / 2}) {
+        const RigidTransform X = PoseOf(model, state, 0, state.t_ns + later);
+        const Vec3d inwards = Normalized(Vec3d{-X.p.x, -X.p.y, 0}), up = X.R.column(2);
+        EXPECT_NEAR(std::atan2(Dot(up, inwards), up.z), expected, 0.06 * expected);
+        EXPECT_NEAR(X.R.determinant(), 1, 1e-12);
+      }
+    }
+  }
+}
+
+TEST(Bicycles, StandUprightWhereItIsStraightAndLeanToTheRightInARightTurn) {
+  TrafficModel model = ModelOf(Fork(), 1);
+  model.vehicles[0] = kBicycle;
+  TrafficState state;
+  state.vehicles = {{.lane = 0, .ahead = {2, 4}, .s = 20, .v = 4}};
+  double most = 0, last = 0;
+  for (int tick = 0; tick < 50 * 20; ++tick) {
+    TickTraffic(model, {}, state);
+    const Mat3d R = PoseOf(model, state, 0, state.t_ns).R;
+    const double right = std::atan2(R.column(1).z, R.column(2).z);
+    EXPECT_LT(std::abs(right - last), 0.02) << tick;  // never at once
+    EXPECT_GT(right, -1e-9);
+    if (state.vehicles[0].lane == 0 && state.vehicles[0].s < 90) {
+      EXPECT_NEAR(right, 0, 1e-9);
+    }
+    most = std::max(most, right);
+    last = right;
+  }
+  EXPECT_EQ(state.vehicles[0].lane, 4u);
+  EXPECT_NEAR(last, 0, 1e-9);
+  // A metre right of a middle that bends with a radius of 10 m, at 2 m/s^2 sideways at most.
+  EXPECT_GT(most, 0.6 * std::atan(2 / 9.81));
+  EXPECT_LT(most, 1.15 * std::atan(2 / 9.81));
+}
+
 TEST(Bicycles, StopForWhoStandsAtTheEdgeAndNotForWhoStandsInTheMiddle) {
   TrafficModel model = ModelOf(Street(900, {}), 1);
   model.vehicles[0] = kBicycle;

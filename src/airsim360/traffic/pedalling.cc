@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/math/angles.h"
+#include "airsim360/traffic/obstacles.h"
 
 namespace airsim360 {
 namespace {
@@ -38,6 +39,15 @@ void Pedal(const TrafficModel& model, const TrafficState& before, uint32_t vehic
   const double way = Forwards(PoseOf(model, before, vehicle, before.t_ns), PoseOf(model, state, vehicle, state.t_ns));
   own.rolled = was.rolled + way;
   own.crank = CrankAfter(model.vehicles[vehicle].shape, was.crank, way, was.v, was.a);
+}
+
+double LeanInBend(const TrafficModel& model, const DrivingVehicle& own, const VehicleShape& shape, double moved) {
+  // Lanes are polylines with up to 4 m between their points: chords of that length turn evenly, and riders lean in before the bend.
+  constexpr double kChord = 4, kGravity = 9.81;
+  const auto at = [&](double ahead) { return AlongWay(model, own, shape, moved - shape.length / 2 + ahead).p; };
+  const Vec3d back = at(0) - at(-kChord), on = at(kChord) - at(0);
+  const double turn = std::atan2(back.x * on.y - back.y * on.x, back.x * on.x + back.y * on.y);
+  return std::atan(own.v * own.v * turn / kChord / kGravity);
 }
 
 }  // namespace internal

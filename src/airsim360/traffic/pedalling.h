@@ -1,4 +1,4 @@
-// Wheels and cranks of bicycles.
+// Wheels and cranks of bicycles, and how they lean.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +24,9 @@ namespace internal {
 double CrankAfter(const VehicleShape& shape, double crank, double distance, double v, double a);
 /// Adds the way of a bicycle in a tick: `state` is that after it.
 void Pedal(const TrafficModel& model, const TrafficState& before, uint32_t vehicle, TrafficState& state);
+/// Radians that a bicycle leans to the left `moved` metres on from where it is: its weight balances the bend,
+/// tan(lean) = v^2 k / g.
+double LeanInBend(const TrafficModel& model, const DrivingVehicle& own, const VehicleShape& shape, double moved);
 
 }  // namespace internal
 }  // namespace airsim360

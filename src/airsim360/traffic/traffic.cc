@@ -226,7 +226,9 @@ RigidTransform PoseOf(const TrafficModel& model, const TrafficState& state, size
   const double late = shape.wheelbase() / std::max(own.v, 2.0);
   const Vec3d f = AxleAt(model, own, shape, t_ns, front, 0), r = AxleAt(model, own, shape, t_ns, front - shape.wheelbase(), late);
   const Vec3d x = Normalized(f - r), left = Normalized(Vec3d{-x.y, x.x, 0});
-  return {Mat3d::FromColumns(x, left, Cross(x, left)), f - x * (shape.length / 2 - shape.front_overhang())};
+  const Mat3d R = Mat3d::FromColumns(x, left, Cross(x, left));
+  return {shape.bicycle ? R * RotationX(-internal::LeanInBend(model, own, shape, moved)) : R,
+          f - x * (shape.length / 2 - shape.front_overhang())};
 }
 
 Vec3d VelocityOf(const TrafficModel& model, const TrafficState& state, size_t vehicle) {

@@ -120,7 +120,7 @@ void TickTraffic(const TrafficModel& model, std::span<const TrafficObstacle> obs
                  std::vector<NearMiss>* over = nullptr);
 
 /// Body of a vehicle at t_ns, at most a tick after the state: origin on the ground below the middle, +X forward, +Z away
-/// from the ground, as both axles stand on their lanes.
+/// from the ground, as both axles stand on their lanes; bicycles lean into bends.
 RigidTransform PoseOf(const TrafficModel& model, const TrafficState& state, size_t vehicle, int64_t t_ns);
 /// Velocity of the same point, m/s in W.
 Vec3d VelocityOf(const TrafficModel& model, const TrafficState& state, size_t vehicle);

@@ -122,6 +122,31 @@ TEST(PlacesInRooms, LinesStandBeforeCountersWhicheverAxisIsUp) {
   }
 }
 
+TEST(PlacesOutdoors, PeopleSitOnABenchHoweverItIsTurned) {
+  for (const double yaw : {0.0, 0.3, 0.8, 1.6, 2.5, -0.7, -2.1}) {
+    internal::TestGround ground;
+    ground.Floor("ground/pavement", 0, 0, 12, 12);
+    ground.Bench(6, 6, static_cast<float>(yaw));
+    const auto scene = ground.Build();
+    const std::vector<internal::Place> places = internal::FindPlaces(*scene, *NavMesh::Build(*scene), false);
+    ASSERT_EQ(places.size(), 3u) << yaw;
+    std::vector<double> along;
+    for (const internal::Place& place : places) {
+      EXPECT_NEAR(std::remainder(place.yaw - (yaw - kPi / 2), 2 * kPi), 0, 0.02) << yaw;
+      // Hips over the seat, between the arms, as far behind the feet as the seating says.
+      const double x = place.p_W.x - place.seating.reach * std::cos(place.yaw) - 6,
+                   y = place.p_W.y - place.seating.reach * std::sin(place.yaw) - 6;
+      along.push_back(std::cos(yaw) * x + std::sin(yaw) * y);
+      const double back = -std::sin(yaw) * x + std::cos(yaw) * y;
+      EXPECT_GT(back, -0.15) << yaw;
+      EXPECT_LT(back, 0.17) << yaw;
+      EXPECT_NEAR(place.seating.height, 0.45, 0.03);
+    }
+    std::ranges::sort(along);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(along[static_cast<size_t>(i)], 0.6 * (i - 1), 0.05) << yaw;
+  }
+}
+
 TEST(PlacesInRooms, WhatIsLargerThanFurnitureHasNoSeats) {
   for (const float width : {2.0f, 3e9f}) {
     internal::TestGround ground;

@@ -38,6 +38,15 @@ class TestGround {
     AddBox(mesh, {x, y + 0.4f, 0.45f}, {x + width, y + 0.5f, 0.9f});
     return Add(category, std::move(mesh));
   }
+  /// A bench with a back and arms, 2 m wide and 0.5 m deep, its middle at (x, y), turned to the left by `yaw` from one that is
+  /// sat on from the south.
+  EntityId Bench(float x, float y, float yaw) {
+    Mesh mesh;
+    AddBox(mesh, {-1, -0.25f, 0}, {1, 0.17f, 0.45f});
+    AddBox(mesh, {-1, 0.17f, 0.45f}, {1, 0.25f, 0.9f});
+    for (const float side : {-1.0f, 0.92f}) AddBox(mesh, {side, -0.25f, 0.45f}, {side + 0.08f, 0.2f, 0.68f});
+    return Add("furniture/seating/bench", std::move(mesh), PlaceUpright({x, y, 0}, yaw));
+  }
   /// A wall 3 m high and 0.2 m thick around the segment.
   void Wall(float x0, float y0, float x1, float y1) {
     Box("construction/wall", {std::min(x0, x1) - 0.1f, std::min(y0, y1) - 0.1f, -0.2f},
@@ -53,10 +62,10 @@ class TestGround {
     for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
     for (const Vec3u t : kFaces) mesh.triangles.push_back({t.x + first, t.y + first, t.z + first});
   }
-  EntityId Add(const char* category, Mesh mesh) {
+  EntityId Add(const char* category, Mesh mesh, const AffineTransform& X_WM = {}) {
     const EntityId entity = builder_.AddEntity(category, builder_.tree().At(category));
     const MeshId id = builder_.AddMesh(std::move(mesh));
-    builder_.AddInstance({.mesh = id, .X_WM = {}, .entity = entity});
+    builder_.AddInstance({.mesh = id, .X_WM = X_WM, .entity = entity});
     return entity;
   }
   SceneBuilder builder_;

@@ -26,10 +26,11 @@ void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan
     return;
   }
   if (kind == EdgeKind::kStreet && plan.shops && length > 2.6f) {
-    const internal::GroundFloor floor{plan, entity, height, dress.wall, dress.trim, dress.frame};
+    const internal::GroundFloor floor{plan, entity, height, dress.base, dress.trim, dress.frame};
     const bool office = plan.style == FacadeStyle::kCurtainWall || plan.style == FacadeStyle::kRibbon ||
                         plan.style == FacadeStyle::kConcreteGrid || plan.style == FacadeStyle::kClassicStone ||
-                        plan.style == FacadeStyle::kDeco || plan.style == FacadeStyle::kBracedGlass;
+                        plan.style == FacadeStyle::kDeco || plan.style == FacadeStyle::kBracedGlass ||
+                        plan.style == FacadeStyle::kTerracotta || plan.style == FacadeStyle::kGlazedDeco;
     const int shops = CountBays(length, 4.9f), lobby = office && plan.canopies && length > 9 && rng.Chance(0.6) ? shops / 2 : -1;
     for (int i = 0; i < shops; ++i) {
       const float w = length / static_cast<float>(shops), x0 = w * static_cast<float>(i);
@@ -70,6 +71,7 @@ void BuildBands(FacadePen& pen, const BuildingPlan& plan, const Dress& dress, Ed
   if (plan.base == 0) pen.Bar(-0.14f * out, L + 0.14f * out, ground - 0.10f, ground + 0.14f, -0.14f, 0);
   const float s = dress.cornice * plan.cornice;
   if (s <= 0) return;
+  pen.Use(dress.crown);
   pen.Bar(-0.16f * s * out, L + 0.16f * s * out, top - 0.62f * s, top - 0.34f * s, -0.16f * s, 0);
   pen.Bar(-0.40f * s * out, L + 0.40f * s * out, top - 0.34f * s, top - 0.12f * s, -0.40f * s, 0);
   pen.Bar(-0.58f * s * out, L + 0.58f * s * out, top - 0.12f * s, top + 0.05f * s, -0.58f * s, 0);

@@ -42,6 +42,12 @@ constexpr Palette kPalettes[] = {
     {FacadeStyle::kBrownstone, S::kBrickRed, S::kBrownstoneTrim, S::kFrameWhite, S::kShutterGreen},
     {FacadeStyle::kBrownstone, S::kBrickBrown, S::kTrimStone, S::kFrameDark, S::kShutterGreen},
     {FacadeStyle::kBracedGlass, S::kPanelDark, S::kTrimDark, S::kFrameDark, S::kShutterGreen},
+    {FacadeStyle::kTerracotta, S::kBrickYellow, S::kStuccoOchre, S::kFrameDark, S::kShutterGreen},
+    {FacadeStyle::kTerracotta, S::kBrickRed, S::kStuccoOchre, S::kFrameGreen, S::kShutterGreen},
+    {FacadeStyle::kTerracotta, S::kBrickBrown, S::kStuccoOchre, S::kFrameDark, S::kShutterGreen},
+    {FacadeStyle::kGlazedDeco, S::kStuccoBlue, S::kShutterBlue, S::kFrameDark, S::kShutterGreen},
+    {FacadeStyle::kGlazedDeco, S::kStuccoRose, S::kBronze, S::kFrameDark, S::kShutterGreen},
+    {FacadeStyle::kGlazedDeco, S::kBrickYellow, S::kStuccoOchre, S::kFrameGreen, S::kShutterGreen},
 };
 
 bool IsBrick(Surface s) { return s >= S::kBrickRed && s <= S::kBrickWhite; }
@@ -85,6 +91,10 @@ Opening OpeningOf(FacadeStyle style, const Bay& b) {
       return {m - 0.52f, m + 0.52f, b.z0 + 0.65f, b.z0 + 2.65f, 0.18f};
     case FacadeStyle::kBracedGlass:
       return {b.x0 + 0.03f, b.x1 - 0.03f, b.z0 + 0.9f, b.z1 - 0.05f, 0.10f};
+    case FacadeStyle::kTerracotta:
+      return {b.x0 + 0.66f, b.x1 - 0.66f, b.z0 + 0.85f, b.z0 + 2.80f, 0.26f};
+    case FacadeStyle::kGlazedDeco:
+      return {b.x0 + 0.46f, b.x1 - 0.46f, b.z0 + 1.00f, b.z0 + 3.00f, 0.26f};
     default:
       return {b.x0, b.x1, b.z0 + 1.10f, b.z1 - 0.45f, 0.20f};
   }
@@ -236,6 +246,16 @@ Dress DressOf(const BuildingPlan& plan) {
   if (plan.style == FacadeStyle::kDeco) dress.cornice = plan.palette < 2 ? 1.2f : 0.7f;
   if (plan.style == FacadeStyle::kBracedGlass) dress.glass = S::kGlassBlack;
   if (plan.style == FacadeStyle::kStuccoShutters) dress.cornice = 0.75f;
+  if (plan.style == FacadeStyle::kTerracotta) {
+    dress.cornice = 1.3f;
+    dress.crown = row->shutter;
+    dress.base = plan.base > 0 ? row->wall : plan.palette == 1 ? S::kSandstone : S::kLimestone;
+  }
+  if (plan.style == FacadeStyle::kGlazedDeco) {
+    // Glaze is for the street.
+    dress.party = plan.palette == 1 ? S::kBrickBrown : S::kBrickYellow;
+    dress.far = plan.palette == 1 ? S::kFarPiers1 : S::kFarPiers0;
+  }
   return dress;
 }
 
@@ -280,6 +300,8 @@ void BuildBay(FacadeContext& context, FacadePen& pen, FacadeStyle style, const D
   const Opening o = OpeningOf(style, bay);
   if (style == FacadeStyle::kCurtainWall || style == FacadeStyle::kBracedGlass) return CurtainBay(pen, dress, bay, o, rng);
   if (style == FacadeStyle::kDeco) return BuildDecoBay(pen, dress, bay, rng);
+  if (style == FacadeStyle::kTerracotta) return BuildTerracottaBay(pen, dress, bay, o, rng);
+  if (style == FacadeStyle::kGlazedDeco) return BuildGlazedDecoBay(pen, dress, bay, o, rng);
   Wall(pen, dress, bay, o);
   switch (style) {
     case FacadeStyle::kBrickWalkUp:

@@ -9,7 +9,8 @@ namespace airsim360::internal {
 /// Surfaces and proportions of one building.
 struct Dress {
   Surface wall, trim, frame, shutter, glass, party, far;
-  float cornice = 0;  ///< scale of the cornice, 0 = none
+  float cornice = 0;                  ///< scale of the cornice, 0 = none
+  Surface crown = trim, base = wall;  ///< of the cornice, and of the lowest storeys where they are of another stone
 };
 Dress DressOf(const BuildingPlan& plan);
 
@@ -36,6 +37,8 @@ void DoorOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float h
 void SimpleOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float z0, float z1, float ox0, float ox1, float oz0, float oz1,
                    float depth, RngStream& rng);
 
+void BuildTerracottaBay(FacadePen& pen, const Dress& dress, const Bay& bay, const Opening& o, RngStream& rng);
+void BuildGlazedDecoBay(FacadePen& pen, const Dress& dress, const Bay& bay, const Opening& o, RngStream& rng);
 /// Bays of the New York styles; the wall around a brownstone's opening stands already.
 void BuildDecoBay(FacadePen& pen, const Dress& dress, const Bay& bay, RngStream& rng);
 void BuildBrownstoneBay(FacadePen& pen, const Dress& dress, const Opening& o, RngStream& rng);

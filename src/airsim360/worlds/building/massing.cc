@@ -152,7 +152,7 @@ void HidePartyWalls(std::vector<BuildingPlan>& out, size_t first) {
 const std::vector<std::string>& FacadeStyleNames() {
   static const std::vector<std::string> names = {"brick_walk_up", "classic_stone", "stucco_shutters", "concrete_grid",
                                                  "curtain_wall",  "brick_loft",    "ribbon",          "deco",
-                                                 "brownstone",    "braced_glass"};
+                                                 "brownstone",    "braced_glass",  "terracotta",      "glazed_deco"};
   return names;
 }
 
@@ -176,6 +176,8 @@ const StyleMetrics& MetricsOf(FacadeStyle style) {
       {5.2f, 3.7f, 3.6f, 4},   // deco piers
       {4.4f, 3.3f, 2.3f, 3},   // brownstone
       {5.0f, 3.8f, 1.6f, 1},   // braced glass
+      {5.2f, 3.8f, 4.0f, 3},   // terracotta
+      {5.2f, 3.6f, 2.0f, 3},   // glazed deco
   };
   return kMetrics[static_cast<size_t>(style)];
 }

@@ -21,6 +21,8 @@ enum class FacadeStyle {
   kDeco,         ///< stone piers from base to cornice, paired windows between them
   kBrownstone,   ///< a row house with a stoop
   kBracedGlass,  ///< dark curtain wall behind diagonal braces
+  kTerracotta,   ///< a rusticated base, brick and terracotta above it, a cornice of copper
+  kGlazedDeco,   ///< slender piers of glazed brick that rise past the roof, decorated spandrels between them
   kCount
 };
 

@@ -90,7 +90,8 @@ std::vector<LaneId> AddLanes(const RoadSpec& road, std::vector<Vec2f> axis, cons
                              .bus = lane.bus,
                              .cycle = lane.cycle});
   }
-  for (size_t k = 0; k + 1 < ids.size(); ++k) {
+  // Out of a cycle lane at the left kerb nobody changes into the cars' lanes.
+  for (size_t k = lanes.size() > 1 && lanes.front().cycle ? 1 : 0; k + 1 < ids.size(); ++k) {
     network.lanes[ids[k]].right = ids[k + 1];
     network.lanes[ids[k + 1]].left = ids[k];
   }
@@ -151,9 +152,10 @@ std::vector<LaneId> ForAllVehicles(const std::vector<LaneId>& lanes, const RoadN
   return some.empty() ? lanes : some;
 }
 
-LaneId CycleLane(const std::vector<LaneId>& lanes, const RoadNetwork& network) {
-  const auto found = std::ranges::find_if(lanes, [&](LaneId id) { return network.lanes[id].cycle; });
-  return found != lanes.end() ? *found : kNoLane;
+// The cycle lane at the right or the left edge.
+LaneId CycleLane(const std::vector<LaneId>& lanes, bool right, const RoadNetwork& network) {
+  const LaneId edge = right ? lanes.back() : lanes.front();
+  return network.lanes[edge].cycle && (right || lanes.size() > 1) ? edge : kNoLane;
 }
 
 // From the lanes of one road into those of another.
@@ -165,11 +167,15 @@ void ConnectRoads(const Mouth& from, const Mouth& to, size_t junction, const Hei
     if (!Touch(network.lanes[a], network.lanes[b])) Connect(a, b, junction, from.signal, height, network);
   };
   if (std::abs(turn) > kBack) return;
-  // Bicycles: into the cycle lane of the other road, out of that of this one.
-  const LaneId cycle_in = CycleLane(from.in, network), cycle_out = CycleLane(to.out, network);
+  // Bicycles: into the cycle lanes of the other road, out of those of this one, but not across its cars.
   const auto connect_cycles = [&] {
-    if (cycle_out != kNoLane) connect(turn > kTurn ? in.front() : in.back(), cycle_out);
-    if (cycle_in != kNoLane && turn <= kTurn) connect(cycle_in, cycle_out != kNoLane ? cycle_out : out.back());
+    for (const bool right : {true, false}) {
+      const LaneId cycle_in = CycleLane(from.in, right, network), cycle_out = CycleLane(to.out, right, network);
+      const bool across = right ? turn > kTurn : turn < -kTurn;
+      const LaneId edge_in = right ? in.back() : in.front(), edge_out = right ? out.back() : out.front();
+      if (cycle_out != kNoLane) connect(across ? (right ? in.front() : in.back()) : edge_in, cycle_out);
+      if (cycle_in != kNoLane && !across) connect(cycle_in, cycle_out != kNoLane ? cycle_out : edge_out);
+    }
   };
   if (turn > kTurn) return connect(in.front(), out.front()), connect_cycles();
   if (turn < -kTurn) return connect(in.back(), out.back()), connect_cycles();

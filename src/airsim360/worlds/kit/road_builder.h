@@ -19,7 +19,7 @@ struct RoadLane {
   float offset = 1.8f;  ///< metres from the axis to the middle of the lane, to the right of its own driving direction
   float width = 3.2f;
   bool bus = false;
-  bool cycle = false;  ///< for bicycles alone; the outermost one
+  bool cycle = false;  ///< for bicycles alone: the outermost lane, or the innermost beside others
 };
 
 /// A road between two junctions. Traffic keeps right.
@@ -33,7 +33,8 @@ struct RoadSpec {
 };
 
 /// Joins roads at junctions: every lane leads straight on, left from the innermost and right from the outermost lane, back
-/// only where no other road begins. Cycle lanes are entered from all sides; they lead straight on and right.
+/// only where no other road begins. Cycle lanes are entered from all sides; they lead straight on and right, those at the left
+/// kerb straight on and left.
 class RoadBuilder {
  public:
   /// `height`: of the carriageway at a place.

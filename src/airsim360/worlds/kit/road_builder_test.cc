@@ -75,6 +75,36 @@ TEST(RoadBuilder, CycleLanesLeadIntoCycleLanes) {
   EXPECT_EQ(arriving, 8);
 }
 
+// One at the left kerb of a one-way road leads straight on and left, and nobody changes from it to the cars.
+TEST(RoadBuilder, CycleLanesAtTheLeftKerbLeadStraightOnAndLeft) {
+  RoadBuilder builder(kFlat);
+  const std::vector<RoadLane> lanes{{.offset = -4.5f, .width = 1.7f, .cycle = true}, {-1.75f, 3.5f}, {1.75f, 3.5f}};
+  const size_t middle = builder.AddJunction({0, 0}, 12);
+  const auto add = [&](Vec2f d, bool in) {
+    const size_t end = builder.AddJunction(d * 100, 5);
+    const std::vector<Vec2f> axis = in ? std::vector<Vec2f>{d * 95, d * 15} : std::vector<Vec2f>{d * 15, d * 95};
+    builder.AddRoad({.from = in ? end : middle, .to = in ? middle : end, .axis = axis, .forward = lanes, .backward = kOneLane});
+  };
+  add({0, -1}, true);
+  for (const Vec2f d : {Vec2f{0, 1}, Vec2f{-1, 0}, Vec2f{1, 0}}) add(d, false);
+  const RoadNetwork roads = builder.Build();
+  ASSERT_NO_THROW(CheckRoads(roads));
+  std::multiset<int> out, in;
+  for (const Lane& lane : roads.lanes) {
+    if (lane.junction >= 0) continue;
+    EXPECT_FALSE(lane.cycle && (lane.left != kNoLane || lane.right != kNoLane));
+    if (lane.points.front().y > -90) continue;  // from the south
+    for (const LaneId next : lane.next) {
+      const Lane& way = roads.lanes[next];
+      const int turn = static_cast<int>(std::lround(Turn(way) / (M_PI / 2)));
+      if (lane.cycle || way.cycle) (lane.cycle ? out : in).insert(turn);
+      EXPECT_TRUE(way.cycle || !lane.cycle);
+    }
+  }
+  EXPECT_EQ(out, (std::multiset<int>{0, 1}));
+  EXPECT_EQ(in, (std::multiset<int>{-1, 0, 1}));
+}
+
 TEST(RoadBuilder, TrafficKeepsRightOfTheAxis) {
   for (const Lane& lane : Crossing(kTwoLanes).lanes) {
     if (lane.junction >= 0) continue;

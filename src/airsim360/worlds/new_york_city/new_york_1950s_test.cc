@@ -110,6 +110,23 @@ TEST_F(NewYork1950s, HasNoTowersOfGlassNorOfConcrete) {
   EXPECT_GT(2 * stepped, high);
 }
 
+// Terracotta under copper and glazed brick, on towers of the time and on none of today's.
+TEST_F(NewYork1950s, HasOrnateTowersThatTodaysCityDoesNotHave) {
+  const auto count = [](CityStyle time, FacadeStyle style) {
+    const internal::Manhattan city = internal::PlanManhattan(PlanNewYorkCity(), {.style = time});
+    return std::ranges::count_if(city.buildings, [&](const BuildingPlan& plan) { return plan.style == style; });
+  };
+  const std::set<std::string> seen = MaterialsSeen(*old_), today = MaterialsSeen(*present_);
+  for (const FacadeStyle style : {FacadeStyle::kTerracotta, FacadeStyle::kGlazedDeco}) {
+    EXPECT_GE(count(CityStyle::k1950s, style), 8);
+    EXPECT_EQ(count(CityStyle::kPresent, style), 0);
+  }
+  for (const char* material : {"terracotta", "copper verdigris", "glazed brick cream", "glazed brick black", "glazed spandrel turquoise"}) {
+    EXPECT_TRUE(seen.contains(material)) << material;
+    EXPECT_FALSE(today.contains(material)) << material;
+  }
+}
+
 TEST_F(NewYork1950s, HasWhatTheTimeAsksFor) {
   const auto groups = ByCategory(*old_);
   EXPECT_EQ(Shown(*old_, "street_light_1950s"), Shown(*present_, "street_light"));

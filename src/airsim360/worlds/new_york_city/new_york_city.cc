@@ -46,6 +46,14 @@ std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options, std::
   builder.environment() = {.sun_azimuth_deg = 256, .sun_elevation_deg = 66, .turbidity = 2.6, .cloud_cover = 0.3};
   Surfaces surfaces = AddSurfaces(builder, period.shop_signs);
   for (const auto& [surface, by] : period.surfaces) surfaces = surfaces.With(surface, surfaces[by]);
+  for (const Coat& coat : period.coats) {
+    Material material = builder.material(surfaces[coat.of]);
+    material.name = coat.name;
+    material.base_color = material.base_color * coat.color;
+    material.roughness = coat.roughness;
+    material.clear_coat = coat.glaze;
+    surfaces = surfaces.With(coat.surface, builder.AddMaterial(std::move(material)));
+  }
   StreetPlan plan = PlanNewYorkCity();
   plan.paint = period.paint;
   PropShelf shelf(builder, options.models, options.seed);

@@ -37,8 +37,8 @@ struct Rebuilt {
 };
 constexpr Rebuilt kRebuilt1950s[] = {
     {"grid tower", F::kDeco, 1, 2, "sandstone tower"},
-    {"braced corner", F::kBrickLoft, 1, 1, "yellow brick corner"},
-    {"blue tower", F::kDeco, 3, 3, "brick tower"},
+    {"braced corner", F::kTerracotta, 0, 1, "terracotta corner"},
+    {"blue tower", F::kGlazedDeco, 0, 3, "glazed brick tower"},
     {"glass slab", F::kDeco, 0, 3, "limestone tower"},
     {"ribbon low", F::kClassicStone, 1, 1, "theatre"},
     {"similar tower 1", F::kDeco, 3, 3},
@@ -63,6 +63,15 @@ constexpr auto kRoles1950s = [] {
 constexpr std::pair<Surface, Surface> kSurfaces1950s[] = {
     {S::kGlassBlue, S::kGlassDark},   {S::kPaintYellow, S::kPaintWhite},   {S::kTactile, S::kSlabs},
     {S::kPanelWhite, S::kBrickWhite}, {S::kConcreteWarm, S::kBrickYellow}, {S::kFarWalls2, S::kFarWalls0}};
+
+// What the two styles of the time's ornate towers are clad with.
+constexpr Coat kCoats1950s[] = {
+    {S::kStuccoOchre, S::kTrimStone, "terracotta", {0.96f, 0.74f, 0.52f}, 0.45f, 0.25f},
+    {S::kShutterGreen, S::kTrimStone, "copper verdigris", {0.38f, 0.66f, 0.56f}, 0.65f},
+    {S::kStuccoBlue, S::kBrickWhite, "glazed brick cream", {1.0f, 0.93f, 0.78f}, 0.4f, 0.5f},
+    {S::kShutterBlue, S::kTrimStone, "glazed spandrel turquoise", {0.17f, 0.40f, 0.39f}, 0.35f, 0.5f},
+    {S::kStuccoRose, S::kBrickWhite, "glazed brick black", {0.10f, 0.10f, 0.11f}, 0.35f, 0.5f},
+};
 
 constexpr StandIn kProps1950s[] = {
     {"ac_unit", "roof_cowl"},
@@ -100,25 +109,27 @@ constexpr Period kPresent{.world = "new_york_city",
                           .far_walls = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3, S::kFarWalls2, S::kFarPiers0,
                                         S::kFarPiers0, S::kFarPiers1, S::kFarPiers1, S::kFarRibbons0, S::kFarRibbons1, S::kGlassBlue},
                           .surfaces = {},
+                          .coats = {},
                           .props = {},
                           .pavement = {}};
 
-constexpr Period k1950s{
-    .world = "new_york_city_1950s",
-    .roles = kRoles1950s,
-    .corner_towers = {F::kDeco, F::kDeco, F::kClassicStone, F::kDeco, F::kRibbon, F::kClassicStone, F::kDeco, F::kBrickLoft, F::kDeco},
-    .other_towers = {F::kDeco, F::kClassicStone, F::kRibbon, F::kDeco, F::kBrickLoft, F::kClassicStone},
-    .far_walls = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3, S::kFarWalls0, S::kFarPiers0, S::kFarPiers0, S::kFarPiers1,
-                  S::kFarPiers1, S::kFarWalls3, S::kFarWalls1, S::kFarPiers0},
-    .surfaces = kSurfaces1950s,
-    .props = kProps1950s,
-    .pavement = kPavement1950s,
-    .shop_signs = ShopSigns::k1950s,
-    .paint = RoadPaint::kWhiteLines,
-    .escape_wall = 5.6f,
-    .coolers = false,
-    .aerials = true,
-    .subway_stairs = true};
+constexpr Period k1950s{.world = "new_york_city_1950s",
+                        .roles = kRoles1950s,
+                        .corner_towers = {F::kDeco, F::kGlazedDeco, F::kClassicStone, F::kDeco, F::kRibbon, F::kTerracotta, F::kGlazedDeco,
+                                          F::kBrickLoft, F::kTerracotta},
+                        .other_towers = {F::kDeco, F::kTerracotta, F::kRibbon, F::kGlazedDeco, F::kBrickLoft, F::kClassicStone},
+                        .far_walls = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3, S::kFarWalls0, S::kFarPiers0,
+                                      S::kFarPiers0, S::kFarPiers1, S::kFarPiers1, S::kFarWalls3, S::kFarWalls1, S::kFarPiers0},
+                        .surfaces = kSurfaces1950s,
+                        .coats = kCoats1950s,
+                        .props = kProps1950s,
+                        .pavement = kPavement1950s,
+                        .shop_signs = ShopSigns::k1950s,
+                        .paint = RoadPaint::kWhiteLines,
+                        .escape_wall = 5.6f,
+                        .coolers = false,
+                        .aerials = true,
+                        .subway_stairs = true};
 
 }  // namespace
 

@@ -36,6 +36,15 @@ struct PavementRule {
 /// Kind by kind: what is made where the first is asked for.
 using StandIn = std::pair<const char*, const char*>;
 
+/// A surface that is made of another in a colour and finish of its own.
+struct Coat {
+  Surface surface, of;
+  const char* name;
+  Vec3f color;  ///< times that of the other
+  float roughness = 0.8f;
+  float glaze = 0;  ///< clear coat, 0 ... 1
+};
+
 struct Period {
   const char* world;  ///< the scene's name
   std::span<const Role> roles;
@@ -43,6 +52,7 @@ struct Period {
   std::array<FacadeStyle, 6> other_towers;
   std::array<Surface, 12> far_walls;
   std::span<const std::pair<Surface, Surface>> surfaces;  ///< the first is made of what the second is
+  std::span<const Coat> coats;                            ///< after `surfaces`
   std::span<const StandIn> props;
   std::span<const PavementRule> pavement;  ///< beside what stands there at any time
   ShopSigns shop_signs = ShopSigns::kToday;

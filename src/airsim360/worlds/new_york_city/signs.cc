@@ -32,7 +32,12 @@ WallLine StreetWall(const Lot& lot) {
 }
 
 // Gap between the wall plane and the back of a sign, so that ornament stays behind it.
-float Gap(FacadeStyle style) { return style == FacadeStyle::kBracedGlass ? 0.72f : style == FacadeStyle::kDeco ? 0.34f : 0.28f; }
+float Gap(FacadeStyle style) {
+  return style == FacadeStyle::kBracedGlass  ? 0.72f
+         : style == FacadeStyle::kDeco       ? 0.34f
+         : style == FacadeStyle::kGlazedDeco ? 0.36f
+                                             : 0.28f;
+}
 
 // A sign at a height on one wall of the lot with a role.
 struct Sign {

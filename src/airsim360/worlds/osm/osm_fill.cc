@@ -6,19 +6,18 @@
 #include "airsim360/worlds/osm/osm_dresser.h"
 
 namespace airsim360::internal {
-namespace {}  // namespace
-
 // Along the streets: lamps and trees where the map has none at all, cars at the kerb, manholes.
 void Dresser::Fill() {
   const double trees = scene_.dress ? scene_.dress->trees : 1;
   const char* lamp = scene_.dress ? scene_.dress->lamp : "street_light";
   const bool lamps = HasAny("highway", "street_lamp"), bins = HasAny("amenity", "waste_basket"),
-             hydrants = HasAny("emergency", "fire_hydrant");
+             hydrants = HasAny("emergency", "fire_hydrant"), racks = HasAny("amenity", "bicycle_parking");
   for (const RoadSegment& segment : near_.graph->segments) {
     const double length = segment.Length(), s0 = segment.start + 6, s1 = length - segment.end - 6;
     if (segment.rank == 0 || segment.rank > 5 || s1 - s0 < 8 || segment.half < 2.6) continue;
     if (scene_.Far(segment.line[0]) > 900 && scene_.Far(segment.line.back()) > 900) continue;
     RngStream rng(scene_.options.seed, "street " + segment.id);
+    const Carriageway shares = CarriagewayOf(segment);
     for (int side : {1, -1}) {
       const double pavement = segment.pavement[side > 0 ? 0 : 1];
       // Staggered, so that the nearest lamp is 19 to 20 m away, over the street.
@@ -30,7 +29,10 @@ void Dresser::Fill() {
         if (!hydrants) Row(segment, s0 + rng.Uniform(4, 90), s1, 110, side, 0.55, "fire_hydrant", rng);
         Row(segment, s0 + rng.Uniform(4, 70), s1, 70, side, 0.5, "traffic_sign", rng);
       }
-      if (segment.rank >= 2 && segment.rank <= 4 && segment.half > 3.6) Cars(segment, s0 + 3, s1 - 3, side, rng);
+      const bool bikes = shares.bikes[side > 0 ? 0 : 1];
+      if (bikes && !racks && pavement > 2.2) Row(segment, s0 + rng.Uniform(2, 12), s1, 24, side, 1.0, "bicycle", rng);
+      if (segment.rank >= 2 && segment.rank <= 4 && segment.half > 3.6 && !(bikes && shares.parking == 0))
+        Cars(segment, s0 + 3, s1 - 3, side, rng);
     }
     for (double s = s0 + rng.Uniform(0, 30); s < s1; s += rng.Uniform(30, 60)) {
       const LinePoint at = PointAt(segment.line, s);

@@ -17,15 +17,21 @@ constexpr double kMeeting = 4.4;            // metres of carriageway in which tw
 
 int32_t HeadOf(Vec2d along) { return std::abs(along.x) > std::abs(along.y) ? kEastWestHead : kNorthSouthHead; }
 
-// Lanes to the right of the axis (or, on a one-way road, all over it) from left to right.
-std::vector<RoadLane> LanesOf(const Carriageway& way, bool oneway) {
+// Lanes to the right of the middle (or, on a one-way road, all over it) from left to right, along the axis or against it.
+std::vector<RoadLane> LanesOf(const Carriageway& way, bool oneway, bool along) {
   std::vector<RoadLane> lanes;
   const int count = oneway ? way.lanes : std::max(1, way.lanes / 2);
-  const double width = (oneway ? way.width : way.width / 2) / count;
+  const double width = (oneway ? way.width : way.width / 2) / count, middle = along ? -way.shift : way.shift;
+  const RoadLane bikes{.offset = static_cast<float>(way.edge - kCycleLane / 2), .width = static_cast<float>(kCycleLane), .cycle = true};
+  if (oneway && way.bikes[0]) {
+    lanes.push_back(bikes);
+    lanes.back().offset *= -1;
+  }
   for (int i = 0; i < count; ++i) {
-    const double offset = (oneway ? -way.width / 2 - way.shift : 0) + width * (i + 0.5);
+    const double offset = (oneway ? -way.width / 2 + middle : middle) + width * (i + 0.5);
     lanes.push_back({static_cast<float>(offset), static_cast<float>(width)});
   }
+  if (way.bikes[along ? 1 : 0]) lanes.push_back(bikes);
   return lanes;
 }
 
@@ -51,8 +57,8 @@ void AddSegment(const OsmScene& scene, const RoadGraph& graph, const RoadSegment
   builder.AddRoad({.from = segment.from,
                    .to = segment.to,
                    .axis = axis,
-                   .forward = LanesOf(way, segment.oneway),
-                   .backward = segment.oneway ? std::vector<RoadLane>{} : LanesOf(way, false),
+                   .forward = LanesOf(way, segment.oneway, true),
+                   .backward = segment.oneway ? std::vector<RoadLane>{} : LanesOf(way, false, false),
                    .speed = SpeedOf(segment.rank),
                    .priority = static_cast<uint8_t>(kWorstRank - segment.rank),
                    .signal_to = signal1 ? HeadOf(PointAt(segment.line, s1).along) : -1,

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <ostream>
+#include <utility>
+#include <vector>
 
 #include "airsim360/scene/road_network.h"
 #include "airsim360/worlds/osm/test_map.h"
@@ -60,6 +64,99 @@ TEST(OsmLanes, OneWayStreetsHaveNoLaneAgainstThem) {
     const Vec3f d = lane.points.back() - lane.points.front();
     EXPECT_TRUE(d.x > 0 || std::abs(d.y) > std::abs(d.x));
   }
+}
+
+// A street from west to east through the origin, and a way back far to the north.
+std::shared_ptr<const Scene> StreetWith(std::initializer_list<std::pair<const char*, std::string>> more) {
+  TestMap map(120, 100);
+  const int west = map.Node({-100, 0}), east = map.Node({100, 0});
+  const int way = map.WayOf({west, map.Node({0, 0}), east}, {{"highway", "tertiary"}, {"lanes", "2"}});
+  map.WayOf({east, map.Node({100, 80}), map.Node({-100, 80}), west}, {{"highway", "tertiary"}});
+  std::string text = map.Text();
+  const size_t at = text.find("<tag k='highway'", text.find("<way id='" + std::to_string(way) + "'"));
+  for (const auto& [key, value] : more) text.insert(at, std::string("<tag k='") + key + "' v='" + value + "'/>");
+  return BuildOsmWorld("street.osm", AsBytes(text), {.fill = false});
+}
+
+struct CycleCase {
+  const char* name;
+  std::initializer_list<std::pair<const char*, std::string>> tags;
+  double east = 0, west = 0;  // y of the lanes for bicycles to the east and to the west; 0: none
+  double half = 0;            // of the carriageway; bays of 2.1 m on both sides, where it is wider than 8.4 m
+};
+
+// 6.4 m for cars and 2.1 m for bays on each side, as without bicycles; 1.7 m more for each of their lanes.
+const CycleCase kCycleCases[] = {
+    {"none", {}, 0, 0, 5.3},
+    {"lane", {{"cycleway", "lane"}}, -4.05, 4.05, 7},
+    {"track", {{"cycleway", "track"}}, -4.05, 4.05, 7},
+    {"both", {{"cycleway:both", "lane"}}, -4.05, 4.05, 7},
+    {"right", {{"cycleway:right", "lane"}}, -3.2, 0, 6.15},
+    {"left", {{"cycleway:left", "lane"}}, 0, 3.2, 6.15},
+    {"separate", {{"cycleway", "separate"}}, 0, 0, 5.3},
+    {"one_way", {{"oneway", "yes"}, {"cycleway", "lane"}}, -3.2, 0, 6.15},
+    {"one_way_left", {{"oneway", "yes"}, {"cycleway:left", "lane"}}, 3.2, 0, 6.15},
+    {"one_way_against", {{"oneway", "yes"}, {"cycleway:left", "lane"}, {"cycleway:left:oneway", "-1"}}, 0, 0, 5.3},
+    {"narrow", {{"width", "8"}, {"cycleway", "lane"}}, 0, 0, 4},
+    {"instead_of_bays", {{"width", "9"}, {"cycleway", "lane"}}, -3.65, 3.65, 4.5},
+    {"cobbles", {{"surface", "sett"}, {"cycleway:right", "lane"}}, 0, 0, 6.15},
+};
+
+void PrintTo(const CycleCase& c, std::ostream* out) { *out << c.name; }
+
+class CycleLanes : public testing::TestWithParam<CycleCase> {};
+
+INSTANTIATE_TEST_SUITE_P(OsmLanes, CycleLanes, testing::ValuesIn(kCycleCases), [](const auto& info) { return info.param.name; });
+
+TEST_P(CycleLanes, LieWhereTheTagsSayAndLeaveTheRestToTheCars) {
+  const auto scene = StreetWith(GetParam().tags);
+  ASSERT_TRUE(scene->roads);
+  double found[2] = {0, 0}, low = INFINITY, high = -INFINITY;
+  std::vector<std::pair<double, double>> bands;
+  for (const Lane& lane : scene->roads->lanes) {
+    if (lane.junction >= 0 || std::ranges::any_of(lane.points, [](Vec3f p) { return p.y > 20; })) continue;
+    const double y = lane.points.front().y, half = lane.width / 2;
+    const bool east = lane.points.back().x > lane.points.front().x;
+    if (lane.cycle) {
+      EXPECT_EQ(found[east], 0) << "two lanes to one side";
+      found[east] = y;
+      EXPECT_NEAR(half, 0.85, 1e-3);
+    }
+    bands.emplace_back(y - half, y + half);
+    low = std::min(low, y - half);
+    high = std::max(high, y + half);
+  }
+  EXPECT_NEAR(found[true], GetParam().east, 0.01);
+  EXPECT_NEAR(found[false], GetParam().west, 0.01);
+  // The lanes fill the carriageway between the bays without overlap.
+  std::ranges::sort(bands);
+  for (size_t i = 1; i < bands.size(); ++i) EXPECT_NEAR(bands[i].first, bands[i - 1].second, 0.01);
+  const bool bays = GetParam().half > 4.6;
+  EXPECT_NEAR(high - low, 2 * (GetParam().half - (bays ? 2.1 : 0)), 0.02);
+  EXPECT_NEAR(high + low, 0, 0.02);
+  const bool painted = std::ranges::any_of(scene->entities, [](const Entity& entity) { return entity.name.ends_with("/bike_lane"); });
+  EXPECT_EQ(painted, GetParam().east != 0 || GetParam().west != 0);
+}
+
+// Crossings of such streets: bicycles ride straight on from green to green, and cars have ways of their own.
+TEST(OsmLanes, CycleLanesGoOnOverCrossings) {
+  TestMap map(160, 160);
+  const int middle = map.Node({0, 0}, {{"highway", "traffic_signals"}});
+  map.WayOf({map.Node({-150, 0}), middle, map.Node({150, 0})}, {{"highway", "tertiary"}, {"cycleway", "lane"}});
+  map.WayOf({map.Node({0, -150}), middle, map.Node({0, 150})}, {{"highway", "residential"}, {"cycleway:both", "lane"}});
+  const auto scene = map.Build();
+  int arriving = 0;
+  for (const Lane& lane : scene->roads->lanes) {
+    if (lane.junction >= 0 || !lane.cycle || Norm(lane.points.back()) > 60) continue;
+    ++arriving;
+    const Vec3f along = Normalized(lane.points.back() - lane.points.front());
+    EXPECT_TRUE(std::ranges::any_of(lane.next, [&](LaneId way) {
+      const Lane& on = scene->roads->lanes[scene->roads->lanes[way].next[0]];
+      return on.cycle && Dot(Normalized(on.points.back() - on.points.front()), along) > 0.99f;
+    }));
+    for (const LaneId way : lane.next) EXPECT_GE(scene->roads->lanes[way].signal, 0);
+  }
+  EXPECT_EQ(arriving, 4);
 }
 
 TEST(OsmLanes, MapsWithoutStreetsHaveNoRoads) {

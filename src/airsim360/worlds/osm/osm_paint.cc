@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "airsim360/worlds/kit/bicycle_sign.h"
 #include "airsim360/worlds/osm/osm_streets.h"
 
 namespace airsim360::internal {
@@ -15,6 +16,8 @@ class Brush {
  public:
   Brush(OsmScene& scene, MeshBuilder& mesh, const std::vector<Vec2d>& line, double z) : scene_(scene), mesh_(mesh), line_(line), z_(z) {}
   void Use(Surface surface) { mesh_.SetMaterial(scene_.surfaces[surface]); }
+  // How high the paint lies above the asphalt.
+  void Lift(double lift) { lift_ = lift; }
   // A strip between s0 and s1 along the line, d0 and d1 to its left; follows bends and the ground.
   void Strip(double s0, double s1, double d0, double d1) {
     if (s1 - s0 < 0.05) return;
@@ -40,14 +43,25 @@ class Brush {
       r0 = r1;
     }
   }
+  // The sign of a bicycle, for those who ride along the line (`way` +1) or against it.
+  void Sign(double s, double d, double way, double scale) {
+    const LinePoint at = PointAt(line_, s);
+    const Vec2d along = at.along * way, left{-along.y, along.x}, o = at.p + Vec2d{-at.along.y, at.along.x} * d;
+    for (const SignStroke& stroke : BicycleSign()) {
+      const Vec2d a = Vec2d{stroke.from.x, stroke.from.y} * scale, b = Vec2d{stroke.to.x, stroke.to.y} * scale;
+      const Vec2d v = b - a, n = Vec2d{-v.y, v.x} * (kSignStroke / 2.0 / std::hypot(v.x, v.y));
+      const auto place = [&](Vec2d p) { return o + along * p.x + left * p.y; };
+      Quad(place(a - n), place(b - n), place(b + n), place(a + n));
+    }
+  }
   void Quad(Vec2d a, Vec2d b, Vec2d c, Vec2d d) {
     if (!scene_.data.extent.Contains(a, 29) || !scene_.data.extent.Contains(c, 29)) return;
     if (!scene_.relief.flat()) {
-      scene_.Drape(mesh_, a, b, c, z_ + kLift, PlainUv);
-      scene_.Drape(mesh_, a, c, d, z_ + kLift, PlainUv);
+      scene_.Drape(mesh_, a, b, c, z_ + lift_, PlainUv);
+      scene_.Drape(mesh_, a, c, d, z_ + lift_, PlainUv);
       return;
     }
-    const auto at = [&](Vec2d p) { return scene_.On(p, z_ + kLift); };
+    const auto at = [&](Vec2d p) { return scene_.On(p, z_ + lift_); };
     mesh_.QuadUv(at(a), at(b), at(c), at(d), PlainUv(a), PlainUv(b), PlainUv(c), PlainUv(d));
   }
 
@@ -55,7 +69,7 @@ class Brush {
   OsmScene& scene_;
   MeshBuilder& mesh_;
   const std::vector<Vec2d>& line_;
-  double z_;
+  double z_, lift_ = kLift;
 };
 
 void Zebra(Brush& brush, double s, double half, double width) {
@@ -66,18 +80,26 @@ void Zebra(Brush& brush, double s, double half, double width) {
   }
 }
 
-}  // namespace
-
-Carriageway CarriagewayOf(const RoadSegment& segment) {
-  const OsmTags& tags = segment.way->tags;
-  const std::string_view cycle = tags.Get("cycleway");
-  Carriageway way{.bikes = cycle == "lane" || cycle == "track" || tags.Is("cycleway:right", "lane") || tags.Is("cycleway:both", "lane"),
-                  .parking = segment.rank >= 3 && segment.half > 4.2 ? 2.1 : 0};
-  way.width = 2 * (segment.half - way.parking) - (way.bikes ? 1.7 : 0);
-  way.shift = way.bikes && segment.oneway ? 0.85 : 0;
-  way.lanes = std::max(1, std::min(segment.lanes, static_cast<int>(way.width / 2.6)));
-  return way;
+// The ground of the lanes for bicycles, between the bays and the lanes for cars.
+void PaintGreen(Brush& brush, const Carriageway& way, double a, double b) {
+  constexpr double kInside = 0.1;  // of the lane's edges, for the lines
+  brush.Use(Surface::kBikeLane);
+  brush.Lift(kLift / 2);  // below signs and crossings
+  if (way.bikes[1]) brush.Strip(a, b, -way.edge + kInside, -way.edge + kCycleLane - kInside);
+  if (way.bikes[0]) brush.Strip(a, b, way.edge - kCycleLane + kInside, way.edge - kInside);
+  brush.Lift(kLift);
 }
+
+// The line towards the cars and the signs of a lane for bicycles on one side (+1: left).
+void PaintSigns(Brush& brush, const RoadSegment& segment, double side, double edge, double a, double b) {
+  constexpr double kEvery = 24, kFirst = 7, kSize = 0.8;  // metres, and of the sign
+  const double inner = side * (edge - kCycleLane + 0.05), middle = side * (edge - kCycleLane / 2);
+  brush.Strip(a, b, inner - 0.05, inner + 0.05);
+  const double way = side > 0 && !segment.oneway ? -1 : 1;
+  for (double s = a + kFirst; s < b - kFirst; s += kEvery) brush.Sign(way > 0 ? s : s + 2, middle, way, kSize);
+}
+
+}  // namespace
 
 bool HasSignals(const OsmData& data, int64_t id) {
   const OsmNode* node = data.FindNode(id);
@@ -86,51 +108,46 @@ bool HasSignals(const OsmData& data, int64_t id) {
 
 void PaintSegment(OsmScene& scene, MeshBuilder& mesh, const RoadGraph& graph, const RoadSegment& segment, double z) {
   const double length = segment.Length(), s0 = segment.start + 0.3, s1 = length - segment.end - 0.3;
-  const OsmTags& tags = segment.way->tags;
-  const std::string_view surface = tags.Get("surface");
-  const bool paved = surface.empty() || surface == "asphalt" || surface == "paved" || surface == "concrete";
-  if (segment.rank > 4 || s1 - s0 < 6 || segment.half < 2.4 || !paved) return;
+  if (s1 - s0 < 6 || !HasPaint(segment)) return;
   SemanticTree& tree = scene.builder.tree();
   Brush brush(scene, mesh, segment.line, z);
-  const double half = segment.half;
-  // Bike lanes at the right-hand kerb (and the left one of two-way streets).
-  const auto [bikes, parking, usable, shift, lanes] = CarriagewayOf(segment);
-  if (bikes) {
-    mesh.SetEntity(scene.builder.AddEntity(segment.id + "/bike_lane", tree.At("ground/bike_lane")));
-    brush.Use(Surface::kBikeLane);
-    brush.Strip(s0, s1, -half + parking + 0.1, -half + parking + 1.6);
-    if (!segment.oneway) brush.Strip(s0, s1, half - parking - 1.6, half - parking - 0.1);
-  }
-  mesh.SetEntity(scene.builder.AddEntity(segment.id + "/markings", tree.At("ground/lane_marking")));
+  const Carriageway way = CarriagewayOf(segment);
+  const double edge = way.edge, middle = segment.oneway ? 0 : way.shift;
   // Crossings keep 5 m of the ends to themselves where signals stand.
   const double keep = 5.2;
   const bool stop0 = HasSignals(scene.data, graph.nodes[segment.from].id), stop1 = HasSignals(scene.data, graph.nodes[segment.to].id);
   const double a = s0 + (stop0 ? keep : 0), b = s1 - (stop1 ? keep : 0);
+  if ((way.bikes[0] || way.bikes[1]) && b - a >= 4) {
+    mesh.SetEntity(scene.builder.AddEntity(segment.id + "/bike_lane", tree.At("ground/bike_lane")));
+    PaintGreen(brush, way, a, b);
+  }
+  mesh.SetEntity(scene.builder.AddEntity(segment.id + "/markings", tree.At("ground/lane_marking")));
   if (b - a < 4) return;
   const bool divided = !segment.oneway && segment.lanes >= 2;
   if (divided) {
     brush.Use(scene.europe ? Surface::kPaintWhite : Surface::kPaintYellow);
     if (scene.europe || segment.rank >= 4) {
-      for (double s = a; s + 3 < b; s += scene.europe ? 9 : 6) brush.Strip(s, s + 3, -0.06, 0.06);
+      for (double s = a; s + 3 < b; s += scene.europe ? 9 : 6) brush.Strip(s, s + 3, middle - 0.06, middle + 0.06);
     } else {
-      brush.Strip(a, b, 0.08, 0.2);
-      brush.Strip(a, b, -0.2, -0.08);
+      brush.Strip(a, b, middle + 0.08, middle + 0.2);
+      brush.Strip(a, b, middle - 0.2, middle - 0.08);
     }
   }
   // Dashes between lanes of one direction.
   brush.Use(Surface::kPaintWhite);
-  for (int i = 1; i < lanes; ++i) {
-    const double d = -usable / 2 + usable * i / lanes + shift;
-    if (divided && std::abs(d) < 1) continue;
+  for (int i = 1; i < way.lanes; ++i) {
+    const double d = -way.width / 2 + way.width * i / way.lanes + way.shift;
+    if (divided && std::abs(d - middle) < 1) continue;
     for (double s = a + 1; s + 3 < b; s += 9) brush.Strip(s, s + 3, d - 0.06, d + 0.06);
   }
-  if (parking > 0 && segment.rank <= 3) {
-    brush.Strip(a, b, -half + parking - 0.05, -half + parking + 0.05);
-    brush.Strip(a, b, half - parking - 0.05, half - parking + 0.05);
+  for (const double side : {-1.0, 1.0}) {
+    const bool bikes = way.bikes[side > 0 ? 0 : 1];
+    if (way.parking > 0 && (segment.rank <= 3 || bikes)) brush.Strip(a, b, side * edge - 0.05, side * edge + 0.05);
+    if (bikes) PaintSigns(brush, segment, side, edge, a, b);
   }
   // Stop lines before the crossings of signals.
-  if (stop1) brush.Strip(b, b + 0.4, segment.oneway ? -half + parking : -half + parking, segment.oneway ? half - parking : -0.25);
-  if (stop0 && !segment.oneway) brush.Strip(a - 0.4, a, 0.25, half - parking);
+  if (stop1) brush.Strip(b, b + 0.4, -edge, segment.oneway ? edge : middle - 0.25);
+  if (stop0 && !segment.oneway) brush.Strip(a - 0.4, a, middle + 0.25, edge);
 }
 
 void PaintCrossings(OsmScene& scene, MeshBuilder& mesh, const RoadGraph& graph, double z) {

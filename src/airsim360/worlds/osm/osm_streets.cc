@@ -116,9 +116,43 @@ double HalfWidthOf(const OsmTags& tags, int rank, int lanes, bool oneway) {
   if (const auto width = ParseOsmLength(tags.Get("width"), 60)) return std::max(1.2, *width / 2);
   const RoadClass* row = ClassOf(tags.Get("highway"));
   const double lane = row ? row->lane : 3, parking = row ? row->parking : 0;
-  double width = lane * lanes + parking + (tags.Has("cycleway") ? 1.6 : 0);
+  double width = lane * lanes + parking;
   if (rank >= 4 && !oneway && !tags.Has("lanes")) width = std::min(width, 9.0);
-  return std::max(1.5, width / 2);
+  const auto [left, right] = CycleLanesOf(tags, oneway);
+  return std::max(1.5, (width + kCycleLane * (left + right)) / 2);
+}
+
+std::pair<bool, bool> CycleLanesOf(const OsmTags& tags, bool oneway) {
+  const auto has = [&](const char* key) { return tags.Is(key, "lane") || tags.Is(key, "track"); };
+  const bool both = has("cycleway:both"), along = has("cycleway");
+  // Against the cars of a one-way street nobody of ours rides.
+  const bool against = oneway && (tags.Is("cycleway:left:oneway", "-1") || tags.Is("cycleway:left:oneway", "no"));
+  return {!against && (both || has("cycleway:left") || (along && !oneway)), both || along || has("cycleway:right")};
+}
+
+Carriageway CarriagewayOf(const RoadSegment& segment) {
+  constexpr double kLeast = 2.5;  // metres of a lane for cars beside one for bicycles
+  const OsmTags& tags = segment.way->tags;
+  Carriageway way{.parking = segment.rank >= 3 && segment.half > 4.2 ? 2.1 : 0};
+  const auto [left, right] = CycleLanesOf(tags, segment.oneway);
+  const double bikes = kCycleLane * (left + right), cars = 2 * segment.half - bikes, least = kLeast * (segment.oneway ? 1 : 2);
+  if (bikes > 0 && HasPaint(segment) && cars >= least) {
+    // What the map says goes before bays that we guess.
+    if (cars - 2 * way.parking < least) way.parking = 0;
+    way.bikes[0] = left;
+    way.bikes[1] = right;
+    way.shift = kCycleLane * (right - left) / 2;
+  }
+  way.edge = segment.half - way.parking;
+  way.width = 2 * way.edge - kCycleLane * (way.bikes[0] + way.bikes[1]);
+  way.lanes = std::max(1, std::min(segment.lanes, static_cast<int>(way.width / 2.6)));
+  return way;
+}
+
+bool HasPaint(const RoadSegment& segment) {
+  const std::string_view surface = segment.way->tags.Get("surface");
+  const bool paved = surface.empty() || surface == "asphalt" || surface == "paved" || surface == "concrete";
+  return paved && segment.rank <= 4 && segment.half >= 2.4;
 }
 
 RoadGraph PlanRoads(const OsmData& data, const LineIndex& walls) {

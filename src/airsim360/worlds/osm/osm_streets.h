@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "airsim360/worlds/osm/osm_scene.h"
@@ -36,15 +37,19 @@ struct RoadGraph {
 
 /// Carriageways of cars that lie on the ground: no tunnels, no bridges.
 RoadGraph PlanRoads(const OsmData& data, const LineIndex& walls);
-/// How the width of a carriageway is shared out.
+inline constexpr double kCycleLane = 1.7;  ///< metres: a lane for bicycles, its line included
+/// How the width of a carriageway is shared out: bays, lanes for bicycles, lanes for all from the outside to the middle.
 struct Carriageway {
-  bool bikes = false;  ///< a lane for them at the right-hand kerb, and the left one of two-way streets
-  double parking = 0;  ///< width of the bays at each kerb
-  double width = 0;    ///< between them, for all lanes
-  double shift = 0;    ///< of their middle, to the left
-  int lanes = 1;       ///< both directions together
+  bool bikes[2] = {false, false};  ///< whether there is a lane for them on the left and on the right
+  double parking = 0;              ///< width of the bays at each kerb
+  double width = 0;                ///< for all lanes that cars use
+  double shift = 0;                ///< of their middle, to the left
+  int lanes = 1;                   ///< for cars, both directions together
+  double edge = 0;                 ///< from the axis to the bays, or to the kerbs where there are none
 };
 Carriageway CarriagewayOf(const RoadSegment& segment);
+/// Whether lines are painted on a segment of this kind.
+bool HasPaint(const RoadSegment& segment);
 /// Whether traffic signals stand at a node of the map.
 bool HasSignals(const OsmData& data, int64_t node);
 /// Rank of a highway value, -1 for what cars do not use.
@@ -52,6 +57,8 @@ int RoadRank(std::string_view highway);
 /// Half the width of a carriageway by its tags alone.
 double HalfWidthOf(const OsmTags& tags, int rank, int lanes, bool oneway);
 int LanesOf(const OsmTags& tags, int rank, bool oneway);
+/// Whether the tags ask for a lane for bicycles on the left and on the right; those of one-way streets go the way of the cars.
+std::pair<bool, bool> CycleLanesOf(const OsmTags& tags, bool oneway);
 /// The area of a junction; sets how far it reaches into its arms. Empty where fewer than three meet.
 Patch JunctionOf(RoadGraph& graph, size_t node);
 

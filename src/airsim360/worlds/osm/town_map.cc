@@ -79,29 +79,40 @@ class Drawer {
     return way;
   }
 
+  static void Reverse(OsmWay& way) {
+    std::ranges::reverse(way.nodes);
+    std::ranges::reverse(way.line);
+  }
+
+  // Two-way around the town, inside one-way by turns: whoever drives comes round.
   void Streets() {
     for (size_t i = 0; i < avenues_.size(); ++i) {
+      const bool outer = i == 0 || i + 1 == avenues_.size();
       OsmWay way = WayOf(static_cast<int64_t>(10 + i), Tags({{"highway", "secondary"},
                                                              {"name", "Avenue " + std::string(1, static_cast<char>('A' + i))},
                                                              {"width", "13"},
-                                                             {"lanes", "3"},
-                                                             {"oneway", i % 2 ? "yes" : "no"}}));
+                                                             {"lanes", outer ? "4" : "3"},
+                                                             {"oneway", outer ? "no" : "yes"}}));
       if (i == 1) way.tags.Add("cycleway", "lane");
       for (size_t k = 0; k < streets_.size(); ++k) {
         way.nodes.push_back(CrossingId(i, k));
         way.line.push_back({avenues_[i], streets_[k]});
         data_.nodes.push_back({CrossingId(i, k), way.line.back(), Tags({{"highway", "traffic_signals"}})});
       }
+      if (i == 2) Reverse(way);
       data_.ways.push_back(std::move(way));
     }
     for (size_t k = 0; k < streets_.size(); ++k) {
-      OsmWay way =
-          WayOf(static_cast<int64_t>(50 + k),
-                Tags({{"highway", "residential"}, {"name", "Street " + std::to_string(k + 1)}, {"width", "9.6"}, {"oneway", "yes"}}));
+      const bool outer = k == 0 || k + 1 == streets_.size();
+      OsmWay way = WayOf(static_cast<int64_t>(50 + k), Tags({{"highway", "residential"},
+                                                             {"name", "Street " + std::to_string(k + 1)},
+                                                             {"width", "9.6"},
+                                                             {"oneway", outer ? "no" : "yes"}}));
       for (size_t i = 0; i < avenues_.size(); ++i) {
         way.nodes.push_back(CrossingId(i, k));
         way.line.push_back({avenues_[i], streets_[k]});
       }
+      if (k % 2 == 0) Reverse(way);
       data_.ways.push_back(std::move(way));
     }
   }

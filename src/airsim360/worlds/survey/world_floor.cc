@@ -137,8 +137,7 @@ std::vector<FloorRow> StructuralFloor(std::string_view world, const WorldSurvey&
   return {{"ground, m2", floor.area, s.ground_area_m2},
           {"buildings inside", floor.inside, static_cast<double>(s.buildings_inside)},
           {"buildings of the backdrop to 600 m", floor.backdrop, static_cast<double>(s.buildings_backdrop)},
-          // Four of New York's ten are of glass, concrete and stucco, and came later or never.
-          {"facade styles", old ? 6 : floor.styles, styles},
+          {"facade styles", floor.styles, styles},
           {"lamp posts", floor.lamps, static_cast<double>(s.lamp_posts)},
           {"parked and driving cars", floor.cars, static_cast<double>(s.cars)},
           {"manholes", floor.manholes, static_cast<double>(s.manholes)},

@@ -88,7 +88,7 @@ TEST(Streets, MarkingsLieAFewMillimetresAboveTheAsphalt) {
           lift = p.z - CarriagewayHeight(s.line, across);
         }
         EXPECT_GE(lift, 0.004f);
-        EXPECT_LE(lift, 0.010f);
+        EXPECT_LE(lift, 0.0125f);  // signs lie on a coat of green
       }
     }
   }

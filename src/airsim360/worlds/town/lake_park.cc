@@ -24,7 +24,7 @@ Vec2f Walk(Vec2f c, float a, float offset) {
   return p + v * (offset / l);
 }
 
-void Ring(Ground& g, Vec2f c, float s0, float s1, float z0, float z1) {
+void LayRing(Ground& g, Vec2f c, float s0, float s1, float z0, float z1) {
   for (int i = 0; i < kShoreSteps; ++i) {
     const float a0 = kTauF * static_cast<float>(i) / kShoreSteps, a1 = kTauF * static_cast<float>(i + 1) / kShoreSteps;
     const Vec2f p = Shore(c, a0, s0), q = Shore(c, a0, s1), r = Shore(c, a1, s1), t = Shore(c, a1, s0);
@@ -39,11 +39,11 @@ void LayLakeOfPark(District& d, Vec2f c) {
   for (int i = 0; i < kShoreSteps; ++i) shore.push_back(Shore(c, kTauF * static_cast<float>(i) / kShoreSteps, 1.0f));
   g.Polygon(shore, kLakeZ);
   g.Begin("shore", "ground/dirt", Surface::kSoil);
-  Ring(g, c, 0.99f, 1.035f, kLakeZ - 0.06f, -0.22f);
+  LayRing(g, c, 0.99f, 1.035f, kLakeZ - 0.06f, -0.22f);
   const EntityId bank = g.Begin("lake bank", "ground/grass", Surface::kLawn);
-  Ring(g, c, 1.035f, kBank, -0.22f, kLawnZ);
+  LayRing(g, c, 1.035f, kBank, -0.22f, kLawnZ);
   std::vector<Vec2f> in, out;
-  Ring(g, c, kBank, kWalkIn - 0.005f, kLawnZ, kLawnZ);
+  LayRing(g, c, kBank, kWalkIn - 0.005f, kLawnZ, kLawnZ);
   RngStream rng(d.seed, "lake bank");
   for (int i = 0; i < 900; ++i) {
     const float a = static_cast<float>(rng.Uniform(0, kTauF)), s = static_cast<float>(rng.Uniform(1.045, kWalkIn - 0.01));

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "airsim360/image/draw.h"
+#include "airsim360/worlds/kit/bicycle_sign.h"
 
 namespace airsim360::internal {
 namespace {
@@ -40,27 +41,26 @@ void LayDashes(Ground& ground, const StreetStretch& street, float s0, float s1, 
   for (float s = s0 + 1.5f; s + 3 < s1; s += 9) StreetRect(ground, street, s, s + 3, d - 0.06f, d + 0.06f, kPaintLift);
 }
 
-// Bicycle: two wheels and a frame, for riders towards growing s.
-void LayBicycle(Ground& ground, const StreetStretch& street, float s, float d) {
-  const auto stroke = [&](float s0, float d0, float s1, float d1) {
-    const float l = std::hypot(s1 - s0, d1 - d0), ns = -(d1 - d0) / l * 0.04f, nd = (s1 - s0) / l * 0.04f;
-    ground.Quad(street.At(s + s0 - ns, d + d0 - nd, 2 * kPaintLift), street.At(s + s1 - ns, d + d1 - nd, 2 * kPaintLift),
-                street.At(s + s1 + ns, d + d1 + nd, 2 * kPaintLift), street.At(s + s0 + ns, d + d0 + nd, 2 * kPaintLift));
-  };
-  for (float hub : {-0.45f, 0.45f}) {
-    for (int i = 0; i < 12; ++i) {
-      const float a0 = 0.5236f * static_cast<float>(i), a1 = a0 + 0.5236f;
-      stroke(0.5f + 0.55f * std::cos(a0), hub + 0.28f * std::sin(a0), 0.5f + 0.55f * std::cos(a1), hub + 0.28f * std::sin(a1));
-    }
+// The sign of a bicycle in a lane at `d`, for those who ride towards growing s (`way` +1) or against it.
+void LayBicycle(Ground& ground, const StreetStretch& street, float s, float d, float way, float scale) {
+  for (const SignStroke& line : BicycleSign()) {
+    const Vec2f a = line.from * scale, b = line.to * scale;
+    const float l = std::hypot(b.x - a.x, b.y - a.y), ns = -(b.y - a.y) / l * (kSignStroke / 2), nd = (b.x - a.x) / l * (kSignStroke / 2);
+    const auto at = [&](Vec2f p, float side) {
+      return street.At(s + way * p.x + side * way * ns, d + way * p.y + side * way * nd, 2 * kPaintLift);
+    };
+    ground.Quad(at(a, -1), at(b, -1), at(b, 1), at(a, 1));
   }
-  stroke(0.5f, -0.45f, 1.3f, -0.12f);
-  stroke(1.3f, -0.12f, 1.35f, 0.33f);
-  stroke(1.35f, 0.33f, 0.5f, 0.45f);
-  stroke(0.5f, 0.0f, 1.3f, -0.12f);
-  stroke(0.5f, 0.0f, 1.35f, 0.33f);
-  stroke(0.5f, -0.45f, 0.5f, 0.0f);
-  stroke(1.35f, 0.33f, 1.7f, 0.36f);
-  stroke(1.7f, 0.2f, 1.7f, 0.5f);
+}
+
+// The lane of bicycles on both sides of a two-way street: a line towards the cars, and signs. The bays have a line of their own.
+void LayBikeLaneMarkings(Ground& ground, const StreetStretch& street, float s0, float s1, float parking) {
+  constexpr float kNarrow = 0.8f;  // of the sign, so that it keeps off the lines
+  for (float side : {-1.0f, 1.0f}) {
+    const float d = side * (parking - 1.66f);
+    StreetRect(ground, street, s0, s1, d - 0.06f, d + 0.06f, kPaintLift);
+    for (float s = s0 + 7; s < s1 - 7; s += 24) LayBicycle(ground, street, side < 0 ? s : s + 2, side * (parking - 0.86f), -side, kNarrow);
+  }
 }
 
 void LayParkingBays(Ground& ground, const StreetStretch& street, float side) {
@@ -107,7 +107,7 @@ void LayAvenueMarkings(Ground& ground, const StreetStretch& street, const std::s
   if (!boulevard) return;
   for (float d : {-8.65f, -10.55f, 9.4f}) StreetRect(ground, street, s0, s1, d - 0.06f, d + 0.06f, 2 * kPaintLift);
   for (float s = s0 + 6; s < s1 - 8; s += 22) {
-    LayBicycle(ground, street, s, -9.6f);
+    LayBicycle(ground, street, s, -9.6f, 1, 1);
     LayWord(ground, street, "BUS", s + 4, 11.1f, -1, 2.6f);
     LayWord(ground, street, "ONLY", s, 11.1f, -1, 2.6f);
   }
@@ -139,6 +139,7 @@ void LayMarkings(Ground& ground, const StreetStretch& street, const std::string&
   ground.Use(Surface::kPaintWhite);
   StreetRect(ground, street, s0 - 0.6f, s0 - 0.15f, 0.3f, parking, kPaintLift);
   StreetRect(ground, street, s1 + 0.15f, s1 + 0.6f, -parking, -0.3f, kPaintLift);
+  if (bike_lane) LayBikeLaneMarkings(ground, street, s0, s1, parking);
   for (float side : {-1.0f, 1.0f}) LayParkingBays(ground, street, side);
 }
 

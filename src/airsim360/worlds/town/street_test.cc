@@ -158,6 +158,35 @@ TEST_P(EveryStreet, GreenAndRedLanesAreWhereTheirKindHasThem) {
   EXPECT_NEAR(AreaOf(mesh, {TestMaterial(Surface::kBusLane)}), red * length, 0.01 * length);
 }
 
+// A lane for bicycles ends at a line towards the cars, has signs in it, and no other paint.
+TEST_P(EveryStreet, GreenLanesHaveLinesAndSignsOfBicycles) {
+  if (!GetParam().bike_lane) return;
+  const Mesh mesh = Markings();
+  const StreetStretch street = stretch();
+  const MaterialId white = TestMaterial(Surface::kPaintWhite);
+  const float parking = street.line.half_width - 2.35f, outer = parking - 0.12f, inner = parking - 1.6f;
+  for (float side : {-1.0f, 1.0f}) {
+    for (float d : {parking, inner - 0.06f}) {
+      float longest = 0;
+      for (const auto& [from, to] : Runs(mesh, street, side * d, white)) longest = std::max(longest, to - from);
+      EXPECT_GT(longest, 108) << side * d;
+    }
+    int signs = 0;
+    float last = -INFINITY;
+    std::vector<std::pair<float, float>> marks;
+    for (float d = inner + 0.05f; d < outer; d += 0.05f)
+      for (const auto& run : Runs(mesh, street, side * d, white))
+        if (run.first > 25.6f && run.second < 134.4f) marks.push_back(run);
+    std::ranges::sort(marks);
+    for (const auto& [from, to] : marks) {
+      EXPECT_LT(to - from, 1.5f);
+      signs += from - last > 5;
+      last = to;
+    }
+    EXPECT_EQ(signs, 4) << side;
+  }
+}
+
 TEST_P(EveryStreet, CarriagewayIsHighestInTheMiddleAndEvenOnBothSides) {
   const StreetLine line = stretch().line;
   const float hw = line.half_width;

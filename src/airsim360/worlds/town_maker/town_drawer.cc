@@ -88,8 +88,8 @@ std::pair<double, double> TownDrawer::WidthsOf(int rank) const {
   const double between = spec_.street * (rank == 0 ? 1.35 : rank == 2 ? 0.6 : 1);
   if (rank == 2) return {between / 2, 0};
   if (spec_.paving == TownPaving::kDirt) return {std::clamp(between * 0.2, 1.6, 3.0), 0};
-  const double pavement = std::clamp(0.18 * between, 0.9, 4.5);
-  return {std::max({1.6, between / 2 - pavement, between > 9.4 ? 3.7 : 0.0}), pavement};
+  const double pavement = std::clamp(0.18 * between, 0.9, 4.5), lanes = rank == 0 && spec_.cycle_lanes ? 4.3 : between > 9.4 ? 3.7 : 0.0;
+  return {std::max({1.6, between / 2 - pavement, lanes}), pavement};
 }
 
 void TownDrawer::LayStreets() {
@@ -147,7 +147,11 @@ void TownDrawer::AddStreet(const std::vector<Vec2d>& line, int rank, std::vector
   static constexpr const char* kSurfaces[] = {"asphalt", "sett", "sett", "compacted"};
   tags.emplace_back("surface", kSurfaces[static_cast<int>(spec_.paving)]);
   if (pavement == 0) tags.emplace_back("sidewalk", "no");
-  if (spec_.cycle_lanes && rank == 0) tags.emplace_back("cycleway", "lane");
+  if (spec_.cycle_lanes && rank == 0) {
+    constexpr double kFourLanes = 10;  // metres from the middle to the kerb: four lanes, two for bicycles, bays
+    tags.emplace_back("cycleway", "lane");
+    if (half > kFourLanes) tags.emplace_back("lanes", "4");
+  }
   if (bridge) tags.emplace_back("bridge", "yes");
   OsmWay way;
   way.id = next_way_++;
