@@ -163,7 +163,8 @@ Vec3f Worn(Vec3f color) {
 // How much darker a person's skin is than the pack's picture of it, by channel. Melanin absorbs the more the shorter the wave:
 // about as its length to the power of -3.3 (Jacques 2013); the exponent of blue is lowered, for it saturates in dark skin.
 Vec3f SkinShade(double melanin) {
-  return {static_cast<float>(std::exp(-0.7 * melanin)), static_cast<float>(std::exp(-melanin)), static_cast<float>(std::exp(-1.3 * melanin))};
+  return {static_cast<float>(std::exp(-0.7 * melanin)), static_cast<float>(std::exp(-melanin)),
+          static_cast<float>(std::exp(-1.3 * melanin))};
 }
 
 // Half of the people are about as fair as the picture, the others darker up to a lightness (CIELAB) of 14 less.
@@ -192,7 +193,8 @@ std::shared_ptr<const Body> MakePackBody(const BodyPack& pack, const BodySpec& s
   internal::Wardrobe wear = internal::DrawWardrobe(spec);
   const double melanin = DrawMelanin(spec);
   // Fair hair goes with fair skin; what is darker than brown, or grey, stays.
-  if (melanin > 0.3 && wear.hair_color.x > 1.3f * wear.hair_color.z) wear.hair_color = wear.hair_color * std::min(1.0f, 0.04f / wear.hair_color.x);
+  if (melanin > 0.3 && wear.hair_color.x > 1.3f * wear.hair_color.z)
+    wear.hair_color = wear.hair_color * std::min(1.0f, 0.04f / wear.hair_color.x);
   std::map<TextureId, TextureId> own;
   for (size_t k = 0; k < c.materials.size(); ++k) {
     Material m = c.materials[k];

@@ -2,6 +2,7 @@
 #include "airsim360/people/body/figure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -23,6 +24,40 @@ std::vector<LoftRing> Thinned(std::vector<LoftRing> rings, int level) {
   kept.push_back(rings.back());
   return kept;
 }
+
+namespace {
+
+// A stroller before the person: its handle is where the hands are.
+void AddStroller(double H, uint32_t dark, uint32_t metal, uint32_t color, LoftMesh& mesh) {
+  mesh.BeginProp(Prop::kStroller, kRootInfluence);
+  const double k = std::clamp(H / 1.7, 0.8, 1.1), handle = 1.0 * k;
+  mesh.Bar({0.46, 0.24, handle}, {0.46, -0.24, handle}, 0.018, 0.018, 8, dark);
+  for (const double y : {0.24, -0.24}) {
+    mesh.Bar({0.46, y, handle}, {1.10, y, 0.16}, 0.012, 0.012, 6, metal);
+    mesh.Bar({0.62, y, 0.13}, {0.88, y, 0.48}, 0.012, 0.012, 6, metal);
+    for (const auto& [x, radius] : {std::pair{0.62, 0.13}, {1.12, 0.09}}) {
+      mesh.Bar({x, y - 0.022, radius}, {x, y + 0.022, radius}, radius, radius, 18, dark);
+      mesh.Bar({x, y - 0.027, radius}, {x, y + 0.027, radius}, 0.6 * radius, 0.6 * radius, 10, metal);
+    }
+  }
+  mesh.Box({0.86, 0, 0.24}, {0.20, 0.18, 0.05}, RotationY(0.0), dark);
+  // The seat, from the foot rest over the knees to the back; then the hood above it, open to the front.
+  std::vector<LoftRing> seat, hood;
+  for (const auto& [x, z] : {std::pair{1.13, 0.30}, {1.07, 0.44}, {0.97, 0.49}, {0.80, 0.48}, {0.70, 0.60}, {0.63, 0.78}, {0.60, 0.88}})
+    seat.push_back({{x, 0, z}, 0.19, 0.05, 0.05, 3.5, {}, -1});
+  mesh.Loft(seat,
+            {.material = color, .segments = 12, .steps = 1, .u = {0, 1, 0}, .v = {std::sqrt(0.5), 0, std::sqrt(0.5)}, .cap_first = true});
+  for (const auto& [x, half, up, down] : {std::array{0.49, 0.06, 0.05, 0.06},
+                                          {0.52, 0.15, 0.13, 0.14},
+                                          {0.59, 0.20, 0.19, 0.20},
+                                          {0.70, 0.215, 0.22, 0.12},
+                                          {0.82, 0.21, 0.22, 0.05},
+                                          {0.88, 0.205, 0.20, 0.02}})
+    hood.push_back({{x, 0, 0.84}, half, up, down, 2.3, {}, -1});
+  mesh.Loft(hood, {.material = color, .segments = 16, .steps = 1, .u = {0, 1, 0}, .v = {0, 0, 1}, .cap_first = true, .cap_last = false});
+}
+
+}  // namespace
 
 void AddProps(const std::array<Vec3d, kJointCount>& q, double H, uint32_t first_material, LoftMesh& mesh) {
   const uint32_t dark = first_material, metal = first_material + 1, color = first_material + 2;
@@ -49,21 +84,7 @@ void AddProps(const std::array<Vec3d, kJointCount>& q, double H, uint32_t first_
     canopy.push_back({grip + x * t, r, r, r, 2, {}, -1});
   mesh.Loft(canopy, {.material = color, .segments = 16, .steps = 1, .u = d, .v = palm, .cap_first = true});
 
-  // A stroller before the person: its handle is where the hands are.
-  mesh.BeginProp(Prop::kStroller, kRootInfluence);
-  const double k = std::clamp(H / 1.7, 0.8, 1.1), handle = 1.0 * k;
-  mesh.Bar({0.46, 0.24, handle}, {0.46, -0.24, handle}, 0.016, 0.016, 8, dark);
-  for (const double y : {0.24, -0.24}) {
-    mesh.Bar({0.46, y, handle}, {1.10, y, 0.18}, 0.012, 0.012, 6, metal);
-    mesh.Bar({0.62, y, 0.10}, {0.88, y, 0.48}, 0.012, 0.012, 6, metal);
-    for (const double wheel : {0.62, 1.12}) mesh.Bar({wheel, y - 0.02, 0.10}, {wheel, y + 0.02, 0.10}, 0.10, 0.10, 14, dark);
-  }
-  mesh.Box({0.90, 0, 0.47}, {0.30, 0.20, 0.05}, RotationY(-0.15), color);
-  mesh.Box({0.68, 0, 0.64}, {0.03, 0.20, 0.20}, RotationY(-0.35), color);
-  std::vector<LoftRing> hood;
-  for (const auto& [a, r] : {std::pair{0.0, 0.02}, {0.35, 0.20}, {0.8, 0.28}, {1.3, 0.30}})
-    hood.push_back({{0.62 + 0.26 * std::sin(a), 0, 0.86}, 0.21 * r / 0.3, 0.18 * r / 0.3, 0.16 * r / 0.3, 2, {}, -1});
-  mesh.Loft(hood, {.material = color, .segments = 14, .steps = 1, .u = {0, 1, 0}, .v = {0, 0, 1}, .cap_first = true, .cap_last = false});
+  AddStroller(H, dark, metal, color, mesh);
 }
 
 }  // namespace internal

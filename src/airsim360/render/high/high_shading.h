@@ -24,7 +24,7 @@ struct TileSampling {
   const TileLayout* layout;
   uint32_t seed;       ///< of all random choices in 4 x 4 tiles
   uint32_t tile;       ///< which of these, 0 … 15 in Morton order: together they are stratified, too
-  float ambient_rays;  ///< of a pixel, on average; 1 or more
+  float ambient_rays;  ///< of a pixel in one round, on average; 1 or more
   float cone_angle;    ///< of a pixel, radians
   bool panorama = false;
   Vec3f pole = {};  ///< of a panorama: the axis, in W, about which its columns turn
