@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/image/color.h"
 #include "airsim360/math/angles.h"
 #include "layers.h"
 #include "levels.h"
@@ -281,6 +282,23 @@ Image<Rgba8> Striped(uint8_t a, uint8_t b) {
     for (int x = 0; x < 64; ++x) image(x, y) = {x % 8 < 4 ? a : b, x % 8 < 4 ? a : b, x % 8 < 4 ? a : b, 255};
   }
   return image;
+}
+
+TEST(Pictures, SkinComesToTheAlbedoAskedForAndKeepsItsShades) {
+  // Skin in the left half, in two shades; a ground that nothing shows in the right half.
+  Image<Rgba8> image(16, 8, Rgba8{0, 255, 0, 255});
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x) image(x, y) = y < 3 ? Rgba8{160, 80, 60, 255} : Rgba8{120, 60, 45, 255};
+  const std::vector<std::array<Vec2f, 3>> uvs{{{{0, 0}, {0.5f, 0}, {0.5f, 1}}}, {{{0, 0}, {0.5f, 1}, {0, 1}}}};
+  const Vec3f albedo{0.25f, 0.13f, 0.08f};
+  const double before = SrgbToLinear(160) / SrgbToLinear(120);
+  MakeSkin(albedo, uvs, image);
+  const Rgba8 common = image(4, 6), bright = image(4, 1);
+  EXPECT_EQ(common.r, LinearToSrgb8(albedo.x));
+  EXPECT_EQ(common.g, LinearToSrgb8(albedo.y));
+  EXPECT_EQ(common.b, LinearToSrgb8(albedo.z));
+  EXPECT_NEAR(SrgbToLinear(bright.r) / SrgbToLinear(common.r), before, 0.02);
+  EXPECT_EQ(common.a, 255);
 }
 
 TEST(Picture, HairThatIsPaintedDarkWithLightsIsEvenEnoughToBeTinted) {

@@ -15,7 +15,8 @@ Tier ParseTier(std::string_view name) { return ParseChoice<Tier>("tier", name, k
 
 void RenderSettings::Visit(ConfigVisitor& v) {
   v.Field("tier", "labels, fast, high or reference", tier, kTierNames);
-  v.Count("samples", "high: ambient rays of a pixel at the equator, more where light is noisy (4); reference: paths of a pixel (64)", samples, kMaxPaths);
+  v.Count("samples", "high: ambient rays of a pixel at the equator, more where light is noisy (4); reference: paths of a pixel (64)",
+          samples, kMaxPaths);
   v.Field("denoise", "noise filter of tier high", denoise);
   v.Count("edge_samples",
           "fast, high: colour samples of a pixel on an edge; 1: the middle of every pixel alone, the fastest "

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "airsim360/base/error.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/people/body/figure.h"
@@ -55,6 +57,23 @@ TEST(BodyPack, GivesBodiesOfTheSexAndStatureAskedFor) {
   EXPECT_EQ(body->textures.size(), 1u);
   // Everybody in the same picture shares it.
   EXPECT_EQ(MakePackBody(pack, {.sex = Sex::kFemale, .stature = 1.7})->textures[0], body->textures[0]);
+}
+
+TEST(BodyPack, SkinsDifferByOneAmountOfMelanin) {
+  BodyPack pack = Snowmen();
+  for (PackCharacter& c : pack.characters) c.cloths = {Cloth::kSkin}, c.materials[0].base_color = {1, 1, 1};
+  double fair = 0;
+  constexpr uint64_t kPeople = 400;
+  for (uint64_t look = 0; look < kPeople; ++look) {
+    const Vec3f skin = MakePackBody(pack, {.look = look}, internal::kBodyLevels - 1)->materials[0].base_color;
+    // One amount of melanin for all three channels.
+    EXPECT_NEAR(std::log(skin.x) / std::log(skin.y), 0.7, 1e-3);
+    EXPECT_NEAR(std::log(skin.z) / std::log(skin.y), 1.3, 1e-3);
+    EXPECT_GE(skin.y, std::exp(-0.65f));
+    EXPECT_LE(skin.y, 1);
+    fair += skin.y > std::exp(-0.15f);
+  }
+  EXPECT_NEAR(fair / kPeople, 0.5, 0.1);
 }
 
 TEST(BodyPack, RefusesWhatWouldReachOutOfItsLists) {
