@@ -150,9 +150,8 @@ struct SeatFinder::Index {
       for (size_t k = 0; k < mesh.parts.size(); ++k) {
         const Box3f& own = of_mesh[instance.mesh][k];
         if (own.empty()) continue;
-        const EntityId entity = mesh.parts[k].entity != kNoEntity ? mesh.parts[k].entity : instance.entity;
-        const std::string_view path =
-            entity == kNoEntity ? std::string_view() : std::string_view(scene.tree[scene.entity(entity).category].path);
+        const EntityId entity = EntityOf(instance, mesh.parts[k]);
+        const std::string_view path = PathOf(entity);
         if (path.starts_with("vegetation")) continue;  // people sit below leaves, and push twigs aside
         Box3f box;
         for (int c = 0; c < 8; ++c)
@@ -161,6 +160,15 @@ struct SeatFinder::Index {
         if (IsSeat(path)) parts[entity].emplace_back(i, k);
       }
     }
+  }
+
+  static EntityId EntityOf(const Instance& instance, const MeshPart& part) {
+    return part.entity != kNoEntity ? part.entity : instance.entity;
+  }
+
+  /// Category of an entity; empty where there is none.
+  std::string_view PathOf(EntityId entity) const {
+    return entity == kNoEntity ? std::string_view() : std::string_view(scene.tree[scene.entity(entity).category].path);
   }
 
   static std::vector<Box3f> BoxesOf(const Mesh& mesh) {
@@ -195,10 +203,9 @@ struct SeatFinder::Index {
       const Instance& instance = scene.instances[candidate.instance];
       const Mesh& mesh = scene.meshes[instance.mesh];
       const MeshPart& part = mesh.parts[candidate.part];
-      const EntityId entity = part.entity != kNoEntity ? part.entity : instance.entity;
+      const EntityId entity = EntityOf(instance, part);
       if (entity == self) continue;
-      const std::string_view path =
-          entity == kNoEntity ? std::string_view() : std::string_view(scene.tree[scene.entity(entity).category].path);
+      const std::string_view path = PathOf(entity);
       for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
         Box3f box;
         for (int k = 0; k < 3; ++k) box.Add(instance.X_WM * mesh.positions[mesh.triangles[t][k]]);

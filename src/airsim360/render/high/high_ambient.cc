@@ -214,8 +214,7 @@ int RoundsFor(const TileSampling& sampling, const int16_t* of_slot, const Surfac
     sum += light, squares += light * light;
     ++phases;
   }
-  if (phases < 4 || sum <= 0 || around <= 0) return 1;
-  return static_cast<int>(rounds_of(sum, squares, static_cast<float>(phases), around / (around + sun), sampling.ambient_rays));
+  return static_cast<int>(rounds_of(sum, squares, static_cast<float>(phases), around, sun, sampling.ambient_rays));
 }
 
 // By night probes, which know all windows around, count as some rays more.

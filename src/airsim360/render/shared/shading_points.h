@@ -44,11 +44,12 @@ SHARED float unit_of(word x) { return float(x >> 8) * (1.0f / 16777216.0f); }
 SHARED word first_ray(word place, float wanted, word seed) { return (word(wanted * 4096.0f) * place + (hash_bits(seed) >> 20)) >> 12; }
 
 // How many rounds of rays a tile of pixels takes, after the light of the first: `sum` and `squares` are those of the luminances
-// of its `phases` phases, each the mean over pixels that look into the same directions; `seen` (0 ... 1) is the share of what is
-// seen that is such light; `wanted` is as in first_ray. The noise of the tile comes to a tenth of its light at the most, as far as
-// six rounds reach and a byte can count their rays.
-SHARED word rounds_of(float sum, float squares, float phases, float seen, float wanted) {
-  const float mean = sum / phases;
+// of its `phases` phases, each the mean over pixels that look into the same directions; `around` and `sun` are what is seen of
+// such light and of sunlight, which hides noise; `wanted` is as in first_ray. The noise of the tile comes to a tenth of what is
+// seen at the most, as far as six rounds reach and a byte can count their rays. Tiles of less than four phases are not judged.
+SHARED word rounds_of(float sum, float squares, float phases, float around, float sun, float wanted) {
+  if (phases < 4.0f || !(sum > 0.0f) || !(around > 0.0f)) return 1u;
+  const float mean = sum / phases, seen = around / (around + sun);
   const float noise = (squares / phases - mean * mean) / (phases * mean * mean) * seen * seen;
   word rounds = 1u;
   while (rounds < 6u && noise > 0.01f * float(rounds) && float(rounds + 1u) * (wanted + 1.0f) < 255.0f) rounds += 1u;
