@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "airsim360/people/body/skinning.h"
+#include "airsim360/people/body/test_bodies.h"
 #include "airsim360/people/motion/pose.h"
 #include "airsim360/trace/ray_tracer.h"
 #include "clock.h"
@@ -33,7 +34,7 @@ int main(int argc, char** argv) {
   // Twelve bodies, as many people as asked for; every 3 s each does something else.
   double start = CpuNow();
   std::vector<std::shared_ptr<const Body>> bodies;
-  for (uint64_t i = 0; i < 12; ++i) bodies.push_back(MakeBody(DrawBodySpec(3, i)));
+  for (uint64_t i = 0; i < 12; ++i) bodies.push_back(MakeBody(internal::DrawBodySpec(3, i)));
   std::printf("bodies: %.1f ms each (%s)\n", (CpuNow() - start) / 12 * 1e3, bodies[0]->character.c_str());
   std::vector<Person> people(count);
   for (size_t i = 0; i < count; ++i) people[i].motion = StartMotion(*bodies[i % 12], people[i].state, i, 0);

@@ -14,6 +14,7 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
+#include "airsim360/people/body/test_bodies.h"
 #include "airsim360/render/renderer.h"
 #include "airsim360/sim/people/labels.h"
 #include "airsim360/worlds/worlds.h"
@@ -134,7 +135,7 @@ int main(int argc, char** argv) {
     if (!below) continue;
     p.z -= below->distance;
     const size_t i = people.cast.size();
-    people.cast.push_back({"person/" + std::to_string(i), MakeBody(DrawBodySpec(5, i)), o.level});
+    people.cast.push_back({"person/" + std::to_string(i), MakeBody(internal::DrawBodySpec(5, i)), o.level});
     PersonState state;
     state.p_WP = p;
     state.yaw = rng.Uniform(0, 6.28);

@@ -10,6 +10,7 @@
 #include "airsim360/base/file.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/people/body/skinning.h"
+#include "airsim360/people/body/test_bodies.h"
 #include "airsim360/people/motion/pose.h"
 #include "airsim360/render/renderer.h"
 
@@ -82,7 +83,7 @@ int main(int argc, char** argv) {
   const Options o = Parse(argc, argv);
   std::vector<PersonInScene> people;
   for (int i = 0; i < o.count; ++i) {
-    const BodySpec spec = DrawBodySpec(static_cast<uint64_t>(o.seed), static_cast<uint64_t>(i + o.first), 0.15);
+    const BodySpec spec = internal::DrawBodySpec(static_cast<uint64_t>(o.seed), static_cast<uint64_t>(i + o.first), 0.15);
     people.push_back({"person/" + std::to_string(i), MakeBody(spec), o.level});
     const Body& b = *people.back().body;
     const Mesh& mesh = b.levels[static_cast<size_t>(o.level)].mesh;

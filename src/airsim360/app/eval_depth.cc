@@ -12,6 +12,7 @@
 #include "airsim360/app/eval_views.h"
 #include "airsim360/base/error.h"
 #include "airsim360/eval/depth/depth_metrics.h"
+#include "airsim360/eval/files/file_pairs.h"
 #include "airsim360/eval/files/picture_files.h"
 #include "airsim360/eval/mistakes/likely_cause.h"
 

@@ -6,6 +6,7 @@
 #include "airsim360/app/eval_commands.h"
 #include "airsim360/app/eval_views.h"
 #include "airsim360/base/error.h"
+#include "airsim360/eval/files/file_pairs.h"
 #include "airsim360/eval/files/picture_files.h"
 #include "airsim360/eval/flow/flow_metrics.h"
 

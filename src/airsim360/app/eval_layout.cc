@@ -8,9 +8,9 @@
 #include "airsim360/app/eval_commands.h"
 #include "airsim360/app/eval_views.h"
 #include "airsim360/base/error.h"
+#include "airsim360/eval/files/file_pairs.h"
 #include "airsim360/eval/files/layout_file.h"
 #include "airsim360/eval/files/person_file.h"
-#include "airsim360/eval/files/picture_files.h"
 
 namespace airsim360 {
 namespace {

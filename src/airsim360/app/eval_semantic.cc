@@ -8,6 +8,7 @@
 #include "airsim360/app/eval_views.h"
 #include "airsim360/base/error.h"
 #include "airsim360/eval/files/class_file.h"
+#include "airsim360/eval/files/file_pairs.h"
 #include "airsim360/eval/files/picture_files.h"
 #include "airsim360/eval/mistakes/likely_cause.h"
 #include "airsim360/eval/semantic/confusion.h"

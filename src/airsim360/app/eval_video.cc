@@ -10,6 +10,7 @@
 #include "airsim360/app/eval_panoptic_input.h"
 #include "airsim360/app/eval_views.h"
 #include "airsim360/base/error.h"
+#include "airsim360/eval/files/file_pairs.h"
 #include "airsim360/eval/files/step_video.h"
 #include "airsim360/eval/panoptic/tracking_quality.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "airsim360/mpde/sample.h"
-#include "airsim360/mpde/views.h"
+#include "airsim360/mpde/virtual_cameras.h"
 
 namespace airsim360 {
 

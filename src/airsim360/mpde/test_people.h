@@ -1,7 +1,7 @@
 // A person of sticks for tests: COCO's keypoints of an upright body that faces +X.
 #pragma once
 
-#include "airsim360/mpde/views.h"
+#include "airsim360/mpde/virtual_cameras.h"
 
 namespace airsim360::internal {
 

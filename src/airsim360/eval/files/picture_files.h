@@ -1,9 +1,8 @@
-// Pictures of numbers and of labels, one file or whole folders, prediction beside truth.
+// Pictures of numbers and of labels.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -34,19 +33,5 @@ LabelPicture ReadIdPicture(const std::filesystem::path& path);
 /// 32768) / 64, blue = valid). Pixels without flow are NaN: where KITTI's are not valid, Middlebury's are beyond 1e9, and, with `visible`,
 /// where an EXR's channel `occluded` is not 0.
 NumberPicture ReadFlowPicture(const std::filesystem::path& path, bool visible);
-
-struct FilePair {
-  std::string name;  ///< what both have in common
-  std::filesystem::path prediction, truth;
-};
-struct FilePairs {
-  std::vector<FilePair> pairs;  ///< sorted by name
-  std::vector<std::string> notes;
-};
-/// Two files, or the files of two folders that have the same path below them up to the ending (one of `endings`, lower case with the dot). A
-/// folder that is a dataset of ours stands for its folder `product`. InputError where a truth has no prediction, naming the first and
-/// their number; predictions without truths are left out and noted.
-FilePairs PairFiles(const std::filesystem::path& prediction, const std::filesystem::path& truth, const std::vector<std::string>& endings,
-                    const std::string& product);
 
 }  // namespace airsim360

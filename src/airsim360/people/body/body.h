@@ -26,10 +26,6 @@ struct BodySpec {
   uint64_t look = 0;      ///< seeds face, hair, clothes and their colours
 };
 
-/// A person drawn from the population: sex, age, stature (men 1.756 +- 0.067 m, ANSUR; women 1.63 +- 0.064 m;
-/// children by CDC medians), build. `child_share`: probability of an age below 16.
-BodySpec DrawBodySpec(uint64_t seed, uint64_t person, double child_share = 0.12);
-
 /// A named point of the body: the keypoints of annotations, and whatever users add.
 struct Socket {
   std::string name;  ///< "nose", "left_eye", …; see kSocketNames

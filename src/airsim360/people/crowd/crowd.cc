@@ -7,7 +7,7 @@
 #include "airsim360/base/nearest_name.h"
 #include "airsim360/base/state_hash.h"
 #include "airsim360/people/crowd/agent.h"
-#include "airsim360/people/crowd/appearance.h"
+#include "airsim360/people/crowd/shown_state.h"
 #include "airsim360/people/crowd/vehicle_dodging.h"
 
 namespace airsim360 {

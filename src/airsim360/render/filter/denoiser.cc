@@ -76,8 +76,6 @@ Denoiser::Denoiser() : impl_(std::make_unique<Impl>()) {}
 Denoiser::Denoiser(Denoiser&&) noexcept = default;
 Denoiser::~Denoiser() = default;
 
-void Denoiser::Reset() { impl_->histories.clear(); }
-
 void Denoiser::Impl::EstimateNoise() {
   const FilterPlanes& f = buffers.planes();
   // Near the poles pixels are narrower than high: first make them square.

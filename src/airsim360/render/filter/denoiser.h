@@ -49,8 +49,6 @@ class Denoiser {
   ~Denoiser();
   /// Filters one signal. `slot` names the history (0, 1, …: one for each kind of light).
   void Run(const FilterGuides& guides, const LightSignal& signal, bool temporal, int slot = 0);
-  /// Forgets all history.
-  void Reset();
 
  private:
   struct Impl;

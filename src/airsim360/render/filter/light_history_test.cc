@@ -62,18 +62,6 @@ TEST(TemporalTest, AMovingCameraStillGathersSamples) {
   EXPECT_LT(moved, still / 3);
 }
 
-TEST(TemporalTest, ResetForgets) {
-  const View view = MakeBall(128);
-  Denoiser denoiser;
-  Image<Rgb32f> first = Noise(view, 1, 0.2f, 1);
-  const Image<Rgb32f> second = Noise(view, 1, 0.2f, 2);
-  denoiser.Run(view.guides(), {&first, nullptr, 4}, true);
-  denoiser.Reset();
-  Image<Rgb32f> light = second;
-  denoiser.Run(view.guides(), {&light, nullptr, 4}, true);
-  EXPECT_TRUE(light == Filter(view, second, nullptr, 4));
-}
-
 TEST(TemporalTest, TurningTheCameraByColumnsChangesNothingInTheWorld) {
   // A standing camera and one that turns by whole columns see the same light at the same places.
   const View view = MakeRoomView(128);

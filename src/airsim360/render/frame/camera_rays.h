@@ -12,10 +12,9 @@
 #include <vector>
 
 #include "airsim360/projection/camera.h"
+#include "airsim360/render/frame/tile_size.h"
 
 namespace airsim360::internal {
-
-inline constexpr int kTileSize = 16;
 
 /// What packet-filling code needs; arrays go on to the next multiple of kTileSize with finite values.
 struct RayField {

@@ -7,6 +7,7 @@
 #include "airsim360/image/image.h"
 #include "airsim360/render/frame/camera_rays.h"
 #include "airsim360/render/frame/label_tables.h"
+#include "airsim360/render/frame/tile_size.h"
 #include "airsim360/render/shading/shader.h"
 #include "airsim360/render/shared/shading_data.h"
 

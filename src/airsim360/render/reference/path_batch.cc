@@ -16,7 +16,6 @@ namespace {
 // Pairs of numbers of one step: where on the sun, where in the sky, where next (two pairs), where on which
 // lamp (two pairs).
 constexpr uint32_t kPairsPerStep = 6, kFirstPair = 1;
-constexpr int kFirstRoulette = 3;
 
 // The normal that lamps are chosen for: leaves take light from both sides.
 Vec3f LampNormal(const SurfaceSet& s, int i) { return s.kind[i] == kFoliage ? Vec3f{} : Vec3f{s.gx[i], s.gy[i], s.gz[i]}; }

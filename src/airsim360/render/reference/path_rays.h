@@ -21,9 +21,6 @@ struct PathScene {
   decltype(&isa_sse42::PassStraight) pass_straight = AIRSIM360_SELECT_KERNEL(PassStraight);
 };
 
-/// Panes that a path or a shadow ray may pass beside its bounces.
-inline constexpr int kMostPanes = 16;
-
 /// Rays with what each brings to its path where nothing hides it.
 struct ShadowRays {
   RaySet rays;

@@ -10,9 +10,6 @@
 namespace airsim360::internal {
 namespace {
 
-// Texture footprint of a camera ray in pixels: samples filter the pixel, not the texture look-up.
-constexpr float kFootprint = 0.25f;
-
 Rgb32f ToRgb(Vec3d c) { return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)}; }
 
 // Sums of a pixel's samples and of their squares.
@@ -60,7 +57,7 @@ bool ImageTracer::Start(int column, int row, uint32_t sample, Path& path) const 
   if (!rays_.Direction(column, row, rays_.MakeOffset(at.x - 0.5, at.y - 0.5), direction)) return false;
   path.origin = origin_;
   path.direction = VecCast<float>(direction);
-  path.spread = static_cast<float>(rays_.cone_angle()) * kFootprint;
+  path.spread = static_cast<float>(rays_.cone_angle()) * kPathFootprint;
   return true;
 }
 

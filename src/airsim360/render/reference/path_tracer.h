@@ -6,13 +6,14 @@
 
 #include "airsim360/render/frame/camera_rays.h"
 #include "airsim360/render/shading/shader.h"
+#include "airsim360/render/shared/shading_constants.h"
 
 namespace airsim360::internal {
 
 struct PathTracerOptions {
   static constexpr int kDefaultSamples = 64;
   int samples = kDefaultSamples;  ///< paths of a pixel (of every pixel of the box filter, jittered)
-  int max_bounces = 8;            ///< Russian roulette from the third on
+  int max_bounces = kMaxBounces;  ///< Russian roulette from kFirstRoulette on
   uint64_t seed = 0;
   bool next_event = true;  ///< false: light is found by chance alone; for tests
   /// Called now and then, on any thread, with the share that is done, (0, 1]; empty = never.

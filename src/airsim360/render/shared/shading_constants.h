@@ -117,6 +117,11 @@ constexpr float kFilterFlatSlope = 0.05f, kFilterSlope = 0.15f;
 constexpr float kHistoryFrames = 16.0f, kHistoryThickness = 2.0f, kHistoryCosine = 0.8f, kHistoryShare = 0.1f;
 
 // ---- tier reference
+/// Bounces of a path at the most (closed rooms have more on the CPU), from which one on chance may end it, and the panes that a path
+/// or a shadow ray may pass beside.
+constexpr int kMaxBounces = 8, kFirstRoulette = 3, kMostPanes = 16;
+/// Texture footprint of a camera ray in pixels: samples filter the pixel, not the texture look-up.
+constexpr float kPathFootprint = 0.25f;
 /// Rays of a lobe see textures through a cone a quarter as wide as the circle that holds its density.
 constexpr float kPathLobe = 0.25f, kPathWidest = 0.2f;
 /// In a closed room the light of a mirror is what is seen in it.

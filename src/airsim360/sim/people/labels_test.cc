@@ -143,7 +143,7 @@ TEST(PeopleLabels, PicturesTooCoarseForALimbSaySo) {
 TEST(PeopleLabels, KeypointsFollowTheSkin) {
   // A vertex fixed to the joint at the place of every socket, skinned like all others, in a pose with every
   // joint turned.
-  const auto original = MakeProceduralBody(DrawBodySpec(3, 1));
+  const auto original = MakeProceduralBody(internal::DrawBodySpec(3, 1));
   Body body = *original;
   BodyLevel level;
   const SkeletonPose rest = RestPose(body, {});

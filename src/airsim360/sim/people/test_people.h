@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "airsim360/people/body/test_bodies.h"
 #include "airsim360/render/renderer.h"
 #include "airsim360/sim/people/labels.h"
 #include "airsim360/worlds/worlds.h"

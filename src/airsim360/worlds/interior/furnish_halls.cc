@@ -1,4 +1,4 @@
-// Warehouse halls and parking decks; which furniture goes with which building.
+// Warehouse halls and parking decks.
 #include <cmath>
 
 #include "airsim360/math/angles.h"
@@ -96,33 +96,6 @@ void FurnishDecks(const InteriorPlan& plan, Furnisher& furnisher) {
       furnisher.Put("trash_can", {aisle.x1 - 1, aisle.y1 + 0.2f, z}, 0, 0);
     }
   }
-}
-
-void FurnishRooms(const InteriorPlan& plan, Furnisher& furnisher) {
-  const double clutter = plan.spec.clutter;
-  for (int i = 0; i < static_cast<int>(plan.rooms.size()); ++i) {
-    if (!plan.rooms[static_cast<size_t>(i)].has_floor) continue;
-    RoomSpace space(plan, i, furnisher);
-    switch (plan.spec.use) {
-      case BuildingUse::kApartment:
-        FurnishHome(space, clutter);
-        break;
-      case BuildingUse::kMall:
-        FurnishTrade(space, clutter);
-        break;
-      case BuildingUse::kWarehouse:
-        if (space.room().type == RoomType::kWarehouseHall)
-          FurnishHall(space, plan, clutter);
-        else
-          FurnishWork(space, clutter);
-        break;
-      case BuildingUse::kCarPark:
-        break;
-      default:
-        FurnishWork(space, clutter);
-    }
-  }
-  if (plan.spec.use == BuildingUse::kCarPark) FurnishDecks(plan, furnisher);
 }
 
 }  // namespace airsim360::internal

@@ -215,4 +215,31 @@ void RoomSpace::Put(std::string_view kind, Vec2f p, float yaw, float height, std
   furnisher_.Put(kind, {p.x, p.y, z() + height}, yaw, Pick(kind, variant), tint);
 }
 
+void FurnishRooms(const InteriorPlan& plan, Furnisher& furnisher) {
+  const double clutter = plan.spec.clutter;
+  for (int i = 0; i < static_cast<int>(plan.rooms.size()); ++i) {
+    if (!plan.rooms[static_cast<size_t>(i)].has_floor) continue;
+    RoomSpace space(plan, i, furnisher);
+    switch (plan.spec.use) {
+      case BuildingUse::kApartment:
+        FurnishHome(space, clutter);
+        break;
+      case BuildingUse::kMall:
+        FurnishTrade(space, clutter);
+        break;
+      case BuildingUse::kWarehouse:
+        if (space.room().type == RoomType::kWarehouseHall)
+          FurnishHall(space, plan, clutter);
+        else
+          FurnishWork(space, clutter);
+        break;
+      case BuildingUse::kCarPark:
+        break;
+      default:
+        FurnishWork(space, clutter);
+    }
+  }
+  if (plan.spec.use == BuildingUse::kCarPark) FurnishDecks(plan, furnisher);
+}
+
 }  // namespace airsim360::internal

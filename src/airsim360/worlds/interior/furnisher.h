@@ -115,13 +115,16 @@ class RoomSpace {
   bool open_[4] = {};
 };
 
-/// Furniture of every room; lamps, sprinklers, signs; what lies around the building.
+/// Furniture of one room by the use of its building.
 void FurnishHome(RoomSpace& space, double clutter);
 void FurnishWork(RoomSpace& space, double clutter);
 void FurnishTrade(RoomSpace& space, double clutter);
 void FurnishHall(RoomSpace& space, const InteriorPlan& plan, double clutter);
+/// Parked cars, signs and cones of a car park.
 void FurnishDecks(const InteriorPlan& plan, Furnisher& furnisher);
+/// Furniture of every room: which of the above a building's use asks for.
 void FurnishRooms(const InteriorPlan& plan, Furnisher& furnisher);
+/// Lamps, vents, ducts, sprinklers, signs.
 void InstallServices(const InteriorPlan& plan, Furnisher& furnisher);
 
 /// Uniform in [-by, by].

@@ -10,7 +10,6 @@ namespace airsim360 {
 namespace {
 
 using internal::Fan;
-using internal::kPaintLift;
 using internal::StreetRect;
 
 constexpr float kGutterWidth = 0.35f;
@@ -67,30 +66,6 @@ void LayDrains(Ground& ground, const StreetStretch& street) {
   }
 }
 
-void LayCrosswalk(Ground& ground, const StreetStretch& street, bool at_start, const std::string& name) {
-  const float hw = street.line.half_width;
-  const float from = at_start ? street.s0 + kCrosswalkStart : street.s1 - kCrosswalkStart - kCrosswalkWidth;
-  ground.Begin("crosswalk " + name, "ground/crosswalk", Surface::kPaintWhite);
-  const int bars = static_cast<int>((2 * hw - 0.8f) / 1.0f);
-  const float first = -0.5f * static_cast<float>(bars) + 0.25f;
-  for (int i = 0; i < bars; ++i) {
-    const float d = first + static_cast<float>(i);
-    StreetRect(ground, street, from, from + kCrosswalkWidth, d, d + 0.5f, kPaintLift);
-  }
-}
-
-// Two lines across the street, asphalt between them: what lies there belongs to those on foot all the same.
-void LayLinedCrosswalk(Ground& ground, const StreetStretch& street, bool at_start, const std::string& name) {
-  constexpr float kLine = 0.22f;
-  const float from = at_start ? street.s0 + kCrosswalkStart : street.s1 - kCrosswalkStart - kCrosswalkWidth, to = from + kCrosswalkWidth,
-              reach = std::floor(2 * street.line.half_width - 0.8f) / 2;
-  ground.Begin("crosswalk " + name, "ground/crosswalk", Surface::kPaintWhite);
-  StreetRect(ground, street, from, from + kLine, -reach, reach, kPaintLift);
-  StreetRect(ground, street, to - kLine, to, -reach, reach, kPaintLift);
-  ground.Use(Surface::kAsphaltOld);
-  StreetRect(ground, street, from + kLine, to - kLine, -reach, reach, 0.75f * kPaintLift);  // over wear and repairs
-}
-
 // A crossing of two lines. The wheel tracks of the wider street run through.
 Fan LayJunction(Ground& ground, const StreetLine& ns, const StreetLine& ew, const std::string& name, Surface asphalt) {
   ground.Begin("junction " + name, "ground/road", asphalt);
@@ -137,7 +112,7 @@ Fan FanOf(const StreetLine& ns, const StreetLine& ew) {
 std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, uint64_t seed) {
   std::vector<StreetStretch> core;
   const bool white = plan.paint == RoadPaint::kWhiteLines;
-  const auto lay_crosswalk = white ? LayLinedCrosswalk : LayCrosswalk;
+  const auto lay_crosswalk = white ? internal::LayLinedCrosswalk : internal::LayCrosswalk;
   const auto is_core = [&](size_t i) { return static_cast<int>(i) >= plan.first_core && static_cast<int>(i) <= plan.last_core; };
   RngStream rng(seed, "street wear");
 

@@ -1,4 +1,4 @@
-// What is painted on carriageways: lanes, bays, arrows, words, lines through crossings.
+// What is painted on carriageways: lanes, bays, arrows, words, crosswalks, lines through crossings.
 #pragma once
 
 #include <string>
@@ -37,6 +37,11 @@ void LayMarkings(Ground& ground, const StreetStretch& street, const std::string&
 
 /// The markings of a stretch before there were any but white lines: the middle, dashes between lanes, a bar where traffic stops.
 void LayWhiteLines(Ground& ground, const StreetStretch& street, const std::string& name);
+
+/// A crosswalk at the start or the end of a stretch: bars along the street.
+void LayCrosswalk(Ground& ground, const StreetStretch& street, bool at_start, const std::string& name);
+/// Two lines across the street, asphalt between them: what lies there belongs to those on foot all the same.
+void LayLinedCrosswalk(Ground& ground, const StreetStretch& street, bool at_start, const std::string& name);
 
 /// A boulevard's lines through a crossing: green bars of the bike lane, dashes between the lanes, arcs for
 /// those who turn left; draped over the fan.

@@ -1,4 +1,4 @@
-#include "airsim360/people/crowd/appearance.h"
+#include "airsim360/people/crowd/shown_state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Virtual cameras and what is made of keypoints.
-#include "airsim360/mpde/views.h"
+#include "airsim360/mpde/virtual_cameras.h"
 
 #include <gtest/gtest.h>
 

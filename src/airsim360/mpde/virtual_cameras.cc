@@ -1,4 +1,4 @@
-#include "airsim360/mpde/views.h"
+#include "airsim360/mpde/virtual_cameras.h"
 
 #include <algorithm>
 #include <cmath>
