@@ -66,7 +66,9 @@ std::vector<std::pair<double, double>> SeaOn(const OsmScene& scene, const OsmBox
 bool OpenAt(const GroundBuilder& ground, Vec2d p) {
   const GroundPiece* piece = ground.At(p);
   const bool area = piece && (piece->id.starts_with("way/") || piece->id.starts_with("relation/"));
-  if (!area || (piece->surface != Surface::kLawn && piece->surface != Surface::kSoil && piece->surface != Surface::kWater)) return false;
+  if (!area || (piece->surface != Surface::kLawn && piece->surface != Surface::kForestFloor && piece->surface != Surface::kSoil &&
+                piece->surface != Surface::kWater))
+    return false;
   return Area(piece->patches) >= 1e4;
 }
 

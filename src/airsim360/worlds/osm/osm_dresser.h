@@ -33,6 +33,8 @@ class Dresser {
   void Yards();
   /// Blades of grass on the lawns around the first viewpoint.
   void Grass(const std::vector<std::pair<EntityId, Patches>>& lawns);
+  /// Ferns, shrubs, tufts and fallen leaves in the woods there.
+  void Undergrowth(const std::vector<std::pair<EntityId, Patches>>& woods);
   /// Adds what was modelled in place as one mesh.
   void Finish();
 

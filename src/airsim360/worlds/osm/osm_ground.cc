@@ -55,7 +55,7 @@ constexpr AreaKind kAreaKinds[] = {
     {"landuse", "flowerbed", "ground/dirt", Surface::kSoil},
     {"natural", "grassland", "ground/grass", Surface::kLawn},
     {"natural", "scrub", "ground/terrain/landscape", Surface::kLawn},
-    {"natural", "wood", "ground/terrain/landscape", Surface::kLawn},
+    {"natural", "wood", "ground/terrain/landscape", Surface::kForestFloor},
     {"natural", "sand", "ground/sand", Surface::kPath},
     {"natural", "beach", "ground/sand", Surface::kPath},
     {"natural", "heath", "ground/terrain/landscape", Surface::kLawn},
@@ -73,7 +73,7 @@ constexpr AreaKind kAreaKinds[] = {
     {"landuse", "meadow", "ground/grass", Surface::kLawn},
     {"landuse", "recreation_ground", "ground/grass", Surface::kLawn},
     {"landuse", "cemetery", "ground/grass", Surface::kLawn},
-    {"landuse", "forest", "ground/terrain/landscape", Surface::kLawn},
+    {"landuse", "forest", "ground/terrain/landscape", Surface::kForestFloor},
     {"landuse", "orchard", "ground/terrain/landscape", Surface::kLawn},
     {"landuse", "farmland", "ground/dirt", Surface::kSoil},
     {"landuse", "allotments", "ground/terrain/landscape", Surface::kLawn},
@@ -346,7 +346,8 @@ void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, 
   for (const RoadSegment& segment : graph.segments) PaintSegment(scene, ground.mesh(), graph, segment, -kRoadDrop);
   PaintCrossings(scene, ground.mesh(), graph, -kRoadDrop);
   BuildBridges(scene, ground.mesh());
-  near.lawns = ground.Lawns();
+  near.lawns = ground.Near(Surface::kLawn);
+  near.woods = ground.Near(Surface::kForestFloor);
   const bool town = IsTown(scene, buildings);
   const std::vector<EdgeStretch> edge = EdgeOf(scene, ground, town);
   LayCountry(scene, ground, edge, town, sea);

@@ -57,20 +57,20 @@ class GroundBuilder {
   MeshBuilder& mesh() { return mesh_; }
   const Patches& clip() const { return clip_; }
 
-  // Green pieces around the focus.
-  std::vector<std::pair<EntityId, Patches>> Lawns() const {
-    std::vector<std::pair<EntityId, Patches>> lawns;
+  // Pieces of one surface around the focus.
+  std::vector<std::pair<EntityId, Patches>> Near(Surface surface) const {
+    std::vector<std::pair<EntityId, Patches>> found;
     for (const GroundPiece& piece : pieces_) {
-      if (piece.surface != Surface::kLawn) continue;
+      if (piece.surface != surface) continue;
       Patches near;
       for (const Patch& patch : piece.patches) {
         const Bounds2d box = BoundsOf(patch.outer);
         const Vec2d f = scene_.focus;
         if (box.Overlaps({{f.x - kLawnReach, f.y - kLawnReach}, {f.x + kLawnReach, f.y + kLawnReach}})) near.push_back(patch);
       }
-      if (!near.empty()) lawns.emplace_back(piece.entity, std::move(near));
+      if (!near.empty()) found.emplace_back(piece.entity, std::move(near));
     }
-    return lawns;
+    return found;
   }
 
   // The piece at p, null where none is.

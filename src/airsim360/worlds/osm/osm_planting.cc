@@ -139,4 +139,27 @@ void Dresser::Grass(const std::vector<std::pair<EntityId, Patches>>& lawns) {
   }
 }
 
+void Dresser::Undergrowth(const std::vector<std::pair<EntityId, Patches>>& woods) {
+  RngStream rng(scene_.options.seed, "undergrowth");
+  for (const auto& [floor, patches] : woods) {
+    const EntityId plants = scene_.builder.AddEntity("undergrowth", scene_.builder.tree().At("vegetation/plant"));
+    for (int i = 0; i < 5000; ++i) {
+      const double a = rng.Uniform(0, kTau), r = 60 * std::sqrt(rng.Uniform()), pick = rng.Uniform();
+      const Vec2d p = scene_.focus + Vec2d{std::cos(a), std::sin(a)} * r;
+      const auto yaw = static_cast<float>(rng.Uniform(0, kTau)), scale = static_cast<float>(rng.Uniform(0.6, 1.3));
+      const uint32_t variant = rng.Index(12);
+      const bool inside = std::ranges::any_of(patches, [&](const Patch& patch) { return Inside(patch, p); });
+      if (!inside || OnRoad(p, 1) || InBuilding(p) || paths_.Find(p, 1.2).owner != UINT32_MAX) continue;
+      const AffineTransform X = PlaceUpright(scene_.On(p, -0.01), yaw, scale);
+      if (pick > 0.96) {
+        scene_.Put("shrub", "shrub", scene_.On(p, -0.03), static_cast<double>(yaw), scale, variant);
+      } else if (pick > 0.65) {
+        scene_.shelf.PlaceAs(plants, pick > 0.9 ? "plant" : "fern", X, variant);
+      } else {
+        scene_.shelf.PlaceAs(floor, pick > 0.45 ? "leaf_litter" : "grass_tuft", X, variant);
+      }
+    }
+  }
+}
+
 }  // namespace airsim360::internal

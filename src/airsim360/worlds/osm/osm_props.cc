@@ -293,6 +293,7 @@ void BuildOsmProps(OsmScene& scene, const Neighbours& near) {
     dresser.Yards();
   }
   dresser.Grass(near.lawns);
+  dresser.Undergrowth(near.woods);
   dresser.Finish();
 }
 

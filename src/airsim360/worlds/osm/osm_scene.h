@@ -84,7 +84,7 @@ struct Neighbours {
   LineIndex roads;                                  ///< centre lines; owner = index into graph->segments
   LineIndex shops;                                  ///< places of shops and cafés
   std::shared_ptr<const RoadGraph> graph;           ///< set by BuildOsmGround
-  std::vector<std::pair<EntityId, Patches>> lawns;  ///< near the focus, set by BuildOsmGround
+  std::vector<std::pair<EntityId, Patches>> lawns, woods;  ///< near the focus, set by BuildOsmGround
   struct Yard {
     std::string name;
     Patches patches;  ///< what is free of the block, houses included

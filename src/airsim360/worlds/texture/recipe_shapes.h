@@ -33,6 +33,7 @@ void GravelPath(SurfaceMaps& maps);
 void RoofGravel(SurfaceMaps& maps);
 void Grass(SurfaceMaps& maps);
 void Soil(SurfaceMaps& maps);
+void ForestFloor(SurfaceMaps& maps);
 void Bitumen(SurfaceMaps& maps);
 void BrickRed(SurfaceMaps& maps);
 void BrickStock(SurfaceMaps& maps);

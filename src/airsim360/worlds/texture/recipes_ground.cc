@@ -38,16 +38,18 @@ struct Turf {
   float dry;     // share of dead blades
   float clover;  // three-leaved clusters per square metre
   uint32_t seed;
+  Vec3f dead[2] = {{0.33f, 0.275f, 0.13f}, {0.25f, 0.20f, 0.12f}};  // its colours lie between these
+  float rise = 1;                                                   // how far blades stand up
 };
 
 void PaintBlade(SurfaceMaps& m, const Turf& turf, uint32_t k) {
   const auto h = [&](uint32_t c) { return HashUnit(k, turf.seed, c); };
   const float scale = m.texels_per_metre(), length = Mix(turf.shortest, turf.longest, h(1)) * scale;
   const float width = (0.0012f + 0.0016f * h(2)) * scale, bend = 1.6f * (h(3) - 0.5f);
-  const float foot = -0.012f + 0.010f * h(4), rise = 0.004f + 0.016f * h(5), n = static_cast<float>(m.size);
+  const float foot = -0.012f + 0.010f * h(4), rise = turf.rise * (0.004f + 0.016f * h(5)), n = static_cast<float>(m.size);
   const bool dead = h(6) < turf.dry;
   const Vec3f green = Mix(Vec3f{0.075f, 0.112f, 0.026f}, Vec3f{0.205f, 0.235f, 0.070f}, h(7) * h(7) * 0.6f + 0.4f * h(8));
-  const Vec3f color = dead ? Mix(Vec3f{0.33f, 0.275f, 0.13f}, Vec3f{0.25f, 0.20f, 0.12f}, h(7)) : green;
+  const Vec3f color = dead ? Mix(turf.dead[0], turf.dead[1], h(7)) : green;
   float x = h(9) * n, y = h(10) * n, angle = 6.2831853f * h(11);
   const int steps = std::max(2, static_cast<int>(length));
   for (int q = 0; q < steps; ++q) {
@@ -105,6 +107,33 @@ void RoofGravel(SurfaceMaps& m) {
 }
 
 void Grass(SurfaceMaps& m) { PaintTurf(m, {26000, 0.012f, 0.055f, 0.13f, 260, 71}); }
+
+// Needles and rotting leaves over dark earth, moss and seedlings here and there.
+void ForestFloor(SurfaceMaps& m) {
+  PaintTurf(m, {17000, 0.015f, 0.060f, 0.90f, 45, 141, {{0.200f, 0.120f, 0.062f}, {0.085f, 0.055f, 0.034f}}, 0.45f});
+  const auto leaves = static_cast<uint32_t>(190 * m.tile * m.tile);
+  const float n = static_cast<float>(m.size);
+  for (uint32_t k = 0; k < leaves; ++k) {
+    const auto h = [&](uint32_t c) { return HashUnit(k, 142, c); };
+    const float r = (0.008f + 0.012f * h(1)) * m.texels_per_metre(), x = n * h(2), y = n * h(3), a = 6.2831853f * h(4);
+    const Vec3f color = Mix(Vec3f{0.24f, 0.145f, 0.065f}, Vec3f{0.095f, 0.060f, 0.038f}, h(5));
+    Stamp(m.height, x, y, r, [&](size_t i, float d) {
+      // Narrow across, with a rib.
+      const float dx = static_cast<float>(static_cast<int>(i) % m.size) - x, dy = static_cast<float>(static_cast<int>(i) / m.size) - y,
+                  across = std::abs(-dx * std::sin(a) + dy * std::cos(a)) / r;
+      if (across > 0.55f * (1 - d * d)) return;
+      m.SetColor(i, color * (across < 0.06f ? 0.7f : 1.08f - 0.3f * d));
+      m.height[i] = 0.0008f + 0.0012f * h(6) - 0.0012f * across;
+      m.roughness[i] = 0.66f;
+    });
+  }
+  const Field moss = m.Noise(143, 0.35f, 4, 0.55f), fine = m.Noise(144, 0.015f, 3, 0.7f);
+  m.ForEach([&](size_t i, float, float) {
+    const float share = Step(1.05f, 1.5f, moss[i] + 0.25f * fine[i]);
+    if (share <= 0) return;
+    m.SetColor(i, Mix(Vec3f{m.red[i], m.green[i], m.blue[i]}, Vec3f{0.062f, 0.085f, 0.022f} * (1 + 0.2f * fine[i]), 0.85f * share));
+  });
+}
 
 // Crumbs and clods on fine earth, damp below, with bits of straw.
 void Soil(SurfaceMaps& m) {

@@ -14,17 +14,17 @@ using R = Recipe;
 
 // Luminance 0.5 marks wall textures that are multiplied by the colour of a paint or stone.
 constexpr MaterialTarget kTargets[] = {
-    {R::kAsphalt, 0.120f, 0.035f, 0.66f, 0.06f, 0.55f},      {R::kAsphaltFresh, 0.052f, 0.010f, 0.65f, 0.05f, 0.55f},
-    {R::kBitumen, 0.120f, 0.035f, 0.65f, 0.07f, 0.40f},      {R::kConcrete, 0.480f, 0.033f, 0.52f, 0.02f, 0.13f},
-    {R::kSlabs, 0.360f, 0.055f, 0.58f, 0.05f, 0.27f},        {R::kPavingBrick, 0.165f, 0.040f, 0.60f, 0.06f, 0.40f},
-    {R::kStoneSetts, 0.330f, 0.090f, 0.58f, 0.08f, 0.50f},   {R::kGravelPath, 0.260f, 0.075f, 0.53f, 0.08f, 0.75f},
-    {R::kGrass, 0.145f, 0.050f, 0.62f, 0.06f, 0.48f},        {R::kSoil, 0.140f, 0.035f, 0.67f, 0.05f, 0.45f},
-    {R::kBrickRed, 0.200f, 0.080f, 0.58f, 0.06f, 0.44f},     {R::kBrickStock, 0.250f, 0.060f, 0.58f, 0.06f, 0.44f},
-    {R::kBrickPainted, 0.520f, 0.120f, 0.56f, 0.06f, 0.36f}, {R::kAshlar, 0.500f, 0.055f, 0.60f, 0.06f, 0.30f},
-    {R::kPlaster, 0.500f, 0.035f, 0.55f, 0.05f, 0.17f},      {R::kPlanks, 0.500f, 0.120f, 0.62f, 0.06f, 0.40f},
-    {R::kRoofGravel, 0.180f, 0.055f, 0.52f, 0.08f, 0.85f},   {R::kRoofTile, 0.260f, 0.090f, 0.52f, 0.06f, 1.00f},
-    {R::kSlate, 0.048f, 0.012f, 0.65f, 0.10f, 0.80f},        {R::kGalvanised, 0.420f, 0.035f, 0.36f, 0.06f, 0.03f},
-    {R::kPaintWorn, 0.500f, 0.130f, 0.58f, 0.06f, 0.40f},
+    {R::kAsphalt, 0.120f, 0.035f, 0.66f, 0.06f, 0.55f},     {R::kAsphaltFresh, 0.052f, 0.010f, 0.65f, 0.05f, 0.55f},
+    {R::kBitumen, 0.120f, 0.035f, 0.65f, 0.07f, 0.40f},     {R::kConcrete, 0.480f, 0.033f, 0.52f, 0.02f, 0.13f},
+    {R::kSlabs, 0.360f, 0.055f, 0.58f, 0.05f, 0.27f},       {R::kPavingBrick, 0.165f, 0.040f, 0.60f, 0.06f, 0.40f},
+    {R::kStoneSetts, 0.330f, 0.090f, 0.58f, 0.08f, 0.50f},  {R::kGravelPath, 0.260f, 0.075f, 0.53f, 0.08f, 0.75f},
+    {R::kGrass, 0.145f, 0.050f, 0.62f, 0.06f, 0.48f},       {R::kSoil, 0.140f, 0.035f, 0.67f, 0.05f, 0.45f},
+    {R::kForestFloor, 0.100f, 0.045f, 0.70f, 0.07f, 0.40f}, {R::kBrickRed, 0.200f, 0.080f, 0.58f, 0.06f, 0.44f},
+    {R::kBrickStock, 0.250f, 0.060f, 0.58f, 0.06f, 0.44f},  {R::kBrickPainted, 0.520f, 0.120f, 0.56f, 0.06f, 0.36f},
+    {R::kAshlar, 0.500f, 0.055f, 0.60f, 0.06f, 0.30f},      {R::kPlaster, 0.500f, 0.035f, 0.55f, 0.05f, 0.17f},
+    {R::kPlanks, 0.500f, 0.120f, 0.62f, 0.06f, 0.40f},      {R::kRoofGravel, 0.180f, 0.055f, 0.52f, 0.08f, 0.85f},
+    {R::kRoofTile, 0.260f, 0.090f, 0.52f, 0.06f, 1.00f},    {R::kSlate, 0.048f, 0.012f, 0.65f, 0.10f, 0.80f},
+    {R::kGalvanised, 0.420f, 0.035f, 0.36f, 0.06f, 0.03f},  {R::kPaintWorn, 0.500f, 0.130f, 0.58f, 0.06f, 0.40f},
 };
 
 // Recipes of albedo, roughness and height.
@@ -45,6 +45,7 @@ constexpr PaintedRow kPainted[] = {
     {R::kGravelPath, "gravel path", 1.6f, GravelPath},
     {R::kGrass, "grass", 1.6f, Grass},
     {R::kSoil, "soil", 2, Soil},
+    {R::kForestFloor, "forest floor", 2, ForestFloor},
     {R::kBrickRed, "brick red", 2, BrickRed},
     {R::kBrickStock, "brick stock", 2, BrickStock},
     {R::kBrickPainted, "brick painted", 2, BrickPainted},

@@ -20,6 +20,7 @@ enum class Recipe {
   kGravelPath,
   kGrass,
   kSoil,
+  kForestFloor,
   kBrickRed,
   kBrickStock,
   kBrickPainted,

@@ -46,14 +46,14 @@ constexpr Row kRows[] = {
     {S::kAsphaltPatch, "asphalt patch", R::kAsphaltFresh, Gray(1.15f), 0.8f, 0.08f, 0, kSolid, G::kAsphalt},
     {S::kAsphaltOld, "asphalt old", R::kAsphalt, {0.90f, 0.905f, 0.91f}, 0.8f, 0.14f, 0, kSolid, G::kAsphalt},
     {S::kTar, "tar", R::kNone, Gray(0.035f), 0.5f},
-    {S::kGutter, "gutter", R::kConcrete, Gray(0.50f), 0.7f, 0.1f, 0, kSolid, G::kPaving},
-    {S::kKerb, "kerb stone", R::kConcrete, {0.72f, 0.71f, 0.69f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
-    {S::kSlabs, "slabs", R::kSlabs, {0.78f, 0.77f, 0.74f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
-    {S::kSlabsWarm, "slabs warm", R::kSlabs, {0.9f, 0.81f, 0.70f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
+    {S::kGutter, "gutter", R::kConcrete, Gray(0.50f), 0.7f, 0.16f, 0, kSolid, G::kPaving},
+    {S::kKerb, "kerb stone", R::kConcrete, {0.72f, 0.71f, 0.69f}, 0.7f, 0.14f, 0, kSolid, G::kPaving},
+    {S::kSlabs, "slabs", R::kSlabs, {0.78f, 0.77f, 0.74f}, 0.7f, 0.17f, 0, kSolid, G::kPaving},
+    {S::kSlabsWarm, "slabs warm", R::kSlabs, {0.9f, 0.81f, 0.70f}, 0.7f, 0.17f, 0, kSolid, G::kPaving},
     {S::kTactile, "tactile slabs", R::kSlabs, {1.20f, 0.90f, 0.38f}, 0.7f, 0.06f, 0, kSolid, G::kPaving},
-    {S::kPlazaBrick, "plaza brick", R::kPavingBrick, {0.88f, 0.90f, 0.95f}, 0.7f, 0.10f, 0, kSolid, G::kPaving},
-    {S::kPlazaBrickDark, "plaza brick dark", R::kPavingBrick, {0.68f, 0.70f, 0.76f}, 0.7f, 0.10f, 0, kSolid, G::kPaving},
-    {S::kPlazaStone, "plaza stone", R::kStoneSetts, Gray(1.0f), 0.6f, 0.06f, 0, kSolid, G::kPaving},
+    {S::kPlazaBrick, "plaza brick", R::kPavingBrick, {0.88f, 0.90f, 0.95f}, 0.7f, 0.20f, 0, kSolid, G::kPaving},
+    {S::kPlazaBrickDark, "plaza brick dark", R::kPavingBrick, {0.68f, 0.70f, 0.76f}, 0.7f, 0.20f, 0, kSolid, G::kPaving},
+    {S::kPlazaStone, "plaza stone", R::kStoneSetts, Gray(1.0f), 0.6f, 0.17f, 0, kSolid, G::kPaving},
     {S::kPath, "park path", R::kGravelPath, Gray(1.0f), 0.85f, 0.10f, 0, kSolid, G::kGravel},
     {S::kLawn, "lawn", R::kGrass, {1.0f, 1.0f, 1.0f}, 0.8f, 0.14f, 0, kSolid, G::kLawn},
     {S::kSoil, "soil", R::kSoil, Gray(1.0f), 0.9f, 0.10f, 0, kSolid, G::kSoil},
@@ -134,6 +134,9 @@ constexpr Row kRows[] = {
     {S::kFarPiers1, "far piers brick", R::kFarPiers, {0.78f, 0.52f, 0.40f}, 0.8f, 0.06f},
     {S::kFarRibbons0, "far ribbons white", R::kFarRibbons, {1.12f, 1.11f, 1.07f}, 0.8f, 0.06f},
     {S::kFarRibbons1, "far ribbons grey", R::kFarRibbons, {0.52f, 0.57f, 0.62f}, 0.6f, 0.06f},
+    {S::kDoorGrey, "door grey", R::kNone, {0.165f, 0.17f, 0.172f}, 0.5f, 0.05f},
+    {S::kDoorBrown, "door brown", R::kNone, {0.080f, 0.048f, 0.030f}, 0.45f, 0.05f},
+    {S::kForestFloor, "forest floor", R::kForestFloor, Gray(1.0f), 0.9f, 0.14f, 0, kSolid, G::kSoil},
 };
 static_assert(std::size(kRows) == static_cast<size_t>(S::kCount));
 
@@ -147,7 +150,8 @@ bool IsPicture(Recipe recipe) { return recipe >= R::kShop0 && recipe <= R::kShop
 // Textures without a lattice are mixed from patches of themselves; bricks and slabs are tinted one by one.
 bool IsShapeless(Recipe recipe) {
   return recipe == R::kAsphalt || recipe == R::kAsphaltFresh || recipe == R::kBitumen || recipe == R::kConcrete ||
-         recipe == R::kGravelPath || recipe == R::kGrass || recipe == R::kSoil || recipe == R::kPlaster || recipe == R::kRoofGravel;
+         recipe == R::kGravelPath || recipe == R::kGrass || recipe == R::kSoil || recipe == R::kForestFloor || recipe == R::kPlaster ||
+         recipe == R::kRoofGravel;
 }
 
 Vec2f UnitsOf(Recipe recipe) {

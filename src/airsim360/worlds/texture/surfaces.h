@@ -101,6 +101,9 @@ enum class Surface {
   kFarPiers1,
   kFarRibbons0,
   kFarRibbons1,
+  kDoorGrey,
+  kDoorBrown,
+  kForestFloor,
   kCount
 };
 

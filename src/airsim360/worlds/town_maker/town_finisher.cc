@@ -127,7 +127,7 @@ void TownFinisher::Market(const TownSpot& spot) {
 
 void TownFinisher::Undergrowth(const TownSpot& spot) {
   if (InHouse(spot.p, 1)) return;
-  static constexpr const char* kPlants[] = {"shrub", "plant", "plant", "shrub"};
+  static constexpr const char* kPlants[] = {"fern", "shrub", "fern", "plant"};
   // Tufts on the ground's own entity would be many; they are one plant each place.
   const EntityId tufts = scene_.builder.AddEntity("undergrowth", scene_.builder.tree().At("vegetation/grass_tuft"));
   for (int i = 0; i < 14; ++i) {
@@ -136,8 +136,8 @@ void TownFinisher::Undergrowth(const TownSpot& spot) {
     const uint32_t variant = rng_.Index(16);
     if (!InHouse(p, 0.5) && !OnStreet(p)) scene_.shelf.PlaceAs(tufts, "grass_tuft", PlaceUpright(At(p, -0.01), turn, scale), variant);
   }
-  for (int i = 0; i < 3; ++i) {
-    const Vec2d p = spot.p + Vec2d{rng_.Uniform(-2, 2), rng_.Uniform(-2, 2)};
+  for (int i = 0; i < 6; ++i) {
+    const Vec2d p = spot.p + Vec2d{rng_.Uniform(-3, 3), rng_.Uniform(-3, 3)};
     const char* kind = kPlants[rng_.Index(4)];
     const double turn = rng_.Uniform(0, kTau);
     const auto scale = static_cast<float>(rng_.Uniform(0.5, 1.0));

@@ -108,6 +108,7 @@ class Painter {
     material.base_color = {material.base_color.x * factor.x, material.base_color.y * factor.y, material.base_color.z * factor.z};
     return builder_.AddMaterial(std::move(material));
   }
+  MaterialId Of(Surface surface) const { return surfaces_[surface]; }
   void Use(Surface surface, MaterialId material) { surfaces_ = surfaces_.With(surface, material); }
   Material Copy(MaterialId id) const { return builder_.material(id); }
   MaterialId Add(Material material) { return builder_.AddMaterial(std::move(material)); }
@@ -146,7 +147,7 @@ void PaintGround(const TownSpec& spec, Painter& painter) {
     for (S s : {S::kPlazaStone, S::kSlabs, S::kAsphalt, S::kAsphaltOld, S::kKerb, S::kGutter}) painter.Use(s, track);
   }
   if (spec.country == TownCountry::kForest) {
-    painter.Use(S::kLawn, painter.Tinted(S::kLawn, "forest floor", {0.92f, 0.78f, 0.74f}));
+    painter.Use(S::kLawn, painter.Of(S::kForestFloor));
     painter.Use(S::kPlain, painter.Tinted(S::kPlain, "far forest", {0.42f, 0.62f, 0.40f}));
   }
   if (spec.country == TownCountry::kDesert) {

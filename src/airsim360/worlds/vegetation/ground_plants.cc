@@ -93,6 +93,33 @@ Model MakeLeafLitter(uint32_t, uint64_t seed) {
   return JoinLayers("leaf_litter", layers);
 }
 
+// Fronds that rise from one crown and bend over, leaflets in pairs along each, longest below the middle.
+Model MakeFern(uint32_t variant, uint64_t seed) {
+  static const Vec3f tones[] = {{0.055f, 0.105f, 0.020f}, {0.075f, 0.125f, 0.026f}, {0.045f, 0.085f, 0.022f}, {0.095f, 0.120f, 0.030f}};
+  static const Texture atlas = LeafAtlas("leaves fern", tones);
+  RngStream random(seed, "fern", variant);
+  std::array<PlantLayer, 1> layers = {LeafLayer(atlas, 0.8f)};
+  const int fronds = 8 + static_cast<int>(variant);
+  for (int i = 0; i < fronds; ++i) {
+    const float a = kTauF * (static_cast<float>(i) + static_cast<float>(random.Uniform(-0.35, 0.35))) / static_cast<float>(fronds),
+                length = static_cast<float>(random.Uniform(0.38, 0.68)), rise = static_cast<float>(random.Uniform(0.75, 1.25));
+    const Vec3f out{std::cos(a), std::sin(a), 0}, side{-out.y, out.x, 0};
+    const auto at = [&](float t) { return out * (length * (0.06f + 0.94f * t)) + Vec3f{0, 0, length * rise * t * (1.15f - 0.85f * t)}; };
+    const int pairs = 17;
+    for (int k = 1; k <= pairs; ++k) {
+      const float t = static_cast<float>(k) / pairs, s = t < 0.3f ? 0.35f + 2.1f * t : 1.4f * (1 - t) + 0.04f;
+      const Vec3f p = at(t), along = Normalized(at(t + 0.02f) - at(t - 0.02f)), up = Normalized(Cross(along, side));
+      const float size = 0.20f * length * std::min(s, 1.0f);
+      for (float hand : {-1.0f, 1.0f})
+        AddLeaf(layers[0], p, Normalized(side * hand + along * 0.42f + up * static_cast<float>(random.Uniform(-0.1, 0.2))),
+                up.z < 0 ? up * -1.0f : up, {size, size * 0.36f, 0.08f, 0.15f}, static_cast<int>(random.Index(kLeafCells - 1)));
+    }
+    for (int k = 0; k < 4; ++k)
+      AddNeedle(layers[0], at(0.25f * static_cast<float>(k)), at(0.25f * static_cast<float>(k + 1)), side, 0.008f, {0, 0, 1}, 0);
+  }
+  return JoinLayers("fern", layers);
+}
+
 // Patch of one metre of low green with blossoms of one colour: five petals and a yellow heart each.
 Model MakeFlowerBed(uint32_t variant, uint64_t seed) {
   static const Vec3f leaf_tones[] = {{0.060f, 0.105f, 0.028f}, {0.080f, 0.120f, 0.034f}};
@@ -144,6 +171,7 @@ std::vector<PropKind> GroundPlantKinds() {
       {"lawn_patch", "vegetation/grass_tuft", 3, MakeLawnPatch, 0.1f, 0.03f, 0.09f, 11000},
       {"lawn_tile", "vegetation/grass_tuft", 4, MakeLawnTile, 0.1f, 0.03f, 0.09f, 52000},
       {"leaf_litter", "vegetation/plant", 3, MakeLeafLitter, 0.1f, 0.01f, 0.08f, 150},
+      {"fern", "vegetation/plant", 4, MakeFern, 0.4f, 0.15f, 0.75f, 1600},
       {"flower_bed", "vegetation/flower", 4, MakeFlowerBed, 0.5f, 0.15f, 0.40f, 4000},
   };
 }
