@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/worlds/building/doors.h"
 #include "airsim360/worlds/building/facade_bays.h"
 #include "airsim360/worlds/building/shopfront.h"
 
@@ -16,6 +17,25 @@ using internal::DressOf;
 
 // Bays of equal width along a wall: at least one.
 int CountBays(float length, float bay) { return std::max(1, static_cast<int>(std::lround(length / bay))); }
+
+// A window of the ground floor in its frame over a sill, where there is room for one.
+void BuildRearWindow(FacadePen& pen, const Dress& dress, const Bay& bay, RngStream& rng) {
+  if (bay.x1 - bay.x0 < 1 || bay.z1 < 2.8f) {
+    pen.Use(dress.wall);
+    pen.Front(bay.x0, bay.x1, bay.z0, bay.z1, 0);
+    return;
+  }
+  const float half = std::min(0.75f, (bay.x1 - bay.x0) / 2 - 0.2f), a = bay.middle() - half, b = bay.middle() + half, z0 = 1.1f,
+              z1 = bay.z1 - 1.1f;
+  pen.Use(dress.wall);
+  pen.WallAround(bay.x0, bay.x1, bay.z0, bay.z1, a, b, z0, z1);
+  pen.Reveal(a, b, z0, z1, 0, 0.15f);
+  FacadePen::Sash sash{.t = 0.055f, .nx = 1, .nz = 1, .frame = dress.frame, .glass = dress.glass};
+  internal::Furnish(sash, rng);
+  pen.Window(a, b, z0, z1, 0.15f, sash);
+  pen.Use(dress.trim);
+  pen.Bar(a - 0.08f, b + 0.08f, z0 - 0.09f, z0, -0.07f, 0.12f);
+}
 
 void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan& plan, const Dress& dress, EntityId entity, EdgeKind kind,
                       RngStream& rng) {
@@ -42,14 +62,17 @@ void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan
     }
     return;
   }
-  // Rear: windows and doors by turns.
+  // Rear: windows, and a door here and there.
   const int bays = CountBays(length, 3.4f);
   for (int i = 0; i < bays; ++i) {
     const float w = length / static_cast<float>(bays), x0 = w * static_cast<float>(i), middle = x0 + w / 2;
-    if (i % 3 == 1) {
-      internal::DoorOpening(pen, dress, x0, x0 + w, height, middle);
+    const Bay bay{x0, x0 + w, 0, height, 0, plan.floors};
+    const Vec3f at = pen.X_WF() * Vec3f{middle, 0, 0};
+    const float fall = context.fall ? context.fall({at.x, at.y}) : 0;
+    if ((i == bays / 2 || (i % 3 == 1 && rng.Chance(0.5))) && internal::TakesDoor(pen, bay, fall)) {
+      internal::BuildBackDoor(pen, plan, dress, bay, fall, rng);
     } else {
-      internal::SimpleOpening(pen, dress, x0, x0 + w, 0, height, middle - 0.75f, middle + 0.75f, 1.1f, height - 1.1f, 0.15f, rng);
+      BuildRearWindow(pen, dress, bay, rng);
     }
   }
   pen.Use(dress.trim);

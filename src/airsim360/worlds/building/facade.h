@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 
 #include "airsim360/scene/scene.h"
@@ -30,6 +31,8 @@ struct FacadeContext {
   EntityId building = kNoEntity;                          ///< the one being built
   int next_sign = 0;                                      ///< picture of the last shop sign, so that neighbours differ
   float base = 0, stretch = 1, reach = 1;                 ///< of the building: z of its ground, factors of FacadePen::SetScale
+  /// How far the ground lies below that z at a point of the plan, metres; without: nowhere.
+  std::function<float(Vec2f)> fall = nullptr;
   AffineTransform X_WB = {};  ///< where what is built in the mesh will lie: instances beside it go there at once
   AffineTransform Place(const AffineTransform& X) const { return X_WB == AffineTransform{} ? X : X_WB * X; }
 };

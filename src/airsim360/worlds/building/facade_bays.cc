@@ -277,20 +277,6 @@ void SimpleOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float
   pen.Front(ox0, ox1, n - 0.04f, n + 0.04f, depth - 0.035f);
 }
 
-void DoorOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float height, float middle) {
-  const float a = middle - 0.55f, b = middle + 0.55f;
-  pen.Use(dress.wall);
-  pen.WallAround(x0, x1, 0, height, a, b, 0.12f, 2.35f);
-  pen.Reveal(a, b, 0.12f, 2.35f, 0, 0.16f);
-  pen.Use(S::kDoorWood);
-  pen.Front(a, b, 0.12f, 2.35f, 0.16f);
-  pen.Use(dress.trim);
-  // Buildings of maps keep within their outline.
-  const bool bound = pen.reach() < 1;
-  pen.Bar(a - 0.2f, b + 0.2f, 0, 0.12f, bound ? -0.25f : -0.4f, 0);
-  pen.Bar(a - 0.3f, b + 0.3f, 2.55f, 2.65f, bound ? -0.25f : -0.7f, 0);
-}
-
 void BuildSimpleBay(FacadePen& pen, FacadeStyle style, const Dress& dress, const Bay& bay, RngStream& rng) {
   const Opening o = OpeningOf(style, bay);
   SimpleOpening(pen, dress, bay.x0, bay.x1, bay.z0, bay.z1, o.x0, o.x1, o.z0, o.z1, o.depth, rng);

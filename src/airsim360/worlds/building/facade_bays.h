@@ -32,8 +32,6 @@ void Furnish(FacadePen::Sash& sash, RngStream& rng);
 void BuildBay(FacadeContext& context, FacadePen& pen, FacadeStyle style, const Dress& dress, const Bay& bay, RngStream& rng);
 /// Recessed opening with frame and pane, no ornament.
 void BuildSimpleBay(FacadePen& pen, FacadeStyle style, const Dress& dress, const Bay& bay, RngStream& rng);
-/// A rear door in a bay of the ground floor.
-void DoorOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float height, float middle);
 void SimpleOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float z0, float z1, float ox0, float ox1, float oz0, float oz1,
                    float depth, RngStream& rng);
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "airsim360/worlds/building/facade_bays.h"
+#include "airsim360/worlds/building/doors.h"
 
 namespace airsim360 {
 namespace internal {
@@ -54,14 +54,13 @@ namespace {
 constexpr float kParlourSill = 1.25f;  // metres above the pavement: the floor behind a stoop
 
 // Double door under a hood on brackets.
-void BuildParlourDoor(FacadePen& pen, const Dress& dress, float x0, float x1, float height) {
+void BuildParlourDoor(FacadePen& pen, const Dress& dress, float x0, float x1, float height, RngStream& rng) {
   const float m = (x0 + x1) / 2, sill = kParlourSill;
   pen.WallAround(x0, x1, 0, height, m - 0.62f, m + 0.62f, sill, sill + 2.45f);
   pen.Reveal(m - 0.62f, m + 0.62f, sill, sill + 2.45f, 0, 0.35f);
-  pen.Use(S::kDoorWood);
-  pen.Front(m - 0.62f, m + 0.62f, sill, sill + 2.45f, 0.35f);
-  pen.Use(S::kFrameDark);
-  pen.Bar(m - 0.02f, m + 0.02f, sill, sill + 2.0f, 0.32f, 0.35f, true, false);
+  static constexpr S kLeaves[] = {S::kDoorBrown, S::kFrameDark, S::kDoorGreen, S::kDoorRed};
+  const S leaf = kLeaves[rng.Index(4)];
+  for (float x : {m - 0.62f, m}) HangDoor(pen, DoorMake::kPanelled, leaf, leaf, x, x + 0.62f, sill, sill + 2.45f, 0.35f);
   pen.Use(dress.trim);
   for (float x : {m - 0.95f, m + 0.67f}) pen.Bar(x, x + 0.28f, sill, sill + 2.5f, -0.10f, 0, true, false);
   pen.Bar(m - 1.05f, m + 1.05f, sill + 2.5f, sill + 2.85f, -0.45f, 0);
@@ -128,7 +127,7 @@ void BuildParlourFloor(FacadePen& pen, const Dress& dress, float height, RngStre
     const float x0 = w * static_cast<float>(i), x1 = x0 + w, m = (x0 + x1) / 2;
     pen.Use(dress.wall);
     if (std::abs(m - door) < w / 2) {
-      BuildParlourDoor(pen, dress, x0, x1, height);
+      BuildParlourDoor(pen, dress, x0, x1, height, rng);
     } else {
       BuildParlourWindow(pen, dress, x0, x1, height, rng);
       BuildCellarWindow(pen, dress, x0, x1);

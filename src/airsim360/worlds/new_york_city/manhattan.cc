@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kRearYard = 3;
 
-using F = FacadeStyle;
+using Style = FacadeStyle;
 
 const Role* RoleOf(const Period& period, const Block& block, int row, int index, int count) {
   for (const Role& role : period.roles) {
@@ -39,7 +39,7 @@ Design DrawDesign(const Lot& lot, bool core, float scale, const Period& period, 
   const bool corner = lot.corner();
   d.houses = rng.Chance(corner ? 0.52 : 0.68);
   if (d.houses) {
-    d.style = core && !corner && rng.Chance(0.45) ? F::kBrownstone : F::kBrickWalkUp;
+    d.style = core && !corner && rng.Chance(0.45) ? Style::kBrownstone : Style::kBrickWalkUp;
     d.tiers = 1;
     d.height = 16;
   } else if (corner) {
@@ -48,7 +48,7 @@ Design DrawDesign(const Lot& lot, bool core, float scale, const Period& period, 
     const double pick = rng.Uniform();
     d.tiers = pick < 0.4 ? 3 : pick < 0.75 ? 2 : 1;
   } else if (rng.Chance(0.3)) {
-    d.style = F::kBrickLoft;
+    d.style = Style::kBrickLoft;
     d.height = static_cast<float>(rng.Uniform(18, 34));
     d.tiers = 1;
   } else {
@@ -57,7 +57,7 @@ Design DrawDesign(const Lot& lot, bool core, float scale, const Period& period, 
     d.tiers = rng.Chance(0.5) ? 3 : 2;
   }
   // Low ones have no tiers; classic stone stays below its natural height.
-  if (d.style == F::kClassicStone) d.height = std::min(d.height, 48.0f);
+  if (d.style == Style::kClassicStone) d.height = std::min(d.height, 48.0f);
   if (d.height < 33) d.tiers = 1;
   d.palette = static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(d.style).palettes)));
   return d;
@@ -230,7 +230,7 @@ std::vector<Lot> CutRow(const Block& block, size_t index, int row, float first, 
 // At a corner the outermost reaches back along the avenue.
 void AddHouses(const Lot& lot, const Design& design, uint64_t seed, Manhattan& city) {
   RngStream rng(seed, "houses");
-  const bool row = design.style == F::kBrownstone;
+  const bool row = design.style == Style::kBrownstone;
   const auto count = std::max(1, static_cast<int>(std::lround(lot.rect.width() / (row ? rng.Uniform(5.6, 6.8) : rng.Uniform(5.9, 7.6)))));
   const float w = lot.rect.width() / static_cast<float>(count), floor = MetricsOf(design.style).floor_height,
               ground = MetricsOf(design.style).ground_height;

@@ -6,26 +6,26 @@
 namespace airsim360::internal {
 namespace {
 
-using F = FacadeStyle;
+using Style = FacadeStyle;
 using S = Surface;
 
 constexpr Role kRolesPresent[] = {
-    {2, 2, 0, 0, "deco corner", LotUse::kBuilding, F::kDeco, 0, 54, 1},
-    {1, 2, 0, -1, "grid tower", LotUse::kBuilding, F::kConcreteGrid, 2, 76, 2},
-    {2, 1, 1, 0, "braced corner", LotUse::kBuilding, F::kBracedGlass, 0, 31, 1},
-    {1, 1, 1, -1, "brown tower", LotUse::kBuilding, F::kDeco, 2, 62, 3},
-    {1, 2, 1, -1, "blue tower", LotUse::kBuilding, F::kCurtainWall, 1, 116, 2},
-    {2, 2, 1, 0, "north deco", LotUse::kBuilding, F::kDeco, 1, 66, 3},
-    {2, 1, 0, 0, "glass slab", LotUse::kBuilding, F::kCurtainWall, 0, 122, 2},
-    {1, 1, 0, -1, "loft corner", LotUse::kBuilding, F::kBrickLoft, 0, 36, 1},
-    {2, 2, 0, 1, "ribbon low", LotUse::kBuilding, F::kRibbon, 0, 22, 1},
-    {2, 1, 1, 2, "plaza", LotUse::kPlaza, F::kRibbon, 0, 0, 1},
-    {1, 1, 1, 1, "building site", LotUse::kDirt, F::kRibbon, 0, 0, 1},
-    {1, 2, 0, 1, "bottle roof", LotUse::kBuilding, F::kBrickLoft, 1, 24, 1},
-    {2, 2, 0, -1, "bank", LotUse::kBuilding, F::kClassicStone, 0, 27, 1},
-    {3, 1, 1, 1, "similar tower 1", LotUse::kBuilding, F::kRibbon, 0, 58, 2},
-    {3, 1, 1, 2, "similar tower 2", LotUse::kBuilding, F::kRibbon, 0, 58, 2},
-    {3, 1, 1, 3, "similar tower 3", LotUse::kBuilding, F::kRibbon, 0, 58, 2},
+    {2, 2, 0, 0, "deco corner", LotUse::kBuilding, Style::kDeco, 0, 54, 1},
+    {1, 2, 0, -1, "grid tower", LotUse::kBuilding, Style::kConcreteGrid, 2, 76, 2},
+    {2, 1, 1, 0, "braced corner", LotUse::kBuilding, Style::kBracedGlass, 0, 31, 1},
+    {1, 1, 1, -1, "brown tower", LotUse::kBuilding, Style::kDeco, 2, 62, 3},
+    {1, 2, 1, -1, "blue tower", LotUse::kBuilding, Style::kCurtainWall, 1, 116, 2},
+    {2, 2, 1, 0, "north deco", LotUse::kBuilding, Style::kDeco, 1, 66, 3},
+    {2, 1, 0, 0, "glass slab", LotUse::kBuilding, Style::kCurtainWall, 0, 122, 2},
+    {1, 1, 0, -1, "loft corner", LotUse::kBuilding, Style::kBrickLoft, 0, 36, 1},
+    {2, 2, 0, 1, "ribbon low", LotUse::kBuilding, Style::kRibbon, 0, 22, 1},
+    {2, 1, 1, 2, "plaza", LotUse::kPlaza, Style::kRibbon, 0, 0, 1},
+    {1, 1, 1, 1, "building site", LotUse::kDirt, Style::kRibbon, 0, 0, 1},
+    {1, 2, 0, 1, "bottle roof", LotUse::kBuilding, Style::kBrickLoft, 1, 24, 1},
+    {2, 2, 0, -1, "bank", LotUse::kBuilding, Style::kClassicStone, 0, 27, 1},
+    {3, 1, 1, 1, "similar tower 1", LotUse::kBuilding, Style::kRibbon, 0, 58, 2},
+    {3, 1, 1, 2, "similar tower 2", LotUse::kBuilding, Style::kRibbon, 0, 58, 2},
+    {3, 1, 1, 3, "similar tower 3", LotUse::kBuilding, Style::kRibbon, 0, 58, 2},
 };
 
 // Stone and brick where glass stands today, on the same lots and as high.
@@ -36,14 +36,14 @@ struct Rebuilt {
   const char* called = "";
 };
 constexpr Rebuilt kRebuilt1950s[] = {
-    {"grid tower", F::kDeco, 1, 2, "sandstone tower"},
-    {"braced corner", F::kTerracotta, 0, 1, "terracotta corner"},
-    {"blue tower", F::kGlazedDeco, 0, 3, "glazed brick tower"},
-    {"glass slab", F::kDeco, 0, 3, "limestone tower"},
-    {"ribbon low", F::kClassicStone, 1, 1, "theatre"},
-    {"similar tower 1", F::kDeco, 3, 3},
-    {"similar tower 2", F::kDeco, 3, 3},
-    {"similar tower 3", F::kDeco, 3, 3},
+    {"grid tower", Style::kDeco, 1, 2, "sandstone tower"},
+    {"braced corner", Style::kTerracotta, 0, 1, "terracotta corner"},
+    {"blue tower", Style::kGlazedDeco, 0, 3, "glazed brick tower"},
+    {"glass slab", Style::kDeco, 0, 3, "limestone tower"},
+    {"ribbon low", Style::kClassicStone, 1, 1, "theatre"},
+    {"similar tower 1", Style::kDeco, 3, 3},
+    {"similar tower 2", Style::kDeco, 3, 3},
+    {"similar tower 3", Style::kDeco, 3, 3},
 };
 constexpr auto kRoles1950s = [] {
   auto roles = std::to_array(kRolesPresent);
@@ -101,35 +101,37 @@ constexpr StandIn kProps1950s[] = {
 
 constexpr PavementRule kPavement1950s[] = {{"fire_alarm_box", 90, 0.65f, true, 1}, {"police_box", 120, 0.65f, true, 1}};
 
-constexpr Period kPresent{.world = "new_york_city",
-                          .roles = kRolesPresent,
-                          .corner_towers = {F::kDeco, F::kConcreteGrid, F::kCurtainWall, F::kDeco, F::kRibbon, F::kClassicStone, F::kDeco,
-                                            F::kBrickLoft, F::kCurtainWall},
-                          .other_towers = {F::kDeco, F::kCurtainWall, F::kRibbon, F::kDeco, F::kConcreteGrid, F::kClassicStone},
-                          .far_walls = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3, S::kFarWalls2, S::kFarPiers0,
-                                        S::kFarPiers0, S::kFarPiers1, S::kFarPiers1, S::kFarRibbons0, S::kFarRibbons1, S::kGlassBlue},
-                          .surfaces = {},
-                          .coats = {},
-                          .props = {},
-                          .pavement = {}};
+constexpr Period kPresent{
+    .world = "new_york_city",
+    .roles = kRolesPresent,
+    .corner_towers = {Style::kDeco, Style::kConcreteGrid, Style::kCurtainWall, Style::kDeco, Style::kRibbon, Style::kClassicStone,
+                      Style::kDeco, Style::kBrickLoft, Style::kCurtainWall},
+    .other_towers = {Style::kDeco, Style::kCurtainWall, Style::kRibbon, Style::kDeco, Style::kConcreteGrid, Style::kClassicStone},
+    .far_walls = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3, S::kFarWalls2, S::kFarPiers0, S::kFarPiers0, S::kFarPiers1,
+                  S::kFarPiers1, S::kFarRibbons0, S::kFarRibbons1, S::kGlassBlue},
+    .surfaces = {},
+    .coats = {},
+    .props = {},
+    .pavement = {}};
 
-constexpr Period k1950s{.world = "new_york_city_1950s",
-                        .roles = kRoles1950s,
-                        .corner_towers = {F::kDeco, F::kGlazedDeco, F::kClassicStone, F::kDeco, F::kRibbon, F::kTerracotta, F::kGlazedDeco,
-                                          F::kBrickLoft, F::kTerracotta},
-                        .other_towers = {F::kDeco, F::kTerracotta, F::kRibbon, F::kGlazedDeco, F::kBrickLoft, F::kClassicStone},
-                        .far_walls = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3, S::kFarWalls0, S::kFarPiers0,
-                                      S::kFarPiers0, S::kFarPiers1, S::kFarPiers1, S::kFarWalls3, S::kFarWalls1, S::kFarPiers0},
-                        .surfaces = kSurfaces1950s,
-                        .coats = kCoats1950s,
-                        .props = kProps1950s,
-                        .pavement = kPavement1950s,
-                        .shop_signs = ShopSigns::k1950s,
-                        .paint = RoadPaint::kWhiteLines,
-                        .escape_wall = 5.6f,
-                        .coolers = false,
-                        .aerials = true,
-                        .subway_stairs = true};
+constexpr Period k1950s{
+    .world = "new_york_city_1950s",
+    .roles = kRoles1950s,
+    .corner_towers = {Style::kDeco, Style::kGlazedDeco, Style::kClassicStone, Style::kDeco, Style::kRibbon, Style::kTerracotta,
+                      Style::kGlazedDeco, Style::kBrickLoft, Style::kTerracotta},
+    .other_towers = {Style::kDeco, Style::kTerracotta, Style::kRibbon, Style::kGlazedDeco, Style::kBrickLoft, Style::kClassicStone},
+    .far_walls = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3, S::kFarWalls0, S::kFarPiers0, S::kFarPiers0, S::kFarPiers1,
+                  S::kFarPiers1, S::kFarWalls3, S::kFarWalls1, S::kFarPiers0},
+    .surfaces = kSurfaces1950s,
+    .coats = kCoats1950s,
+    .props = kProps1950s,
+    .pavement = kPavement1950s,
+    .shop_signs = ShopSigns::k1950s,
+    .paint = RoadPaint::kWhiteLines,
+    .escape_wall = 5.6f,
+    .coolers = false,
+    .aerials = true,
+    .subway_stairs = true};
 
 }  // namespace
 

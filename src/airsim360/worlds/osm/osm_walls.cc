@@ -31,25 +31,27 @@ bool IsAny(std::string_view value, std::initializer_list<std::string_view> choic
 }  // namespace
 
 FacadeStyle PickFacadeStyle(const OsmTags& tags, std::string_view material, int floors, bool europe, RngStream& rng) {
-  using F = FacadeStyle;
-  const auto one = [&](std::initializer_list<F> list) { return *(list.begin() + rng.Index(static_cast<uint32_t>(list.size()))); };
-  if (material == "glass" || material == "mirror") return F::kCurtainWall;
-  if (material == "metal" || material == "steel") return floors > 5 ? F::kCurtainWall : F::kRibbon;
-  if (material == "brick" || material == "bricks") return floors > 2 && rng.Chance(0.4) ? F::kBrickLoft : F::kBrickWalkUp;
-  if (material == "concrete") return F::kConcreteGrid;
-  if (IsAny(material, {"stone", "sandstone", "limestone", "marble", "granite"})) return F::kClassicStone;
-  if (IsAny(material, {"plaster", "stucco", "render", "adobe"})) return F::kStuccoShutters;
+  using Style = FacadeStyle;
+  const auto one = [&](std::initializer_list<Style> list) { return *(list.begin() + rng.Index(static_cast<uint32_t>(list.size()))); };
+  if (material == "glass" || material == "mirror") return Style::kCurtainWall;
+  if (material == "metal" || material == "steel") return floors > 5 ? Style::kCurtainWall : Style::kRibbon;
+  if (material == "brick" || material == "bricks") return floors > 2 && rng.Chance(0.4) ? Style::kBrickLoft : Style::kBrickWalkUp;
+  if (material == "concrete") return Style::kConcreteGrid;
+  if (IsAny(material, {"stone", "sandstone", "limestone", "marble", "granite"})) return Style::kClassicStone;
+  if (IsAny(material, {"plaster", "stucco", "render", "adobe"})) return Style::kStuccoShutters;
   const std::string_view kind = tags.Get("building");
-  if (IsAny(kind, {"church", "cathedral", "chapel", "public", "civic", "museum", "government", "university"})) return F::kClassicStone;
-  if (IsAny(kind, {"industrial", "warehouse", "manufacture"})) return one({F::kBrickLoft, F::kRibbon, F::kConcreteGrid});
+  if (IsAny(kind, {"church", "cathedral", "chapel", "public", "civic", "museum", "government", "university"})) return Style::kClassicStone;
+  if (IsAny(kind, {"industrial", "warehouse", "manufacture"})) return one({Style::kBrickLoft, Style::kRibbon, Style::kConcreteGrid});
   if (IsAny(kind, {"office", "commercial"}))
-    return floors > 8 ? one({F::kCurtainWall, F::kRibbon, F::kConcreteGrid}) : one({F::kClassicStone, F::kRibbon, F::kBrickLoft});
+    return floors > 8 ? one({Style::kCurtainWall, Style::kRibbon, Style::kConcreteGrid})
+                      : one({Style::kClassicStone, Style::kRibbon, Style::kBrickLoft});
   if (IsAny(kind, {"house", "detached", "terrace", "semidetached_house", "bungalow"}))
-    return europe ? one({F::kStuccoShutters, F::kBrickWalkUp}) : one({F::kBrickWalkUp, F::kStuccoShutters});
-  if (floors > 14) return one({F::kCurtainWall, F::kRibbon, F::kConcreteGrid, F::kClassicStone});
-  if (floors > 7) return one({F::kClassicStone, F::kBrickLoft, F::kConcreteGrid, F::kBrickWalkUp});
-  if (europe) return one({F::kStuccoShutters, F::kClassicStone, F::kClassicStone, F::kBrickWalkUp, F::kStuccoShutters});
-  return one({F::kBrickWalkUp, F::kBrickWalkUp, F::kBrickWalkUp, F::kBrickLoft, F::kClassicStone, F::kStuccoShutters});
+    return europe ? one({Style::kStuccoShutters, Style::kBrickWalkUp}) : one({Style::kBrickWalkUp, Style::kStuccoShutters});
+  if (floors > 14) return one({Style::kCurtainWall, Style::kRibbon, Style::kConcreteGrid, Style::kClassicStone});
+  if (floors > 7) return one({Style::kClassicStone, Style::kBrickLoft, Style::kConcreteGrid, Style::kBrickWalkUp});
+  if (europe) return one({Style::kStuccoShutters, Style::kClassicStone, Style::kClassicStone, Style::kBrickWalkUp, Style::kStuccoShutters});
+  return one(
+      {Style::kBrickWalkUp, Style::kBrickWalkUp, Style::kBrickWalkUp, Style::kBrickLoft, Style::kClassicStone, Style::kStuccoShutters});
 }
 
 namespace {
@@ -320,6 +322,7 @@ class WallBuilder {
     context.base = static_cast<float>(walls.base);
     context.stretch = look.stretch;
     context.reach = 0.6f;
+    if (!scene_.relief.flat()) context.fall = [&](Vec2f p) { return static_cast<float>(walls.base - scene_.relief.At({p.x, p.y})); };
     context.next_sign = static_cast<int>(look.plan.seed % kSignCount);
     BuildFacades(context, own.plan, walls.entity, detail);
   }

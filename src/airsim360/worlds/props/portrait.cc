@@ -32,7 +32,7 @@ float Join(float a, float b, float k) {
 float Carve(float a, float b, float k) { return -Join(-a, b, k); }
 
 // The head about its own middle, z to the viewer, y up, half symmetrical.
-float Face(Vec3f p) {
+float HeadShape(Vec3f p) {
   const Vec3f s{std::abs(p.x), p.y, p.z};
   float d = Ellipsoid(p, {0, 0.12f, -0.02f}, {0.335f, 0.40f, 0.385f});                             // skull
   d = Join(d, Ellipsoid(p, {0, -0.18f, 0.08f}, {0.245f, 0.29f, 0.27f}), 0.14f);                    // jaw
@@ -78,7 +78,7 @@ struct Bust {
 
   Near At(Vec3f p) const {
     const Vec3f h = ToHead(p);
-    Near best{Face(h), Cloth::kSkin};
+    Near best{HeadShape(h), Cloth::kSkin};
     best.distance = Join(best.distance, Capsule(p, {0, -0.20f, -0.10f}, {0, -0.74f, -0.14f}, 0.185f, 0.225f), 0.06f);
     const auto take = [&](float d, Cloth cloth) {
       if (d < best.distance) best = {d, cloth};

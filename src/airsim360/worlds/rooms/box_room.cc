@@ -12,14 +12,14 @@ std::vector<Vec3f> Corners(Vec3f low, Vec3f high) {
   return corners;
 }
 
-struct Face {
+struct RoomFace {
   const char* name;
   const char* category;
   uint32_t corner[4];  // counter-clockwise seen from outside the box
   Vec3f color;
 };
 
-constexpr Face kRoomFaces[] = {
+constexpr RoomFace kRoomFaces[] = {
     {"floor", "ground/floor", {0, 2, 3, 1}, {0.42f, 0.36f, 0.30f}},
     {"ceiling", "construction/ceiling", {4, 5, 7, 6}, {0.80f, 0.80f, 0.80f}},
     {"wall west", "construction/wall", {0, 4, 6, 2}, {0.60f, 0.30f, 0.25f}},
@@ -51,7 +51,7 @@ std::shared_ptr<const Scene> BuildBoxRoom(const WorldOptions&) {
   Mesh room;
   room.name = "room";
   room.positions = Corners({-5, -5, 0}, {5, 5, 6});
-  for (const Face& face : kRoomFaces) {
+  for (const RoomFace& face : kRoomFaces) {
     const auto& c = face.corner;
     const auto first = static_cast<uint32_t>(room.triangles.size());
     AddQuad(room, {c[0], c[3], c[2], c[1]});

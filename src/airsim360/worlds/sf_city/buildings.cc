@@ -122,7 +122,7 @@ std::vector<Surfaces> AddHouseSchemes(SceneBuilder& builder, const Surfaces& sur
   return schemes;
 }
 
-void BuildSfBuildings(District& d, const Hills&, const SfPlan& city, SlopeLay& lay) {
+void BuildSfBuildings(District& d, const Hills& hills, const SfPlan& city, SlopeLay& lay) {
   const std::vector<Surfaces> schemes = AddHouseSchemes(d.builder, d.surfaces);
   const MeshId balcony = AddBalconyMesh(d.builder, d.surfaces), box = AddWindowBoxMesh(d.builder, d.surfaces);
   const std::array escapes{AddFireEscapeMesh(d.builder, d.surfaces, false), AddFireEscapeMesh(d.builder, d.surfaces, true)};
@@ -160,6 +160,7 @@ void BuildSfBuildings(District& d, const Hills&, const SfPlan& city, SlopeLay& l
     lay.building = X;
     FacadeContext context{d.builder, d.surfaces, mesh, balcony, box, escapes};
     context.X_WB = X;
+    context.fall = [&](Vec2f p) { return placed.ground - hills.Ground(p).z; };
     BuildFacades(context, plan, walls, DetailOf(d.plan, plan));
     BuildRoof(d.builder, mesh, d.surfaces, &d.placer.shelf(), plan, walls, roof);
     if (plan.base == 0) {

@@ -9,7 +9,7 @@
 namespace airsim360::internal {
 namespace {
 
-using F = FacadeStyle;
+using Style = FacadeStyle;
 
 // Depth of the strips of houses at the ends of a block, and of what the corner houses take of its short sides.
 constexpr float kEndDepth = 24, kCornerDepth = 19;
@@ -150,12 +150,12 @@ class Planner {
   void PlanShops(size_t index) {
     const Block& block = plan_.blocks[index];
     const GroundRect inner = block.inner();
-    static constexpr std::array kStyles = {F::kBrickWalkUp, F::kClassicStone,   F::kStuccoShutters, F::kBrickLoft,
-                                           F::kDeco,        F::kStuccoShutters, F::kRibbon};
+    static constexpr std::array kStyles = {Style::kBrickWalkUp, Style::kClassicStone,   Style::kStuccoShutters, Style::kBrickLoft,
+                                           Style::kDeco,        Style::kStuccoShutters, Style::kRibbon};
     for (int row = 0; row < 2; ++row) {
       RngStream rng(seed_, "shops", index * 2 + static_cast<size_t>(row));
       float x = inner.x0;
-      F before = F::kCount;
+      Style before = Style::kCount;
       while (x < inner.x1 - 0.1f) {
         float w = static_cast<float>(rng.Uniform(8, 16));
         if (inner.x1 - x - w < 8) w = inner.x1 - x > 24 ? (inner.x1 - x) / 2 : inner.x1 - x;
@@ -212,12 +212,13 @@ class Planner {
   }
 
   void AddTower(size_t index, const GroundRect& lot, float core, RngStream& rng) {
-    static constexpr std::array kStyles = {F::kCurtainWall, F::kDeco,         F::kConcreteGrid, F::kRibbon,      F::kCurtainWall,
-                                           F::kBracedGlass, F::kClassicStone, F::kBrickLoft,    F::kConcreteGrid};
+    static constexpr std::array kStyles = {Style::kCurtainWall,  Style::kDeco,        Style::kConcreteGrid,
+                                           Style::kRibbon,       Style::kCurtainWall, Style::kBracedGlass,
+                                           Style::kClassicStone, Style::kBrickLoft,   Style::kConcreteGrid};
     BuildingPlan base;
     base.style = kStyles[rng.Index(kStyles.size())];
     float height = static_cast<float>(18 + 26 * rng.Uniform() + core * (20 + 95 * rng.Uniform() * rng.Uniform() + 30 * rng.Uniform()));
-    if (base.style == F::kClassicStone || base.style == F::kBrickLoft) height = std::min(height, 44.0f);
+    if (base.style == Style::kClassicStone || base.style == Style::kBrickLoft) height = std::min(height, 44.0f);
     const int tiers = height > 62 ? 2 + static_cast<int>(rng.Index(2)) : height > 36 && rng.Chance(0.45) ? 2 : 1;
     const StyleMetrics& metrics = MetricsOf(base.style);
     Fill(base, index, lot, rng);
