@@ -14,7 +14,7 @@ Material Water() {
   Material m;
   m.name = "water";
   m.kind = SurfaceKind::kWater;
-  m.base_color = {0.03f, 0.055f, 0.05f};
+  m.base_color = {0.085f, 0.095f, 0.082f};  // shallow, over stone with algae
   m.roughness = 0.05f;
   return m;
 }

@@ -4,6 +4,7 @@
 #include "airsim360/math/angles.h"
 #include "airsim360/worlds/town/district.h"
 #include "airsim360/worlds/town/market_stall.h"
+#include "airsim360/worlds/town/street_wear.h"
 
 namespace airsim360::internal {
 namespace {
@@ -13,7 +14,7 @@ constexpr float kTerraceZ = 0.6f;
 constexpr int kCells = 9;  // brick fields along each side
 
 // Brick fields in stone bands; rings of setts around the fountain, a few millimetres proud. Entities of the fields, row by row.
-std::vector<EntityId> LayPaving(Ground& ground, const GroundRect& area) {
+std::vector<EntityId> LayPaving(Ground& ground, const GroundRect& area, RngStream& rng) {
   std::vector<EntityId> fields;
   const float w = area.width() / kCells, h = area.depth() / kCells, band = 0.3f;
   for (int j = 0; j < kCells; ++j) {
@@ -21,9 +22,15 @@ std::vector<EntityId> LayPaving(Ground& ground, const GroundRect& area) {
       const GroundRect cell{area.x0 + w * static_cast<float>(i), area.y0 + h * static_cast<float>(j),
                             area.x0 + w * static_cast<float>(i + 1), area.y0 + h * static_cast<float>(j + 1)};
       const GroundRect field = cell.Inset(band);
-      fields.push_back(
-          ground.Begin("plaza field", "ground/pavement/modular", (i + j) % 2 ? Surface::kPlazaBrickDark : Surface::kPlazaBrick));
+      const Surface brick = (i + j) % 2 ? Surface::kPlazaBrickDark : Surface::kPlazaBrick;
+      fields.push_back(ground.Begin("plaza field", "ground/pavement/modular", brick));
       ground.Rect(field, 0);
+      LayPavementWear(
+          ground,
+          [&](float s, float d, float lift) {
+            return Vec3f{field.x0 + s, field.y0 + d, lift};
+          },
+          0, field.width(), 0, field.depth(), Surface::kPlazaStone, rng);
       ground.Use(Surface::kPlazaStone);
       ground.Rect({cell.x0, cell.y0, cell.x1, field.y0}, 0);
       ground.Rect({cell.x0, field.y1, cell.x1, cell.y1}, 0);
@@ -230,7 +237,8 @@ void BuildPlaza(District& d, const Block& block) {
   const Vec2f c = area.center();
   const GroundRect terrace{c.x - 25.2f, c.y + 27, c.x + 25.2f, c.y + 38};
   constexpr float kStepsHalf = 5;
-  const std::vector<EntityId> fields = LayPaving(d.ground, area);
+  RngStream wear(d.seed, "plaza wear");
+  const std::vector<EntityId> fields = LayPaving(d.ground, area, wear);
   LayTerrace(d.ground, terrace, kStepsHalf);
   d.placer.Reserve({{c.x, terrace.y0 - 0.6f}, {kStepsHalf, 0.7f}, 0});
 

@@ -269,7 +269,12 @@ void LayPavementWear(Ground& ground, const PavementPoint& at, float s0, float s1
     const float w = 0.6f * static_cast<float>(1 + rng.Index(2)), l = 0.6f * static_cast<float>(1 + rng.Index(3));
     if (s1 - s0 < l + 0.2f || d1 - d0 < w + 0.2f) continue;
     const float s = Uniform(rng, s0 + 0.1f, s1 - l - 0.1f), d = Uniform(rng, d0 + 0.1f, d1 - w - 0.1f);
-    ground.Use(rng.Chance(0.35) ? Surface::kAsphaltPatch : rng.Chance(0.5) ? Surface::kGutter : Surface::kKerb);
+    const bool brick = slabs == Surface::kPlazaBrick || slabs == Surface::kPlazaBrickDark;
+    const Surface other = slabs == Surface::kPlazaBrick ? Surface::kPlazaBrickDark : Surface::kPlazaBrick;
+    ground.Use(rng.Chance(brick ? 0.15 : 0.35) ? Surface::kAsphaltPatch
+               : brick                         ? other
+               : rng.Chance(0.5)               ? Surface::kGutter
+                                               : Surface::kKerb);
     ground.Quad(at(s, d, lift(0.0008f)), at(s + l, d, lift(0.0008f)), at(s + l, d + w, lift(0.0008f)), at(s, d + w, lift(0.0008f)));
   }
   for (int i = 0; i < static_cast<int>(area * 0.015f + Uniform(rng, 0, 1)); ++i) {

@@ -259,7 +259,7 @@ void TownDrawer::LaySquare(const Patch& patch, size_t number) {
       const Vec2d p = a + t * s + in * 4.5;
       if (!Inside(patch, p) || DistanceToRing(ring, p) < 3.5) continue;
       if (rng_.Chance(0.75 * spec_.trees)) AddTree(p, 6, 9);
-      if (rng_.Chance(0.45)) AddNode(p + in * 2.2 + t * 3.0, {{"amenity", "bench"}});
+      if (rng_.Chance(0.45)) AddBench(p + in * 2.2 + t * 3.0, in);
       if (rng_.Chance(0.12)) AddNode(p - in * 1.5 + t * 4.0, {{"amenity", "waste_basket"}});
     }
     s -= length;
@@ -271,7 +271,8 @@ void TownDrawer::LaySquare(const Patch& patch, size_t number) {
   // Benches around it, and two rows of trees where the square is large.
   for (int k = 0; k < 6; ++k) {
     const double a = 6.283185 * (k + 0.5) / 6;
-    AddNode(m + Vec2d{std::cos(a), std::sin(a)} * 7.0, {{"amenity", "bench"}});
+    const Vec2d out{std::cos(a), std::sin(a)};
+    AddBench(m + out * 7.0, k % 2 ? out : out * -1.0);
   }
   for (double y : {-15.0, 15.0})
     for (double x = -18; x <= 18; x += 9)
@@ -348,6 +349,12 @@ OsmWay& TownDrawer::AddLine(const std::vector<Vec2d>& line, const TagList& tags)
 }
 
 void TownDrawer::AddNode(Vec2d p, const TagList& tags) { map_.data.nodes.push_back({next_node_++, p, TagsOf(tags)}); }
+
+// A bench that looks to `front`, whatever path is near.
+void TownDrawer::AddBench(Vec2d p, Vec2d front) {
+  const double compass = std::atan2(front.x, front.y) * 360 / kTau;
+  AddNode(p, {{"amenity", "bench"}, {"direction", std::to_string(std::lround(compass < 0 ? compass + 360 : compass))}});
+}
 
 void TownDrawer::AddTree(Vec2d p, double least, double most, bool needles) {
   if (spec_.palms || spec_.style == TownStyle::kOchre) {

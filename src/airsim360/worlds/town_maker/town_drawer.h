@@ -50,6 +50,7 @@ class TownDrawer {
   OsmWay& AddArea(const Ring& ring, const TagList& tags);
   OsmWay& AddLine(const std::vector<Vec2d>& line, const TagList& tags);
   void AddNode(Vec2d p, const TagList& tags);
+  void AddBench(Vec2d p, Vec2d front);
   void AddTree(Vec2d p, double least, double most, bool needles = false);
   void AddSpot(const char* kind, Vec2d p, Vec2d front, double size = 0) { map_.spots.push_back({kind, p, front, size}); }
   bool Inside_(Vec2d p, double margin) const;
