@@ -1,15 +1,18 @@
 #include "airsim360/traffic/lane_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace airsim360 {
 namespace {
 
-constexpr double kSideways = 2;        // m/s^2 in bends: comfortable
-constexpr double kVehicleWidth = 2.3;  // metres between the middles of two that just pass each other, 0.3 m apart
-constexpr double kFollowWidth = 3;     // the same, who turn away from each other: a bus is 3 m wide with its mirrors
+constexpr double kSideways = 2;     // m/s^2 in bends: comfortable
+constexpr double kFollowWidth = 3;  // metres between who turn away from each other: a bus is 3 m wide with its mirrors
+constexpr double kVansPass = 3.05;  // metres between the middles of two ways on which vans turn beside each other
+// Metres between ways that are told apart: for cars that go straight on, ... for buses that swing out.
+constexpr std::array kPassingWidths = {kPassingWidth, 2.5, 2.7, kVansPass, 3.5, 4.0, 4.6};
 
 Vec3d PointOf(const Lane& lane, size_t i) { return VecCast<double>(lane.points[i]); }
 
@@ -36,15 +39,24 @@ std::vector<Vec3d> Samples(const LaneMap& map, LaneId id) {
   return samples;
 }
 
-// Metres along `b` to the last place that is less than `width` from `a`; negative: none is.
-double LastOverlap(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b, double width) {
-  for (size_t i = b.size(); i-- > 0;) {
-    const auto near = [&](Vec3d q) {
-      const double dx = b[i].x - q.x, dy = b[i].y - q.y;
-      return dx * dx + dy * dy < width * width && std::abs(b[i].z - q.z) < 3;
-    };
-    if (std::ranges::any_of(a, near)) return kStep * static_cast<double>(i);
+// How far samples of `b` are from `a`, squared metres.
+std::vector<double> Apart(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+  std::vector<double> apart;
+  for (const Vec3d p : b) {
+    double least = INFINITY;
+    for (const Vec3d q : a) {
+      const double dx = p.x - q.x, dy = p.y - q.y;
+      if (std::abs(p.z - q.z) < 3) least = std::min(least, dx * dx + dy * dy);
+    }
+    apart.push_back(least);
   }
+  return apart;
+}
+
+// Metres to the last sample that is less than `width` away; negative: none is.
+double LastOverlap(const std::vector<double>& apart, double width) {
+  for (size_t i = apart.size(); i-- > 0;)
+    if (apart[i] < width * width) return kStep * static_cast<double>(i);
   return -1;
 }
 
@@ -65,7 +77,8 @@ LaneMap::LaneMap(std::shared_ptr<const RoadNetwork> roads) : roads_(std::move(ro
       table.lengths.push_back(table.lengths.back() + Norm(PointOf(lane, i) - PointOf(lane, i - 1)));
     const size_t n = lane.points.size();
     table.turn = Wrapped(Heading(PointOf(lane, n - 1) - PointOf(lane, n - 2)) - Heading(PointOf(lane, 1) - PointOf(lane, 0)));
-    table.speed = std::max(1.5, std::min<double>(lane.speed, std::sqrt(kSideways * SmallestRadius(lane))));
+    table.radius = SmallestRadius(lane);
+    table.speed = std::max(1.5, std::min<double>(lane.speed, std::sqrt(kSideways * table.radius)));
     for (const LaneId next : lane.next) tables_[next].previous.push_back(id);
   }
   FindConflicts();
@@ -82,9 +95,22 @@ void LaneMap::FindConflicts() {
       for (size_t b = 0; b < junction.size(); ++b) {
         if (a == b) continue;
         // Those who come from the same lane follow each other until their ways part.
-        const bool follows = SameOrigin(*this, junction[a], junction[b]);
-        const double last = LastOverlap(samples[a], samples[b], follows ? kFollowWidth : kVehicleWidth);
-        if (last >= 0) (follows ? tables_[junction[a]].diverging : tables_[junction[a]].conflicts).push_back({junction[b], last});
+        const std::vector<double> apart = Apart(samples[a], samples[b]);
+        if (SameOrigin(*this, junction[a], junction[b])) {
+          if (const double last = LastOverlap(apart, kFollowWidth); last >= 0) {
+            tables_[junction[a]].diverging.push_back({junction[b], last});
+            tables_[junction[a]].shared = true;
+          }
+          continue;
+        }
+        double before = -1, narrower = 0;
+        for (const double width : kPassingWidths) {
+          const double last = LastOverlap(apart, width);
+          if (last > before) tables_[junction[a]].conflicts.push_back({junction[b], last, narrower});
+          if (last >= 0 && width <= kVansPass) tables_[junction[a]].shared = true;
+          before = last;
+          narrower = width;
+        }
       }
     }
   }

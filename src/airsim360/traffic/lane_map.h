@@ -29,7 +29,11 @@ struct NearestLanePoint {
 struct LaneConflict {
   LaneId other = kNoLane;
   double clear = 0;  ///< metres along `other` past which the rear of a vehicle on it is out of the way
+  double apart = 0;  ///< only for two who need more than so much between the middles of their ways, metres
 };
+
+/// Metres between the middles of two ways in which any two cars that go straight on pass each other.
+inline constexpr double kPassingWidth = 2.3;
 
 /// Constant.
 class LaneMap {
@@ -43,12 +47,17 @@ class LaneMap {
   double length(LaneId id) const { return tables_[id].lengths.back(); }
   /// m/s, slower where the lane bends: 2 m/s^2 sideways at most.
   double speed(LaneId id) const { return tables_[id].speed; }
+  /// Metres: the smallest that it bends with; infinite: straight.
+  double radius(LaneId id) const { return tables_[id].radius; }
   /// Change of direction from beginning to end, radians in (-pi, pi], left positive.
   double turn(LaneId id) const { return tables_[id].turn; }
   /// At `s` metres from the beginning; before it and past the end the lane goes on straight.
   LanePoint At(LaneId id, double s) const;
   NearestLanePoint Nearest(LaneId id, Vec3d p) const;
+  /// A way may be named more than once, for those who need little room and for those who need more.
   std::span<const LaneConflict> conflicts(LaneId id) const { return tables_[id].conflicts; }
+  /// Whether others cross this way, join it or leave it: who stands on it is in their way.
+  bool shared(LaneId id) const { return tables_[id].shared; }
   /// Other ways that begin where this one does, and how far along them a rear must be to leave room for a vehicle on this one.
   std::span<const LaneConflict> diverging(LaneId id) const { return tables_[id].diverging; }
   /// Lanes that end where this one begins.
@@ -59,9 +68,10 @@ class LaneMap {
  private:
   struct Table {
     std::vector<double> lengths;  // metres to each point
-    double speed = 0, turn = 0;
+    double speed = 0, turn = 0, radius = 0;
     std::vector<LaneConflict> conflicts, diverging;
     std::vector<LaneId> previous;
+    bool shared = false;
   };
 
   void FindConflicts();

@@ -12,38 +12,33 @@ constexpr int64_t kPatienceNs = 25'000'000'000;  // after so long at the line ot
 constexpr double kAtLine = 6;                    // metres
 constexpr double kLeftTurn = 0.6;                // radians
 constexpr double kFirmBraking = 3;               // m/s^2
-constexpr double kLong = 9;                      // metres
+
+// Metres that a vehicle needs on each side of the middle of a way: half of its width, and what its corners come out where it bends.
+double RoomBeside(const TrafficModel& model, uint32_t vehicle, LaneId way) {
+  constexpr double kBends = 0.1, kSpare = 0.1;  // metres
+  const VehicleShape& shape = model.vehicles[vehicle].shape;
+  // With both axles on an arc.
+  const double swing = shape.length * shape.length / (13.5 * model.lanes.radius(way));
+  return std::max(kPassingWidth / 2, shape.width / 2 + (swing < kBends ? 0 : swing + kSpare));
+}
 
 bool Stops(const DrivingVehicle& own, double distance, double braking) { return own.v * own.v / (2 * braking) < distance; }
 
 }  // namespace
 
 RightOfWay::RightOfWay(const TrafficModel& model, const TrafficState& state, const Occupancy& occupancy)
-    : model_(model), state_(state), occupancy_(occupancy), granted_(model.lanes.size()), swung_in_(model.lanes.roads().junctions.size()) {
-  for (uint32_t i = 0; i < state.vehicles.size(); ++i) {
+    : model_(model), state_(state), occupancy_(occupancy), granted_(model.lanes.size()) {
+  for (uint32_t i = 0; i < state.vehicles.size(); ++i)
     if (state.vehicles[i].granted) granted_[state.vehicles[i].ahead[0]].push_back(i);
-    if (const int32_t junction = JunctionItSwingsIn(i); junction >= 0) swung_in_[static_cast<size_t>(junction)] = true;
-  }
 }
 
-bool RightOfWay::SwingsOut(uint32_t vehicle, LaneId way) const {
-  return model_.vehicles[vehicle].shape.length > kLong && model_.lanes.lane(way).junction >= 0 &&
-         std::abs(model_.lanes.turn(way)) > kLeftTurn;
-}
-
-int32_t RightOfWay::JunctionItSwingsIn(uint32_t vehicle) const {
-  const DrivingVehicle& own = state_.vehicles[vehicle];
-  if (SwingsOut(vehicle, own.lane)) return model_.lanes.lane(own.lane).junction;
-  if (own.granted && SwingsOut(vehicle, own.ahead[0])) return model_.lanes.lane(own.ahead[0]).junction;
-  const bool comes_out = own.behind[0] != kNoLane && own.s < model_.vehicles[vehicle].shape.length;
-  return comes_out && SwingsOut(vehicle, own.behind[0]) ? model_.lanes.lane(own.behind[0]).junction : -1;
-}
-
-bool RightOfWay::IsBusy(LaneId way) const {
+bool RightOfWay::IsBusy(uint32_t vehicle, LaneId way) const {
+  const double room = RoomBeside(model_, vehicle, way);
   for (const LaneConflict& conflict : model_.lanes.conflicts(way)) {
-    if (!granted_[conflict.other].empty()) return true;
+    const auto meets = [&](uint32_t other) { return room + RoomBeside(model_, other, conflict.other) > conflict.apart; };
+    if (std::ranges::any_of(granted_[conflict.other], meets)) return true;
     for (const Occupant& o : occupancy_.On(conflict.other))
-      if (o.rear < conflict.clear) return true;
+      if (o.rear < conflict.clear && meets(o.vehicle)) return true;
   }
   return false;
 }
@@ -67,7 +62,7 @@ RightOfWay::Coming RightOfWay::ComingTo(LaneId way) const {
     const double seconds = distance / std::max(other.v, 2.0);
     if (seconds >= coming.seconds) continue;
     const bool waits = other.stopped_ns >= 0 && distance < kAtLine;
-    coming = {seconds, waits ? state_.t_ns - other.stopped_ns : 0, HasRoomBehind(first->vehicle), other.ahead[1]};
+    coming = {seconds, waits ? state_.t_ns - other.stopped_ns : 0, HasRoomBehind(first->vehicle), other.ahead[1], first->vehicle};
   }
   return coming;
 }
@@ -75,9 +70,14 @@ RightOfWay::Coming RightOfWay::ComingTo(LaneId way) const {
 bool RightOfWay::MustYield(uint32_t vehicle, LaneId way) const {
   const DrivingVehicle& own = state_.vehicles[vehicle];
   const int64_t own_wait = own.stopped_ns >= 0 ? state_.t_ns - own.stopped_ns : 0;
+  const double beside = RoomBeside(model_, vehicle, way);
+  LaneId looked_at = kNoLane;
+  Coming coming;
   for (const LaneConflict& conflict : model_.lanes.conflicts(way)) {
     if (model_.lanes.LightAt(conflict.other, state_.t_ns + model_.signal_ns) != SignalLight::kGreen) continue;
-    const Coming coming = ComingTo(conflict.other);
+    if (conflict.other != looked_at) coming = ComingTo(conflict.other);
+    looked_at = conflict.other;
+    if (!std::isfinite(coming.seconds) || beside + RoomBeside(model_, coming.vehicle, conflict.other) <= conflict.apart) continue;
     // Who has waited for long goes first, and keeps its turn for the room on the road that both want.
     const bool can_go = coming.room || coming.exit == own.ahead[1];
     if (coming.waited_ns > kPatienceNs && coming.waited_ns > own_wait && can_go) return true;
@@ -89,20 +89,24 @@ bool RightOfWay::MustYield(uint32_t vehicle, LaneId way) const {
 
 bool RightOfWay::HasRoomBehind(uint32_t vehicle) const {
   const LaneId exit = state_.vehicles[vehicle].ahead[1];
-  if (exit == kNoLane) return true;
-  double room = INFINITY;
+  if (exit == kNoLane || !model_.lanes.shared(state_.vehicles[vehicle].ahead[0])) return true;
+  // Behind all who are there, should they have to wait at its end. Who is longer than the road has it alone.
+  const double needed = model_.vehicles[vehicle].shape.length + 1;
+  double room = std::max(needed, model_.lanes.length(exit));
+  const auto take = [&](uint32_t other) { room -= model_.vehicles[other].shape.length + model_.vehicles[other].driver.gap; };
   if (const Occupant* last = occupancy_.Ahead(exit, -INFINITY, vehicle)) {
+    for (const Occupant& o : occupancy_.On(exit))
+      if (o.vehicle != vehicle) take(o.vehicle);
     // As far as it comes if it brakes now.
     const double v = state_.vehicles[last->vehicle].v;
-    room = std::max(0.0, last->rear) + v * v / (2 * kFirmBraking);
+    room = std::min(room, std::max(0.0, last->rear) + v * v / (2 * kFirmBraking));
   }
-  const auto take = [&](uint32_t other) { room -= model_.vehicles[other].shape.length + model_.vehicles[other].driver.gap; };
   for (const LaneId before : model_.lanes.previous(exit)) {
     for (const uint32_t other : granted_[before]) take(other);
     for (const Occupant& o : occupancy_.On(before))
       if (o.vehicle != vehicle && state_.vehicles[o.vehicle].lane == before && model_.lanes.lane(before).junction >= 0) take(o.vehicle);
   }
-  return room > model_.vehicles[vehicle].shape.length + 1;
+  return room >= needed;
 }
 
 bool RightOfWay::MayEnter(uint32_t vehicle, double distance, bool first, DrivingVehicle& own) {
@@ -121,13 +125,7 @@ bool RightOfWay::MayEnter(uint32_t vehicle, double distance, bool first, Driving
   if (light == SignalLight::kRed || (light != SignalLight::kGreen && stops && !last_chance)) return false;
   if (!first) return true;                                               // held by the one in front
   if (stops && distance > kAsk * std::max(own.v, 3.0) + 2) return true;  // too early to ask
-  if (IsBusy(way) || MustYield(vehicle, way) || !HasRoomBehind(vehicle)) return false;
-  // Two that turn side by side would touch, on whichever ways.
-  if (SwingsOut(vehicle, way)) {
-    const auto junction = static_cast<size_t>(model_.lanes.lane(way).junction);
-    if (swung_in_[junction]) return false;
-    swung_in_[junction] = true;
-  }
+  if (IsBusy(vehicle, way) || MustYield(vehicle, way) || !HasRoomBehind(vehicle)) return false;
   own.granted = true;
   granted_[way].push_back(vehicle);
   return true;

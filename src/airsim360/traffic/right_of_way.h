@@ -17,20 +17,18 @@ class RightOfWay {
   bool MayEnter(uint32_t vehicle, double distance, bool first, DrivingVehicle& own);
 
  private:
-  bool IsBusy(LaneId way) const;
-  /// Whether a vehicle is so long that turning through a junction it comes out of its lane, as buses do.
-  bool SwingsOut(uint32_t vehicle, LaneId way) const;
-  int32_t JunctionItSwingsIn(uint32_t vehicle) const;
+  bool IsBusy(uint32_t vehicle, LaneId way) const;
   bool MustYield(uint32_t vehicle, LaneId way) const;
   bool HasRoomBehind(uint32_t vehicle) const;
   int Rank(LaneId way) const;
   /// The first on its way to `way`: seconds until it is at the line, infinite if nobody comes; how long it has stood there;
-  /// whether there is room for it behind the junction.
+  /// whether there is room for it behind the junction; who it is.
   struct Coming {
     double seconds = INFINITY;
     int64_t waited_ns = 0;
     bool room = false;
     LaneId exit = kNoLane;
+    uint32_t vehicle = 0;
   };
   Coming ComingTo(LaneId way) const;
 
@@ -38,7 +36,6 @@ class RightOfWay {
   const TrafficState& state_;
   const Occupancy& occupancy_;
   std::vector<std::vector<uint32_t>> granted_;  // by way: those who may enter and have not
-  std::vector<bool> swung_in_;                  // by junction: one who swings out may enter or is in it
 };
 
 }  // namespace airsim360::internal

@@ -42,13 +42,21 @@ double SlowedBy(const Driver& driver, double v, double distance) {
   return std::sqrt(v * v + 2 * 0.7 * driver.braking * std::max(0.0, distance));
 }
 
-// The speed that a driver wants here: slower before bends that come, and before its bay.
+// With which one may come to a lane, so that one can stop at its end.
+double SpeedInto(const LaneMap& lanes, LaneId lane) {
+  constexpr double kFirmBraking = 3;  // m/s^2
+  const bool ends_at_line = lanes.lane(lanes.lane(lane).next.front()).junction >= 0;
+  return ends_at_line ? std::sqrt(2 * kFirmBraking * std::max(0.5, lanes.length(lane) - kStopBefore)) : INFINITY;
+}
+
+// The speed that a driver wants here: slower before bends and short lanes that come, and before its bay.
 double SpeedHere(const TrafficModel& model, uint32_t vehicle, const DrivingVehicle& own) {
   const Driver& driver = model.vehicles[vehicle].driver;
   double wanted = WantedSpeed(driver, model.lanes.speed(own.lane)), distance = model.lanes.length(own.lane) - own.s;
   for (const LaneId lane : own.ahead) {
     if (lane == kNoLane) break;
-    wanted = std::min(wanted, SlowedBy(driver, WantedSpeed(driver, model.lanes.speed(lane)), distance));
+    const double there = std::min(WantedSpeed(driver, model.lanes.speed(lane)), SpeedInto(model.lanes, lane));
+    wanted = std::min(wanted, SlowedBy(driver, there, distance));
     distance += model.lanes.length(lane);
   }
   if (own.parking != Parking::kNone) wanted = std::min(wanted, SlowedBy(driver, kParkingSpeed, internal::ToParkingTurn(model, own)));

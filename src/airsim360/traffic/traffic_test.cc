@@ -82,6 +82,45 @@ TEST(Traffic, StopsBeforeARedLightAndGoesAtGreen) {
   EXPECT_NE(state.vehicles[0].lane, 0u);
 }
 
+// 100 m, a way of 10 m that no other meets, 6 m to the line of a junction with a red light, and a way back.
+std::shared_ptr<const RoadNetwork> ShortRoadToARedLight(float length, float speed = 13.9f) {
+  auto roads = std::make_shared<RoadNetwork>();
+  const float line = 110 + length;
+  roads->lanes = {{.points = {{0, 0, 0}, {100, 0, 0}}, .speed = speed, .next = {1}},
+                  {.points = {{100, 0, 0}, {110, 0, 0}}, .speed = speed, .next = {2}, .junction = 0},
+                  {.points = {{110, 0, 0}, {line, 0, 0}}, .next = {3}},
+                  {.points = {{line, 0, 0}, {line + 10, 0, 0}}, .next = {4}, .junction = 1, .signal = 0},
+                  {.points = {{line + 10, 0, 0}, {2000, 0, 0}, {2000, 900, 0}, {0, 900, 0}, {0, 0, 0}}, .next = {0}}};
+  roads->junctions = {{.center = {105, 0, 0}, .radius = 5, .phases = {}},
+                      {.center = {line + 5, 0, 0}, .radius = 5, .phases = {{2, 600, 3, 2}}}};
+  return roads;
+}
+
+// On a road of 6 m nobody stops from 50 km/h.
+TEST(Traffic, ComesToAShortRoadSoSlowlyThatItCanStopAtItsEnd) {
+  for (const float length : {3.0f, 6.0f, 12.0f, 25.0f}) {
+    const TrafficModel model = ModelOf(ShortRoadToARedLight(length), 1);
+    TrafficState state;
+    state.vehicles = {{.lane = 0, .ahead = {1, 2}, .s = 20, .v = 13}};
+    while (state.t_ns < 60'000'000'000) {
+      TickTraffic(model, {}, state);
+      ASSERT_NE(state.vehicles[0].lane, 3u) << length;
+    }
+    EXPECT_EQ(state.vehicles[0].lane, 2u) << length;
+    EXPECT_LT(state.vehicles[0].v, 0.1) << length;
+  }
+}
+
+// A junction is kept free for others. Where there are none, as between the pieces of one street, the queue stands on the way as well.
+TEST(Traffic, AQueueStandsOnAWayThatNobodyElseUses) {
+  const TrafficModel model = ModelOf(ShortRoadToARedLight(6, 5), 2);
+  TrafficState state;
+  for (const double s : {80.0, 10.0}) state.vehicles.push_back({.lane = 0, .ahead = {1, 2}, .s = s, .v = 5});
+  Drive(model, 60, state);
+  EXPECT_EQ(state.vehicles[0].lane, 2u);
+  EXPECT_EQ(state.vehicles[1].lane, 1u);
+}
+
 TEST(Traffic, AtAmberWhoCanStopStopsAndWhoCannotGoesOn) {
   for (const double distance : {60.0, 15.0}) {
     const TrafficModel model = ModelOf(Street(300, {{1, 1, 3, 60}}), 1);

@@ -32,9 +32,14 @@ struct RoadSpec {
   int32_t signal_to = -1, signal_from = -1;  ///< heads that those who come along the axis, and against it, obey
 };
 
+/// Metres between stop lines: on a shorter road a car would stand in one junction while it waits for the next.
+inline constexpr float kHoldsACar = 7;
+
 /// Joins roads at junctions: every lane leads straight on, left from the innermost and right from the outermost lane, back
 /// only where no other road begins. Cycle lanes are entered from all sides; they lead straight on and right, those at the left
-/// kerb straight on and left.
+/// kerb straight on and left. Junctions with a road shorter than kHoldsACar between them are one: ways lead through it from road to
+/// road, where the short ones lead there. It has the signals of the first of them that has any; heads of roads count there only.
+/// Where a one-way road ends for good beside one that comes from nowhere, the first leads back into the second.
 class RoadBuilder {
  public:
   /// `height`: of the carriageway at a place.
@@ -48,7 +53,7 @@ class RoadBuilder {
  private:
   std::function<float(Vec2f)> height_;
   std::vector<Junction> junctions_;
-  std::vector<RoadSpec> roads_;
+  std::vector<RoadSpec> roads_, inner_;  // inner: within what becomes one junction
 };
 
 }  // namespace airsim360

@@ -161,6 +161,105 @@ TEST(RoadBuilder, OneWayRoadsThatEndNowhereAreLeftOut) {
   EXPECT_GE(roads.lanes.size(), 4u);
 }
 
+// A street from west to east over one that has a carriageway each for north and south, 16 m apart; signals at the first of both crossings.
+RoadNetwork DualCarriageway() {
+  RoadBuilder builder(kFlat);
+  const size_t west = builder.AddJunction({-100, 0}, 5), east = builder.AddJunction({100, 0}, 5), north = builder.AddJunction({0, 110}, 12),
+               south = builder.AddJunction({0, -110}, 12), a = builder.AddJunction({-8, 0}, 8, CrossStreetSignals()),
+               b = builder.AddJunction({8, 0}, 8);
+  const auto street = [&](size_t from, size_t to, float x0, float x1) {
+    builder.AddRoad({.from = from,
+                     .to = to,
+                     .axis = {{x0, 0}, {x1, 0}},
+                     .forward = kOneLane,
+                     .backward = kOneLane,
+                     .signal_to = kEastWestHead,
+                     .signal_from = kEastWestHead});
+  };
+  const auto carriageway = [&](size_t from, size_t to, float x, float y0, float y1) {
+    builder.AddRoad({.from = from,
+                     .to = to,
+                     .axis = {{x, y0}, {x, y1}},
+                     .forward = {{0, 3.5f}},
+                     .backward = {},
+                     .signal_to = kNorthSouthHead,
+                     .signal_from = kNorthSouthHead});
+  };
+  street(west, a, -95, -14);
+  street(a, b, -2, 2);
+  street(b, east, 14, 95);
+  carriageway(north, a, -8, 100, 6);
+  carriageway(a, south, -8, -6, -100);
+  carriageway(south, b, 8, -100, -6);
+  carriageway(b, north, 8, 6, 100);
+  return builder.Build();
+}
+
+// Between two junctions a few metres apart who waits for the second stands in the first: rings of such waited for ever.
+TEST(RoadBuilder, JunctionsThatNoVehicleFitsBetweenAreOne) {
+  const RoadNetwork roads = DualCarriageway();
+  ASSERT_NO_THROW(CheckRoads(roads));
+  EXPECT_EQ(roads.junctions.size(), 5u);
+  int arriving = 0;
+  for (const Lane& lane : roads.lanes) {
+    if (lane.junction >= 0) continue;
+    EXPECT_GT(Norm(lane.points.back() - lane.points.front()), kHoldsACar);
+    if (std::hypot(lane.points.back().x, lane.points.back().y) > 20) continue;
+    ++arriving;
+    // Straight on, left and right, over both carriageways; never back on the other one.
+    std::multiset<int> turns;
+    for (const LaneId next : lane.next) {
+      turns.insert(static_cast<int>(std::lround(Turn(roads.lanes[next]) / (M_PI / 2))));
+      EXPECT_GE(roads.lanes[next].signal, 0);
+      EXPECT_EQ(roads.junctions[static_cast<size_t>(roads.lanes[next].junction)].phases.size(), 2u);
+    }
+    EXPECT_EQ(turns, (std::multiset<int>{-1, 0, 1}));
+  }
+  EXPECT_EQ(arriving, 4);
+}
+
+// Within a junction of several, one-way streets lead one way too.
+TEST(RoadBuilder, NobodyDrivesAgainstAOneWayStreetWithinAJunction) {
+  RoadBuilder builder(kFlat);
+  const size_t west = builder.AddJunction({-100, 0}, 5), a = builder.AddJunction({-5, 0}, 8), b = builder.AddJunction({5, 0}, 8),
+               east = builder.AddJunction({100, 0}, 5);
+  builder.AddRoad({.from = west, .to = a, .axis = {{-95, 0}, {-8, 0}}, .forward = kOneLane, .backward = kOneLane});
+  builder.AddRoad({.from = a, .to = b, .axis = {{-3, 0}, {3, 0}}, .forward = kOneLane, .backward = {}});
+  builder.AddRoad({.from = b, .to = east, .axis = {{8, 0}, {95, 0}}, .forward = kOneLane, .backward = kOneLane});
+  const RoadNetwork roads = builder.Build();
+  ASSERT_NO_THROW(CheckRoads(roads));
+  for (const Lane& lane : roads.lanes) {
+    if (lane.junction < 0 || std::abs(lane.points.front().x) > 20) continue;
+    const bool from_east = lane.points.front().x > 0;
+    EXPECT_EQ(lane.points.back().x > 0, true) << "from " << (from_east ? "the east: back" : "the west: on");
+  }
+}
+
+// A ring that is entered and left on one-way roads, 12 m apart, which end at the edge of the map.
+TEST(RoadBuilder, WhoLeavesTheMapOnAOneWayRoadComesBackOnTheOneBesideIt) {
+  for (const float longer : {0.0f, 80.0f, -80.0f}) {
+    RoadBuilder builder(kFlat);
+    const size_t a = builder.AddJunction({0, 0}, 8), b = builder.AddJunction({-60, 0}, 8), out = builder.AddJunction({200, -6}, 5),
+                 in = builder.AddJunction({200 + longer, 6}, 5);
+    builder.AddRoad({.from = a, .to = b, .axis = {{-5, 5}, {-30, 30}, {-55, 5}}, .forward = kOneLane, .backward = {}});
+    builder.AddRoad({.from = b, .to = a, .axis = {{-55, -5}, {-30, -30}, {-5, -5}}, .forward = kOneLane, .backward = {}});
+    builder.AddRoad({.from = a, .to = out, .axis = {{8, -6}, {195, -6}}, .forward = {{0, 3.5f}}, .backward = {}});
+    builder.AddRoad({.from = in, .to = a, .axis = {{195 + longer, 6}, {8, 6}}, .forward = {{0, 3.5f}}, .backward = {}});
+    const RoadNetwork roads = builder.Build();
+    ASSERT_NO_THROW(CheckRoads(roads));
+    int leaving = 0;
+    for (const Lane& lane : roads.lanes) {
+      if (lane.junction >= 0 || lane.points.front().y > -5.5f || lane.points.back().x < 50) continue;
+      ++leaving;
+      ASSERT_EQ(lane.next.size(), 1u);
+      const Lane& way = roads.lanes[lane.next[0]];
+      EXPECT_NEAR(way.points.back().y, 6, 0.01) << longer;
+      EXPECT_LT(Norm(way.points.back() - way.points.front()), 15) << longer;
+    }
+    EXPECT_EQ(leaving, 1) << longer;
+  }
+}
+
 // Streets of maps are as short and as bent as their mappers drew them: one bad lane takes the traffic of the whole town.
 TEST(RoadBuilder, WhateverIsDrawnIsANetwork) {
   RngStream random(11, "streets");

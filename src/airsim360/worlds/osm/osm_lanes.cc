@@ -14,6 +14,7 @@ constexpr double kBend = 3;                 // metres that even a bend without a
 constexpr double kSignalledCrossing = 5.5;  // metres more where a crossing with signals lies before the junction
 constexpr double kShortest = 4;             // metres of road
 constexpr double kMeeting = 4.4;            // metres of carriageway in which two cars pass each other
+constexpr double kPassing = 2.5;            // metres between the middles of two vans that pass each other
 
 int32_t HeadOf(Vec2d along) { return std::abs(along.x) > std::abs(along.y) ? kEastWestHead : kNorthSouthHead; }
 
@@ -28,7 +29,8 @@ std::vector<RoadLane> LanesOf(const Carriageway& way, bool oneway, bool along) {
     lanes.back().offset *= -1;
   }
   for (int i = 0; i < count; ++i) {
-    const double offset = (oneway ? -way.width / 2 + middle : middle) + width * (i + 0.5);
+    double offset = (oneway ? -way.width / 2 + middle : middle) + width * (i + 0.5);
+    if (!oneway && i == 0) offset = std::max(offset, middle + kPassing / 2);
     lanes.push_back({static_cast<float>(offset), static_cast<float>(width)});
   }
   if (way.bikes[along ? 1 : 0]) lanes.push_back(bikes);
@@ -44,10 +46,17 @@ std::vector<Vec2f> Axis(const RoadSegment& segment, double s0, double s1) {
 // By the class of the road, m/s: 50 km/h on main roads, 30 elsewhere.
 float SpeedOf(int rank) { return rank <= 3 ? 13.9f : 8.3f; }
 
+// The bigger road goes first, and whoever is in a roundabout before all who come into it.
+uint8_t PriorityOf(const RoadSegment& segment) {
+  const OsmTags& tags = segment.way->tags;
+  const bool ring = tags.Is("junction", "roundabout") || tags.Is("junction", "circular");
+  return static_cast<uint8_t>(kWorstRank - segment.rank + (ring ? kWorstRank + 1 : 0));
+}
+
 void AddSegment(const OsmScene& scene, const RoadGraph& graph, const RoadSegment& segment, RoadBuilder& builder) {
   const Carriageway way = CarriagewayOf(segment);
   const double length = segment.Length();
-  if (segment.rank > kWorstRank || length < kShortest || (!segment.oneway && way.width < kMeeting) || way.width < 2.4) return;
+  if (segment.rank > kWorstRank || (!segment.oneway && way.width < kMeeting) || way.width < 2.4) return;
   const bool signal0 = HasSignals(scene.data, graph.nodes[segment.from].id), signal1 = HasSignals(scene.data, graph.nodes[segment.to].id);
   const double most = length / 2 - kShortest / 4;
   const double s0 = std::min(std::max(segment.start, kBend) + (signal0 ? kSignalledCrossing : 0), most),
@@ -60,9 +69,9 @@ void AddSegment(const OsmScene& scene, const RoadGraph& graph, const RoadSegment
                    .forward = LanesOf(way, segment.oneway, true),
                    .backward = segment.oneway ? std::vector<RoadLane>{} : LanesOf(way, false, false),
                    .speed = SpeedOf(segment.rank),
-                   .priority = static_cast<uint8_t>(kWorstRank - segment.rank),
-                   .signal_to = signal1 ? HeadOf(PointAt(segment.line, s1).along) : -1,
-                   .signal_from = signal0 ? HeadOf(PointAt(segment.line, s0).along) : -1});
+                   .priority = PriorityOf(segment),
+                   .signal_to = HeadOf(PointAt(segment.line, s1).along),
+                   .signal_from = HeadOf(PointAt(segment.line, s0).along)});
 }
 
 }  // namespace

@@ -159,6 +159,62 @@ TEST(OsmLanes, CycleLanesGoOnOverCrossings) {
   EXPECT_EQ(arriving, 4);
 }
 
+// Streets into a roundabout are bigger than it is; who is in it goes first all the same.
+TEST(OsmLanes, InARoundaboutOneGoesFirst) {
+  TestMap map(160, 160);
+  constexpr double kRadius = 40;
+  std::vector<int> ring;
+  for (int i = 0; i < 16; ++i) {
+    const double a = 2 * M_PI * i / 16;
+    ring.push_back(map.Node({kRadius * std::cos(a), kRadius * std::sin(a)}));
+  }
+  ring.push_back(ring.front());
+  map.WayOf(ring, {{"highway", "residential"}, {"junction", "roundabout"}});
+  for (int i = 0; i < 16; i += 4) {
+    const double a = 2 * M_PI * i / 16;
+    map.WayOf({ring[static_cast<size_t>(i)], map.Node({150 * std::cos(a), 150 * std::sin(a)})}, {{"highway", "secondary"}, {"lanes", "2"}});
+  }
+  const auto scene = map.Build();
+  int on = 0, into = 0;
+  for (const Lane& lane : scene->roads->lanes) {
+    if (lane.junction < 0 || std::hypot(lane.points.front().x, lane.points.front().y) > 100) continue;
+    const bool from_ring = std::hypot(lane.points.front().x, lane.points.front().y) < kRadius + 2;
+    (from_ring ? on : into)++;
+    EXPECT_EQ(lane.priority > 5, from_ring);
+  }
+  EXPECT_GE(on, 8);
+  EXPECT_GE(into, 4);
+}
+
+// Both carriageways of a street cross another one 16 m apart; the map has signals at one of the crossings.
+TEST(OsmLanes, BothCrossingsOfADualCarriagewayAreOneJunctionWithSignals) {
+  TestMap map(160, 160);
+  const int a = map.Node({-7, 0}, {{"highway", "traffic_signals"}}), b = map.Node({7, 0});
+  map.WayOf({map.Node({-150, 0}), a, b, map.Node({150, 0})}, {{"highway", "residential"}, {"width", "9"}});
+  map.WayOf({map.Node({-7, 150}), a, map.Node({-7, -150})}, {{"highway", "secondary"}, {"lanes", "2"}, {"oneway", "yes"}});
+  map.WayOf({map.Node({7, -150}), b, map.Node({7, 150})}, {{"highway", "secondary"}, {"lanes", "2"}, {"oneway", "yes"}});
+  const auto scene = map.Build();
+  int ways = 0;
+  for (const Lane& lane : scene->roads->lanes) {
+    if (lane.junction < 0) {
+      EXPECT_GT(Norm(lane.points.back() - lane.points.front()), 7);
+    } else if (std::hypot(lane.points.front().x, lane.points.front().y) < 50) {
+      ++ways;
+      EXPECT_GE(lane.signal, 0);
+    }
+  }
+  EXPECT_GE(ways, 12);
+}
+
+// On 4.6 m of carriageway two vans pass each other with their mirrors over the kerbs.
+TEST(OsmLanes, OfANarrowStreetAreFarEnoughApartForTwoVans) {
+  const auto scene = StreetWith({{"width", "4.6"}});
+  for (const Lane& lane : scene->roads->lanes) {
+    if (lane.junction >= 0 || std::ranges::any_of(lane.points, [](Vec3f p) { return p.y > 20; })) continue;
+    EXPECT_NEAR(std::abs(lane.points.front().y), 1.25, 0.01);
+  }
+}
+
 TEST(OsmLanes, MapsWithoutStreetsHaveNoRoads) {
   TestMap map(60, 60);
   map.Line({{-50, 0}, {50, 0}}, {{"highway", "footway"}});
