@@ -158,11 +158,12 @@ void BuildBed(District& d, Vec2f at, float half) {
   d.ground.Rect(inner, 0.38f);
   d.placer.Try("tree_generic", {at.x, at.y, 0.36f}, static_cast<float>(d.placer.rng().Uniform(0, kTauF)), 0.85f);
   RngStream& rng = d.placer.rng();
-  for (int i = 0; i < 26; ++i) {
+  // Flowers and shrubs first, then whatever fits between.
+  for (int i = 0; i < 44; ++i) {
     const Vec2f p{static_cast<float>(rng.Uniform(inner.x0 + 0.5, inner.x1 - 0.5)),
                   static_cast<float>(rng.Uniform(inner.y0 + 0.5, inner.y1 - 0.5))};
-    const char* kind = i < 8 ? "flower_bed" : i < 15 ? "shrub" : "rock";
-    d.placer.Try(kind, {p.x, p.y, 0.37f}, static_cast<float>(rng.Uniform(0, kTauF)), i < 15 ? 0.7f : 0.45f);
+    const char* kind = i < 10 ? "flower_bed" : i < 18 ? "shrub" : i < 20 ? "rock" : i % 3 == 0 ? "fern" : "plant";
+    d.placer.Try(kind, {p.x, p.y, 0.37f}, static_cast<float>(rng.Uniform(0, kTauF)), i < 18 ? 0.7f : i < 20 ? 0.35f : 0.8f);
   }
   GrowGrass(d, soil, inner.Outline(), 0.38f, 1.9f);
 }

@@ -136,12 +136,13 @@ class TerraceBuilder {
     mesh_.SetMaterial(scene_.surfaces[Surface::kSoil]);
     Field(x0 + 0.08f, y0 + 0.08f, x1 - 0.08f, y1 - 0.08f, 0.56f);
     const bool along_x = x1 - x0 > y1 - y0;
-    const int count = std::max(2, static_cast<int>(std::max(x1 - x0, y1 - y0) / 1.1f));
+    const int count = std::max(2, static_cast<int>(std::max(x1 - x0, y1 - y0) / 0.5f));
     for (int i = 0; i < count; ++i) {
-      const float s = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
-      const double x = along_x ? x0 + (x1 - x0) * s : (x0 + x1) / 2, y = along_x ? (y0 + y1) / 2 : y0 + (y1 - y0) * s;
-      static constexpr const char* kPlants[] = {"shrub", "plant", "plant", "flower_bed"};
-      const char* kind = kPlants[rng_.Index(4)];
+      // Two rows, each plant beside the gap of the other row.
+      const float s = (static_cast<float>(i) + 0.5f) / static_cast<float>(count), t = i % 2 ? 0.32f : 0.68f;
+      const double x = x0 + (x1 - x0) * (along_x ? s : t), y = y0 + (y1 - y0) * (along_x ? t : s);
+      static constexpr const char* kPlants[] = {"shrub", "plant", "fern", "plant", "flower_bed"};
+      const char* kind = kPlants[rng_.Index(5)];
       Put(kind, kind, x, y, rng_.Uniform(0, kTau), kind[0] == 's' ? 0.5f : 0.8f, 0.52);
     }
   }
