@@ -195,7 +195,8 @@ class AmbientTile {
 // how far their means differ tells how well the tile knows its light. In a shady yard below a sunlit wall few rays meet the
 // wall, which is most of the light, and the filter cannot even out whole tiles. Noise counts as far as sunlight does not hide it;
 // leaves, which are speckled anyway, do not count.
-int RoundsFor(const TileSampling& sampling, const int16_t* of_slot, const SurfaceSet& s, const LightTerms& terms, const HighTile& tile) {
+int RoundsFor(const TileSampling& sampling, float open_sky, const int16_t* of_slot, const SurfaceSet& s, const LightTerms& terms,
+              const HighTile& tile) {
   float sum = 0, squares = 0, around = 0, sun = 0;
   int phases = 0;
   for (const auto& members : sampling.layout->members) {
@@ -214,7 +215,7 @@ int RoundsFor(const TileSampling& sampling, const int16_t* of_slot, const Surfac
     sum += light, squares += light * light;
     ++phases;
   }
-  return static_cast<int>(rounds_of(sum, squares, static_cast<float>(phases), around, sun, sampling.ambient_rays));
+  return static_cast<int>(rounds_of(sum, squares, static_cast<float>(phases), around, sun, sampling.ambient_rays, open_sky));
 }
 
 // By night probes, which know all windows around, count as some rays more.
@@ -258,7 +259,7 @@ void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const 
       }
       if (count > 0) ambient.GatherPhase(phase, round, surfaces, count);
     }
-    if (round == 0) rounds = RoundsFor(sampling, of_slot, s, terms, tile);
+    if (round == 0) rounds = RoundsFor(sampling, shader.view.open_sky, of_slot, s, terms, tile);
   }
   if (shader.probes && shader.sky && scalar::probe_rays(shader.view.open_sky) > 0) {
     for (int i = 0; i < rays.count; ++i)

@@ -45,13 +45,17 @@ SHARED word first_ray(word place, float wanted, word seed) { return (word(wanted
 
 // How many rounds of rays a tile of pixels takes, after the light of the first: `sum` and `squares` are those of the luminances
 // of its `phases` phases, each the mean over pixels that look into the same directions; `around` and `sun` are what is seen of
-// such light and of sunlight, which hides noise; `wanted` is as in first_ray. The noise of the tile comes to a tenth of what is
-// seen at the most, as far as six rounds reach and a byte can count their rays. Tiles of less than four phases are not judged.
-SHARED word rounds_of(float sum, float squares, float phases, float around, float sun, float wanted) {
+// such light and of sunlight, which hides noise; `wanted` is as in first_ray; `open` is the luminance of the irradiance under the
+// whole sky, 0 without one. The noise of the tile comes to a tenth of what is seen at the most, as far as sixteen rounds reach and a
+// byte can count their rays. Tiles of less than four phases are not judged.
+SHARED word rounds_of(float sum, float squares, float phases, float around, float sun, float wanted, float open) {
   if (phases < 4.0f || !(sum > 0.0f) || !(around > 0.0f)) return 1u;
   const float mean = sum / phases, seen = around / (around + sun);
-  const float noise = (squares / phases - mean * mean) / (phases * mean * mean) * seen * seen;
+  // What one ray in all would bring that met the sky: in a deep alley tiles whose rays missed it by chance know of no noise.
+  const float missed = open / (phases * wanted);
+  const float measured = (squares / phases - mean * mean) / phases, unknown = missed * missed;
+  const float noise = (measured > unknown ? measured : unknown) / (mean * mean) * seen * seen;
   word rounds = 1u;
-  while (rounds < 6u && noise > 0.01f * float(rounds) && float(rounds + 1u) * (wanted + 1.0f) < 255.0f) rounds += 1u;
+  while (rounds < 16u && noise > 0.01f * float(rounds) && float(rounds + 1u) * (wanted + 1.0f) < 255.0f) rounds += 1u;
   return rounds;
 }

@@ -81,9 +81,9 @@ struct Neighbours {
   };
   std::vector<Other> volumes;
   BoxIndex boxes;
-  LineIndex roads;                                  ///< centre lines; owner = index into graph->segments
-  LineIndex shops;                                  ///< places of shops and cafés
-  std::shared_ptr<const RoadGraph> graph;           ///< set by BuildOsmGround
+  LineIndex roads;                                         ///< centre lines; owner = index into graph->segments
+  LineIndex shops;                                         ///< places of shops and cafés
+  std::shared_ptr<const RoadGraph> graph;                  ///< set by BuildOsmGround
   std::vector<std::pair<EntityId, Patches>> lawns, woods;  ///< near the focus, set by BuildOsmGround
   struct Yard {
     std::string name;
