@@ -101,6 +101,29 @@ TEST(OsmItems, CamerasMachinesAndStepsAreBuilt) {
   EXPECT_EQ(path("way/" + std::to_string(steps)), "construction/stairs");
 }
 
+// A wood's ground is a floor of needles, with plants on it near the first viewpoint; a meadow beside it is a lawn without ferns.
+TEST(OsmItems, WoodsHaveAFloorWithFernsAndMeadowsDoNot) {
+  const auto ferns_and_floor = [](const char* value) {
+    TestMap map(80, 80);
+    const int area = map.Box({-60, -60}, {60, 60}, {{value == std::string("wood") ? "natural" : "landuse", value}});
+    const auto scene = map.Build();
+    int ferns = 0;
+    for (const Instance& instance : scene->instances) ferns += scene->meshes[instance.mesh].name.find("fern") != std::string::npos;
+    const Entity* ground = Find(*scene, "way/" + std::to_string(area));
+    EXPECT_NE(ground, nullptr);
+    bool floor = false;
+    for (const Mesh& mesh : scene->meshes)
+      for (const MeshPart& part : mesh.parts) floor |= scene->materials[part.material].name == "forest floor" && part.triangle_count > 0;
+    return std::pair{ferns, floor};
+  };
+  const auto [in_wood, floor] = ferns_and_floor("wood");
+  EXPECT_GT(in_wood, 50);
+  EXPECT_TRUE(floor);
+  const auto [in_meadow, none] = ferns_and_floor("meadow");
+  EXPECT_EQ(in_meadow, 0);
+  EXPECT_FALSE(none);
+}
+
 TEST(OsmItems, MultipolygonsThatDoNotCloseAreKnown) {
   TestMap map(100, 100);
   const int open = map.Line({{0, 0}, {50, 0}, {50, 50}}, {}), closed = map.Ring({{-50, -50}, {-20, -50}, {-20, -20}}, {});

@@ -30,7 +30,7 @@ std::vector<EntityId> LayPaving(Ground& ground, const GroundRect& area, RngStrea
           [&](float s, float d, float lift) {
             return Vec3f{field.x0 + s, field.y0 + d, lift};
           },
-          0, field.width(), 0, field.depth(), Surface::kPlazaStone, rng);
+          0, field.width(), 0, field.depth(), brick, rng);
       ground.Use(Surface::kPlazaStone);
       ground.Rect({cell.x0, cell.y0, cell.x1, field.y0}, 0);
       ground.Rect({cell.x0, field.y1, cell.x1, cell.y1}, 0);
