@@ -141,6 +141,7 @@ constexpr const char* kCategories[] = {
     "traffic/control/traffic_light",
     "vegetation/flower",
     "vegetation/hedge",
+    "vegetation/plant",
     "vegetation/shrub/bush",
     "vegetation/tree/broadleaf/generic",
     "vegetation/tree/broadleaf/maple",
