@@ -12,6 +12,8 @@ using S = Surface;
 constexpr float kLevel = 0.2f;                      // metres that the ground may lie below a floor without steps
 constexpr float kFrame = 0.06f, kLeafBack = 0.02f;  // metres: width of the frame, how far the leaf stands before the opening's back
 
+constexpr float kStile = 0.11f, kProud = 0.032f;  // metres: width of stiles, how far they stand before the panels
+
 // Where the leaf hangs: its face, and what is screwed on it.
 struct HungLeaf {
   float x0, x1, z0, z1, y;
@@ -39,9 +41,8 @@ void BuildFlush(FacadePen& pen, S face, const HungLeaf& leaf) {
   FixLever(pen, leaf);
 }
 
-// Stiles and rails around `rows` rows of two panels, the lowest `low` metres high.
+// Stiles and rails around rows of two panels of these heights (0 = no row), up to `top`.
 void BuildPanels(FacadePen& pen, S face, const HungLeaf& leaf, float top, std::array<float, 2> heights) {
-  constexpr float kStile = 0.11f, kProud = 0.032f;
   const float m = leaf.middle();
   pen.Use(face);
   pen.Front(leaf.x0, leaf.x1, leaf.z0, top, leaf.y);
@@ -64,7 +65,7 @@ void BuildPanels(FacadePen& pen, S face, const HungLeaf& leaf, float top, std::a
 void BuildPanelled(FacadePen& pen, S face, const HungLeaf& leaf) {
   const float panels = leaf.z1 - leaf.z0 - 0.2f - 2 * 0.13f, low = 0.40f * panels;
   BuildPanels(pen, face, leaf, leaf.z1, {low, panels - low});
-  const HungLeaf proud{leaf.x0, leaf.x1, leaf.z0, leaf.z1, leaf.y - 0.032f};
+  const HungLeaf proud{leaf.x0, leaf.x1, leaf.z0, leaf.z1, leaf.y - kProud};
   pen.Use(S::kBronze);
   const float slot = leaf.z0 + 0.2f + low + 0.03f;
   pen.Bar(leaf.middle() - 0.14f, leaf.middle() + 0.14f, slot, slot + 0.06f, proud.y - 0.008f, proud.y);
@@ -72,18 +73,17 @@ void BuildPanelled(FacadePen& pen, S face, const HungLeaf& leaf) {
 }
 
 void BuildHalfGlazed(FacadePen& pen, S face, const HungLeaf& leaf) {
-  constexpr float kStile = 0.11f;
   const float rail = leaf.z0 + 1.0f, m = leaf.middle();
   BuildPanels(pen, face, leaf, rail, {rail - leaf.z0 - 0.2f - 0.13f, 0});
   pen.Use(face);
-  for (float x : {leaf.x0, leaf.x1 - kStile}) pen.Bar(x, x + kStile, rail, leaf.z1, leaf.y - 0.032f, leaf.y, true, false);
-  pen.Bar(leaf.x0 + kStile, leaf.x1 - kStile, leaf.z1 - 0.12f, leaf.z1, leaf.y - 0.032f, leaf.y, false, true);
+  for (float x : {leaf.x0, leaf.x1 - kStile}) pen.Bar(x, x + kStile, rail, leaf.z1, leaf.y - kProud, leaf.y, true, false);
+  pen.Bar(leaf.x0 + kStile, leaf.x1 - kStile, leaf.z1 - 0.12f, leaf.z1, leaf.y - kProud, leaf.y, false, true);
   pen.Bar(m - 0.014f, m + 0.014f, rail, leaf.z1 - 0.12f, leaf.y - 0.024f, leaf.y, true, false);
   const float bar = (rail + leaf.z1 - 0.12f) / 2;
   pen.Bar(leaf.x0 + kStile, leaf.x1 - kStile, bar - 0.014f, bar + 0.014f, leaf.y - 0.024f, leaf.y, false, true);
   pen.Use(S::kGlassDark);
   pen.Front(leaf.x0 + kStile, leaf.x1 - kStile, rail, leaf.z1 - 0.12f, leaf.y - 0.004f);
-  FixLever(pen, {leaf.x0, leaf.x1, leaf.z0, leaf.z1, leaf.y - 0.032f});
+  FixLever(pen, {leaf.x0, leaf.x1, leaf.z0, leaf.z1, leaf.y - kProud});
 }
 
 void BuildBoarded(FacadePen& pen, S face, const HungLeaf& leaf) {
@@ -266,7 +266,6 @@ void BuildSteps(FacadePen& pen, const Dress& dress, float middle, float fall) {
   post(back + side * 0.06f, kDoorFoot);
   post(end, kDoorFoot);
   bar(back + side * 0.04f, end, kDoorFoot + kRail, kDoorFoot + kRail + 0.04f, y - 0.02f, y + 0.02f);
-  if (steps < 1) return;
   post(foot - side * 0.1f, low);
   pen.mesh().Beam({end, y, kDoorFoot + kRail + 0.02f}, {foot - side * 0.08f, y, low + kRail + 0.02f}, 0.04f);
 }
