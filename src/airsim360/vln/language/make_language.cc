@@ -25,6 +25,7 @@ using internal::VlnJson;
 
 constexpr int64_t kBatch = 32;          // lookouts at a time
 constexpr int64_t kMostFruitless = 15;  // batches in a row without an item: the world gives no more
+constexpr int64_t kMostSilent = 3;      // batches without a single draft from the start: the world gives none
 constexpr int kCameras = 3;             // at each place
 constexpr size_t kMostOfType = 24;      // drafts of one type and place: more would be too alike
 
@@ -56,8 +57,12 @@ class LanguageMaker {
   LanguageSummary Make(const std::function<void(const std::string&)>& line) {
     ProgressBar bar("language make " + stage_.name(), options_.count);
     int64_t fruitless = 0;
-    while (balance_.left() > 0 && fruitless < kMostFruitless) {
-      for (Placed& placed : Batch()) balance_.Add(std::move(placed));
+    bool silent = true;
+    while (balance_.left() > 0 && fruitless < (silent ? kMostSilent : kMostFruitless)) {
+      for (Placed& placed : Batch()) {
+        silent = false;
+        balance_.Add(std::move(placed));
+      }
       const int64_t before = summary_.items;
       Write(balance_.Take(), line);
       fruitless = summary_.items > before ? 0 : fruitless + 1;
