@@ -3,11 +3,13 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
 #include "airsim360/render/renderer.h"
+#include "airsim360/routes/survey.h"
 #include "airsim360/scene/scene_archive.h"
 #include "airsim360/trace/ray_tracer.h"
 #include "airsim360/worlds/worlds.h"
@@ -72,6 +74,25 @@ TEST(Interiors, AreFullOfThingsWithLabelsEverywhere) {
   }
 }
 
+TEST(Interiors, UnfurnishedOnesKeepWhatIsFixed) {
+  const auto count = [](BuildingUse use, bool furnished) {
+    const auto scene = BuildWorld("building", {.building = {.use = use, .furnished = furnished}});
+    std::map<std::string, int> counts;
+    for (const Entity& entity : scene->entities) ++counts[scene->tree[entity.category].path];
+    return counts;
+  };
+  auto full = count(BuildingUse::kApartment, true), empty = count(BuildingUse::kApartment, false);
+  for (const char* moved : {"furniture/bed", "furniture/sofa", "furniture/seating/chair", "furniture/wardrobe", "vehicle/car"}) {
+    EXPECT_GT(full[moved], 0) << moved;
+    EXPECT_EQ(empty[moved], 0) << moved;
+  }
+  for (const char* fixed : {"furniture/sink", "furniture/bathtub", "furniture/kitchen/stove", "furniture/lighting/ceiling_light"})
+    EXPECT_EQ(empty[fixed], full[fixed]) << fixed;
+  auto deck = count(BuildingUse::kCarPark, false);
+  EXPECT_EQ(deck["vehicle/car"], 0);
+  EXPECT_GT(deck["signage/traffic_sign"], 0);
+}
+
 TEST(Interiors, AreTheSameBytesFromAnyNumberOfThreads) {
   std::vector<Bytes> scenes;
   for (const int threads : {1, 4}) {
@@ -99,6 +120,29 @@ TEST(Interiors, OpenDoorsCanBeLookedThroughAndClosedOnesCannot) {
   }
   EXPECT_GT(open, 0);
   EXPECT_GT(closed, 0);
+}
+
+// All along a survey of a building there is a ceiling of a room above, or the lintel of a door; and it goes from room to room.
+TEST(Interiors, SurveysStayInsideAndGoFromRoomToRoom) {
+  const std::map<std::string, size_t> least_rooms = {{"apartment", 7}, {"office", 3}, {"warehouse", 1}, {"mall", 15}, {"car_park", 4}};
+  for (const char* name : kBuildings) {
+    SCOPED_TRACE(name);
+    const RayTracer tracer(Built(name));
+    const BuildingRooms building = *RoomsOfWorld(name, {});
+    const Route route = PlanSurvey(tracer, {.passages = building.OpenPassages()});
+    std::set<uint32_t> seen;
+    int inside = 0, all = 0;
+    for (double t = 0; t <= route.duration(); t += 0.2) {
+      const Vec3d p = route.At(t).p;
+      ASSERT_TRUE(tracer.Intersect(VecCast<float>(p), {0, 0, 1}).has_value()) << p.x << ", " << p.y << ", " << p.z;
+      ASSERT_GE(tracer.Clearance(VecCast<float>(p), 1), 0.12f) << p.x << ", " << p.y << ", " << p.z;
+      const RoomOutline* room = building.RoomAt(p);
+      if (room != nullptr) seen.insert(room->id);
+      inside += room != nullptr, ++all;
+    }
+    EXPECT_GE(inside, all * 97 / 100);
+    EXPECT_GE(seen.size(), least_rooms.at(name));
+  }
 }
 
 }  // namespace

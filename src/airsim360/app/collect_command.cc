@@ -158,8 +158,9 @@ Plan PlanFromTrajectory(const CollectArguments& arguments, DatasetSpec& spec) {
 
 // A survey of a world with people: frames where the body hovers near them, as far as there are as many such places;
 // nullopt if there are none.
-std::optional<Plan> PlanNearPeople(const CollectArguments& arguments, const SimModel& model, DatasetSpec& spec) {
-  PeopleSurveyOptions options{.seed = spec.seed};
+std::optional<Plan> PlanNearPeople(const CollectArguments& arguments, const SimModel& model, const std::vector<Vec3d>& doors,
+                                   DatasetSpec& spec) {
+  PeopleSurveyOptions options{.seed = spec.seed, .passages = doors};
   const int64_t frames = arguments.frames > 0 ? arguments.frames : kDefaultFrames;
   if (arguments.fps == 0) options.viewpoints = static_cast<int>(std::min<int64_t>(frames, kMostPeopleStops));
   std::optional<PeopleSurvey> survey = PlanPeopleSurvey(model, options);
@@ -174,25 +175,28 @@ std::optional<Plan> PlanNearPeople(const CollectArguments& arguments, const SimM
   return plan;
 }
 
-Plan MakePlan(const CollectArguments& arguments, const SimModel& model, DatasetSpec& spec) {
+Plan MakePlan(const CollectArguments& arguments, const GlobalOptions& globals, const SimModel& model, DatasetSpec& spec) {
   if (!arguments.plan.empty()) return PlanFromTrajectory(arguments, spec);
   if (arguments.route != "auto") return PlanFromFile(arguments, spec);
-  if (std::optional<Plan> near_people = PlanNearPeople(arguments, model, spec)) return *std::move(near_people);
-  Plan plan{std::make_shared<const Route>(PlanSurvey(*model.tracer, {.seed = spec.seed, .viewpoints = SurveyViewpoints(arguments.frames)})),
-            {}};
+  const auto building = RoomsOf(RequestOf(arguments.world, globals));
+  const std::vector<Vec3d> doors = building ? building->OpenPassages() : std::vector<Vec3d>();
+  if (std::optional<Plan> near_people = PlanNearPeople(arguments, model, doors, spec)) return *std::move(near_people);
+  const SurveyOptions survey{.seed = spec.seed, .viewpoints = SurveyViewpoints(arguments.frames), .passages = doors};
+  Plan plan{std::make_shared<const Route>(PlanSurvey(*model.tracer, survey)), {}};
   plan.shot_times_ns = ShotTimes(arguments, *plan.route);
   spec.route = "auto" + Rate(arguments);
   return plan;
 }
 
 // All shots and what lies between; fills spec.route and spec.frames.
-Flight Fly(const CollectArguments& arguments, const SimModel& model, DatasetSpec& spec, std::string& trajectory_json) {
+Flight Fly(const CollectArguments& arguments, const GlobalOptions& globals, const SimModel& model, DatasetSpec& spec,
+           std::string& trajectory_json) {
   Flight flight;
   if (!arguments.poses.empty()) {
     flight = VisitPoses(model, ReadPoseFile(arguments.poses));
     spec.route = "poses of sha256:" + Sha256HexOfFile(arguments.poses);
   } else {
-    const Plan plan = MakePlan(arguments, model, spec);
+    const Plan plan = MakePlan(arguments, globals, model, spec);
     flight = FlyRoute(model, plan.route, plan.shot_times_ns);
     if (const auto* path = plan.route->path()) {
       trajectory_json = TrajectoryJson({.trajectory = *path,
@@ -256,7 +260,7 @@ void RunCollect(const CollectArguments& arguments, GlobalOptions& globals) {
   spec.environment = DescribeEnvironment(stage.environment());
   const SimModel model = stage.Model(kRouteStepNs);
   std::string trajectory_json;
-  const Flight flight = Fly(arguments, model, spec, trajectory_json);
+  const Flight flight = Fly(arguments, globals, model, spec, trajectory_json);
   if (!arguments.processes.is_worker()) {
     CheckCameraPlaces(*model.tracer, spec, flight);
     CheckFlowSteps(*model.tracer, spec, flight);

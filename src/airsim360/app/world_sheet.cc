@@ -18,6 +18,7 @@
 #include "airsim360/image/color.h"
 #include "airsim360/image/draw.h"
 #include "airsim360/scene/viewpoint.h"
+#include "airsim360/trace/surface_entity.h"
 #include "airsim360/worlds/survey/world_survey.h"
 
 namespace airsim360 {
@@ -26,11 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool OnGround(const Scene& scene, const SurfaceRef& surface) {
-  const Instance& instance = scene.instances[surface.instance];
-  EntityId entity = instance.entity;
-  for (const MeshPart& part : scene.meshes[instance.mesh].parts)
-    if (surface.triangle - part.first_triangle < part.triangle_count && part.entity != kNoEntity) entity = part.entity;
-  return scene.tree[scene.entity(entity).category].path.starts_with("ground/");
+  return scene.tree[scene.entity(EntityAt(scene, surface)).category].path.starts_with("ground/");
 }
 
 // Open places near the spawn: nothing but ground below, air around at every height.

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
 #include "airsim360/routes/roadmap.h"
+#include "airsim360/trace/surface_entity.h"
 
 namespace airsim360 {
 namespace {
@@ -14,6 +16,8 @@ constexpr double kFreeCell = 12;       // metres
 constexpr float kEverydaySize = 25;    // metres: longest extent of things that tell where the world is
 constexpr double kHeldByCells = 0.85;  // part of the things that the cells looked at hold
 constexpr double kLowBias = 3;         // exponent of the height: more places near the ground
+constexpr const char* kCeiling = "construction/ceiling";
+constexpr int kMostBelowCeiling = 40;  // surfaces of lamps and furniture above a floor
 
 // South-west corners of the ground cells that hold things of everyday size, in order.
 std::vector<Vec2d> OccupiedCells(const Scene& scene) {
@@ -44,6 +48,19 @@ std::vector<Vec2d> OccupiedCells(const Scene& scene) {
   return cells;
 }
 
+bool IsA(const Scene& scene, EntityId entity, const char* category) {
+  return entity != kNoEntity && scene.tree[scene.entity(entity).category].path.starts_with(category);
+}
+
+std::vector<Box3f> Ceilings(const Scene& scene) {
+  std::vector<Box3f> ceilings;
+  for (const Entity& entity : scene.entities)
+    if (!entity.bounds.empty() && IsA(scene, entity.id, kCeiling)) ceilings.push_back(entity.bounds);
+  return ceilings;
+}
+
+double LevelArea(const Box3f& box) { return static_cast<double>(box.size().x) * box.size().y; }
+
 // Height of the ground: below the spawn, else the bottom of the scene.
 double GroundHeight(const RayTracer& tracer) {
   const Scene& scene = tracer.scene();
@@ -61,9 +78,16 @@ double LowDiscrepancy(uint64_t k, int axis, double offset) {
   return x - std::floor(x);
 }
 
+bool BeginsUnderACeiling(const Scene& scene) {
+  return scene.sky_entity != kNoEntity && scene.spawn && std::ranges::any_of(Ceilings(scene), [p = *scene.spawn](const Box3f& box) {
+           return box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y && box.max.z > p.z;
+         });
+}
+
 SurveyedGround FindSurveyedGround(const Scene& scene) {
   constexpr size_t kFewestCells = 16;
-  SurveyedGround ground{OccupiedCells(scene), scene.bounds};
+  SurveyedGround ground{OccupiedCells(scene), scene.bounds, {}};
+  if (BeginsUnderACeiling(scene)) ground.ceilings = Ceilings(scene);
   if (ground.cells.size() >= kFewestCells) return ground;
   ground.cells.clear();
   if (scene.sky_entity == kNoEntity) return ground;
@@ -73,6 +97,36 @@ SurveyedGround FindSurveyedGround(const Scene& scene) {
   ground.box.min -= Vec3f{margin, margin, 0};
   ground.box.max += Vec3f{margin, margin, 0};
   return ground;
+}
+
+std::optional<RoomSpot> SurveyedGround::InRoom(const RayTracer& tracer, double u, double v) const {
+  double all = 0;
+  for (const Box3f& ceiling : ceilings) all += LevelArea(ceiling);
+  double left = u * all;
+  size_t k = 0;
+  while (k + 1 < ceilings.size() && left >= LevelArea(ceilings[k])) left -= LevelArea(ceilings[k++]);
+  const Box3f& ceiling = ceilings[k];
+  const Vec2d at{ceiling.min.x + ceiling.size().x * std::clamp(left / std::max(1e-9, LevelArea(ceiling)), 0.0, 1.0),
+                 ceiling.min.y + ceiling.size().y * v};
+  constexpr float kStep = 0.01f;  // metres past a surface
+  Vec3f from{static_cast<float>(at.x), static_cast<float>(at.y), ceiling.min.z - kStep};
+  for (int i = 0; i < kMostBelowCeiling; ++i) {
+    const auto hit = tracer.Intersect(from, {0, 0, -1});
+    if (!hit) return std::nullopt;
+    from.z -= hit->distance;
+    const EntityId entity = EntityAt(tracer.scene(), hit->surface);
+    if (IsA(tracer.scene(), entity, kCeiling)) return std::nullopt;
+    if (IsA(tracer.scene(), entity, "ground")) return RoomSpot{at, from.z, ceiling.min.z};
+    from.z -= kStep;
+  }
+  return std::nullopt;
+}
+
+bool SurveyedGround::IsInRoom(const RayTracer& tracer, Vec3d p) const {
+  const auto below = [&](const Box3f& box) {
+    return box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y && p.z < box.max.z;
+  };
+  return std::ranges::any_of(ceilings, below) && tracer.Intersect(VecCast<float>(p), {0, 0, 1});
 }
 
 Vec2d SurveyedGround::At(double u, double v) const {
@@ -90,20 +144,26 @@ namespace {
 // Candidates: low-discrepancy points over the ground and heights.
 std::vector<Vec3d> Candidates(const RayTracer& tracer, const SurveyedGround& ground, const PlaceOptions& options) {
   const bool open = tracer.scene().sky_entity != kNoEntity;
-  const double bottom = GroundHeight(tracer);
-  const double top = ground.box.max.z - bottom + (open ? 10 : 0);
-  const double low = std::min(options.min_height, std::max(options.radius, top / 2));
-  const double high = std::max(low, std::min(options.max_height, top));
+  const double ground_z = GroundHeight(tracer);
   RngStream random(options.seed, "survey");
   const double offset[3] = {random.Uniform(), random.Uniform(), random.Uniform()};
-
+  const auto height = [&](int k, double bottom, double top) {
+    const double low = std::min(options.min_height, std::max(options.radius, top / 2));
+    const double high = std::max(low, std::min(options.max_height, top));
+    return bottom + low + std::pow(LowDiscrepancy(k, 2, offset[2]), kLowBias) * (high - low);
+  };
   std::vector<Vec3d> candidates;
   for (int k = 0; k < options.candidates; ++k) {
     const double u = LowDiscrepancy(k, 0, offset[0]), v = LowDiscrepancy(k, 1, offset[1]);
-    const double z = bottom + low + std::pow(LowDiscrepancy(k, 2, offset[2]), kLowBias) * (high - low);
-    const Vec2d at = ground.At(u, v);
-    candidates.push_back({at.x, at.y, z});
+    if (ground.in_rooms()) {
+      const auto spot = ground.InRoom(tracer, u, v);
+      if (spot) candidates.push_back({spot->at.x, spot->at.y, height(k, spot->floor, spot->ceiling - spot->floor)});
+    } else {
+      const Vec2d at = ground.At(u, v);
+      candidates.push_back({at.x, at.y, height(k, ground_z, ground.box.max.z - ground_z + (open ? 10 : 0))});
+    }
   }
+  candidates.insert(candidates.end(), options.passages.begin(), options.passages.end());
   return candidates;
 }
 

@@ -10,6 +10,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/routes/world_clearance.h"
+#include "airsim360/trace/surface_entity.h"
 
 namespace airsim360 {
 namespace {
@@ -38,14 +39,6 @@ struct RoadGrid {
     }
   }
 };
-
-EntityId EntityAt(const Scene& scene, const SurfaceRef& surface) {
-  const Instance& instance = scene.instances[surface.instance];
-  for (const MeshPart& part : scene.meshes[instance.mesh].parts) {
-    if (surface.triangle - part.first_triangle < part.triangle_count && part.entity != kNoEntity) return part.entity;
-  }
-  return instance.entity;
-}
 
 RoadGrid FindRoads(const RayTracer& tracer) {
   const Scene& scene = tracer.scene();

@@ -10,7 +10,6 @@
 namespace airsim360 {
 namespace {
 
-constexpr int kNeighbours = 10;       // connections tried from each place
 constexpr double kCostlyHeight = 15;  // metres at which flying costs twice what it costs at the lowest place
 
 }  // namespace
@@ -30,7 +29,7 @@ bool IsFree(const RayTracer& tracer, Vec3d a, Vec3d b, double radius) {
 }
 
 // Connects each place with its nearest ones where the way between is free.
-Roadmap Connect(const RayTracer& tracer, std::vector<Vec3d> places, double radius) {
+Roadmap Connect(const RayTracer& tracer, std::vector<Vec3d> places, double radius, int neighbours) {
   Roadmap map{std::move(places), {}};
   const int n = static_cast<int>(map.places.size());
   double lowest = std::numeric_limits<double>::infinity();
@@ -41,7 +40,7 @@ Roadmap Connect(const RayTracer& tracer, std::vector<Vec3d> places, double radiu
     for (int j = 0; j < n; ++j) {
       if (j != i) near.emplace_back(Norm(map.places[j] - map.places[i]), j);
     }
-    const size_t count = std::min<size_t>(kNeighbours, near.size());
+    const size_t count = std::min<size_t>(static_cast<size_t>(neighbours), near.size());
     std::partial_sort(near.begin(), near.begin() + static_cast<ptrdiff_t>(count), near.end());
     for (size_t k = 0; k < count; ++k) {
       const auto [length, j] = near[k];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,18 +15,36 @@ struct Box2d {
   Vec2d min, max;
 };
 
+/// A place in a room: heights of its floor and of its ceiling there.
+struct RoomSpot {
+  Vec2d at;
+  double floor = 0, ceiling = 0;
+};
+
 /// The part of a scene where its things stand: the cells of a town that hold most of them, or a box around a single model or
-/// a room.
+/// a room. A building that is entered at its first viewpoint is its rooms.
 struct SurveyedGround {
   std::vector<Vec2d> cells;  ///< south-west corners; empty: the box counts
   Box3f box;
+  std::vector<Box3f> ceilings;  ///< of the rooms, where there are any
   /// The point at (u, v) in [0, 1)^2: equal areas are equally likely.
   Vec2d At(double u, double v) const;
+  bool in_rooms() const { return !ceilings.empty(); }
+  /// The same below the ceilings; nullopt where no floor is below one.
+  std::optional<RoomSpot> InRoom(const RayTracer& tracer, double u, double v) const;
+  /// Whether a point is below one of the ceilings, with something over it.
+  bool IsInRoom(const RayTracer& tracer, Vec3d p_W) const;
 };
+/// Whether a scene has a sky and a ceiling over its first viewpoint: a building that stands in the open, and is meant to be seen from
+/// within.
+bool BeginsUnderACeiling(const Scene& scene);
 SurveyedGround FindSurveyedGround(const Scene& scene);
 
 /// The k-th number of three sequences that fill the unit cube evenly (axis 0 … 2), each begun at an offset in [0, 1).
 double LowDiscrepancy(uint64_t k, int axis, double offset);
+
+/// Metres that routes keep from surfaces in rooms at most: with what rounded corners take they fit through the doors of a flat.
+inline constexpr double kClearanceInRooms = 0.25;
 
 /// Box around the cells of the ground that hold most of the things of everyday size; around a single model in
 /// the open, its box and some way around it.
@@ -37,12 +56,13 @@ struct PlaceOptions {
   double radius = 1;                         ///< metres free around a place
   double min_height = 1.6, max_height = 60;  ///< metres above the ground
   int candidates = 900;                      ///< places tried
+  std::vector<Vec3d> passages = {};          ///< more places to be tried, such as the middles of doors; they come last
 };
 
 /// Free places at heights from low to high, denser near the ground, the scene's spawn first if it is free. In
 /// a town they are spread over the cells of the ground that hold most of the things of everyday size (a far
-/// horizon is left out) and have something below them; around a single model in the open, or in a room, over
-/// its box. A pure function of scene and options.
+/// horizon is left out) and have something below them; in a building below its ceilings, heights counted from
+/// each floor; around a single model in the open, or in a closed room, over its box. A pure function of scene and options.
 std::vector<Vec3d> FindFreePlaces(const RayTracer& tracer, const PlaceOptions& options);
 
 /// True if a ball of `radius` can move along the segment. Its free distance is measured at most 0.1 m apart
@@ -55,8 +75,9 @@ struct Roadmap {
 };
 
 /// Connects each place with its nearest ones where a ball of `radius` can move between them. The cost of a
-/// way is its length, more at height, so that shortest ways follow the streets.
-Roadmap Connect(const RayTracer& tracer, std::vector<Vec3d> places, double radius);
+/// way is its length, more at height, so that shortest ways follow the streets. `neighbours`: more where walls stand between places.
+inline constexpr int kNeighboursInTowns = 10, kNeighboursInRooms = 30;
+Roadmap Connect(const RayTracer& tracer, std::vector<Vec3d> places, double radius, int neighbours = kNeighboursInTowns);
 
 /// Cheapest ways from one place to all (Dijkstra).
 struct CheapestWays {

@@ -25,11 +25,12 @@ double CruiseSpeed(const std::vector<Vec3d>& points) {
   return std::clamp(length / 150, 0.5, 6.0);
 }
 
-// Start of the tour: place 0 if it leads anywhere, else the place that leads to the most others.
+// Start of the tour: place 0 if it leads to half as many others as any does, else the place that leads to the most: the
+// doors of the first room may be shut.
 int StartPlace(const Roadmap& map) {
   const int n = static_cast<int>(map.places.size());
   std::vector<int> group(n, -1);
-  int best = 0, best_size = 0;
+  int best = 0, best_size = 0, first_size = 0;
   for (int i = 0; i < n; ++i) {
     if (group[i] >= 0) continue;
     const CheapestWays ways = FindCheapestWays(map, i);
@@ -40,13 +41,13 @@ int StartPlace(const Roadmap& map) {
         ++size;
       }
     }
-    if (i == 0 && size >= std::min(n, 8)) return 0;
+    if (i == 0) first_size = size >= std::min(n, 8) ? size : 0;
     if (size > best_size) {
       best = i;
       best_size = size;
     }
   }
-  return best;
+  return 2 * first_size >= best_size ? 0 : best;
 }
 
 // The start, then places that can be reached, taken in turn from layers of height that double upwards: as
@@ -125,15 +126,18 @@ int SurveyViewpoints(int64_t frames) { return static_cast<int>(std::clamp<int64_
 
 Route PlanSurvey(const RayTracer& tracer, const SurveyOptions& options) {
   // Enough room for the rounded corners too; in narrow scenes less.
-  for (double clearance = options.clearance; clearance > options.clearance / 20; clearance /= 2) {
+  const bool in_rooms = BeginsUnderACeiling(tracer.scene());
+  const double most = in_rooms ? std::min(options.clearance, kClearanceInRooms) : options.clearance;
+  for (double clearance = most; clearance > most / 20; clearance /= 2) {
     const double radius = clearance + kRounding * std::min(1.0, clearance);
     std::vector<Vec3d> places = FindFreePlaces(tracer, {.seed = options.seed,
                                                         .radius = radius,
                                                         .min_height = options.min_height,
                                                         .max_height = options.max_height,
-                                                        .candidates = std::max(kCandidates, 4 * options.viewpoints)});
+                                                        .candidates = std::max(kCandidates, 4 * options.viewpoints),
+                                                        .passages = options.passages});
     if (places.size() < 2) continue;
-    const Roadmap map = Connect(tracer, std::move(places), radius);
+    const Roadmap map = Connect(tracer, std::move(places), radius, in_rooms ? kNeighboursInRooms : kNeighboursInTowns);
     const int start = StartPlace(map);
     const std::vector<int> stops = ChooseViewpoints(map, start, options.viewpoints);
     if (stops.size() < 2) continue;

@@ -45,6 +45,18 @@ struct BuildingRooms {
     }
     return nullptr;
   }
+
+  /// Places in W in and on both sides of the open doors and passages: a way through a door needs three in a row.
+  std::vector<Vec3d> OpenPassages() const {
+    constexpr double kHalfOpen = 0.5, kBeside = 0.7;  // share; metres from the middle of the wall
+    std::vector<Vec3d> places;
+    for (const RoomDoor& door : doors) {
+      if (door.open <= kHalfOpen) continue;
+      const Vec3d middle = VecCast<double>(door.center), through{door.through.x, door.through.y, 0};
+      for (const double side : {0.0, -kBeside, kBeside}) places.push_back(middle + through * side);
+    }
+    return places;
+  }
 };
 
 }  // namespace airsim360

@@ -176,10 +176,14 @@ class TourPlanner {
     std::vector<Vec3d> places = PlacesAround(tracer_, tracks_, options_, radius_);
     viewpoints_ = places.size();
     // Ways between groups of people lead over other low places.
-    const PlaceOptions low{.seed = options_.seed, .radius = radius_, .min_height = options_.min_height, .max_height = options_.max_height};
+    const PlaceOptions low{.seed = options_.seed,
+                           .radius = radius_,
+                           .min_height = options_.min_height,
+                           .max_height = options_.max_height,
+                           .passages = options_.passages};
     std::ranges::move(FindFreePlaces(tracer_, low), std::back_inserter(places));
     if (viewpoints_ == 0) return std::nullopt;
-    map_ = Connect(tracer_, std::move(places), radius_);
+    map_ = Connect(tracer_, std::move(places), radius_, BeginsUnderACeiling(tracer_.scene()) ? kNeighboursInRooms : kNeighboursInTowns);
     worth_.resize(viewpoints_);
     Rate([&](size_t i) { return Gain(i, tracks_.At(0)); });
     const std::optional<size_t> first = FirstPlace(map_, worth_);
@@ -249,7 +253,8 @@ class TourPlanner {
 
 std::optional<PeopleSurvey> PlanPeopleSurvey(const SimModel& model, const PeopleSurveyOptions& options) {
   if (!model.people) return std::nullopt;
-  for (double clearance = options.clearance; clearance > options.clearance / 20; clearance /= 2) {
+  const double most = BeginsUnderACeiling(model.tracer->scene()) ? std::min(options.clearance, kClearanceInRooms) : options.clearance;
+  for (double clearance = most; clearance > most / 20; clearance /= 2) {
     if (std::optional<PeopleSurvey> survey = TourPlanner(model, options, clearance).Plan()) return survey;
   }
   return std::nullopt;

@@ -13,9 +13,10 @@ namespace airsim360 {
 
 struct PeopleSurveyOptions {
   uint64_t seed = 0;
-  double clearance = 1.0;                 ///< metres to keep from every surface of the world
+  double clearance = 1.0;                 ///< metres to keep from every surface of the world; in rooms no more than 0.25
   double min_height = 2, max_height = 6;  ///< metres above the ground that people walk on
   int viewpoints = 40;                    ///< stops of the tour, 1 to kMostPeopleStops
+  std::vector<Vec3d> passages = {};       ///< as SurveyOptions::passages
 };
 inline constexpr int kMostPeopleStops = 200;
 

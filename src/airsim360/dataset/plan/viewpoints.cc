@@ -8,6 +8,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
+#include "airsim360/trace/surface_entity.h"
 
 namespace airsim360 {
 namespace {
@@ -53,14 +54,6 @@ std::optional<double> GroundUnder(const RayTracer& tracer, Vec2d at) {
   return lowest;
 }
 
-EntityId EntityOfHit(const Scene& scene, SurfaceRef surface) {
-  const Instance& instance = scene.instances[surface.instance];
-  const std::vector<MeshPart>& parts = scene.meshes[instance.mesh].parts;
-  const auto after = std::ranges::upper_bound(parts, surface.triangle, {}, &MeshPart::first_triangle);
-  if (after != parts.begin() && std::prev(after)->entity != kNoEntity) return std::prev(after)->entity;
-  return instance.entity;
-}
-
 std::vector<Vec3f> EvenDirections(int n) {
   // Fibonacci's lattice.
   const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
@@ -99,28 +92,48 @@ bool ViewpointSampler::SeesTheSky(Vec3d p_W) const {
 
 bool ViewpointSampler::IsGood(Vec3d p_W) const {
   const auto clearance = static_cast<float>(row_.clearance);
-  return tracer_.Clearance(VecCast<float>(p_W), clearance) >= clearance && SeesTheSky(p_W);
+  if (tracer_.Clearance(VecCast<float>(p_W), clearance) < clearance) return false;
+  return ground_.in_rooms() ? ground_.IsInRoom(tracer_, p_W) : SeesTheSky(p_W);
+}
+
+// Of which heights are counted.
+std::optional<double> ViewpointSampler::FloorUnder(Vec3d p_W) const {
+  if (!ground_.in_rooms()) return GroundUnder(tracer_, {p_W.x, p_W.y});
+  const auto hit = tracer_.Intersect(VecCast<float>(p_W), {0, 0, -1});
+  return hit ? std::optional(p_W.z - hit->distance) : std::nullopt;
+}
+
+std::optional<Vec3d> ViewpointSampler::Candidate(uint64_t n, const double offset[3]) const {
+  const Scene& scene = tracer_.scene();
+  const bool open = scene.sky_entity != kNoEntity;
+  const double u = LowDiscrepancy(n, 0, offset[0]), v = LowDiscrepancy(n, 1, offset[1]);
+  Vec2d at;
+  double bottom = 0, highest = row_.highest;
+  if (ground_.in_rooms()) {
+    const std::optional<RoomSpot> spot = ground_.InRoom(tracer_, u, v);
+    if (!spot || (has_area_ && !Contains(limit_, spot->at.x, spot->at.y))) return std::nullopt;
+    at = spot->at, bottom = spot->floor;
+    highest = std::min(highest, spot->ceiling - spot->floor - row_.clearance);
+  } else {
+    at = has_area_ ? Vec2d{limit_.min.x + u * (limit_.max.x - limit_.min.x), limit_.min.y + v * (limit_.max.y - limit_.min.y)}
+                   : ground_.At(u, v);
+    const auto ground = GroundUnder(tracer_, at);
+    if (!ground && open && !ground_.cells.empty()) return std::nullopt;
+    bottom = ground.value_or(scene.bounds.min.z);
+    // Not above the ceiling of a room.
+    if (!open) highest = std::min(highest, scene.bounds.max.z - bottom - row_.clearance);
+  }
+  const double lowest = std::min(row_.lowest, std::max(row_.clearance, highest));
+  const double height = lowest * std::pow(std::max(highest, lowest) / lowest, LowDiscrepancy(n, 2, offset[2]));
+  return Vec3d{at.x, at.y, bottom + height};
 }
 
 Vec3d ViewpointSampler::Even(int64_t k) const {
   RngStream offsets(seed_, "viewpoints " + row_.name);
   const double offset[3] = {offsets.Uniform(), offsets.Uniform(), offsets.Uniform()};
-  const Scene& scene = tracer_.scene();
-  const bool open = scene.sky_entity != kNoEntity;
   for (int64_t i = 0; i < kTries; ++i) {
-    const auto n = static_cast<uint64_t>(k + i * kTryStride);
-    const double u = LowDiscrepancy(n, 0, offset[0]), v = LowDiscrepancy(n, 1, offset[1]);
-    const Vec2d at = has_area_ ? Vec2d{limit_.min.x + u * (limit_.max.x - limit_.min.x), limit_.min.y + v * (limit_.max.y - limit_.min.y)}
-                               : ground_.At(u, v);
-    const auto ground = GroundUnder(tracer_, at);
-    if (!ground && open && !ground_.cells.empty()) continue;
-    const double bottom = ground.value_or(scene.bounds.min.z);
-    // Not above the ceiling of a room.
-    const double highest = open ? row_.highest : std::min(row_.highest, scene.bounds.max.z - bottom - row_.clearance);
-    const double lowest = std::min(row_.lowest, std::max(row_.clearance, highest));
-    const double height = lowest * std::pow(std::max(highest, lowest) / lowest, LowDiscrepancy(n, 2, offset[2]));
-    const Vec3d p{at.x, at.y, bottom + height};
-    if (IsGood(p)) return p;
+    const std::optional<Vec3d> p = Candidate(static_cast<uint64_t>(k + i * kTryStride), offset);
+    if (p && IsGood(*p)) return *p;
   }
   throw InputError("row '" + row_.name + "': no free place for frame " + std::to_string(k) + " among " + std::to_string(kTries) +
                    " in world '" + row_.world + "'; use a smaller clearance or another area");
@@ -147,8 +160,8 @@ bool ViewpointSampler::Near(CategoryId category, int64_t k, Vec3d& p_W) const {
         target + Vec3d{std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)} * distance;
     if (!Contains(limit_, p.x, p.y)) continue;
     const auto hit = tracer_.Intersect(VecCast<float>(p), VecCast<float>(Normalized(target - p)));
-    if (!hit || scene.entity(EntityOfHit(scene, hit->surface)).category != category) continue;
-    const auto ground = GroundUnder(tracer_, {p.x, p.y});
+    if (!hit || scene.entity(EntityAt(scene, hit->surface)).category != category) continue;
+    const auto ground = FloorUnder(p);
     if (!ground || p.z < *ground + row_.lowest || p.z > *ground + row_.highest || !IsGood(p)) continue;
     p_W = p;
     return true;
@@ -181,7 +194,7 @@ std::vector<Aim> ViewpointSampler::FindAims() const {
     const Vec3f p = VecCast<float>(Even(k));
     for (const Vec3f& direction : directions) {
       const auto hit = tracer_.Intersect(p, direction);
-      if (hit) seen[static_cast<size_t>(k)].insert(scene.entity(EntityOfHit(scene, hit->surface)).category);
+      if (hit) seen[static_cast<size_t>(k)].insert(scene.entity(EntityAt(scene, hit->surface)).category);
     }
   });
   std::vector<Aim> aims;

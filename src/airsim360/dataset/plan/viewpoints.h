@@ -1,8 +1,9 @@
-// Places for a camera that hovers: even over the ground and the logarithm of the height, free, outside of everything; some
-// of them where a rare category is seen.
+// Places for a camera that hovers: even over the ground and the logarithm of the height, free, outside of everything or in the rooms of
+// a building; some of them where a rare category is seen.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,10 @@ class ViewpointSampler {
  private:
   Vec3d Even(int64_t k) const;
   bool Near(CategoryId category, int64_t k, Vec3d& p_W) const;
+  std::optional<Vec3d> Candidate(uint64_t n, const double offset[3]) const;
   bool IsGood(Vec3d p_W) const;
   bool SeesTheSky(Vec3d p_W) const;
+  std::optional<double> FloorUnder(Vec3d p_W) const;
 
   const RayTracer& tracer_;
   RecipeRow row_;
@@ -42,9 +45,6 @@ class ViewpointSampler {
 
 /// Height of the lowest surface below or above a point of the ground plan; nullopt where there is none.
 std::optional<double> GroundUnder(const RayTracer& tracer, Vec2d at);
-
-/// What a hit belongs to.
-EntityId EntityOfHit(const Scene& scene, SurfaceRef surface);
 
 /// `n` directions spread evenly over the sphere.
 std::vector<Vec3f> EvenDirections(int n);

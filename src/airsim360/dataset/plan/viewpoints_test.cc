@@ -58,5 +58,38 @@ TEST(Viewpoints, AreEverywhereWhereASceneTellsNoBackdropApart) { EXPECT_GT(Outsi
 
 TEST(Viewpoints, AreInTheBackdropWhereARowAsksForIt) { EXPECT_EQ(Outside("backdrop", {"90", "-20", "120", "20"}), 300); }
 
+// A house of two storeys of 3 m, 8 m x 8 m, on a lawn; its first viewpoint is in it or before it.
+std::shared_ptr<const Scene> House(bool enter) {
+  SceneBuilder builder("house");
+  builder.AddSky();
+  builder.SetSpawn(enter ? Vec3f{0, 0, 1.6f} : Vec3f{20, 0, 1.6f});
+  const auto add = [&](const char* category, float z, float half) {
+    AffineTransform X_WM;
+    X_WM.p = {0, 0, z};
+    builder.AddInstance({builder.AddMesh(Square(category, 0, 0, half)), X_WM, builder.AddEntity(category, builder.tree().At(category))});
+  };
+  add("ground/grass", -0.1f, 60);
+  for (const float floor : {0.0f, 3.2f}) add("ground/floor", floor, 4), add("construction/ceiling", floor + 3, 4);
+  return builder.Build();
+}
+
+TEST(Viewpoints, AreInTheRoomsOfABuildingThatIsEnteredAtItsFirstViewpoint) {
+  RecipeRow row;
+  row.name = "rooms";
+  row.clearance = 0.3;
+  for (const bool enter : {true, false}) {
+    const RayTracer tracer(House(enter));
+    const ViewpointSampler sampler(tracer, row, 3, {});
+    int inside = 0, upstairs = 0;
+    for (int64_t k = 0; k < 200; ++k) {
+      const Vec3d p = sampler.Pose(k).p;
+      inside += std::abs(p.x) < 4 && std::abs(p.y) < 4 && p.z < 6.2;
+      upstairs += p.z > 3.2 + row.lowest - 1e-6;
+      EXPECT_TRUE(!enter || (p.z > 1.59 && p.z < 2.71) || (p.z > 4.79 && p.z < 5.91)) << p.z;
+    }
+    EXPECT_TRUE(enter ? inside == 200 && upstairs > 75 && upstairs < 125 : inside < 100) << inside << ", " << upstairs;
+  }
+}
+
 }  // namespace
 }  // namespace airsim360

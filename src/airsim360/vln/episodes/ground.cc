@@ -2,22 +2,13 @@
 
 #include <algorithm>
 
-#include "airsim360/vln/predicates/entity_parts.h"
+#include "airsim360/routes/roadmap.h"
+#include "airsim360/trace/surface_entity.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr float kRoomHeight = 5;  // metres below the lowest ceiling that rooms reach down
-
-// Without a sky, or with a ceiling over its first viewpoint.
-bool BeginsInARoom(const Scene& scene) {
-  if (scene.sky_entity == kNoEntity) return true;
-  return scene.spawn && std::ranges::any_of(scene.entities, [&, p = *scene.spawn](const Entity& entity) {
-           const Box3f& box = entity.bounds;
-           return scene.tree[entity.category].path.starts_with("construction/ceiling") && box.min.x <= p.x && p.x <= box.max.x &&
-                  box.min.y <= p.y && p.y <= box.max.y && box.max.z > p.z;
-         });
-}
 
 }  // namespace
 
@@ -25,7 +16,7 @@ VlnGround::VlnGround(std::shared_ptr<const RayTracer> tracer)
     : tracer_(std::move(tracer)),
       box_(FlightBox(*tracer_)),
       top_(scene().sky_entity == kNoEntity ? box_.max.z - 0.01 : scene().bounds.max.z + 10.0),
-      rooms_(BeginsInARoom(scene())) {
+      rooms_(scene().sky_entity == kNoEntity || BeginsUnderACeiling(scene())) {
   inhabited_ = box_;
   if (!rooms_ || scene().sky_entity == kNoEntity) return;
   Box3f rooms;

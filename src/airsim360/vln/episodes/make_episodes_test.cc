@@ -92,7 +92,7 @@ TEST(MakeEpisodes, WhatIsSeenAtAnIntersectionIsSeenFromOverIt) {
       for (const double z : {0.2, 1.2, 2.3}) {
         const Vec3d to{20 + u, 10 - u, z};
         const auto hit = stage->solid()->Intersect(VecCast<float>(from), VecCast<float>(to - from), 1);
-        if (hit && stage->scene().entity(internal::EntityAt(stage->scene(), hit->surface)).name == "booth") return true;
+        if (hit && stage->scene().entity(EntityAt(stage->scene(), hit->surface)).name == "booth") return true;
       }
     return false;
   };

@@ -3,22 +3,13 @@
 
 #include <vector>
 
-#include "airsim360/trace/ray_tracer.h"
+#include "airsim360/trace/surface_entity.h"
 
 namespace airsim360::internal {
 
 struct EntityPart {
   uint32_t instance = 0, part = 0;  ///< indices of scene.instances and of the parts of its mesh
 };
-
-/// The thing that a surface belongs to.
-inline EntityId EntityAt(const Scene& scene, const SurfaceRef& surface) {
-  const Instance& instance = scene.instances[surface.instance];
-  for (const MeshPart& part : scene.meshes[instance.mesh].parts)
-    if (part.entity != kNoEntity && surface.triangle >= part.first_triangle && surface.triangle < part.first_triangle + part.triangle_count)
-      return part.entity;
-  return instance.entity;
-}
 
 /// By entity; index 0 is what belongs to none.
 inline std::vector<std::vector<EntityPart>> PartsByEntity(const Scene& scene) {
