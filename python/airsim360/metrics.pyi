@@ -1,6 +1,7 @@
 """Scores of pictures, predictions and flights: pure functions of the compiled module, the same as of `airsim360 eval`.
 
 Pictures are (H, W, 3) uint8 sRGB of the same size, paths (N, 3) metres; anything else is a ValueError.
+Truths that a numpy.ma array hides are not valid in depth, flow, semantic, panoptic and tracking; elsewhere hidden elements are a ValueError.
 """
 from typing import Any, Sequence
 
@@ -47,7 +48,7 @@ def entity(predictions: Sequence[_Numbers], scores: Sequence[_Numbers], truths: 
     """COCO's twelve figures of masks without categories: of each picture masks (K, H, W) and scores (K,)."""
 
 def flow(prediction: _Numbers, truth: _Numbers, weights: str = "pixel") -> dict[str, float]:
-    """Errors of flow (H, W, 2), NaN = unknown: epe, fl_all, below1, below3, below5, angle_error_deg, valid."""
+    """Errors of flow (H, W, 2) or (2, H, W), NaN = unknown: epe, fl_all, below1, below3, below5, angle_error_deg, valid."""
 
 def vln(flown: _Path, reference: _Path, radius: float = 20.0, protocol: str = "ours", goal: Any = None, shortest: Any = None, stopped: bool = True, collided: bool = False) -> dict[str, float]:
     """Scores of one flown path (N, 3): sr, osr, spl, spl_straight, ne, ndtw, sdtw, cls, path_length."""

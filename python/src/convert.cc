@@ -12,17 +12,11 @@
 namespace airsim360::python {
 namespace {
 
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
 Doubles ToDoubles(const py::handle& value, const char* what) {
-  Doubles array = Doubles::ensure(value);
-  if (!array) {
-    PyErr_Clear();
-    throw InputError(std::string(what) + ": not an array of numbers");
-  }
+  Doubles array = ToNumbers(value, what);
   for (py::ssize_t i = 0; i < array.size(); ++i) {
-    const double value = Finite(array.data()[i], what);
-    if (std::abs(value) > kCoordinateLimit) throw InputError(std::string(what) + ": " + BeyondLimitText(value));
+    const double number = Finite(array.data()[i], what);
+    if (std::abs(number) > kCoordinateLimit) throw InputError(std::string(what) + ": " + BeyondLimitText(number));
   }
   return array;
 }
@@ -34,6 +28,48 @@ std::string ShapeText(const py::array& array) {
 }
 
 }  // namespace
+
+void RefuseDtype(const py::array& array, const char* what, const char* text) {
+  throw InputError(std::string(what) + ": an array of dtype " + py::str(array.dtype()).cast<std::string>() + "; " + text);
+}
+
+PlainArray ToPlainArray(const py::handle& value, const char* what, bool may_hide) {
+  const py::object ma = py::module_::import("numpy.ma"), masked_type = ma.attr("MaskedArray");
+  // NumPy drops the masks of arrays in a list.
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+    for (const py::handle one : py::reinterpret_borrow<py::sequence>(value)) {
+      if (py::isinstance(one, masked_type)) throw InputError(std::string(what) + ": a list of masked arrays; join them by numpy.ma.stack");
+    }
+  }
+  PlainArray plain;
+  py::object data = py::reinterpret_borrow<py::object>(value);
+  if (py::isinstance(value, masked_type)) {
+    if (ma.attr("is_masked")(value).cast<bool>()) {
+      if (!may_hide)
+        throw InputError(std::string(what) + ": a masked array that hides elements, and this argument has no notion of what is not valid");
+      plain.hidden = ma.attr("getmaskarray")(value);
+    }
+    data = ma.attr("getdata")(value);
+  }
+  plain.values = py::array::ensure(data);
+  if (!plain.values) {
+    PyErr_Clear();
+    throw InputError(std::string(what) + ": not an array of numbers");
+  }
+  return plain;
+}
+
+Doubles ToNumbers(const py::handle& value, const char* what, std::optional<double> masked) {
+  const PlainArray plain = ToPlainArray(value, what, masked.has_value());
+  const char kind = plain.values.dtype().kind();
+  if (kind != 'f' && kind != 'i' && kind != 'u') RefuseDtype(plain.values, what, "not an array of real numbers");
+  Doubles array = Doubles::ensure(plain.values);
+  if (!plain.hidden) return array;
+  // The caller's own array stays as it is.
+  Doubles copy(std::vector<py::ssize_t>(array.shape(), array.shape() + array.ndim()));
+  for (py::ssize_t i = 0; i < array.size(); ++i) copy.mutable_data()[i] = plain.hidden->data()[i] ? *masked : array.data()[i];
+  return copy;
+}
 
 double Finite(double value, const char* what) {
   if (!std::isfinite(value)) throw InputError(std::string(what) + ": " + std::to_string(value) + " is not a finite number");

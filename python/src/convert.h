@@ -20,6 +20,19 @@ namespace py = pybind11;
 Vec3d ToVec3(const py::handle& value, const char* what);
 /// (N, 3) such numbers; ValueError naming `what` otherwise.
 std::vector<Vec3d> ToPoints(const py::handle& value, const char* what);
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+/// An array or nested lists of real numbers (no booleans, complex numbers, texts or objects) as float64. Where a masked array hides an
+/// element it is `masked`; without `masked`, hidden elements are refused. ValueError naming `what` and the dtype otherwise.
+Doubles ToNumbers(const py::handle& value, const char* what, std::optional<double> masked = {});
+/// The array of `value` and, where a masked array hides elements, which (else nothing); refuses them unless `may_hide`.
+struct PlainArray {
+  py::array values;
+  std::optional<py::array_t<bool, py::array::c_style | py::array::forcecast>> hidden;
+};
+PlainArray ToPlainArray(const py::handle& value, const char* what, bool may_hide);
+/// ValueError "what: numbers of the dtype …: text".
+[[noreturn]] void RefuseDtype(const py::array& array, const char* what, const char* text);
 /// A finite number; ValueError naming `what` otherwise.
 double Finite(double value, const char* what);
 

@@ -1,5 +1,7 @@
 // airsim360.metrics: scores of tasks on arrays, the same functions as `airsim360 eval`.
-#include <cstring>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include "airsim360/base/error.h"
@@ -22,14 +24,63 @@ namespace {
 template <class T>
 using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
-template <class T>
-Array<T> ToArray(const py::handle& value, const char* what) {
-  Array<T> array = Array<T>::ensure(value);
-  if (!array) {
-    PyErr_Clear();
-    throw InputError(std::string(what) + ": not an array of numbers");
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr int64_t kLeastId = std::numeric_limits<int64_t>::min(), kMostId = std::numeric_limits<int64_t>::max(), kMost32 = 0xffffffff;
+
+/// Whole numbers of `least` to `most`, of any dtype of numbers; floats must be whole. `masked` as of ToNumbers. What is hidden may be anything.
+Array<int64_t> ToIds(const py::handle& value, const char* what, int64_t least = kLeastId, int64_t most = kMostId,
+                     std::optional<int64_t> masked = {}) {
+  const PlainArray plain = ToPlainArray(value, what, masked.has_value());
+  const char kind = plain.values.dtype().kind();
+  Array<int64_t> ids(std::vector<py::ssize_t>(plain.values.shape(), plain.values.shape() + plain.values.ndim()));
+  const auto fill = [&]<class T>(const Array<T>& given, const auto& fits) {
+    for (py::ssize_t i = 0; i < given.size(); ++i) {
+      const T id = given.data()[i];
+      const bool hidden = plain.hidden && plain.hidden->data()[i];
+      if (!hidden && !fits(id))
+        throw InputError(std::string(what) + ": " + py::str(py::cast(id)).cast<std::string>() + " is no id" +
+                         (most == kMost32 ? " (whole numbers, 0 to 4294967295)" : " (whole numbers)"));
+      ids.mutable_data()[i] = hidden ? *masked : static_cast<int64_t>(id);
+    }
+  };
+  if (kind == 'f') {
+    constexpr double kWhole = 9007199254740992;  // from here on not every whole number is a double
+    fill(Array<double>::ensure(plain.values), [&](double id) {
+      return id == std::floor(id) && std::abs(id) <= kWhole && id >= static_cast<double>(least) && id <= static_cast<double>(most);
+    });
+  } else if (kind == 'u') {
+    fill(Array<uint64_t>::ensure(plain.values), [&](uint64_t id) { return id <= static_cast<uint64_t>(most); });
+  } else if (kind == 'i' || kind == 'b') {
+    fill(Array<int64_t>::ensure(plain.values), [&](int64_t id) { return id >= least && id <= most; });
+  } else {
+    RefuseDtype(plain.values, what, "not an array of ids");
   }
-  return array;
+  return ids;
+}
+
+/// Ids of 32 bits.
+std::vector<uint32_t> Narrow(const Array<int64_t>& ids) { return {ids.data(), ids.data() + ids.size()}; }
+
+/// Masks: what is not 0 is in. Floats and more than one value that is not 0 are refused: probabilities and ids are no masks.
+Array<uint8_t> ToMasks(const py::handle& value, const char* what) {
+  const PlainArray plain = ToPlainArray(value, what, false);
+  const char kind = plain.values.dtype().kind();
+  if (plain.values.size() > 0 && kind != 'b' && kind != 'i' && kind != 'u' && kind != 'f')
+    RefuseDtype(plain.values, what, "not an array of masks");
+  const Array<double> numbers = Array<double>::ensure(plain.values);
+  Array<uint8_t> masks(std::vector<py::ssize_t>(numbers.shape(), numbers.shape() + numbers.ndim()));
+  double inside = kind == 'f' ? 1 : 0;
+  for (py::ssize_t i = 0; i < numbers.size(); ++i) {
+    const double number = numbers.data()[i];
+    if (inside == 0) inside = number;
+    if (number != 0 && number != inside)
+      throw InputError(std::string(what) + ": " + py::str(py::cast(number)).cast<std::string>() +
+                       (kind == 'f'
+                            ? " is neither 0 nor 1: compare probabilities with a threshold first"
+                            : " and " + py::str(py::cast(inside)).cast<std::string>() + " in masks: ids are no masks, give one mask each"));
+    masks.mutable_data()[i] = number != 0;
+  }
+  return masks;
 }
 
 template <class T>
@@ -43,14 +94,27 @@ void CheckSameShape(const py::array& a, const py::array& b, const char* names) {
   if (!same) throw InputError(std::string(names) + ": arrays of different shape");
 }
 
+/// What `measure` gives; its errors name the argument `weights`, which is --weights of the command.
+template <class Measure>
+auto WithWeights(const Measure& measure) {
+  try {
+    return measure();
+  } catch (const InputError& error) {
+    constexpr std::string_view kFlag = "--weights";
+    std::string text = error.what();
+    if (text.starts_with(kFlag)) text.erase(0, 2);
+    throw InputError(text);
+  }
+}
+
 /// One weight a pixel of pictures (H, W), or of each of a stack (N, H, W); empty for pixels.
 std::vector<double> WeightsOf(const py::array& pictures, const std::string& name, py::ssize_t trailing = 0) {
-  const PixelWeight weight = ParsePixelWeight(name);
+  const PixelWeight weight = WithWeights([&] { return ParsePixelWeight(name); });
   if (weight == PixelWeight::kPixel) return {};
   const py::ssize_t last = pictures.ndim() - trailing;
   if (last < 2) throw InputError("weights: pictures must be (H, W)");
   const auto height = static_cast<int>(pictures.shape(last - 2)), width = static_cast<int>(pictures.shape(last - 1));
-  const std::vector<double> one = WholeView(width, height, weight).weights;
+  const std::vector<double> one = WithWeights([&] { return WholeView(width, height, weight); }).weights;
   std::vector<double> all;
   for (py::ssize_t n = 0, count = last == 3 ? pictures.shape(0) : 1; n < count; ++n) all.insert(all.end(), one.begin(), one.end());
   return all;
@@ -64,17 +128,27 @@ py::dict ToDict(const Names& names, const Values& values) {
 }
 
 py::dict Depth(const py::object& prediction, const py::object& truth, const std::string& weights, double min_depth, double max_depth) {
-  const auto p = ToArray<double>(prediction, "prediction"), g = ToArray<double>(truth, "truth");
+  const Doubles p = ToNumbers(prediction, "prediction"), g = ToNumbers(truth, "truth", kNan);
   CheckSameShape(p, g, "prediction, truth");
   const std::vector<double> w = WeightsOf(g, weights);
+  const DepthOptions options{.min_depth = min_depth, .max_depth = max_depth};
+  CheckDepthOptions(options);
   DepthErrors errors;
   {
     const py::gil_scoped_release release;
-    errors = MeasureDepth(Span(p), Span(g), w, {.min_depth = min_depth, .max_depth = max_depth});
+    errors = MeasureDepth(Span(p), Span(g), w, options);
   }
+  if (errors.valid == 0) throw InputError("truth: " + NoDepthText(options));
   py::dict dict = ToDict(kDepthFigures, Figures(errors));
   dict["valid"] = errors.valid;
   return dict;
+}
+
+// An id that no class has.
+int64_t NoClass(const std::vector<int64_t>& classes) {
+  int64_t id = kLeastId;
+  while (std::ranges::find(classes, id) != classes.end()) ++id;
+  return id;
 }
 
 std::vector<uint16_t> Classes(const Array<int64_t>& ids, const std::vector<int64_t>& classes) {
@@ -90,11 +164,12 @@ std::vector<uint16_t> Classes(const Array<int64_t>& ids, const std::vector<int64
 }
 
 py::dict Semantic(const py::object& prediction, const py::object& truth, const std::vector<int64_t>& classes, const std::string& weights) {
-  const auto p = ToArray<int64_t>(prediction, "prediction"), g = ToArray<int64_t>(truth, "truth");
+  const auto p = ToIds(prediction, "prediction"), g = ToIds(truth, "truth", kLeastId, kMostId, NoClass(classes));
   CheckSameShape(p, g, "prediction, truth");
   if (classes.empty() || classes.size() >= Confusion::kOther) throw InputError("classes: must be 1 to 65534 ids");
   Confusion confusion(classes.size());
   confusion.Add(Classes(p, classes), Classes(g, classes), WeightsOf(g, weights));
+  if (std::isnan(confusion.PixelAccuracy())) throw InputError("truth: no pixel is of one of the classes");
   py::dict iou, acc;
   const auto n = static_cast<py::ssize_t>(classes.size());
   py::array_t<double> table({n, n + 1});
@@ -118,7 +193,8 @@ py::dict Semantic(const py::object& prediction, const py::object& truth, const s
 
 py::dict Panoptic(const py::object& prediction, const py::object& truth, const std::map<uint32_t, int64_t>& predicted,
                   const std::map<uint32_t, int64_t>& real, const std::vector<uint32_t>& crowds, const std::string& weights) {
-  const auto p = ToArray<uint32_t>(prediction, "prediction"), g = ToArray<uint32_t>(truth, "truth");
+  // What is hidden is void.
+  const auto p = ToIds(prediction, "prediction", 0, kMost32, 0), g = ToIds(truth, "truth", 0, kMost32, 0);
   CheckSameShape(p, g, "prediction, truth");
   std::map<int64_t, size_t> categories;
   for (const auto* segments : {&predicted, &real}) {
@@ -129,7 +205,7 @@ py::dict Panoptic(const py::object& prediction, const py::object& truth, const s
   for (const auto& [id, category] : real)
     gs.push_back({id, categories[category], std::find(crowds.begin(), crowds.end(), id) != crowds.end()});
   PanopticOverlap overlap;
-  overlap.Add(Span(p), Span(g), WeightsOf(g, weights));
+  overlap.Add(Narrow(p), Narrow(g), WeightsOf(g, weights));
   std::vector<PanopticCount> counts(categories.size());
   overlap.Count(ps, gs, counts);
   py::dict dict;
@@ -145,7 +221,7 @@ py::dict Panoptic(const py::object& prediction, const py::object& truth, const s
 
 // The masks (K, H, W) of one picture.
 void AddMasks(const py::handle& masks, int64_t image, const char* what, std::vector<CocoObject>& objects, CocoImage& size) {
-  const auto array = ToArray<uint8_t>(masks, what);
+  const auto array = ToMasks(masks, what);
   if (array.size() == 0) return;
   if (array.ndim() != 3) throw InputError(std::string(what) + ": masks of a picture are (K, H, W)");
   size.height = static_cast<int>(array.shape(1));
@@ -170,13 +246,16 @@ py::dict EntityPrecision(const py::sequence& predictions, const py::sequence& sc
     const size_t first = results.size();
     AddMasks(truths[i], image.id, "truths", all.objects, image);
     AddMasks(predictions[i], image.id, "predictions", results, image);
-    const auto score = ToArray<double>(scores[i], "scores");
+    const Doubles score = ToNumbers(scores[i], "scores");
     if (static_cast<size_t>(score.size()) != results.size() - first) throw InputError("scores: one a predicted mask");
     for (size_t k = first; k < results.size(); ++k) results[k].score = Finite(score.data()[k - first], "scores");
     all.images.push_back(image);
   }
-  CocoRun run{.class_agnostic = true, .solid_angle = ParsePixelWeight(weights) == PixelWeight::kSolidAngle};
-  const auto matches = MatchAll(all, results, run);
+  CocoRun run{.class_agnostic = true};
+  const auto matches = WithWeights([&] {
+    run.solid_angle = ParsePixelWeight(weights) == PixelWeight::kSolidAngle;
+    return MatchAll(all, results, run);
+  });
   const CocoTable table = AccumulateCoco(matches, run.options, 1);
   py::dict dict;
   const auto all_t = CocoTable::kAll;
@@ -191,12 +270,25 @@ py::dict EntityPrecision(const py::sequence& predictions, const py::sequence& sc
   return dict;
 }
 
+// (H, W, 2), also of (2, H, W).
+Doubles ToFlow(const Doubles& flow, const char* what) {
+  if (flow.ndim() == 3 && flow.shape(2) == 2) return flow;
+  if (flow.ndim() != 3 || flow.shape(0) != 2) throw InputError(std::string(what) + ": flow is (H, W, 2) or (2, H, W)");
+  const py::ssize_t height = flow.shape(1), width = flow.shape(2);
+  Doubles turned({height, width, py::ssize_t{2}});
+  for (py::ssize_t i = 0; i < height * width; ++i) {
+    turned.mutable_data()[2 * i] = flow.data()[i];
+    turned.mutable_data()[2 * i + 1] = flow.data()[height * width + i];
+  }
+  return turned;
+}
+
 py::dict FlowOf(const py::object& prediction, const py::object& truth, const std::string& weights) {
-  const auto p = ToArray<double>(prediction, "prediction"), g = ToArray<double>(truth, "truth");
+  const Doubles p = ToFlow(ToNumbers(prediction, "prediction"), "prediction"), g = ToFlow(ToNumbers(truth, "truth", kNan), "truth");
   CheckSameShape(p, g, "prediction, truth");
-  if (g.ndim() != 3 || g.shape(2) != 2) throw InputError("flow is (H, W, 2)");
   const FlowErrors errors =
       MeasureFlow(Span(p), Span(g), static_cast<int>(g.shape(1)), static_cast<int>(g.shape(0)), {}, WeightsOf(g, weights, 1));
+  if (errors.valid == 0) throw InputError("truth: no pixel has a flow");
   py::dict dict = ToDict(kFlowFigures, Figures(errors));
   dict["valid"] = errors.valid;
   return dict;
@@ -204,22 +296,23 @@ py::dict FlowOf(const py::object& prediction, const py::object& truth, const std
 
 py::dict Vln(const py::object& flown, const py::object& reference, double radius, const std::string& protocol, const py::object& goal,
              const py::object& shortest, bool stopped, bool collided) {
-  VlnEpisode episode{ToPoints(reference, "reference"), ToPoints(flown, "flown"), {}, {}, stopped, collided};
+  VlnEpisode episode{
+      .reference = ToPoints(reference, "reference"), .flown = ToPoints(flown, "flown"), .stopped = stopped, .collided = collided};
   if (!goal.is_none()) episode.goal = ToVec3(goal, "goal");
   if (!shortest.is_none()) episode.shortest = Finite(shortest.cast<double>(), "shortest");
   return ToDict(kVlnFigures, Figures(ScoreVln(episode, radius, FindVlnProtocol(protocol))));
 }
 
 py::dict Mpde(const py::object& distance, const py::object& angle, const py::object& true_distance, const py::object& true_angle) {
-  const auto d = ToArray<double>(distance, "distance"), a = ToArray<double>(angle, "angle"),
-             td = ToArray<double>(true_distance, "true_distance"), ta = ToArray<double>(true_angle, "true_angle");
+  const Doubles d = ToNumbers(distance, "distance"), a = ToNumbers(angle, "angle"), td = ToNumbers(true_distance, "true_distance"),
+                ta = ToNumbers(true_angle, "true_angle");
   CheckSameShape(d, a, "distance, angle");
   CheckSameShape(d, td, "distance, true_distance");
   CheckSameShape(d, ta, "distance, true_angle");
   std::vector<PersonPose> prediction, truth;
   for (py::ssize_t i = 0; i < d.size(); ++i) {
-    prediction.push_back({d.data()[i], a.data()[i]});
-    truth.push_back({td.data()[i], ta.data()[i]});
+    prediction.push_back({CheckPersonDistance(d.data()[i], "distance"), a.data()[i]});
+    truth.push_back({CheckPersonDistance(td.data()[i], "true_distance"), ta.data()[i]});
   }
   const MpdeErrors e = MeasureMpde(prediction, truth);
   py::dict dict;
@@ -229,7 +322,7 @@ py::dict Mpde(const py::object& distance, const py::object& angle, const py::obj
 }
 
 RoomLayout ToRoom(const py::object& corners, const char* what) {
-  const auto array = ToArray<double>(corners, what);
+  const Doubles array = ToNumbers(corners, what);
   if (array.ndim() != 2 || array.shape(1) != 2 || array.shape(0) % 2 != 0)
     throw InputError(std::string(what) + ": corners are (2 N, 2), ceiling and floor in turn");
   RoomLayout room;
@@ -247,14 +340,24 @@ py::dict Layout(const py::object& prediction, const py::object& truth, int width
 
 py::dict Tracking(const py::object& pred_category, const py::object& pred_instance, const py::object& category, const py::object& instance,
                   const std::vector<bool>& things) {
-  const auto pc = ToArray<uint32_t>(pred_category, "pred_category"), pi = ToArray<uint32_t>(pred_instance, "pred_instance"),
-             c = ToArray<uint32_t>(category, "category"), i = ToArray<uint32_t>(instance, "instance");
+  if (things.empty()) throw InputError("things: a flag a category");
+  const auto categories = [&](const py::object& value, const char* what) {
+    const auto ids = ToIds(value, what, 0, kMost32, kMost32);
+    for (const int64_t id : Span(ids)) {
+      if (id >= static_cast<int64_t>(things.size()) && id != kMost32)
+        throw InputError(std::string(what) + ": " + std::to_string(id) + " is none of the " + std::to_string(things.size()) +
+                         " categories that things has, and not 0xffffffff (void)");
+    }
+    return ids;
+  };
+  const auto pc = categories(pred_category, "pred_category"), pi = ToIds(pred_instance, "pred_instance", 0, kMost32),
+             c = categories(category, "category"), i = ToIds(instance, "instance", 0, kMost32);
   CheckSameShape(pc, pi, "pred_category, pred_instance");
   CheckSameShape(pc, c, "pred_category, category");
   CheckSameShape(pc, i, "pred_category, instance");
-  if (things.empty()) throw InputError("things: a flag a category");
   TrackingQuality quality(things);
-  quality.Add({Span(pc), Span(pi)}, {Span(c), Span(i)});
+  const auto pc32 = Narrow(pc), pi32 = Narrow(pi), c32 = Narrow(c), i32 = Narrow(i);
+  quality.Add({pc32, pi32}, {c32, i32});
   const TrackingScore s = quality.Score();
   py::dict dict;
   dict["stq"] = s.stq, dict["aq"] = s.aq, dict["sq"] = s.sq, dict["tubes"] = s.tubes;
@@ -262,7 +365,7 @@ py::dict Tracking(const py::object& pred_category, const py::object& pred_instan
 }
 
 SphericalBox ToBfov(const py::object& box, const char* what) {
-  const auto a = ToArray<double>(box, what);
+  const Doubles a = ToNumbers(box, what);
   if (a.ndim() != 1 || (a.size() != 4 && a.size() != 5))
     throw InputError(std::string(what) + ": a box is (lon, lat, width, height[, turn])");
   return {a.data()[0], a.data()[1], a.data()[2], a.data()[3], a.size() == 5 ? a.data()[4] : 0};
@@ -286,7 +389,7 @@ void BindTaskMetrics(py::module_& metrics) {
   metrics.def("entity", &EntityPrecision, py::arg("predictions"), py::arg("scores"), py::arg("truths"), py::arg("weights") = "pixel",
               "COCO's twelve figures of masks without categories: of each picture masks (K, H, W) and scores (K,).");
   metrics.def("flow", &FlowOf, py::arg("prediction"), py::arg("truth"), py::arg("weights") = "pixel",
-              "Errors of flow (H, W, 2), NaN = unknown: epe, fl_all, below1, below3, below5, angle_error_deg, valid.");
+              "Errors of flow (H, W, 2) or (2, H, W), NaN = unknown: epe, fl_all, below1, below3, below5, angle_error_deg, valid.");
   metrics.def("vln", &Vln, py::arg("flown"), py::arg("reference"), py::arg("radius") = 20.0, py::arg("protocol") = "ours",
               py::arg("goal") = py::none(), py::arg("shortest") = py::none(), py::arg("stopped") = true, py::arg("collided") = false,
               "Scores of one flown path (N, 3): sr, osr, spl, spl_straight, ne, ndtw, sdtw, cls, path_length.");

@@ -194,6 +194,77 @@ class Keypoints(EvalTest):
                 self.assertSame(a, float(b), str(seed))
 
 
+class Mistakes(EvalTest):
+    """Results that match almost nothing because of how they are written are refused with the cause; --force measures them."""
+
+    def boxes(self, change=lambda box: box, category=lambda c: c, key="bbox", values=None, noise=3.0, categories=(1, 2, 3, 5)):
+        random = np.random.default_rng(7)
+        images = [{"id": i, "width": 400, "height": 200} for i in range(1, 6)]
+        truths, results = [], []
+        for image in images:
+            for c in categories:
+                box = np.array([random.uniform(0, 200), random.uniform(0, 100), random.uniform(30, 180), random.uniform(30, 90)]) if values is None else values(random)
+                truths.append({"id": len(truths) + 1, "image_id": image["id"], "category_id": c, key: [float(v) for v in box]})
+                guess = np.array(box) + random.normal(0, noise, len(box))
+                results.append({"image_id": image["id"], "category_id": category(c), "score": float(random.random()), key: [float(v) for v in change(guess)]})
+        self.write("gt.json", {"images": images, "annotations": truths, "categories": [{"id": c, "name": f"c{c}"} for c in sorted({*categories, 4})]})
+        return self.write("pred.json", results), self.folder / "gt.json"
+
+    def test_other_boxes_and_ids_are_named(self):
+        self.assertGreater(self.eval("boxes", *self.boxes())["ap50"], 0.9)
+        for says, options in (("[x1, y1, x2, y2]", {"change": lambda b: [b[0], b[1], b[0] + b[2], b[1] + b[3]]}), ("fractions of the picture", {"change": lambda b: b / [400, 200, 400, 200]}),
+                              ("middle", {"change": lambda b: [b[0] + b[2] / 2, b[1] + b[3] / 2, b[2], b[3]]}), ("one too large", {"category": lambda c: c + 1}), ("one too small", {"category": lambda c: c - 1}), ("places in the truth's list", {"category": lambda c: {5: 1, 8: 2, 12: 3, 20: 4}[c], "categories": (5, 8, 12, 20)})):
+            self.refuse("boxes", *self.boxes(**options), says=["pred.json: ", says, "--force"])
+        found = self.eval("boxes", *self.boxes(category=lambda c: c + 1), "--force")
+        self.assertTrue(any("one too large" in w for w in found["warnings"]))
+        self.assertGreater(self.eval("boxes", *self.boxes(category=lambda c: c + 1), "--class-agnostic")["ap50"], 0.5)
+        sphere = lambda random: [random.uniform(-150, 150), random.uniform(-50, 50), random.uniform(20, 60), random.uniform(20, 60)]
+        self.assertGreater(self.eval("boxes", *self.boxes(key="bfov", values=sphere, noise=1), "--kind", "bfov")["ap50"], 0.9)
+        self.refuse("boxes", *self.boxes(np.radians, key="bfov", values=sphere, noise=1), "--kind", "bfov", says=["radians"])
+
+    def test_poor_predictions_are_no_mistake(self):
+        for noise in (15, 60, 300):
+            files = self.boxes(lambda b: np.abs(b), noise=noise)
+            self.assertNotIn("warnings", self.eval("boxes", *files))
+
+    def test_unknown_categories_are_said(self):
+        found = self.eval("boxes", *self.boxes(category=lambda c: 81 if c == 5 else c))
+        self.assertIn("5 of 20 detections have a category_id that", found["warnings"][0])
+        self.refuse("boxes", *self.boxes(category=lambda c: c + 80), says=["20 of 20", "81 first"])
+        pred, gt = self.boxes()
+        self.refuse("boxes", gt, pred, says=["swapped"])
+        self.refuse("boxes", pred, pred, says=["swapped"])
+        self.refuse("boxes", gt, gt, says=["swapped"])
+        self.refuse("boxes", *self.boxes(lambda b: [b[0], b[1], -b[2], b[3]]), says=["[0].bbox", "below 0"])
+
+    def test_polygons_are_pairs_of_numbers(self):
+        gt = {"images": [{"id": 1, "width": 40, "height": 20}], "categories": [{"id": 1, "name": "a"}], "annotations": [{"id": 1, "image_id": 1, "category_id": 1, "segmentation": [[2, 2, 9, 9]]}]}
+        pred = self.write("pred.json", [{"image_id": 1, "category_id": 1, "score": 1, "segmentation": [[2, 2, 2, 11, 11, 11, 11, 2]]}])
+        found = self.eval("entity", pred, self.write("gt.json", gt))
+        self.assertSame(found["ap"], 1)
+        self.assertTrue(any("four numbers" in note for note in found["notes"]))
+        gt["annotations"][0]["segmentation"] = [[2, 2, 2, 11, 11, 11, 11]]
+        self.refuse("entity", pred, self.write("gt.json", gt), says=["annotations[0].segmentation[0]", "7 numbers"])
+
+    def test_keypoints_that_cannot_match_are_named(self):
+        random = np.random.default_rng(9)
+        images = [{"id": i, "width": 400, "height": 200} for i in range(1, 6)]
+        truths, results = [], []
+        for image in images:
+            points = random.uniform(20, 180, (17, 2))
+            flat = lambda xy: np.concatenate([xy, np.full((17, 1), 2)], 1).ravel().tolist()
+            truths.append({"id": image["id"], "image_id": image["id"], "category_id": 1, "keypoints": flat(points), "bbox": [20, 20, 160, 160], "area": 12800, "num_keypoints": 17})
+            results.append({"image_id": image["id"], "category_id": 1, "score": 0.5, "keypoints": flat(points + random.normal(0, 2, points.shape))})
+        files = lambda change: (self.write("pred.json", results), self.write("gt.json", {"images": images, "categories": [{"id": 1, "name": "person"}], "annotations": [{**t, **change} for t in truths]}))
+        self.assertGreater(self.eval("keypoints", *files({}))["ap50"], 0.9)
+        self.refuse("keypoints", *files({"area": 0}), says=["gt.json: ", "'area' is 0 for 5 of 5"])
+        self.refuse("keypoints", *files({"num_keypoints": 0}), says=["'num_keypoints' is 0"])
+        self.assertEqual(self.eval("keypoints", *files({"num_keypoints": 0}), "--force")["ap"], -1)
+        for r in results:
+            r["keypoints"] = (np.array(r["keypoints"]).reshape(17, 3) / [400, 200, 1]).ravel().tolist()
+        self.refuse("keypoints", *files({}), says=["fractions of the picture"])
+
+
 class Boxes(EvalTest):
     def files(self, key, truths, detections, size=(400, 200)):
         self.write("gt.json", {"images": [{"id": 1, "width": size[0], "height": size[1]}], "categories": [{"id": 1, "name": "a"}],
@@ -209,6 +280,21 @@ class Boxes(EvalTest):
         pred, gt = self.files("bbox", [[380, 50, 60, 40]], [(0.9, [385, 50, 60, 40])])
         self.assertSame(self.eval("boxes", pred, gt, "--wrap")["ap"], 0.7)  # IoU 55 / 65: thresholds up to 0.80
         self.assertSame(self.eval("boxes", pred, gt, "--wrap")["ap75"], 1)
+
+    def test_boxes_on_the_circle_of_columns_are_taken_where_files_have_them(self):
+        # As our exports have them: bbox spans the picture, bbox_wrap does not.
+        plain, wrapped = [0, 50, 400, 40], [380, 50, 60, 40]
+        pred, gt = self.files("bbox", [plain], [(0.9, plain)])
+        gt.write_text(gt.read_text().replace('"bbox"', f'"bbox_wrap": {wrapped}, "bbox"'))
+        self.assertEqual(self.eval("boxes", pred, gt, "--wrap")["ap"], 0)
+        pred.write_text(pred.read_text().replace('"bbox"', f'"bbox_wrap": {wrapped}, "bbox"'))
+        found = self.eval("boxes", pred, gt, "--wrap")
+        self.assertSame(found["ap"], 1)
+        self.assertIn("1 truths and 1 detections", str(found["notes"]))
+        self.files("bbox", [], [(0.9, wrapped)])
+        gt.write_text(self.files("bbox", [plain], [(0.9, wrapped)])[1].read_text().replace('"bbox"', f'"bbox_wrap": {wrapped}, "bbox"'))
+        self.assertSame(self.eval("boxes", pred, gt, "--wrap")["ap"], 1)
+        self.assertEqual(self.eval("boxes", pred, gt)["ap"], 0)
 
     def test_boxes_on_the_sphere_by_their_solid_angle(self):
         # Two boxes on the equator, one twice as high: A = 4 asin(sin(w / 2) sin(h / 2)), one within the other.

@@ -1,4 +1,5 @@
 """`eval depth` against numpy: formats, weights, views, protocols; what looks like a mistake is named."""
+import hashlib
 import unittest
 
 import numpy as np
@@ -186,6 +187,50 @@ class Depth(EvalTest):
         np.save(self.folder / "p.npy", 2.2 * gt * noise)  # merely bad
         self.eval("depth", self.folder / "p.npy", self.folder / "g.npy")
 
+    def street(self):
+        """A floor that is the same all around, sky (0), towers to some sides: most of a mirrored prediction is right."""
+        height = 64
+        phi = np.pi * (0.5 - (np.arange(height) + 0.5) / height)[:, None] * np.ones((1, 2 * height))
+        gt = np.where(phi < 0, 1.6 / (np.sin(np.maximum(-phi, 0)) + 0.02), 0)
+        for first, last, row, distance in ((10, 30, 20, 12), (45, 50, 27, 5), (75, 107, 22, 25)):
+            part = gt[row:, first:last]
+            part[(part == 0) | (part > distance)] = distance
+        return gt
+
+    def test_likely_mistakes_are_named_at_the_errors_of_real_predictions(self):
+        gt, random, p, g = self.street(), np.random.default_rng(4), self.folder / "p.npy", self.folder / "g.npy"
+        np.save(g, gt)
+        for sigma in (0.05, 0.15, 0.3):
+            noise = np.exp(random.normal(0, sigma, gt.shape))
+            for wrong, says in ((gt[:, ::-1], "mirrored"), (np.roll(gt, 64, 1), "180 degrees"), (np.roll(gt, 32, 1), "90 degrees to the right"), (gt[::-1], "upside down"), (gt * 50, "another unit")):
+                np.save(p, wrong * noise)
+                self.refuse("depth", p, g, says=[says, "--force"])
+            for honest in (gt, 0.2 * gt, 5 * gt, np.kron(gt[2::4, 2::4], np.ones((4, 4)))):
+                np.save(p, honest * noise)
+                self.assertFalse([w for w in self.eval("depth", p, g).get("warnings", []) if "are not above 0" not in w])
+        np.save(p, 10 * gt)  # probable, not sure
+        self.assertIn("another unit", self.eval("depth", p, g)["warnings"][0])
+
+    def test_skies_that_are_written_as_far_away_are_said(self):
+        gt = self.street()
+        np.save(self.folder / "p.npy", np.where(gt > 0, gt, 20))
+        np.save(self.folder / "g.npy", np.where(gt > 0, gt, 1000))
+        found = self.eval("depth", self.folder / "p.npy", self.folder / "g.npy")
+        self.assertIn("of the truths are exactly 1000", found["warnings"][0])
+        self.assertNotIn("warnings", self.eval("depth", self.folder / "p.npy", self.folder / "g.npy", "--max-depth", 999))
+
+    def test_pictures_of_a_dataset_of_pinholes_are_no_panoramas(self):
+        gt = self.street()
+        (self.folder / "pin/range").mkdir(parents=True)
+        np.save(self.folder / "pin/range/000000.npy", gt)
+        self.write("pin/frames.jsonl", '{"stem": "000000"}\n')
+        self.write("pin/meta.json", {"cameras": [{"projection": "pinhole"}]})
+        pin = self.folder / "pin"
+        self.eval("depth", pin, pin)
+        for flags in (["--weights", "solid_angle"], ["--seam", "4"], ["--latitude-bands", "2"], ["--projection", "cube"], ["--rolled", f"3={pin}"], ["--protocol", "pano3d"]):
+            self.refuse("depth", pin, pin, *flags, says=["pinhole", "meta.json"])
+        self.refuse("depth", pin / "range/000000.npy", pin / "range/000000.npy", "--seam", "4", says=["pinhole"])
+
     def test_bad_input_is_refused(self):
         pairs, p, g = self.folders(3)
         np.save(self.folder / "small.npy", pairs[0][0][:16, :32])
@@ -204,6 +249,41 @@ class Depth(EvalTest):
         self.refuse("depth", g, g, "--seam", 40, says=["--seam"])
         self.refuse("depth", g, g, "--protocol", "unik3", says=["unik3d"])
         self.refuse("depth", g, g, "--weights", "solid_angle", "--projection", "cube", says=["exclude"])
+
+    def test_a_dataset_that_was_changed_is_no_truth(self):
+        pairs, p, g = self.folders(3, holes=False)
+        dataset = self.folder / "dataset"
+        dataset.mkdir()
+        g.rename(dataset / "range")
+        self.write("dataset/meta.json", {})
+        self.write("dataset/frames.jsonl", "")
+        files = sorted((dataset / "range").iterdir())
+        self.write("dataset/SHA256SUMS", "".join(f"{hashlib.sha256(f.read_bytes()).hexdigest()}  range/{f.name}\n" for f in files))
+        whole = self.eval("depth", p, dataset)
+        self.assertSame(whole["absrel"], float(np.mean([depth_errors(pred, gt)["absrel"] for pred, gt in pairs])))
+        files[2].rename(self.folder / "taken.npy")
+        self.refuse("depth", p, dataset, says=["range/002.npy", "is missing", "verify"])
+        self.assertIn("1 prediction has no truth", str(self.eval("depth", p, dataset / "range")["notes"]))
+        files[2].write_bytes(files[1].read_bytes())
+        self.refuse("depth", p, dataset, says=["range/002.npy", "exchanged"])
+        self.eval("depth", dataset, p)
+        self.refuse("flow", p, dataset, says=["has no 'flow'", "range"])
+
+    def test_a_truth_without_a_pixel_is_said(self):
+        pairs, p, g = self.folders(3)
+        np.save(g / "001.npy", np.zeros_like(pairs[1][1]))
+        found = self.eval("depth", p, g)
+        self.assertSame(found["absrel"], float(np.mean([depth_errors(*pairs[i])["absrel"] for i in (0, 2)])))
+        self.assertIn("'001'", str(found["warnings"]))
+
+    def test_notes_say_what_was_measured(self):
+        pairs, p, g = self.folders(1)
+        notes = lambda *flags: str(self.eval("depth", p, g, *flags)["notes"])
+        self.assertIn("up to 1000 m count", notes("--protocol", "deep360"))
+        self.assertIn("up to 20 m count", notes("--protocol", "deep360", "--max-depth", 20))
+        self.assertNotIn("1000", notes("--protocol", "deep360", "--max-depth", 20))
+        self.assertIn("above 0.01 m", notes("--protocol", "unik3d"))
+        self.assertIn("above 2 m", notes("--protocol", "unik3d", "--min-depth", 2))
 
     def test_predictions_without_logarithm_are_said(self):
         pred, gt = scene(4, holes=False)

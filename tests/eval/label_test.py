@@ -1,4 +1,6 @@
 """`eval semantic`, `eval panoptic`, `eval video` against numpy, with void, crowds, absent classes and seams."""
+import json
+import shutil
 import unittest
 
 import numpy as np
@@ -52,6 +54,28 @@ class Semantic(EvalTest):
                 self.assertSame(found["per_class"][name]["iou"], float(ious[c]), name)
                 self.assertSame(found["per_class"][name]["acc"], float(accuracies[c]), name)
 
+    def test_ids_may_be_in_the_alpha_channel(self):
+        gt = np.random.default_rng(1).choice([0, 3, 7], (8, 16))
+        colors = np.stack([gt * 9, gt * 5, gt * 2], -1)
+        write_png(self.folder / "g.png", gt)
+        write_png(self.folder / "p.png", np.concatenate([colors, gt[..., None]], -1))
+        classes = self.write("classes.txt", self.CLASSES)
+        self.assertEqual(self.eval("semantic", self.folder / "p.png", self.folder / "g.png", "--classes", classes)["miou"], 1)
+        # A picture that is transparent here and there, or not at all, holds no ids.
+        for alpha in (np.full_like(gt, 255), np.where(gt == 3, 0, 255), np.arange(128).reshape(8, 16)):
+            write_png(self.folder / "p.png", np.concatenate([colors, alpha[..., None]], -1))
+            self.refuse("semantic", self.folder / "p.png", self.folder / "g.png", "--classes", classes, says=["p.png", "colours"])
+
+    def test_wildpass_brings_each_picture_to_its_size(self):
+        gt = np.kron(np.random.default_rng(1).choice([0, 3, 7], (8, 16)), np.ones((4, 4), int))
+        write_png(self.folder / "g.png", gt)
+        write_png(self.folder / "p.png", np.kron(gt, np.ones((2, 2), int)))
+        classes = self.write("classes.txt", self.CLASSES)
+        arguments = "semantic", self.folder / "p.png", self.folder / "g.png", "--classes", classes
+        self.assertEqual(self.eval(*arguments, "--protocol", "wildpass")["miou"], 1)
+        self.refuse(*arguments, says=["128x64", "64x32"])
+        self.refuse(*arguments, "--protocol", "wildpass", "--seam", 4, says=["128x64", "64x32"])
+
     def test_a_class_that_only_the_prediction_has_counts_as_nought(self):
         gt = np.zeros((4, 8), int)
         pred = gt.copy()
@@ -70,6 +94,16 @@ class Semantic(EvalTest):
             runs.append(self.eval("semantic", self.folder / "pred/0.png", self.folder / "gt/0.png", "--classes", self.write(name, content))["per_class"])
         for run in runs[1:]:
             self.assertEqual(run, runs[0])
+
+    def test_ignored_classes_leave_the_means(self):
+        pairs, classes = self.pictures(3), self.write("classes.txt", self.CLASSES)
+        found = self.eval("semantic", self.folder / "pred", self.folder / "gt", "--classes", classes, "--ignore", "car")
+        # Truths of car are void; other truths that are taken for cars are wrong.
+        wanted, _, _ = self.wanted([(np.where(p == 3, 250, p), np.where(g == 3, 250, g)) for p, g in pairs])
+        self.assertSame(found["miou"], np.nanmean([iou for c, iou in wanted.items() if c != 3]))
+        self.assertSame(found["miou_present"], found["miou"])
+        self.assertNotIn("car", found["per_class"])
+        self.refuse("semantic", self.folder / "pred", self.folder / "gt", "--classes", classes, "--ignore", "cra", says=["car"])
 
     def test_views_and_held_out_classes(self):
         pairs, classes = self.pictures(3), self.write("classes.txt", self.CLASSES)
@@ -95,6 +129,44 @@ class Semantic(EvalTest):
         for text, says in (("", "no classes"), ("0 road\n0 car\n", "occurs twice"), ("70000 road\n", "70000")):
             self.refuse("semantic", self.folder / "pred", self.folder / "gt", "--classes", self.write("bad.txt", text), says=[says])
         self.refuse("semantic", self.folder / "pred", self.folder / "gt", "--classes", classes, "--open-world", "skye", says=["sky"])
+
+
+class LabelMistakes(EvalTest):
+    CLASSES = "3 sky\n5 wall\n8 floor\n12 table\n17 chair\n20 lamp\n"
+
+    def room(self):
+        gt = np.full((64, 128), 8)
+        gt[:25], gt[25:32] = 3, 5
+        gt[35:, 15:35], gt[40:, 85:100], gt[30:, 50:55] = 12, 17, 20
+        return gt
+
+    def test_numbers_and_turns_are_named_at_the_errors_of_real_predictions(self):
+        gt, random, classes = self.room(), np.random.default_rng(4), self.write("classes.txt", self.CLASSES)
+        p, g = self.folder / "p.png", self.folder / "g.png"
+        write_png(g, gt)
+        for share in (0, 0.1, 0.3):
+            noisy = np.where(random.random(gt.shape) < share, random.choice([3, 5, 8, 12, 17, 20], gt.shape), gt)
+            for wrong, says in ((noisy[:, ::-1], "mirrored"), (np.roll(noisy, 64, 1), "180 degrees"), (np.roll(noisy, 32, 1), "90 degrees"), (noisy[::-1], "upside down"), (noisy + 1, "plus 1"), (noisy - 1, "less 1"),
+                                (noisy * 0 + 255, "every predicted pixel is 255"), ((noisy == 8) * 255, "no predicted pixel is of a class"), (noisy * 37 % 101 + 100, "another numbering"), (np.array([3, 5, 8, 12, 17, 20])[np.searchsorted([3, 5, 8, 12, 17, 20], noisy) - 3], "another numbering")):
+                write_png(p, wrong)
+                self.refuse("semantic", p, g, "--classes", classes, says=[says, "--force"])
+                self.assertIn(says, self.eval("semantic", p, g, "--classes", classes, "--force")["warnings"][0])
+        for honest in (gt, np.where(random.random(gt.shape) < 0.7, random.choice([3, 5, 8, 12, 17, 20], gt.shape), gt), np.kron(gt[4::8, 4::8], np.ones((8, 8), int))):
+            write_png(p, honest)
+            self.assertNotIn("warnings", self.eval("semantic", p, g, "--classes", classes))
+
+    def test_categories_of_segments_are_judged_too(self):
+        gt = self.room()
+        categories = [{"id": i, "name": n, "isthing": 0} for i, n in ((3, "sky"), (4, "roof"), (5, "wall"), (6, "door"), (8, "floor"), (9, "rug"), (12, "table"), (13, "bed"), (17, "chair"), (18, "seat"), (20, "lamp"), (21, "light"))]
+        for name in ("gt", "pred"):
+            (self.folder / name).mkdir()
+            write_ids(self.folder / f"{name}/0.png", gt)
+            segments = [{"id": i, "category_id": i + (name == "pred"), "area": 1} for i in (3, 5, 8, 12, 17, 20)]
+            self.write(f"{name}.json", {"images": [{"id": 0}], "annotations": [{"image_id": 0, "file_name": "0.png", "segments_info": segments}], "categories": categories})
+        self.refuse("panoptic", self.folder / "pred.json", self.folder / "gt.json", says=["plus 1", "--force"])
+        write_ids(self.folder / "pred/0.png", gt[:, ::-1])
+        self.write("pred.json", (self.folder / "gt.json").read_text())
+        self.refuse("panoptic", self.folder / "pred.json", self.folder / "gt.json", says=["mirrored"])
 
 
 class Panoptic(EvalTest):
@@ -163,7 +235,65 @@ class Panoptic(EvalTest):
             self.refuse("panoptic", self.folder / "pred.json", self.folder / "gt.json", says=[says])
 
 
+    def test_videos_of_vipseg_are_read_as_they_are(self):
+        self.scene(5)
+        flat = self.eval("panoptic", self.folder / "pred.json", self.folder / "gt.json", "--force")
+        for name in ("gt", "pred"):
+            file = json.loads((self.folder / f"{name}.json").read_text())
+            frames = [{**one, "image_id": f"{one['image_id']:06}"} for one in file["annotations"]]
+            # Ids of pictures begin anew in each video.
+            nested = {"videos": [], "annotations": [{"video_id": v, "annotations": frames} for v in ("a", "b")], "categories": self.CATEGORIES}
+            self.write(f"vps_{name}/panoptic_gt.json", nested)
+            for v in ("a", "b"):
+                shutil.copytree(self.folder / name, self.folder / f"vps_{name}/panomasksRGB/{v}")
+        found = self.eval("panoptic", self.folder / "vps_pred", self.folder / "vps_gt", "--force")
+        self.assertSame(found["all"]["pq"], flat["all"]["pq"])
+        self.assertEqual(found["pictures"], 2 * flat["pictures"])
+        video = self.eval("video", self.folder / "vps_gt", self.folder / "vps_gt/panoptic_gt.json", "--windows", "1")
+        self.assertEqual([one["sequence"] for one in video["per_sequence"]], ["a", "b"])
+        self.assertEqual(video["stq"], 1)
+
+    def test_categories_of_the_prediction_are_those_of_the_truth(self):
+        self.scene(6)
+        file = json.loads((self.folder / "pred.json").read_text())
+        arguments = "panoptic", self.folder / "pred.json", self.folder / "gt.json", "--force"
+        plain = self.eval(*arguments)
+        self.assertNotIn("categories", str(plain.get("warnings", "")))
+        self.write("pred.json", {**file, "categories": [{**c, "name": c["name"].upper()} for c in self.CATEGORIES]})
+        found = self.eval(*arguments)
+        self.assertIn("'PERSON'", str(found["warnings"]))
+        self.assertEqual(found["all"], plain["all"])
+        self.write("pred.json", {**file, "categories": [{"id": 2, "name": "person"}, {"id": 4, "name": "car"}]})
+        self.refuse(*arguments, says=["'person' is 2 here and 4 in the truth"])
+
+
 class Video(EvalTest):
+    def step(self, folder, classes, instances, order=(0, 1, 2)):
+        (self.folder / folder / "s").mkdir(parents=True)
+        for f, (c, i) in enumerate(zip(classes, instances)):
+            write_png(self.folder / folder / f"s/{f:06}.png", np.stack([c, i // 256, i % 256], -1)[..., list(order)])
+        return self.folder / folder
+
+    def test_what_is_no_picture_of_step_is_refused(self):
+        random = np.random.default_rng(2)
+        classes = [np.kron(random.integers(0, 19, (4, 8)), np.ones((4, 4), int)) for _ in range(3)]
+        instances = [np.where(np.isin(c, (11, 13)), 3, 0) for c in classes]
+        gt = self.step("gt", classes, instances)
+        wrong = [np.where(random.random(c.shape) < 0.6, random.integers(0, 19, c.shape), c) for c in classes]
+        poor = self.step("poor", wrong, [np.where(np.isin(c, (11, 13)), 3, 0) for c in wrong])
+        found = self.eval("video", poor, gt)
+        self.assertGreater(found["stq"], 0)
+        self.assertIn("shorter than the longest window of 4", str(found["notes"]))
+        self.assertNotIn("shorter", str(self.eval("video", poor, gt, "--windows", "1,3")["notes"]))
+        reversed_ = self.step("bgr", wrong, instances, (2, 1, 0))
+        self.refuse("video", reversed_, gt, says=["000000.png", "blue"])
+        self.refuse("video", reversed_, reversed_, says=["000000.png", "other way round"])
+        for f, c in enumerate(classes):
+            write_png(self.folder / f"bgr/s/{f:06}.png", c)
+        self.refuse("video", reversed_, gt, says=["8-bit RGB"])
+        self.refuse("video", gt, gt, "--things", "11,99", says=["--things", "99"])
+        self.refuse("video", gt, gt, "--void", "-1", says=["--void"])
+
     def test_tracking_quality_equals_the_definition(self):
         for seed in range(4):
             random = np.random.default_rng(seed)
@@ -216,6 +346,7 @@ class Video(EvalTest):
             predictions.append({"image_id": f, "file_name": f"{f}.png", "segments_info": info(car)})
         self.write("gt.json", {"images": [{"id": f} for f in range(4)], "annotations": truths, "categories": categories})
         self.write("pred.json", {"annotations": predictions})
+        self.refuse("video", self.folder / "pred.json", self.folder / "gt.json", "--things", "1", says=["--things"])
         found = self.eval("video", self.folder / "pred.json", self.folder / "gt.json", "--windows", "1,2,4")
         self.assertEqual(found["windows"]["1"]["all"]["pq"], 1)
         # Windows of two: the middle one has the car as two halves, neither above one half: one miss, two false.

@@ -65,8 +65,79 @@ class Navigation(EvalTest):
         self.refuse("vln", refs, self.write("r.json", [{"id": "a", "pred": []}]), says=["[0].pred"])
         self.refuse("vln", refs, self.write("r.json", [{"id": "a", "pred": [[0, "x", 0]]}]), says=["[0].pred[0][1]", "not a number"])
         self.refuse("vln", refs, self.write("r.jsonl", '{"id": "a"}\n{"id": '), says=["r.jsonl:2:"])
+        for number in ("NaN", "-Infinity"):
+            self.refuse("vln", refs, self.write("r.json", f'[{{"id": "a", "pred": [[0, {number}, 0]]}}]'), says=["r.json:1:", "has no NaN or Infinity"])
         self.refuse("vln", refs, refs, "--radius", "0", says=["--radius"])
         self.refuse("vln", refs, refs, "--protocol", "openfli", says=["openfly"])
+
+
+    def test_the_truth_is_that_of_the_episodes(self):
+        episode = {"id": "a", "ref": [[0, 0, 2], [100, 0, 2]], "goal": {"position": [100, 0, 2], "radius": 20, "places": [[100, 30, 2]]}}
+        flight = {"id": "a", "pred": [[0, 0, 2], [50, 0, 2]]}
+        e = self.write("e.json", [episode])
+        found = self.eval("vln", e, self.write("r.json", [flight]))
+        self.assertEqual([found["sr"], found["ne"]], [0, 50])
+        for claim, says in (({"goal": [50, 0, 2]}, "[0].goal: this goal is not that of the episode"), ({"ref": [[0, 0, 2], [50, 0, 2]]}, "[0].ref: "), ({"shortest": 3, "radius": 20}, None),
+                            ({"goal": {"position": [100, 0, 2], "radius": 60}}, "--radius"), ({"radius": 60}, "60 m is not the 20 m")):
+            results = self.write("r.json", [{**flight, **claim}])
+            if says:
+                self.refuse("vln", e, results, says=["r.json: ", says])
+            else:
+                self.assertEqual(self.eval("vln", e, results)["radius"], 20)
+        self.assertEqual(self.eval("vln", e, results, "--radius", 60)["sr"], 1)
+        self.write("r.json", [{**flight, "shortest": 3}])
+        self.refuse("vln", self.write("s.json", [{**episode, "shortest": 100}]), self.folder / "r.json", says=["[0].shortest"])
+        self.refuse("vln", e, self.write("r.json", [flight, flight]), says=["[1]", "'a' occurs twice"])
+        # What repeats the truth is no claim: `vln run` writes the place that is nearest to the end.
+        same = {**flight, **episode, "goal": [100, 30, 2]}
+        self.assertEqual(self.eval("vln", e, self.write("r.json", [same]))["ne"], 50)
+        self.refuse("vln", self.write("r.json", [flight]), e, says=["e.json: ", "swapped"])
+        self.refuse("vln", self.folder / "r.json", says=["r.json: [0]", "no reference path"])
+
+    def test_any_place_of_the_goal_counts(self):
+        e = {"id": "a", "ref": [[0, 0, 0], [10, 0, 0]], "goal": {"position": [10, 0, 0], "radius": 1.5, "places": [[20, 0, 0]]}, "pred": [[0, 0, 0], [10, 1.48, 0], [18, 0, 0]]}
+        found = self.eval("vln", self.write("e.json", [e]))
+        self.assertEqual([found["sr"], found["osr"], found["ne"]], [0, 1, 2])
+        e["pred"].append([19, 0, 0])
+        found = self.eval("vln", self.write("e.json", [e]))
+        self.assertEqual([found["sr"], found["ne"]], [1, 1])
+
+    def test_paths_in_other_units_or_frames_are_named(self):
+        e = {"id": "a", "ref": [[40, 0, 2], [70, 0, 2]], "pred": [[40, 0, 2], [64, 3, 2]]}
+        self.refuse("vln", self.write("e.json", [{**e, "pred": [[40, 0], [64, 3]]}]), says=["[0].pred[0]", "[x, y]"])
+        self.refuse("vln", self.write("e.json", [{**e, "pred": (100 * np.array(e["pred"])).tolist()}]), says=["centimetres"])
+        self.assertIn("another frame", self.eval("vln", self.write("e.json", [{**e, "pred": [[40, 90, 2], [64, 93, 2]]}]))["warnings"][0])
+        # An agent that strays far is scored.
+        found = self.eval("vln", self.write("e.json", [{**e, "pred": [[40, 0, 2], [340, 0, 2]]}]))
+        self.assertEqual(found["ne"], 270)
+        self.assertNotIn("warnings", found)
+        plane = {"id": "a", "ref": [[40, 0], [70, 0]], "pred": [[40, 0], [64, 3]]}
+        self.assertEqual(self.eval("vln", self.write("e.json", [plane]))["sr"], 1)
+        self.refuse("vln", self.write("e.json", [{"ref": [[0, 0, 0]], "pred": [[0, 0, 0]]}]), says=["has no 'id'"])
+
+
+class Outputs(EvalTest):
+    def test_inputs_are_never_overwritten(self):
+        episodes = self.write("e.json", [{"id": "a", "ref": [[0, 0, 0], [9, 0, 0]], "pred": [[0, 0, 0]]}])
+        before = episodes.read_bytes()
+        self.refuse("vln", episodes, "--csv", episodes, says=["--csv", "overwritten"])
+        self.refuse("vln", episodes, "--csv", self.folder / "." / "e.json", says=["overwritten"])
+        self.assertEqual(episodes.read_bytes(), before)
+        self.eval("vln", episodes, "--csv", self.folder / "t.csv")
+        self.eval("vln", episodes, "--csv", self.folder / "t.csv")
+        for name in ("p", "g", "r"):
+            (self.folder / name).mkdir()
+            np.save(self.folder / name / "a.npy", np.random.default_rng(0).uniform(1, 9, (8, 16)))
+        self.write("g/meta.json", "{}")
+        depth = ("depth", self.folder / "p" / "a.npy", self.folder / "g" / "a.npy")
+        self.refuse(*depth, "--csv", self.folder / "p" / "a.npy", says=["overwritten"])
+        folders = ("depth", self.folder / "p", self.folder / "r", "--rolled", f"0={self.folder / 'g'}")
+        self.refuse(*folders, "--csv", self.folder / "g" / "new.csv", says=["lies in", "elsewhere"])
+        self.refuse(*folders, "--csv", self.folder / "p" / "a.npy", says=["lies in"])
+        self.refuse(*folders, "--sheet", self.folder / "p" / "new.png", says=["--sheet", "lies in"])
+        self.refuse(*folders, "--sheet", self.folder / "x.png", "--csv", self.folder / "x.png", says=["also the file of"])
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["e.json", "g", "p", "r", "t.csv"])
+        self.eval(*folders, "--csv", self.folder / "p" / "scores.csv", "--sheet", self.folder / "worst.png")
 
 
 class Flow(EvalTest):
@@ -102,6 +173,42 @@ class Flow(EvalTest):
             np.array([202021.25], "<f4").tofile(file), np.array([width, height], "<i4").tofile(file), np.where(np.isnan(gt), 1e10, gt).astype("<f4").tofile(file)
         self.assertAlmostEqual(self.eval("flow", self.folder / "p.npy", self.folder / "g.flo")["epe"], mean_of(error, known), places=5)
         self.refuse("flow", self.folder / "g.npy", self.folder / "p.npy", says=["no number"])
+
+    def forward(self, height=64):
+        """Flow of a camera that flies ahead and turns a little, over ground: not symmetric."""
+        width = 2 * height
+        rows, columns = np.mgrid[0:height, 0:width] + 0.5
+        theta, phi = 2 * np.pi * (columns / width - 0.5), np.pi * (0.5 - rows / height)
+        near = 1 / (2 + np.cos(theta - 1)) + 0.3 * (phi < 0)
+        return np.stack([3 + 4 * np.sin(theta) * near, -3 * np.sin(phi) * np.cos(theta) * near], -1)
+
+    def test_likely_mistakes_are_named(self):
+        gt = self.forward()
+        height, width = gt.shape[:2]
+        noise = np.random.default_rng(1).normal(0, 1, gt.shape) * np.hypot(gt[..., 0], gt[..., 1])[..., None]
+        np.save(self.folder / "g.npy", gt)
+
+        def predict(pred):
+            np.save(self.folder / "p.npy", pred)
+            return "flow", self.folder / "p.npy", self.folder / "g.npy"
+
+        for share in (0.0, 0.1):
+            pred = gt + share * noise
+            for wrong, says in ((-pred, "point the other way"), (pred[..., ::-1], "exchanged"), (pred * [-1, 1], "sign of dx"), (pred / [width, height], "shares"),
+                                (pred / [width / 2, height / 2], "-1 ... 1"), (pred[:, ::-1] * [-1, 1], "mirrored"), (np.roll(pred, width // 2, 1), "180")):
+                self.refuse(*predict(wrong), says=["p.npy", says, "--force"])
+        self.assertIn("exchanged", str(self.eval(*predict(gt[..., ::-1]), "--force")["warnings"]))
+        # What networks really do wrong is measured.
+        blurred = sum(np.roll(gt, (y, x), (0, 1)) for x in range(-4, 5) for y in range(-4, 5)) / 81
+        for honest in [gt + share * noise for share in (0.05, 0.15, 0.3, 0.6, 1.5)] + [blurred, 0.5 * gt, 1.6 * gt, 0 * gt, np.full_like(gt, 1.0)]:
+            self.assertNotIn("warnings", self.eval(*predict(honest)))
+
+    def test_flags_that_would_do_nothing_are_refused(self):
+        np.save(self.folder / "g.npy", self.forward())
+        self.refuse("flow", self.folder / "g.npy", self.folder / "g.npy", "--visible", says=["--visible", "occluded"])
+        self.assertNotIn("--rolled", self.run_program("flow", "--help").stdout)
+        self.refuse("depth", self.folder / "g.npy", self.folder / "g.npy", "--png-scale", 0.01, says=["--png-scale"])
+        self.refuse("depth", self.folder / "g.npy", self.folder / "g.npy", "--h5-key", "depth", says=["--h5-key"])
 
 
 def mean_of(values, known):
@@ -171,6 +278,23 @@ class Layout(EvalTest):
         for text, says in (("1 2\n3", "p.txt:2"), ("1 2\n", "pairs"), ("1 200\n1 100\n" * 3, "pair 0"), (self.corners([(1, 1), (1, 3), (3, 3)], 1), "outside the room")):
             self.write("p.txt", text)
             self.refuse("layout", self.folder / "p.txt", self.folder / "g.txt", says=[says])
+        far = "\n".join(f"{float(x) + 2000} {y}" for x, y in (line.split() for line in (self.folder / "g.txt").read_text().splitlines()))
+        self.write("p.txt", far)
+        self.refuse("layout", self.folder / "p.txt", self.folder / "g.txt", says=["pair 0", "1024 columns"])
+        # A bow tie around the camera is no room; a prediction of one is measured with a warning.
+        crossed = self.write("p.txt", self.corners([(-2, -3), (-2, 3), (3, 3.5), (-3, -3.5), (3, -3)], 1))
+        self.assertIn("cross", str(self.eval("layout", crossed, self.folder / "g.txt")["warnings"]))
+        self.refuse("layout", self.folder / "g.txt", crossed, says=["cross"])
+
+    def test_another_first_corner_is_said(self):
+        plan = [(-2, -3), (-2, 3), (2, 3), (2, -3)]
+        self.write("g.txt", self.corners(plan, 1))
+        self.write("p.txt", self.corners(plan[1:] + plan[:1], 1))
+        found = self.eval("layout", self.folder / "p.txt", self.folder / "g.txt")
+        self.assertGreater(found["corner_error_percent"], 10)
+        self.assertIn("begin elsewhere", str(found["warnings"]))
+        self.write("p.txt", self.corners([(-2.2, -3.4), (-1.7, 3.2), (2.3, 3.3), (1.8, -3.3)], 1.2))
+        self.assertNotIn("warnings", self.eval("layout", self.folder / "p.txt", self.folder / "g.txt"))
 
 
 class People(EvalTest):
@@ -188,6 +312,19 @@ class People(EvalTest):
         gt = self.write("g.json", truth)
         self.refuse("mpde", self.write("p.json", [{**t, "distance": 104 * t["distance"]} for t in truth]), gt, says=["centimetres"])
         self.refuse("mpde", self.write("p.json", truth[:2]), gt, says=["2 of 4", "'2'"])
+        found = self.eval("mpde", self.write("p.json", truth + [{"id": 9, "distance": 3, "angle_deg": 0}]), gt)
+        self.assertIn("'9'", str(found["notes"]))
+        random = np.random.default_rng(1)
+        turned = [{"id": i, "distance": 5, "angle_deg": float(a)} for i, a in enumerate(random.uniform(-180, 180, 20))]
+        gt = self.write("g.json", turned)
+        for noise in (0, 20, 40):
+            angles = [t["angle_deg"] + random.normal(0, 1) * noise for t in turned]
+            honest = self.write("h.json", [{**t, "angle_deg": a} for t, a in zip(turned, angles)])
+            self.eval("mpde", honest, gt)
+            radians = self.write("p.json", [{**t, "angle_deg": math.remainder(math.radians(a), 2 * math.pi)} for t, a in zip(turned, angles)])
+            self.refuse("mpde", radians, gt, says=["p.json", "radians"])
+            self.refuse("mpde", honest, radians, says=["p.json", "radians"])
+        self.eval("mpde", self.write("p.json", [{**t, "angle_deg": 0} for t in turned]), gt)
         self.refuse("mpde", self.write("p.json", [{"id": 0, "angle_deg": 0}]), gt, says=["has no 'distance'"])
 
 

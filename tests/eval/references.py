@@ -15,7 +15,7 @@ PROGRAM = os.environ["AIRSIM360"]
 
 
 def write_png(path, pixels, bits=8):
-    """Gray (H, W) or RGB (H, W, 3)."""
+    """Gray (H, W), RGB (H, W, 3) or RGBA (H, W, 4)."""
     pixels = np.asarray(pixels)
     height, width = pixels.shape[:2]
     data = pixels.astype(">u2" if bits == 16 else np.uint8)
@@ -24,7 +24,7 @@ def write_png(path, pixels, bits=8):
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
-    header = struct.pack(">IIBBBBB", width, height, bits, 2 if pixels.ndim == 3 else 0, 0, 0, 0)
+    header = struct.pack(">IIBBBBB", width, height, bits, {1: 0, 3: 2, 4: 6}[pixels.shape[2] if pixels.ndim == 3 else 1], 0, 0, 0)
     Path(path).write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
 
 

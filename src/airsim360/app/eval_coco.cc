@@ -6,11 +6,15 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <sstream>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/eval_commands.h"
 #include "airsim360/app/eval_views.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/base/text.h"
+#include "airsim360/eval/coco/likely_reading.h"
 #include "airsim360/eval/files/coco_file.h"
 
 namespace airsim360 {
@@ -20,7 +24,7 @@ using Json = nlohmann::ordered_json;
 
 struct CocoArguments {
   std::string pred, gt, type = "segm", kind = "bbox", weights = "pixel", protocol;
-  bool class_agnostic = false, wrap = false;
+  bool class_agnostic = false, wrap = false, force = false;
   std::vector<int64_t> most;
   std::vector<std::string> held_out;
   int seam = 0, bands = 0;
@@ -198,9 +202,59 @@ void WriteTable(const std::string& path, const CocoTable& table, const CocoTruth
   WriteCsv(path, rows);
 }
 
+// The text of a file that was read before, with `bbox_wrap`, the box on the circle of columns, in the place of `bbox`; counts the boxes that had one.
+std::string WithWrappedBoxes(const std::string& path, size_t& count) {
+  const std::string text = ReadTextFile(path, uint64_t{4} << 30);
+  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (json.is_discarded()) {  // JSON lines
+    json = nlohmann::json::array();
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      if (!Trimmed(line).empty()) json.push_back(nlohmann::json::parse(line));
+    }
+  }
+  for (nlohmann::json& one : json.is_object() ? json["annotations"] : json) {
+    const auto wrapped = one.find("bbox_wrap");
+    if (wrapped == one.end() || !wrapped->is_array()) continue;
+    one["bbox"] = *wrapped;
+    ++count;
+  }
+  return json.dump();
+}
+
+// What makes figures mean nothing is refused, what is left out is said.
+void Judge(const CocoArguments& a, const CocoTruths& truths, const std::vector<CocoObject>& results, const CocoRun& run, double ap50,
+           Json& json) {
+  if (const std::string text = VoidTruths(truths, run.kind); !text.empty()) JudgeMistakes({{a.gt, {text, true}}}, a.force, json);
+  if (const std::string text = LikelyReading(truths, results, run, ap50); !text.empty())
+    JudgeMistakes({{a.pred, {text, true}}}, a.force, json);
+  if (run.class_agnostic) return;
+  std::set<int64_t> known, unknown;
+  for (const CocoCategory& category : truths.categories) known.insert(category.id);
+  size_t count = 0;
+  for (const CocoObject& object : results) {
+    if (known.contains(object.category)) continue;
+    unknown.insert(object.category);
+    ++count;
+  }
+  if (count == 0) return;
+  const std::string text = std::to_string(count) + " of " + std::to_string(results.size()) + " detections have a category_id that " + a.gt +
+                           " does not have, " + std::to_string(*unknown.begin()) + " first";
+  if (count == results.size()) JudgeMistakes({{a.pred, {text, true}}}, a.force, json);
+  if (count < results.size()) json["warnings"].push_back(a.pred + ": " + text + ": they are left out");
+}
+
 void RunTask(const CocoArguments& a, Task task, const GlobalOptions& globals, std::vector<std::string> notes) {
   CocoTruths truths = ReadCocoTruths(a.gt, task.run.kind);
-  const std::vector<CocoObject> results = ReadCocoResults(a.pred, task.run.kind, truths);
+  std::vector<CocoObject> results = ReadCocoResults(a.pred, task.run.kind, truths);
+  if (task.run.wrap) {
+    size_t true_boxes = 0, boxes = 0;
+    truths = ParseCocoTruths(WithWrappedBoxes(a.gt, true_boxes), a.gt, task.run.kind);
+    results = ParseCocoResults(WithWrappedBoxes(a.pred, boxes), a.pred, task.run.kind, truths);
+    if (true_boxes + boxes > 0)
+      notes.push_back("bbox_wrap is taken for bbox where there is one: of " + std::to_string(true_boxes) + " truths and " +
+                      std::to_string(boxes) + " detections");
+  }
   if (truths.images.empty()) throw InputError(a.gt + ": has no images");
   task.run.class_agnostic = a.class_agnostic;
   if (task.unlimited) task.run.options.most_detections.push_back(kUnlimited);
@@ -209,6 +263,7 @@ void RunTask(const CocoArguments& a, Task task, const GlobalOptions& globals, st
   const CocoTable table = AccumulateCoco(matches, task.run.options, categories);
 
   Json json;
+  Judge(a, truths, results, task.run, table.MeanPrecision(0, CocoTable::kAll, 0, task.run.options.most_detections.size() - 1), json);
   Json summary = Json::array();
   for (const Row& row : task.rows) {
     json[row.name] = Value(table, row, task.run.options);
@@ -254,6 +309,7 @@ void AddCommon(CLI::App& command, CocoArguments& a) {
   command.add_flag("--class-agnostic", a.class_agnostic, "all categories are one");
   command.add_option("--open-world", a.held_out, "categories that training has not seen, by name: their AP beside that of the others")
       ->delimiter(',');
+  command.add_flag("--force", a.force, "measure in spite of what looks like a mistake of ids or units");
   AddReportFlags(command, a.report, "a row a category");
 }
 
@@ -335,7 +391,7 @@ void AddEvalCoco(CLI::App& command, GlobalOptions& globals) {
       "bbox [x, y, width, height] (the default), bfov [lon, lat, width, height, turn] in degrees, or box3d {center, size, yaw_deg} in metres");
   three->add_option("--max-detections", boxes->most, "N,…: how many detections of a picture and category count (default 1,10,100)")
       ->delimiter(',');
-  three->add_flag("--wrap", boxes->wrap, "bbox in panoramas: columns go round");
+  three->add_flag("--wrap", boxes->wrap, "bbox in panoramas: columns go round; bbox_wrap is read where objects have it");
   three->callback([boxes, &globals] { RunBoxes(*boxes, globals); });
 }
 

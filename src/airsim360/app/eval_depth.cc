@@ -30,6 +30,8 @@ struct DepthArguments {
   double pred_scale = 1, gt_scale = 1, clip_low = 0, clip_high = 0;
   std::vector<double> clip;
   DepthOptions depth;
+  bool panorama = true;
+  bool png_scale_given = false;
 };
 
 struct Protocol {
@@ -38,10 +40,9 @@ struct Protocol {
   bool square_by_square, cos_latitude;
 };
 constexpr std::array<Protocol, 3> kProtocols = {{
-    {"unik3d", "figures of each picture, then their mean; SILog with n - 1; truths above 0.01 m; the _si figures after scaling by medians",
-     0.01, 0, false, false},
-    {"deep360", "truths up to 1000 m; SqRel divides by the square of the truth; shares are fractions here, per cent there", 0, 1000, true,
+    {"unik3d", "figures of each picture, then their mean; SILog with n - 1; the _si figures after scaling by medians", 0.01, 0, false,
      false},
+    {"deep360", "SqRel divides by the square of the truth; shares are fractions here, per cent there", 0, 1000, true, false},
     {"pano3d",
      "weights are the cosine of the latitude of the row's centre, also in the denominator of masked means (their code divides by the unmasked sum)",
      0, 0, false, true},
@@ -51,7 +52,8 @@ constexpr std::array<Protocol, 3> kProtocols = {{
 struct DepthResult {
   std::vector<DepthErrors> views, rolled;
   DepthErrors scaled;
-  std::string mistake;
+  LikelyMistake mistake;
+  std::string shared;  // of the truths
 };
 
 const Protocol* FindProtocol(const std::string& name) {
@@ -81,8 +83,7 @@ void Check(DepthArguments& a) {
   CheckPositive("--pred-scale", a.pred_scale);
   CheckPositive("--gt-scale", a.gt_scale);
   CheckPositive("--png-scale", a.files.png_scale);
-  if (!(a.depth.min_depth >= 0 && a.depth.max_depth > a.depth.min_depth))
-    throw InputError("--min-depth and --max-depth: must be 0 <= min < max");
+  CheckDepthOptions(a.depth);
   if (!a.clip.empty() && !(a.clip[0] > 0 && a.clip[1] > a.clip[0])) throw InputError("--clip: must be 0 < MIN < MAX");
 }
 
@@ -114,13 +115,29 @@ DepthErrors Measure(const NumberPicture& pred, const NumberPicture& gt, const Pi
   }
 }
 
+// Looks at the truths that count.
+void JudgePair(const FilePair& pair, const NumberPicture& pred, const NumberPicture& gt, const DepthArguments& a, DepthResult& result) {
+  std::vector<double> truths = gt.values;
+  for (double& t : truths) {
+    if (!(t > a.depth.min_depth && t <= a.depth.max_depth)) t = 0;
+  }
+  const bool png = internal::LowerEnding(pair.prediction) == ".png";
+  const DepthLook look = {a.panorama && gt.width == 2 * gt.height, png ? a.files.png_scale * a.pred_scale : 0};
+  result.mistake = LikelyDepthMistake(pred.values, truths, gt.width, gt.height, look);
+  result.shared = SharedMaximum(truths, std::numeric_limits<double>::infinity());
+  const double most = 65535 * look.png_scale * (1 - 1e-12);
+  const auto saturated = png ? std::count_if(pred.values.begin(), pred.values.end(), [most](double p) { return p >= most; }) : 0;
+  if (100 * static_cast<size_t>(saturated) > pred.values.size() && result.mistake.text.empty())
+    result.mistake = {std::to_string(saturated) + " predictions are 65535, the largest of a 16-bit PNG: are they cut off there?", false};
+}
+
 DepthResult MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, const std::vector<Rolled>& turns, size_t index,
                         const DepthArguments& a, ViewCache& cache) {
   const NumberPicture pred = ReadScaled(pair.prediction, a, true), gt = ReadScaled(pair.truth, a, false);
   CheckSizes(pred, gt, pair.prediction, pair.truth);
   const auto views = cache.Of(gt.width, gt.height);
   DepthResult result;
-  result.mistake = LikelyDepthMistake(pred.values, gt.values, gt.width, gt.height);
+  JudgePair(pair, pred, gt, a, result);
   for (const PixelView& view : *views) result.views.push_back(Measure(pred, gt, view, a.depth, pair.prediction));
   if (a.protocol == "unik3d") {
     DepthOptions scaled = a.depth;
@@ -177,6 +194,13 @@ void WriteTable(const std::string& path, const std::vector<FilePair>& pairs, con
 void AppendNotes(Json& json, const DepthArguments& a, const FilePairs& files, const std::vector<DepthResult>& results) {
   Json notes = files.notes;
   if (const Protocol* protocol = FindProtocol(a.protocol)) notes.push_back(std::string(protocol->name) + ": " + protocol->quirk);
+  if (a.depth.min_depth > 0 || std::isfinite(a.depth.max_depth))
+    notes.push_back("truths above " + NumberText(a.depth.min_depth) + " m" +
+                    (std::isfinite(a.depth.max_depth) ? " and up to " + NumberText(a.depth.max_depth) + " m" : "") + " count");
+  WarnOfEmptyTruths(json, files.pairs, [&](size_t i) { return results[i].views[0].valid; });
+  const auto shared = std::find_if(results.begin(), results.end(), [](const DepthResult& r) { return !r.shared.empty(); });
+  if (shared != results.end())
+    json["warnings"].push_back(files.pairs[static_cast<size_t>(shared - results.begin())].truth.string() + ": " + shared->shared);
   int64_t not_positive = 0;
   for (const DepthResult& r : results) not_positive += r.views[0].not_positive;
   if (not_positive > 0)
@@ -186,10 +210,26 @@ void AppendNotes(Json& json, const DepthArguments& a, const FilePairs& files, co
   if (!notes.empty()) json["notes"] = notes;
 }
 
+// Flags of a kind of file need one of it.
+void CheckFileFlags(const DepthArguments& a, const FilePairs& files) {
+  const auto any = [&](std::initializer_list<const char*> endings) {
+    return std::any_of(files.pairs.begin(), files.pairs.end(), [&](const FilePair& pair) {
+      return std::any_of(endings.begin(), endings.end(), [&](const char* ending) {
+        return internal::LowerEnding(pair.prediction) == ending || internal::LowerEnding(pair.truth) == ending;
+      });
+    });
+  };
+  if (a.png_scale_given && !any({".png"}))
+    throw InputError("--png-scale is for 16-bit PNGs, and no file is one (--pred-scale and --gt-scale are for all)");
+  if (!a.files.h5_key.empty() && !any({".h5", ".hdf5"})) throw InputError("--h5-key is for HDF5 files, and no file is one");
+}
+
 void Run(DepthArguments a, const GlobalOptions& globals) {
   Check(a);
   const std::vector<std::string> endings = {".npy", ".exr", ".h5", ".hdf5", ".png"};
   const FilePairs files = PairFiles(a.pred, a.gt, endings, "range");
+  CheckFileFlags(a, files);
+  a.panorama = ArePanoramas(a.view, {a.gt, a.pred});
   const std::vector<Rolled> turns = ParseRolled(a.view);
   std::vector<FilePairs> rolled;
   for (const Rolled& turn : turns) rolled.push_back(PairFiles(turn.path, a.gt, endings, "range"));
@@ -212,9 +252,7 @@ void Run(DepthArguments a, const GlobalOptions& globals) {
   if (a.protocol == "unik3d")
     json.update(ToJson(WithNames(MeanFigures(results, [](const DepthResult& r) -> const DepthErrors& { return r.scaled; }), "_si")));
   JudgeMistakes(results, a.view.force, json, [&](size_t i) { return files.pairs[i].prediction.string(); });
-  if (Valid(results, 0) == 0)
-    throw InputError(a.gt + ": no pixel has a truth above " + std::to_string(a.depth.min_depth) + " m" +
-                     (a.depth.max_depth < 1e300 ? " and up to " + std::to_string(a.depth.max_depth) + " m" : ""));
+  if (Valid(results, 0) == 0) throw InputError(a.gt + ": " + NoDepthText(a.depth));
   AppendViews(json, a.view, [&](size_t view) {
     Json one = ToJson(WithNames(of_view(view)));
     one["valid"] = Valid(results, view);
@@ -259,7 +297,10 @@ void AddEvalDepth(CLI::App& command, GlobalOptions& globals) {
   AddViewFlags(*depth, a->view);
   AddReportFlags(*depth, a->report, "a row a picture");
   AddSheetFlags(*depth, a->sheet);
-  depth->callback([a, &globals] { Run(*a, globals); });
+  depth->callback([a, depth, &globals] {
+    a->png_scale_given = depth->count("--png-scale") > 0;
+    Run(*a, globals);
+  });
 }
 
 }  // namespace airsim360

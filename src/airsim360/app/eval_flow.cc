@@ -14,7 +14,10 @@ namespace airsim360 {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using FlowResult = std::vector<FlowErrors>;  // one a view
+struct FlowResult {
+  std::vector<FlowErrors> views;
+  LikelyMistake mistake;
+};
 
 struct FlowArguments {
   std::string pred, gt;
@@ -29,6 +32,8 @@ FlowResult MeasurePair(const FilePair& pair, const FlowArguments& a, ViewCache& 
     throw InputError(pair.prediction.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " +
                      pair.truth.string() + " has " + std::to_string(gt.width) + "x" + std::to_string(gt.height));
   FlowResult result;
+  const FlowMistake mistake = LikelyFlowMistake(pred.values, gt.values, gt.width, gt.height);
+  result.mistake = {mistake.text, mistake.sure};
   for (const PixelView& view : *cache.Of(gt.width, gt.height)) {
     try {
       std::vector<double> p, g;
@@ -37,7 +42,7 @@ FlowResult MeasurePair(const FilePair& pair, const FlowArguments& a, ViewCache& 
         g.insert(g.end(), {gt.values[2 * size_t{i}], gt.values[2 * size_t{i} + 1]});
       }
       const bool all = view.source.empty();
-      result.push_back(MeasureFlow(all ? pred.values : p, all ? gt.values : g, gt.width, gt.height, view.source, view.weights));
+      result.views.push_back(MeasureFlow(all ? pred.values : p, all ? gt.values : g, gt.width, gt.height, view.source, view.weights));
     } catch (const InputError& error) {
       throw InputError(pair.prediction.string() + ": " + error.what());
     }
@@ -50,8 +55,8 @@ std::vector<double> MeanFigures(const std::vector<FlowResult>& results, size_t v
   double count = 0;
   for (size_t i = 0; i < results.size(); ++i) {
     const double times = draws.empty() ? 1 : draws[i];
-    if (results[i][view].valid == 0 || times == 0) continue;
-    const auto figures = Figures(results[i][view]);
+    if (results[i].views[view].valid == 0 || times == 0) continue;
+    const auto figures = Figures(results[i].views[view]);
     for (size_t f = 0; f < sums.size(); ++f) sums[f] += times * figures[f];
     count += times;
   }
@@ -64,20 +69,20 @@ Json ViewJson(const std::vector<FlowResult>& results, size_t view) {
   Json json;
   int64_t valid = 0;
   for (size_t f = 0; f < means.size(); ++f) json[std::string(kFlowFigures[f])] = means[f];
-  for (const FlowResult& result : results) valid += result[view].valid;
+  for (const FlowResult& result : results) valid += result.views[view].valid;
   json["valid"] = valid;
   return json;
 }
 
 void Run(const FlowArguments& a, const GlobalOptions& globals) {
   CheckViewOptions(a.view);
-  if (!a.view.rolled.empty() || !a.view.turned.empty())
-    throw InputError("--rolled and --turned are not for flow: it moves between pictures");
+  ArePanoramas(a.view, {a.pred, a.gt});
   const FilePairs files = PairFiles(a.pred, a.gt, {".flo", ".npy", ".exr", ".png"}, "flow");
   ViewCache cache(a.view);
   const auto results =
       MeasureAll<FlowResult>("eval flow", files.pairs.size(), [&](size_t i) { return MeasurePair(files.pairs[i], a, cache); });
   Json json = ViewJson(results, 0);
+  JudgeMistakes(results, a.view.force, json, [&](size_t i) { return files.pairs[i].prediction.string(); });
   if (json["valid"].get<int64_t>() == 0) throw InputError(a.gt + ": no pixel has a flow");
   json["pictures"] = results.size();
   json["weights"] = a.view.weights;
@@ -89,13 +94,14 @@ void Run(const FlowArguments& a, const GlobalOptions& globals) {
   std::vector<std::vector<std::string>> rows = {{"picture", "valid"}};
   rows[0].insert(rows[0].end(), names.begin(), names.end());
   for (size_t i = 0; i < results.size(); ++i) {
-    auto& row = rows.emplace_back(std::vector<std::string>{files.pairs[i].name, std::to_string(results[i][0].valid)});
-    for (const double value : Figures(results[i][0])) row.push_back(NumberText(value));
+    auto& row = rows.emplace_back(std::vector<std::string>{files.pairs[i].name, std::to_string(results[i].views[0].valid)});
+    for (const double value : Figures(results[i].views[0])) row.push_back(NumberText(value));
   }
   WriteCsv(a.report.csv, rows);
   Json notes = files.notes;
   notes.push_back("figures of each picture, then their mean; in panoramas dx is taken the shorter way round");
   json["notes"] = notes;
+  WarnOfEmptyTruths(json, files.pairs, [&](size_t i) { return results[i].views[0].valid; });
   if (globals.json)
     PrintJson(json);
   else
@@ -110,7 +116,7 @@ void AddEvalFlow(CLI::App& command, GlobalOptions& globals) {
   flow->add_option("pred", a->pred, ".flo, .npy, .exr or KITTI's .png, a folder of them, or a dataset of ours (its flow)")->required();
   flow->add_option("gt", a->gt, "the truth: the same, with the same names")->required();
   flow->add_flag("--visible", a->visible, "leave out what the truth's channel `occluded` says is hidden in the next picture (.exr)");
-  AddViewFlags(*flow, a->view);
+  AddViewFlags(*flow, a->view, false);
   AddReportFlags(*flow, a->report, "a row a picture");
   flow->callback([a, &globals] { Run(*a, globals); });
 }

@@ -11,6 +11,7 @@
 #include "airsim360/eval/files/file_pairs.h"
 #include "airsim360/eval/files/layout_file.h"
 #include "airsim360/eval/files/person_file.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
@@ -44,6 +45,25 @@ std::vector<double> LayoutMeans(const std::vector<LayoutErrors>& errors, std::sp
   return sums;
 }
 
+void AppendLayoutWarnings(Json& json, const FilePairs& files, const std::vector<LayoutErrors>& errors, const std::vector<double>& any_start,
+                          const std::vector<char>& crossing) {
+  size_t elsewhere = 0, first = 0, crossed = 0, first_crossed = 0;
+  for (size_t i = errors.size(); i-- > 0;) {
+    if (errors[i].corner_error > 4 * any_start[i] + 1) ++elsewhere, first = i;
+    if (crossing[i]) ++crossed, first_crossed = i;
+  }
+  if (elsewhere > 0)
+    json["warnings"].push_back("corners of " + std::to_string(elsewhere) + (elsewhere == 1 ? " room begin" : " rooms begin") +
+                               " elsewhere than the truth's or lie across the seam: from the "
+                               "nearest start and round the seam the corner error of room " +
+                               files.pairs[first].name + " is " + NumberText(any_start[first]) + " instead of " +
+                               NumberText(errors[first].corner_error));
+  if (crossed > 0)
+    json["warnings"].push_back("predicted walls cross each other in " + std::to_string(crossed) + (crossed == 1 ? " room" : " rooms") +
+                               ", " + files.pairs[first_crossed].name +
+                               " first: its surfaces mean little; are corners in turn around the room?");
+}
+
 void RunLayout(const LayoutArguments& a, const GlobalOptions& globals) {
   int width = 0, height = 0;
   char after = 0;
@@ -52,10 +72,17 @@ void RunLayout(const LayoutArguments& a, const GlobalOptions& globals) {
     throw InputError("--size: '" + a.size + "' is no WIDTHxHEIGHT of a panorama, twice as wide as high, 8 to " +
                      std::to_string(kMostWidth) + " columns");
   const FilePairs files = PairFiles(a.pred, a.gt, {".txt", ".json"}, "layout");
+  // Rooms whose corner error is that of another first corner rather than of the network; rooms whose predicted walls cross.
+  std::vector<double> any_start(files.pairs.size());
+  std::vector<char> crossing(files.pairs.size());
   const auto errors = MeasureAll<LayoutErrors>("eval layout", files.pairs.size(), [&](size_t i) {
     const FilePair& pair = files.pairs[i];
     try {
-      return MeasureLayout(ReadLayoutFile(pair.prediction, width, height), ReadLayoutFile(pair.truth, width, height), width, height);
+      const RoomLayout pred = ReadLayoutFile(pair.prediction, width, height), gt = ReadLayoutFile(pair.truth, width, height);
+      const LayoutErrors measured = MeasureLayout(pred, gt, width, height);
+      any_start[i] = CornerErrorFromAnyStart(pred, gt, width, height);
+      crossing[i] = WallsCross(pred, width, height);
+      return measured;
     } catch (const InputError& error) {
       throw InputError("room " + pair.name + ": " + error.what());
     }
@@ -77,7 +104,10 @@ void RunLayout(const LayoutArguments& a, const GlobalOptions& globals) {
   Json notes = files.notes;
   notes.push_back(
       "definitions of HorizonNet's evaluation for a camera 1.6 m above the floor; surfaces are exact where that code joins rounded columns");
+  notes.push_back(
+      "corner_error_percent compares corners in the order of the files and does not go round the seam, as HorizonNet's does: both files must begin at the same corner");
   json["notes"] = notes;
+  AppendLayoutWarnings(json, files, errors, any_start, crossing);
   if (globals.json)
     PrintJson(json);
   else
@@ -108,12 +138,31 @@ void RefuseUnits(const PersonPairs& pairs, const std::string& path) {
   }
 }
 
+// Radians as degrees: all within a turn of radians, and far nearer to the others times 57.3 than as they are.
+void RefuseRadians(const std::vector<PersonPose>& suspects, const std::vector<PersonPose>& others, const std::string& path) {
+  constexpr size_t kLeastPersons = 5;
+  constexpr double kTurn = 2 * kPi;
+  const size_t n = suspects.size();
+  if (n < kLeastPersons) return;
+  double straight = 0, converted = 0;
+  for (size_t i = 0; i < n; ++i) {
+    const double degrees = suspects[i].angle / kDegree;  // what the file says
+    if (std::abs(degrees) > kTurn) return;
+    straight += std::abs(WrapAngle(suspects[i].angle - others[i].angle));
+    converted += std::abs(WrapAngle(degrees - others[i].angle));
+  }
+  if (straight / static_cast<double>(n) > 20 * kDegree && converted < 0.5 * straight)
+    throw InputError(path + ": angles lie within a turn of radians and fit far better as such: angle_deg is degrees");
+}
+
 void RunMpde(const MpdeArguments& a, const GlobalOptions& globals) {
   if (!a.protocol.empty() && a.protocol != "monoloco")
     throw InputError("--protocol: " +
                      UnknownChoiceMessage("protocol of distances of people", a.protocol, std::vector<std::string>{"monoloco"}));
   const PersonPairs pairs = ReadPersonFiles(a.pred, a.gt);
   RefuseUnits(pairs, a.pred);
+  RefuseRadians(pairs.prediction, pairs.truth, a.pred);
+  RefuseRadians(pairs.truth, pairs.prediction, a.gt);
   Json json = MpdeJson(MeasureMpde(pairs.prediction, pairs.truth));
   const auto groups = MeasureMpdeGroups(pairs.prediction, pairs.truth);
   constexpr std::array<const char*, 4> kGroups = {"below_10_m", "10_to_20_m", "20_to_30_m", "from_30_m"};
@@ -134,6 +183,9 @@ void RunMpde(const MpdeArguments& a, const GlobalOptions& globals) {
   WriteCsv(a.report.csv, rows);
   json["notes"].push_back(
       "angle_mae_deg is the shorter way round; angle_unwrapped_mae_deg is MonoLoco's: angles are not wrapped after the difference, and degrees are rad * 180 / 3.14");
+  if (pairs.extra > 0)
+    json["notes"].push_back(std::to_string(pairs.extra) + (pairs.extra == 1 ? " predicted person has" : " predicted persons have") +
+                            " no truth and are left out, '" + pairs.first_extra + "' first");
   if (globals.json)
     PrintJson(json);
   else

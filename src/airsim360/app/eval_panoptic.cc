@@ -28,7 +28,7 @@ struct PanopticArguments {
 
 struct PanopticResult {
   std::vector<Counts> views, rolled;
-  std::string mistake;
+  LikelyMistake mistake;
 };
 
 Counts Measure(const LabelPicture& pred, const LabelPicture& gt, const PanopticFrame& pred_frame, const PanopticFrame& gt_frame,
@@ -46,7 +46,7 @@ Counts Measure(const LabelPicture& pred, const LabelPicture& gt, const PanopticF
 }
 
 PanopticResult MeasureFrame(const PanopticInput& input, size_t i, const std::vector<PanopticInput>& rolled,
-                            const std::vector<Rolled>& turns, ViewCache& cache) {
+                            const std::vector<Rolled>& turns, ViewCache& cache, bool panorama) {
   const size_t categories = input.truth.categories.size();
   const PanopticFrame &gt_frame = input.truth.frames[i], &pred_frame = input.Prediction(i);
   const auto [pred, gt] = input.Read(i);
@@ -62,9 +62,10 @@ PanopticResult MeasureFrame(const PanopticInput& input, size_t i, const std::vec
       result.rolled.push_back(Measure(turned, gt, rolled[r].Prediction(i), gt_frame, views->front(), categories));
     }
   } catch (const InputError& error) {
-    throw InputError("picture " + std::to_string(gt_frame.image) + " (" + gt_frame.file + "): " + error.what());
+    throw InputError("picture " + gt_frame.image + " (" + gt_frame.file + "): " + error.what());
   }
-  result.mistake = LikelyLabelMistake(CategoriesOf(pred, pred_frame), CategoriesOf(gt, gt_frame), gt.width, gt.height);
+  result.mistake = LikelyLabelMistake(CategoriesOf(pred, pred_frame), CategoriesOf(gt, gt_frame), gt.width, gt.height, 0,
+                                      panorama && gt.width == 2 * gt.height);
   return result;
 }
 
@@ -120,12 +121,13 @@ void Run(PanopticArguments a, const GlobalOptions& globals) {
   const PanopticInput input(a.paths);
   const auto& categories = input.truth.categories;
   ChooseCategories(categories, a.held_out, "--open-world");
+  const bool panorama = ArePanoramas(a.view, {a.paths.gt, a.paths.pred});
   const std::vector<Rolled> turns = ParseRolled(a.view);
   std::vector<PanopticInput> rolled;
   for (const Rolled& turn : turns) rolled.emplace_back(PanopticPaths{turn.path, a.paths.gt, "", a.paths.gt_dir});
   ViewCache cache(a.view);
   const auto results = MeasureAll<PanopticResult>("eval panoptic", input.truth.frames.size(),
-                                                  [&](size_t i) { return MeasureFrame(input, i, rolled, turns, cache); });
+                                                  [&](size_t i) { return MeasureFrame(input, i, rolled, turns, cache, panorama); });
 
   const auto of_view = [&](size_t view, std::span<const uint32_t> draws = {}) {
     return Sum(
@@ -167,6 +169,7 @@ void Run(PanopticArguments a, const GlobalOptions& globals) {
   json["notes"].push_back(
       "areas are counted from the pictures, not read from the JSON; of several crowds of a category the last one excuses predictions, as in panopticapi");
   for (const std::string& note : input.notes) json["notes"].push_back(note);
+  for (const std::string& warning : input.warnings) json["warnings"].push_back(warning);
   if (globals.json)
     PrintJson(json);
   else

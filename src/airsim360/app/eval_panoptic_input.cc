@@ -4,15 +4,53 @@
 
 #include "airsim360/app/eval_views.h"
 #include "airsim360/base/error.h"
+#include "airsim360/eval/files/file_pairs.h"
 
 namespace airsim360 {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path JsonPath(const std::string& path) { return fs::is_directory(path) ? fs::path(path) / "panoptic.json" : fs::path(path); }
+// Categories that the prediction names must be those of the truth: a name under another id is a mistake, another name for an id may be one.
+void CompareCategories(const PanopticFile& prediction, const PanopticFile& truth, const std::string& path,
+                       std::vector<std::string>& warnings) {
+  std::map<std::string, int64_t> ids;
+  std::map<int64_t, std::string> names;
+  for (const PanopticCategory& category : truth.categories) {
+    if (category.name.empty()) continue;
+    ids[category.name] = category.id;
+    names[category.id] = category.name;
+  }
+  std::vector<std::string> renamed;
+  for (const PanopticCategory& category : prediction.own_categories) {
+    const auto name = names.find(category.id);
+    const auto id = ids.find(category.name);
+    if (id != ids.end() && id->second != category.id)
+      throw InputError(path + ": the category '" + category.name + "' is " + std::to_string(category.id) + " here and " +
+                       std::to_string(id->second) + " in the truth: use the truth's ids (or leave `categories` out if the ids are its)");
+    if (name != names.end() && !category.name.empty() && name->second != category.name)
+      renamed.push_back(std::to_string(category.id) + " is '" + category.name + "', in the truth '" + name->second + "'");
+  }
+  if (!renamed.empty())
+    warnings.push_back(path + ": categories of other names than the truth's, " + renamed[0] +
+                       (renamed.size() > 1 ? " (and " + std::to_string(renamed.size() - 1) + " more)" : "") + ": are they the same?");
+}
+
+fs::path JsonPath(const std::string& path) {
+  const fs::path json = PanopticJson(path);
+  if (json.empty()) throw InputError(path + ": a folder without panoptic.json or panoptic_gt.json");
+  return json;
+}
 
 }  // namespace
+
+fs::path PanopticJson(const std::string& path) {
+  if (!fs::is_directory(path)) return path;
+  for (const char* name : {"panoptic.json", "panoptic_gt.json"}) {
+    if (fs::exists(fs::path(path) / name)) return fs::path(path) / name;
+  }
+  return {};
+}
 
 void AddPanopticPaths(CLI::App& command, PanopticPaths& paths) {
   command.add_option("pred", paths.pred, "COCO panoptic JSON, or a dataset of ours")->required();
@@ -27,10 +65,10 @@ PanopticInput::PanopticInput(const PanopticPaths& paths)
       prediction_(ReadPanopticFile(JsonPath(paths.pred), &truth.categories)),
       pred_dir_(paths.pred_dir.empty() ? PanopticFolder(JsonPath(paths.pred)) : fs::path(paths.pred_dir)),
       gt_dir_(paths.gt_dir.empty() ? PanopticFolder(JsonPath(paths.gt)) : fs::path(paths.gt_dir)) {
-  std::map<int64_t, size_t> predictions;
+  std::map<std::string, size_t> predictions;
   for (size_t i = 0; i < prediction_.frames.size(); ++i) predictions[prediction_.frames[i].image] = i;
   size_t missing = 0;
-  int64_t first = 0;
+  std::string first;
   for (const PanopticFrame& frame : truth.frames) {
     const auto found = predictions.find(frame.image);
     if (found != predictions.end()) {
@@ -39,10 +77,12 @@ PanopticInput::PanopticInput(const PanopticPaths& paths)
       first = frame.image;
     }
   }
+  CompareCategories(prediction_, truth, paths.pred, warnings);
+  if (paths.gt_dir.empty()) CheckDatasetFiles(paths.gt, {"panoptic.json", "entity"});
   if (truth.frames.empty()) throw InputError(paths.gt + ": has no annotations");
   if (missing > 0)
     throw InputError(paths.pred + ": has no annotation for " + std::to_string(missing) + " of " + std::to_string(truth.frames.size()) +
-                     " pictures, image_id " + std::to_string(first) + " first" +
+                     " pictures, image_id " + first + " first" +
                      (missing == truth.frames.size() ? ": are pictures numbered otherwise?" : ""));
   if (prediction_.frames.size() > truth.frames.size())
     notes.push_back(std::to_string(prediction_.frames.size() - truth.frames.size()) + " predicted pictures have no truth and are left out");

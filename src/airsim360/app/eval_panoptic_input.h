@@ -18,10 +18,13 @@ struct PanopticPaths {
 };
 void AddPanopticPaths(CLI::App& command, PanopticPaths& paths);
 
-/// Truth and prediction, read and matched by image_id. A folder with a panoptic.json stands for that file.
+/// The file that a folder stands for: its panoptic.json, or VIPSeg's panoptic_gt.json; "" where it has neither, `path` itself where it is no folder.
+std::filesystem::path PanopticJson(const std::string& path);
+
+/// Truth and prediction, read and matched by image_id. Folders stand for their PanopticJson.
 class PanopticInput {
  public:
-  /// InputError naming how many truths have no prediction.
+  /// InputError naming how many truths have no prediction, or a category that has another id in the truth.
   explicit PanopticInput(const PanopticPaths& paths);
 
   /// The annotation of the prediction of truth.frames[i].
@@ -30,7 +33,7 @@ class PanopticInput {
   std::pair<LabelPicture, LabelPicture> Read(size_t i) const;
 
   PanopticFile truth;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, warnings;
 
  private:
   PanopticFile prediction_;

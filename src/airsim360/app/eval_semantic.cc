@@ -28,9 +28,11 @@ struct SemanticArguments {
 
 struct SemanticResult {
   std::vector<Confusion> views, rolled;
-  std::string mistake;
+  LikelyMistake mistake;
   int64_t unknown = 0;  // predicted ids that are no class
 };
+
+constexpr uint32_t kVoidLabel = 0xffffffff;
 
 // Index of a class by id.
 using ClassIndex = std::vector<uint16_t>;
@@ -61,9 +63,13 @@ std::vector<uint16_t> ClassesOf(const LabelPicture& picture, const ClassIndex& i
   return classes;
 }
 
-LabelPicture ReadPrediction(const std::filesystem::path& path, const LabelPicture& gt, const std::filesystem::path& gt_path) {
+// Of another size than the truth only where a protocol brings both to its own.
+LabelPicture ReadPrediction(const std::filesystem::path& path, const LabelPicture& gt, const std::filesystem::path& gt_path,
+                            const ViewOptions& options) {
   LabelPicture pred = ReadLabelPicture(path);
-  if (pred.width != gt.width || pred.height != gt.height)
+  const bool resized =
+      options.resize_width > 0 && options.seam == 0 && options.bands == 0 && options.rolled.empty() && options.turned.empty();
+  if ((pred.width != gt.width || pred.height != gt.height) && !resized)
     throw InputError(path.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " +
                      gt_path.string() + " has " + std::to_string(gt.width) + "x" + std::to_string(gt.height) +
                      ": resize the predictions (nearest pixel)");
@@ -80,16 +86,31 @@ Confusion Measure(const std::vector<uint16_t>& pred, const std::vector<uint16_t>
 }
 
 SemanticResult MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, const std::vector<Rolled>& turns, size_t i,
-                           const ClassIndex& truths, const ClassIndex& index, size_t classes, ViewCache& cache) {
-  const LabelPicture gt = ReadLabelPicture(pair.truth), pred = ReadPrediction(pair.prediction, gt, pair.truth);
+                           const ClassIndex& index, size_t classes, ViewCache& cache, const ViewOptions& options, bool panorama) {
+  const LabelPicture gt = ReadLabelPicture(pair.truth), pred = ReadPrediction(pair.prediction, gt, pair.truth, options);
   const auto views = cache.Of(gt.width, gt.height);
-  const std::vector<uint16_t> gt_classes = ClassesOf(gt, truths), pred_classes = ClassesOf(pred, index);
+  const std::vector<uint16_t> gt_classes = ClassesOf(gt, index), pred_classes = ClassesOf(pred, index);
   SemanticResult result;
-  result.mistake = LikelyLabelMistake(pred.ids, gt.ids, gt.width, gt.height);
   for (const uint16_t c : pred_classes) result.unknown += c == Confusion::kOther;
+  if (pred.width != gt.width || pred.height != gt.height) {
+    const auto bring = [&](const std::vector<uint16_t>& ids, const LabelPicture& of) {
+      return Take<uint16_t>(ids, ResizedView(of.width, of.height, options.resize_width, options.resize_height));
+    };
+    result.views.push_back(Measure(bring(pred_classes, pred), bring(gt_classes, gt), PixelView{}, classes));
+    return result;
+  }
+  std::vector<uint32_t> truths = gt.ids;
+  for (size_t p = 0; p < truths.size(); ++p) {
+    if (gt_classes[p] == Confusion::kOther) truths[p] = kVoidLabel;
+  }
+  result.mistake = LikelyLabelMistake(pred.ids, truths, gt.width, gt.height, kVoidLabel, panorama && gt.width == 2 * gt.height);
+  if (static_cast<size_t>(result.unknown) == pred.ids.size() && !result.mistake.sure)
+    result.mistake = {
+        "no predicted pixel is of a class of the file (the first is " + std::to_string(pred.ids[0]) + "): are they other ids, or a mask?",
+        true};
   for (const PixelView& view : *views) result.views.push_back(Measure(pred_classes, gt_classes, view, classes));
   for (size_t r = 0; r < turns.size(); ++r) {
-    const LabelPicture turned = ReadPrediction(rolled[r].pairs[i].prediction, gt, pair.truth);
+    const LabelPicture turned = ReadPrediction(rolled[r].pairs[i].prediction, gt, pair.truth, options);
     result.rolled.push_back(Measure(turns[r].Back<uint16_t>(ClassesOf(turned, index), gt.width), gt_classes, views->front(), classes));
   }
   return result;
@@ -162,27 +183,31 @@ Json Notes(const SemanticArguments& a, const FilePairs& files, const std::vector
   int64_t unknown = 0;
   for (const SemanticResult& r : results) unknown += r.unknown;
   if (unknown > 0)
-    notes.push_back(std::to_string(unknown) + " predicted pixels are of no class of the file: where the truth has one they are wrong");
+    notes.push_back(std::to_string(unknown) + " predicted pixels are of no class of the file" +
+                    (a.ignore.empty() ? "" : ", or of an ignored one") + ": where the truth has one they are wrong");
   return notes;
 }
 
 void Run(SemanticArguments a, const GlobalOptions& globals) {
   Check(a);
-  const std::vector<LabelClass> classes = ReadClassFile(a.classes);
+  std::vector<LabelClass> classes = ReadClassFile(a.classes);
+  // Their truths do not count, so their own IoU means nothing; where others are taken for them is an error of the others.
+  for (const std::string& name : a.ignore)
+    classes.erase(classes.begin() + static_cast<std::ptrdiff_t>(FindClass(classes, name, "--ignore")));
+  if (classes.empty()) throw InputError("--ignore: leaves no class of " + a.classes);
   const ClassIndex index = IndexClasses(classes);
-  ClassIndex truths = index;
-  for (const std::string& name : a.ignore) truths[classes[FindClass(classes, name, "--ignore")].id] = Confusion::kOther;
   for (const std::string& name : a.held_out) FindClass(classes, name, "--open-world");
 
   const std::vector<std::string> endings = {".png", ".npy"};
   const FilePairs files = PairFiles(a.pred, a.gt, endings, "semantic");
+  const bool panorama = ArePanoramas(a.view, {a.gt, a.pred});
   const std::vector<Rolled> turns = ParseRolled(a.view);
   std::vector<FilePairs> rolled;
   for (const Rolled& turn : turns) rolled.push_back(PairFiles(turn.path, a.gt, endings, "semantic"));
   ViewCache cache(a.view);
   const size_t n = classes.size();
   const auto results = MeasureAll<SemanticResult>("eval semantic", files.pairs.size(), [&](size_t i) {
-    return MeasurePair(files.pairs[i], rolled, turns, i, truths, index, n, cache);
+    return MeasurePair(files.pairs[i], rolled, turns, i, index, n, cache, a.view, panorama);
   });
 
   const auto of_view = [&](size_t view, std::span<const uint32_t> draws = {}) {
@@ -215,8 +240,10 @@ void Run(SemanticArguments a, const GlobalOptions& globals) {
   WriteTable(a.report.csv, whole, classes);
   std::vector<SheetItem> items;
   for (size_t i = 0; i < results.size(); ++i) items.push_back({i, files.pairs[i].name, 1 - results[i].views[0].PixelAccuracy()});
-  AppendWorst(json, a.sheet, items, "pixel_error",
-              [&](size_t i) { return LabelStrip(ReadLabelPicture(files.pairs[i].prediction), ReadLabelPicture(files.pairs[i].truth)); });
+  AppendWorst(json, a.sheet, items, "pixel_error", [&](size_t i) {
+    const LabelPicture gt = ReadLabelPicture(files.pairs[i].truth);
+    return LabelStrip(ReadPrediction(files.pairs[i].prediction, gt, files.pairs[i].truth, ViewOptions{}), gt);
+  });
   json["notes"] = Notes(a, files, results);
   if (globals.json) {
     PrintJson(json);
@@ -236,7 +263,8 @@ void AddEvalSemantic(CLI::App& command, GlobalOptions& globals) {
   semantic->add_option("gt", a->gt, "the truth: the same, with the same names")->required();
   semantic->add_option("--classes", a->classes, "classes and their ids: .json (a list of id and name, or meta.json) or lines \"id name\"")
       ->required();
-  semantic->add_option("--ignore", a->ignore, "classes whose truths do not count, by name or id")->delimiter(',');
+  semantic->add_option("--ignore", a->ignore, "classes that do not count, by name or id: neither their truths nor their IoU")
+      ->delimiter(',');
   semantic
       ->add_option("--open-world", a->held_out, "classes that training has not seen, by name or id: their mIoU beside that of the others")
       ->delimiter(',');

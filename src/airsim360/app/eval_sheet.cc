@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/app/eval_views.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/image/codecs.h"
@@ -35,8 +36,8 @@ void WriteSheet(const std::string& path, const Image<Rgb8>& sheet) {
 
 void AddSheetFlags(CLI::App& command, SheetOptions& options) {
   command.add_option("--worst", options.worst, "also name so many pictures on which predictions do worst");
-  command.add_option("--sheet", options.file,
-                     "draw them, truth, prediction and difference side by side: .png or .jpg (20 unless --worst says)");
+  AddOutputOption(command, "--sheet", options.file,
+                  "draw them, truth, prediction and difference side by side: .png or .jpg (20 unless --worst says)");
 }
 
 void CheckSheetOptions(SheetOptions& options) {

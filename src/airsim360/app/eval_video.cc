@@ -26,6 +26,7 @@ struct EvalVideoArguments {
   std::vector<int> windows = {1, 2, 3, 4};
   int classes = 19, void_class = 255;
   std::vector<int> things = {11, 13};
+  std::string step_flag;  // the first flag that was given and is for STEP's PNGs alone
   ReportOptions report;
 };
 
@@ -41,7 +42,7 @@ struct Sequence {
 struct Video {
   std::vector<PanopticCategory> categories;
   std::vector<Sequence> sequences;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, warnings;
 };
 
 // What one sequence gives.
@@ -52,7 +53,7 @@ struct Result {
 
 Video PanopticVideo(const EvalVideoArguments& a) {
   auto input = std::make_shared<PanopticInput>(a.paths);
-  Video video{input->truth.categories, {}, input->notes};
+  Video video{input->truth.categories, {}, input->notes, input->warnings};
   std::map<std::string, size_t> index;
   for (size_t i = 0; i < input->truth.frames.size(); ++i) {
     const std::string& name = input->truth.frames[i].sequence;
@@ -68,6 +69,14 @@ Video PanopticVideo(const EvalVideoArguments& a) {
 
 Video StepVideo(const EvalVideoArguments& a) {
   if (a.classes < 1 || a.classes > 254) throw InputError("--classes " + std::to_string(a.classes) + ": must be 1 to 254");
+  if (a.void_class < 0 || a.void_class > 255) throw InputError("--void " + std::to_string(a.void_class) + ": must be 0 to 255");
+  for (const int thing : a.things) {
+    if (thing < 0 || thing >= a.classes)
+      throw InputError("--things: " + std::to_string(thing) + " is none of the classes 0 to " + std::to_string(a.classes - 1) +
+                       " (--classes)");
+  }
+  if (!a.paths.pred_dir.empty() || !a.paths.gt_dir.empty())
+    throw InputError("--pred-dir and --gt-dir are for panoptic JSON; folders of STEP's PNGs are PRED and GT themselves");
   const StepClasses classes{a.classes, a.void_class, {a.things.begin(), a.things.end()}};
   Video video;
   for (int c = 0; c < a.classes; ++c) video.categories.push_back({c, std::to_string(c), classes.things.contains(c)});
@@ -81,6 +90,9 @@ Video StepVideo(const EvalVideoArguments& a) {
       StepFrame pred = ReadStepFrame(pair.prediction, classes, false), gt = ReadStepFrame(pair.truth, classes, true);
       if (pred.ids.width != gt.ids.width || pred.ids.height != gt.ids.height)
         throw InputError(pair.prediction.string() + " and " + pair.truth.string() + " are of different size");
+      if (ChannelsReversed(pred, gt))
+        throw InputError(pair.prediction.string() +
+                         ": blue says what the class is, not red: write the channels the other way round (cv2 takes blue, green, red)");
       return VideoFrame{std::move(pred.ids), std::move(gt.ids), std::move(pred.segments), std::move(gt.segments)};
     });
   }
@@ -213,6 +225,19 @@ std::vector<Figure> FiguresOf(const Scores& scores, const std::vector<PanopticCa
   return figures;
 }
 
+void AppendShortSequences(Json& json, const Video& video, int longest) {
+  size_t count = 0, first = 0;
+  for (size_t i = video.sequences.size(); i-- > 0;) {
+    if (video.sequences[i].frames.size() < static_cast<size_t>(longest)) ++count, first = i;
+  }
+  if (count == 0) return;
+  const Sequence& sequence = video.sequences[first];
+  json["notes"].push_back(std::to_string(count) + " of " + std::to_string(video.sequences.size()) +
+                          " sequences are shorter than the longest window of " + std::to_string(longest) +
+                          " frames and count as one window of their length; '" + sequence.name + "' first, of " +
+                          std::to_string(sequence.frames.size()));
+}
+
 void Run(const EvalVideoArguments& a, const GlobalOptions& globals) {
   if (!a.protocol.empty() && a.protocol != "step")
     throw InputError("--protocol: " + UnknownChoiceMessage("protocol of video", a.protocol, std::vector<std::string>{"step"}));
@@ -226,7 +251,8 @@ void Run(const EvalVideoArguments& a, const GlobalOptions& globals) {
   view.weights = a.weights;
   CheckViewOptions(view);
   ViewCache cache(view);
-  const bool pictures = fs::is_directory(a.paths.gt) && !fs::exists(fs::path(a.paths.gt) / "panoptic.json");
+  const bool pictures = PanopticJson(a.paths.gt).empty();
+  if (!pictures && !a.step_flag.empty()) throw InputError(a.step_flag + " is for STEP's PNGs: panoptic JSON names its categories");
   const Video video = pictures ? StepVideo(a) : PanopticVideo(a);
   const auto results = MeasureAll<Result>("eval video", video.sequences.size(),
                                           [&](size_t i) { return MeasureSequence(video.sequences[i], a, video.categories, cache); });
@@ -260,6 +286,8 @@ void Run(const EvalVideoArguments& a, const GlobalOptions& globals) {
   json["notes"].push_back(
       "vpq: mean over --windows of the panoptic quality of windows of so many frames, each taken as one large picture (Kim et al., CVPR 2020)");
   for (const std::string& note : video.notes) json["notes"].push_back(note);
+  for (const std::string& warning : video.warnings) json["warnings"].push_back(warning);
+  AppendShortSequences(json, video, *windows.rbegin());
   if (globals.json)
     PrintJson(json);
   else
@@ -273,7 +301,7 @@ void AddEvalVideo(CLI::App& command, GlobalOptions& globals) {
   const auto a = std::make_shared<EvalVideoArguments>();
   AddPanopticPaths(*video, a->paths);
   video->get_option("pred")->description(
-      "COCO panoptic JSON whose ids are the same over frames (images may have video_id), a dataset of ours, or a folder of STEP's PNGs");
+      "COCO panoptic JSON whose ids are the same over frames (images may have video_id), VIPSeg's of videos, a dataset of ours, or a folder of STEP's PNGs");
   video->add_option("--windows", a->windows, "N,…: lengths of windows for VPQ, frames (default 1,2,3,4)")->delimiter(',');
   video->add_option("--protocol", a->protocol, "step: its figures are always among those given");
   video->add_option("--weights", a->weights, "what a pixel counts: pixel (1, the default) or solid_angle (its steradians, panoramas)");
@@ -281,7 +309,12 @@ void AddEvalVideo(CLI::App& command, GlobalOptions& globals) {
   video->add_option("--things", a->things, "STEP's PNGs: classes whose instances are followed (default 11,13)")->delimiter(',');
   video->add_option("--void", a->void_class, "STEP's PNGs: class of ignored pixels (default 255)");
   AddReportFlags(*video, a->report, "a row a sequence");
-  video->callback([a, &globals] { Run(*a, globals); });
+  video->callback([a, video, &globals] {
+    for (const char* flag : {"--classes", "--things", "--void"}) {
+      if (video->count(flag) > 0 && a->step_flag.empty()) a->step_flag = flag;
+    }
+    Run(*a, globals);
+  });
 }
 
 }  // namespace airsim360

@@ -4,7 +4,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
+#include <set>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/base/error.h"
@@ -22,26 +24,81 @@ void CheckChoice(const char* flag, const std::string& text, const std::vector<st
     throw InputError(std::string(flag) + ": " + UnknownChoiceMessage("choice", text, choices));
 }
 
+namespace fs = std::filesystem;
+
+bool IsWithin(const fs::path& file, const fs::path& folder) {
+  const fs::path from = fs::weakly_canonical(folder), to = fs::weakly_canonical(file);
+  return std::mismatch(from.begin(), from.end(), to.begin(), to.end()).first == from.end();
+}
+
+// What else is read with a file or folder: the pictures of a COCO panoptic file lie in folders beside it.
+std::vector<fs::path> InputsOf(const fs::path& input) {
+  std::vector<fs::path> inputs = {input};
+  if (input.extension() == ".json") {
+    for (const fs::path& folder : {fs::path(input).replace_extension(), input.parent_path() / "entity"})
+      if (fs::is_directory(folder)) inputs.push_back(folder);
+  }
+  return inputs;
+}
+
+void CheckOutput(const CLI::App& command, const std::string& flag, const std::string& output) {
+  const std::set<std::string> outputs = {"--csv", "--sheet"};
+  std::error_code none;  // what cannot be looked at is named when it is read
+  for (const CLI::Option* option : command.get_options()) {
+    const bool also_written = outputs.contains(option->get_name());
+    if (option->get_name() == flag) continue;
+    for (const std::string& text : option->results()) {
+      // Also the file of "16=FILE".
+      const fs::path named = fs::exists(text, none) ? text : text.substr(text.find('=') + 1);
+      if (also_written && fs::weakly_canonical(named, none) == fs::weakly_canonical(output, none))
+        throw InputError(flag + ": '" + output + "' is also the file of " + option->get_name());
+      if (also_written || !fs::exists(named, none)) continue;
+      for (const fs::path& input : InputsOf(named)) {
+        if (!fs::is_directory(input, none)) {
+          if (fs::equivalent(input, output, none))
+            throw InputError(flag + ": '" + output + "' is a file that is read here; it would be overwritten: name another");
+        } else if (IsWithin(output, input) && (flag != "--csv" || fs::exists(output, none) || fs::exists(input / "meta.json", none))) {
+          throw InputError(flag + ": '" + output + "' lies in " + input.string() + ", which is read here: write it elsewhere");
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
+
+void AddOutputOption(CLI::App& command, const char* name, std::string& file, const std::string& help) {
+  // A check of an option runs when all are parsed, before anything is measured.
+  command.add_option(name, file, help)
+      ->check(CLI::Validator(
+          [&command, flag = std::string(name)](const std::string& output) {
+            CheckOutput(command, flag, output);
+            return std::string();
+          },
+          ""));
+}
 
 void AddReportFlags(CLI::App& command, ReportOptions& options, const char* csv_rows) {
   command.add_option("--bootstrap", options.bootstrap,
                      "95 % intervals from so many draws of the pictures with replacement, by --seed; 0 = none");
-  command.add_option("--csv", options.csv, std::string("also write a table, ") + csv_rows);
+  AddOutputOption(command, "--csv", options.csv, std::string("also write a table, ") + csv_rows);
 }
 
-void AddViewFlags(CLI::App& command, ViewOptions& options) {
+void AddViewFlags(CLI::App& command, ViewOptions& options, bool turned_back) {
   command.add_option("--weights", options.weights,
                      "what a pixel counts: pixel (1, the default) or solid_angle (its steradians, panoramas)");
   command.add_option("--projection", options.projection,
                      "where pixels are counted: erp (as they are, the default), cube or tangent (the nearest pixels of a panorama)");
   command.add_option("--seam", options.seam, "also within so many columns of the panorama's seam, and apart from it");
   command.add_option("--latitude-bands", options.bands, "also in so many bands of equal latitude");
-  command.add_option("--rolled", options.rolled,
-                     "COLUMNS=PRED: also predictions made of pictures whose columns were moved so far to the right; several may be given");
-  command.add_option(
-      "--turned", options.turned,
-      "YAW,PITCH,ROLL=PRED: also predictions made of panoramas of a camera that was turned so (degrees: right, up, clockwise); several may be given");
+  if (turned_back) {
+    command.add_option(
+        "--rolled", options.rolled,
+        "COLUMNS=PRED: also predictions made of pictures whose columns were moved so far to the right; several may be given");
+    command.add_option(
+        "--turned", options.turned,
+        "YAW,PITCH,ROLL=PRED: also predictions made of panoramas of a camera that was turned so (degrees: right, up, clockwise); several may be given");
+  }
   command.add_flag("--force", options.force, "measure in spite of what looks like a mistake of units, axes or orientation");
 }
 
@@ -55,6 +112,35 @@ void CheckViewOptions(const ViewOptions& options) {
   if (options.bands < 0 || options.bands > kMostBands)
     throw InputError("--latitude-bands " + std::to_string(options.bands) + ": must be 1 to " + std::to_string(kMostBands));
   ParseRolled(options);
+}
+
+bool ArePanoramas(const ViewOptions& options, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    // A dataset, a folder of it, or a file in one.
+    std::filesystem::path folder = std::filesystem::absolute(input).lexically_normal(), meta;
+    for (int level = 0; level < 3 && meta.empty(); ++level, folder = folder.parent_path()) {
+      if (std::filesystem::exists(folder / "meta.json") && std::filesystem::exists(folder / "frames.jsonl")) meta = folder / "meta.json";
+    }
+    if (meta.empty()) continue;
+    const auto json = nlohmann::json::parse(ReadTextFile(meta, 16 << 20), nullptr, false);
+    if (!json.is_object() || !json.contains("cameras") || !json["cameras"].is_array()) continue;
+    for (const auto& camera : json["cameras"]) {
+      const std::string projection = camera.is_object() ? camera.value("projection", "erp") : "erp";
+      if (projection == "erp") continue;
+      const char* flag = options.cos_latitude          ? "this protocol"
+                         : options.weights != "pixel"  ? "--weights"
+                         : options.projection != "erp" ? "--projection"
+                         : options.seam > 0            ? "--seam"
+                         : options.bands > 0           ? "--latitude-bands"
+                         : !options.rolled.empty()     ? "--rolled"
+                         : !options.turned.empty()     ? "--turned"
+                                                       : nullptr;
+      if (flag)
+        throw InputError(std::string(flag) + " is for panoramas; " + meta.string() + " says that a camera's projection is " + projection);
+      return false;
+    }
+  }
+  return true;
 }
 
 std::shared_ptr<const PictureViews> ViewCache::Of(int width, int height) {
@@ -149,17 +235,33 @@ void AppendIntervals(nlohmann::ordered_json& json, const ReportOptions& options,
   for (size_t f = 0; f < names.size(); ++f) json["intervals"][names[f]] = {intervals[f].low, intervals[f].high};
 }
 
-void JudgeMistakes(const std::vector<std::pair<std::string, std::string>>& files_and_mistakes, bool force, nlohmann::ordered_json& json) {
-  size_t count = 0, first = 0;
-  for (size_t i = files_and_mistakes.size(); i-- > 0;) {
-    if (!files_and_mistakes[i].second.empty()) ++count, first = i;
+void JudgeMistakes(const std::vector<std::pair<std::string, LikelyMistake>>& files_and_mistakes, bool force, nlohmann::ordered_json& json) {
+  const size_t all = files_and_mistakes.size();
+  size_t count = 0, sure = 0, first = 0;
+  for (size_t i = all; i-- > 0;) {
+    const LikelyMistake& mistake = files_and_mistakes[i].second;
+    if (mistake.text.empty()) continue;
+    ++count;
+    if (mistake.sure || sure == 0) first = i;
+    sure += mistake.sure;
   }
-  if (2 * count <= files_and_mistakes.size()) return;
-  std::string text = files_and_mistakes[first].first + ": " + files_and_mistakes[first].second;
-  if (files_and_mistakes.size() > 1)
-    text += " (" + std::to_string(count) + " of " + std::to_string(files_and_mistakes.size()) + " pictures)";
-  if (!force) throw InputError(text + "; --force measures it as it is");
+  const bool refused = 2 * sure > all;
+  if (!refused && sure == 0 && 2 * count <= all) return;
+  std::string text = files_and_mistakes[first].first + ": " + files_and_mistakes[first].second.text;
+  if (all > 1) text += " (" + std::to_string(refused || 2 * count <= all ? sure : count) + " of " + std::to_string(all) + " pictures)";
+  if (refused && !force) throw InputError(text + "; --force measures it as it is");
   json["warnings"].push_back(text);
+}
+
+void WarnOfEmptyTruths(nlohmann::ordered_json& json, const std::vector<FilePair>& pairs, const std::function<int64_t(size_t)>& valid) {
+  size_t count = 0, first = 0;
+  for (size_t i = pairs.size(); i-- > 0;) {
+    if (valid(i) == 0) ++count, first = i;
+  }
+  if (count > 0)
+    json["warnings"].push_back(std::to_string(count) + " of " + std::to_string(pairs.size()) +
+                               " pictures have no pixel whose truth counts and are in no mean, '" + pairs[first].name +
+                               "' first: is it damaged?");
 }
 
 nlohmann::ordered_json ToJson(const std::vector<Figure>& figures) {

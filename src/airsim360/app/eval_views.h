@@ -11,17 +11,24 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "airsim360/app/commands.h"
 #include "airsim360/base/log.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/eval/files/file_pairs.h"
+#include "airsim360/eval/mistakes/likely_cause.h"
 #include "airsim360/eval/sphere/pixel_view.h"
 #include "airsim360/math/angles.h"
 #include "airsim360/math/vector.h"
 
 namespace airsim360 {
+
+/// The option `name` of a file that is written. InputError if it names an input of the command or lies in one: a file that is there, a
+/// picture among pictures, anything in a dataset of ours.
+void AddOutputOption(CLI::App& command, const char* name, std::string& file, const std::string& help);
 
 struct ReportOptions {
   int bootstrap = 0;  ///< replicates of 95 % intervals; 0 = none
@@ -37,10 +44,13 @@ struct ViewOptions {
   bool cos_latitude = false;                ///< of a protocol
   bool force = false;
 };
-/// --weights, --projection, --seam, --latitude-bands, --rolled and --turned; --force where likely mistakes are refused.
-void AddViewFlags(CLI::App& command, ViewOptions& options);
+/// --weights, --projection, --seam, --latitude-bands and --force; --rolled and --turned where predictions can be turned back.
+void AddViewFlags(CLI::App& command, ViewOptions& options, bool turned_back = true);
 /// InputError for values that do not exist or go together.
 void CheckViewOptions(const ViewOptions& options);
+/// Whether pictures of width = 2 height are panoramas: false where the datasets of ours among `inputs` (or that they lie in) say that a camera
+/// is a pinhole or a fisheye. InputError for views that only panoramas have then.
+bool ArePanoramas(const ViewOptions& options, const std::vector<std::string>& inputs);
 
 /// The parts of one size of picture: the first is what the main figures are of, then near the seam and far from it, then bands.
 using PictureViews = std::vector<PixelView>;
@@ -86,16 +96,25 @@ void AppendRolled(nlohmann::ordered_json& json, std::span<const Rolled> rolled, 
 void AppendIntervals(nlohmann::ordered_json& json, const ReportOptions& options, uint64_t seed, size_t items,
                      const std::vector<std::string>& names, const std::function<std::vector<double>(std::span<const uint32_t>)>& statistic);
 
-/// What most pictures show (texts that are not "") is refused by an InputError that names the first of them, or a warning in `json` if `force`.
-void JudgeMistakes(const std::vector<std::pair<std::string, std::string>>& files_and_mistakes, bool force, nlohmann::ordered_json& json);
+/// Mistakes of which most pictures are surely one are refused by an InputError that names the first of them, or a warning in `json` if
+/// `force`; those that are merely probable in most pictures, and sure ones in a few, are warnings.
+void JudgeMistakes(const std::vector<std::pair<std::string, LikelyMistake>>& files_and_mistakes, bool force, nlohmann::ordered_json& json);
 
-/// The same of the mistakes of `results`; file_of(i) names their files.
+/// The same of the mistakes of `results`, texts being sure; file_of(i) names their files.
 template <class Result, class FileOf>
 void JudgeMistakes(const std::vector<Result>& results, bool force, nlohmann::ordered_json& json, const FileOf& file_of) {
-  std::vector<std::pair<std::string, std::string>> mistakes;
-  for (size_t i = 0; i < results.size(); ++i) mistakes.emplace_back(file_of(i), results[i].mistake);
+  std::vector<std::pair<std::string, LikelyMistake>> mistakes;
+  for (size_t i = 0; i < results.size(); ++i) {
+    if constexpr (std::is_same_v<decltype(results[i].mistake), std::string>)
+      mistakes.push_back({file_of(i), {results[i].mistake, true}});
+    else
+      mistakes.push_back({file_of(i), results[i].mistake});
+  }
   JudgeMistakes(mistakes, force, json);
 }
+
+/// A warning that names how many pictures have no truth that counts and are therefore in no mean; valid(i) = pixels of the i-th.
+void WarnOfEmptyTruths(nlohmann::ordered_json& json, const std::vector<FilePair>& pairs, const std::function<int64_t(size_t)>& valid);
 
 nlohmann::ordered_json ToJson(const std::vector<Figure>& figures);
 /// "name  value" lines of the numbers of an object, then its notes and warnings.

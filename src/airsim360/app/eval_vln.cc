@@ -20,8 +20,6 @@ struct VlnArguments {
   ReportOptions report;
 };
 
-constexpr double kUsualRadius = 20;  // metres, of files that say none
-
 std::vector<double> MeanFigures(const std::vector<VlnScore>& scores, std::span<const uint32_t> draws = {}) {
   std::vector<double> sums(kVlnFigures.size(), 0);
   double count = 0;
@@ -48,13 +46,17 @@ void WriteTable(const std::string& path, const std::vector<NamedVlnEpisode>& epi
 void Run(const VlnArguments& a, const GlobalOptions& globals) {
   const VlnProtocol& protocol = FindVlnProtocol(a.protocol);
   if (a.radius) CheckPositive("--radius", *a.radius);
-  const auto episodes = ReadVlnFiles(a.episodes, a.results.empty() ? a.episodes : a.results);
+  const std::string results = a.results.empty() ? a.episodes : a.results;
+  const auto episodes = ReadVlnFiles(a.episodes, results, a.radius);
   std::set<double> radii;
-  const auto radius_of = [&](const VlnEpisode& e) { return a.radius.value_or(e.radius.value_or(kUsualRadius)); };
-  for (const auto& one : episodes) radii.insert(radius_of(one.episode));
+  size_t elsewhere = 0;
+  for (const auto& [id, e] : episodes) {
+    radii.insert(*e.radius);
+    elsewhere += Norm(e.flown.front() - e.reference.front()) > *e.radius;
+  }
   const auto scores = MeasureAll<VlnScore>("eval vln", episodes.size(), [&](size_t i) {
     try {
-      return ScoreVln(episodes[i].episode, radius_of(episodes[i].episode), protocol);
+      return ScoreVln(episodes[i].episode, *episodes[i].episode.radius, protocol);
     } catch (const InputError& error) {
       throw InputError("episode '" + episodes[i].id + "': " + error.what());
     }
@@ -72,6 +74,11 @@ void Run(const VlnArguments& a, const GlobalOptions& globals) {
   AppendIntervals(json, a.report, globals.seed, scores.size(), names,
                   [&](std::span<const uint32_t> draws) { return MeanFigures(scores, draws); });
   json["notes"].push_back(std::string(protocol.name) + ": " + std::string(protocol.quirk));
+  if (2 * elsewhere > episodes.size())
+    json["warnings"].push_back(
+        results + ": " + std::to_string(elsewhere) + " of " + std::to_string(episodes.size()) +
+        " flown paths begin farther than the radius from where their reference begins: are they in another frame or of "
+        "other episodes?");
   WriteTable(a.report.csv, episodes, scores);
   if (globals.json)
     PrintJson(json);
@@ -86,7 +93,7 @@ void AddEvalVln(CLI::App& command, GlobalOptions& globals) {
   const auto a = std::make_shared<VlnArguments>();
   vln->add_option("episodes", a->episodes, ".json or .jsonl with the reference path `ref` of every `id`")->required();
   vln->add_option("results", a->results, "the same ids with the flown path `pred` (default: the first file holds both)");
-  vln->add_option("--radius", a->radius, "metres from the goal that count as success (default: what the files say, or 20)");
+  vln->add_option("--radius", a->radius, "metres from the goal that count as success (default: what the episodes say, or 20)");
   vln->add_option("--protocol", a->protocol, "ours, aerialvln, openfly, citynav-mgp, citynav-vlnce, traveluav or uavon");
   AddReportFlags(*vln, a->report, "a row an episode");
   vln->callback([a, &globals] { Run(*a, globals); });

@@ -22,6 +22,12 @@ void CheckPoses(const char* what, std::span<const PersonPose> poses) {
 
 }  // namespace
 
+double CheckPersonDistance(double distance, const char* what) {
+  if (!(distance >= 0 && std::isfinite(distance)))
+    throw InputError(std::string(what) + ": " + std::to_string(distance) + " is not a finite number of at least 0 m");
+  return distance;
+}
+
 double WrapAngle(double angle) {
   const double wrapped = std::remainder(angle, 2 * std::numbers::pi);
   return wrapped <= -std::numbers::pi ? wrapped + 2 * std::numbers::pi : wrapped;

@@ -13,6 +13,9 @@ struct PersonPose {
   double angle = 0;     ///< rad, allocentric: heading relative to the line of sight, yaw - atan2(x, z) in the camera's frame; any turn
 };
 
+/// The distance itself; InputError naming `what` if it is not a finite number of at least 0.
+double CheckPersonDistance(double distance, const char* what);
+
 /// Means over `count` persons; NaN where there are none.
 struct MpdeErrors {
   int64_t count = 0;

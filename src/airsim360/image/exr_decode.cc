@@ -9,9 +9,12 @@
 #include <OpenEXR/ImfXdr.h>
 
 #include <cstring>
+#include <string>
+#include <vector>
 
 #include "airsim360/base/error.h"
 #include "airsim360/image/codecs_internal.h"
+#include "airsim360/image/exr_metadata.h"
 
 namespace airsim360 {
 namespace {
@@ -171,6 +174,20 @@ Image<Rgb32f> ReadExrRgb(std::span<const std::byte> bytes) {
 Image<Rgb32f> DecodeExrRgb(std::span<const std::byte> bytes, std::string_view name) {
   try {
     return ReadExrRgb(bytes);
+  } catch (const std::exception& error) {
+    internal::ThrowDamaged(name, error.what());
+  }
+}
+
+std::vector<std::string> ExrChannels(std::span<const std::byte> bytes, std::string_view name) {
+  try {
+    CheckHeader(bytes, true);
+    MemoryReader reader(bytes);
+    const Imf::InputFile file(reader, 0);
+    std::vector<std::string> names;
+    const Imf::ChannelList& channels = file.header().channels();
+    for (auto c = channels.begin(); c != channels.end(); ++c) names.emplace_back(c.name());
+    return names;
   } catch (const std::exception& error) {
     internal::ThrowDamaged(name, error.what());
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/text.h"
 
 namespace airsim360 {
 namespace {
@@ -81,6 +82,17 @@ Sums SumUp(const std::vector<Pixel>& pixels, bool square_by_square) {
 }
 
 }  // namespace
+
+void CheckDepthOptions(const DepthOptions& options) {
+  if (!(options.min_depth >= 0 && options.max_depth > options.min_depth))
+    throw InputError("min-depth " + ShortestText(options.min_depth) + " and max-depth " + ShortestText(options.max_depth) +
+                     ": must be 0 <= min < max");
+}
+
+std::string NoDepthText(const DepthOptions& options) {
+  return "no pixel has a truth above " + ShortestText(options.min_depth) + " m" +
+         (std::isfinite(options.max_depth) ? " and up to " + ShortestText(options.max_depth) + " m" : "");
+}
 
 std::array<double, kDepthFigures.size()> Figures(const DepthErrors& e) {
   return {e.absrel, e.sqrel, e.rmse, e.rmselog, e.log10, e.mae, e.d1, e.d2, e.d3, e.silog, e.tau};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace airsim360 {
@@ -16,6 +17,11 @@ struct DepthOptions {
   bool median_scale = false;                                   ///< predictions are first multiplied by median(truth) / median(prediction)
   bool square_by_square = false;                               ///< sqrel divides by the square of the truth (Deep360's toolkit)
 };
+
+/// InputError unless 0 <= min_depth < max_depth.
+void CheckDepthOptions(const DepthOptions& options);
+/// "no pixel has a truth above … m": what is wrong where no truth counts.
+std::string NoDepthText(const DepthOptions& options);
 
 /// Of one picture; NaN without pixels, infinite where a prediction that is not above 0 has no logarithm.
 /// Means are over pixels, each times its weight; g truth, p prediction.

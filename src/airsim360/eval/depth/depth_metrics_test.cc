@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "airsim360/base/error.h"
-#include "airsim360/eval/mistakes/likely_cause.h"
 
 namespace airsim360 {
 namespace {
@@ -49,18 +48,6 @@ TEST(DepthErrors, WhatHasNoLogarithmIsInfinitelyWrong) {
   EXPECT_THROW(MeasureDepth(nan, g), InputError);
   EXPECT_THROW(MeasureDepth(g, std::vector<double>{1}), InputError);
   EXPECT_TRUE(std::isnan(MeasureDepth(g, std::vector<double>{0, 0}).absrel));
-}
-
-TEST(LikelyMistakes, OfRightAndMerelyBadPredictionsAreNone) {
-  std::vector<double> g, bad, centimetres;
-  for (int i = 0; i < 32 * 64; ++i) {
-    g.push_back(5 + std::sin(i * 0.37) + 2 * std::cos(i * 0.0021));
-    bad.push_back(g.back() * (1.5 + 0.4 * std::sin(i * 1.7)));
-    centimetres.push_back(bad.back() * 70);
-  }
-  EXPECT_EQ(LikelyDepthMistake(g, g, 64, 32), "");
-  EXPECT_EQ(LikelyDepthMistake(bad, g, 64, 32), "");
-  EXPECT_NE(LikelyDepthMistake(centimetres, g, 64, 32).find("centimetres"), std::string::npos);
 }
 
 }  // namespace

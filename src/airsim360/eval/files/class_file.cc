@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <set>
 
 #include "airsim360/base/error.h"
@@ -25,22 +26,46 @@ bool ParseId(std::string_view word, uint32_t& id) {
 
 constexpr std::string_view kBetween = " \t\r,:;";
 
-std::vector<LabelClass> FromLines(std::string_view text) {
+bool LooksNumeric(std::string_view word) {
+  return !word.empty() && word.find_first_not_of("+-.0123456789") == std::string_view::npos &&
+         word.find_first_of("0123456789") != std::string_view::npos;
+}
+
+// Lines of an id and a name, of a name and an id, or of names alone, whose ids are 0, 1, 2, …; all lines of a file are of one kind.
+std::vector<LabelClass> FromLines(std::string_view text, const std::string& name_of_file) {
   std::vector<LabelClass> classes;
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  enum class Kind { kIdFirst, kIdLast, kNames };
+  std::optional<Kind> kind;
+  int number = 0;
   for (size_t at = 0; at < text.size();) {
     const size_t end = std::min(text.find('\n', at), text.size());
     const std::string_view line = Trimmed(text.substr(at, end - at), kBetween);
     at = end + 1;
+    ++number;
     if (line.empty() || line[0] == '#') continue;
-    constexpr const char* kBetween = " \t,:;";
+    const std::string where = name_of_file + ":" + std::to_string(number) + ": '" + std::string(line) + "'";
     const size_t first = line.find_first_of(kBetween), last = line.find_last_of(kBetween);
+    const bool two = first != std::string_view::npos;
     uint32_t id = static_cast<uint32_t>(classes.size());
     std::string_view name = line;
-    if (first != std::string_view::npos && ParseId(line.substr(0, first), id)) {
+    Kind of_line = Kind::kNames;
+    if (two && ParseId(line.substr(0, first), id)) {
+      of_line = Kind::kIdFirst;
       name = Trimmed(line.substr(first), kBetween);
-    } else if (last != std::string_view::npos && ParseId(line.substr(last + 1), id)) {
+    } else if (two && ParseId(line.substr(last + 1), id)) {
+      of_line = Kind::kIdLast;
       name = Trimmed(line.substr(0, last), kBetween);
+    } else if (LooksNumeric(line.substr(0, first))) {
+      throw InputError(
+          where + (two ? " begins with a number that is no id of a class (0 to 65534)" : " is a number without a name: write \"id name\""));
     }
+    // "stage 2" among "road" and "sky" would be the name of a class or its id.
+    if (kind && *kind != of_line)
+      throw InputError(where +
+                       " is of another kind than the lines before it: write \"id name\" in all, \"name id\" in all, or names alone");
+    kind = of_line;
     classes.push_back({id, std::string(name)});
   }
   return classes;
@@ -72,7 +97,7 @@ std::vector<LabelClass> FromJson(const JsonCursor& top) {
 }  // namespace
 
 std::vector<LabelClass> ParseClassFile(std::string_view text, const std::string& name, bool json) {
-  const std::vector<LabelClass> classes = json ? FromJson(JsonFile::Parse(text, name).top()) : FromLines(text);
+  const std::vector<LabelClass> classes = json ? FromJson(JsonFile::Parse(text, name).top()) : FromLines(text, name);
   if (classes.empty()) throw InputError(name + ": has no classes");
   std::set<uint32_t> ids;
   std::set<std::string> names;

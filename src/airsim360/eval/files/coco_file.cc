@@ -57,6 +57,8 @@ RleMask Mask(const JsonCursor& value, int width, int height) {
     std::vector<RleMask> parts;
     for (size_t i = 0; i < value.size(); ++i) {
       const std::vector<double> polygon = value[i].Numbers();
+      if (polygon.size() % 2 != 0 || polygon.size() < 4)
+        value[i].Fail("a polygon of " + std::to_string(polygon.size()) + " numbers: it is x and y of each corner, at least three");
       // pycocotools takes four numbers for a box.
       parts.push_back(polygon.size() == 4 ? RasterizeBox({polygon[0], polygon[1], polygon[2], polygon[3]}, width, height)
                                           : RasterizePolygon(polygon, width, height));
@@ -123,6 +125,7 @@ void ReadShape(const JsonCursor& one, CocoKind kind, const CocoImage& image, Coc
     }
     case CocoKind::kBoxes:
       object.box = Array<4>(one["bbox"]);
+      if (object.box[2] < 0 || object.box[3] < 0) one["bbox"].Fail("a box is [x, y, width, height]; a width or height is not below 0");
       break;
     case CocoKind::kKeypoints:
       object.keypoints = one["keypoints"].Numbers();
@@ -159,7 +162,28 @@ std::unordered_map<int64_t, const CocoImage*> ById(const std::vector<CocoImage>&
   return index;
 }
 
+bool HasBoxPolygon(const JsonCursor& one) {
+  const JsonCursor polygons = one["segmentation"];
+  for (size_t i = 0; polygons.is_array() && i < polygons.size(); ++i) {
+    if (polygons[i].size() == 4) return true;
+  }
+  return false;
+}
+
+// A list of objects with scores is no truth, a file of images with annotations that have none no result.
+void RefuseResults(const JsonCursor& top) {
+  const bool scored = top.is_array() && top.size() > 0 && top[size_t{0}].Has("score");
+  if (scored) top.Fail("a list of results, where annotations are expected: are the two files swapped? The prediction comes first");
+}
+void RefuseTruths(const JsonCursor& top) {
+  if (!top.Has("images") || !top.Has("categories") || !top.Has("annotations")) return;
+  const JsonCursor list = top["annotations"];
+  if (list.size() > 0 && !list[size_t{0}].Has("score"))
+    top.Fail("annotations without scores, where results are expected: are the two files swapped? The prediction comes first");
+}
+
 CocoTruths TruthsOf(const JsonCursor& top, CocoKind kind) {
+  RefuseResults(top);
   CocoTruths truths;
   truths.images = Images(top["images"], kind == CocoKind::kMasks);
   truths.categories = Categories(top["categories"]);
@@ -169,6 +193,7 @@ CocoTruths TruthsOf(const JsonCursor& top, CocoKind kind) {
   const JsonCursor list = top["annotations"];
   std::set<int64_t> ids;
   bool zero = false, ignored = false;
+  size_t box_polygons = 0;
   for (size_t i = 0; i < list.size(); ++i) {
     const JsonCursor one = list[i];
     CocoObject object{.image = one["image_id"].Integer(), .category = one["category_id"].Integer()};
@@ -179,6 +204,7 @@ CocoTruths TruthsOf(const JsonCursor& top, CocoKind kind) {
     object.crowd = one.FlagOr("iscrowd", false);
     ignored |= one.FlagOr("ignore", false) && !object.crowd;
     ReadShape(one, kind, *image->second, object);
+    if (kind == CocoKind::kMasks) box_polygons += HasBoxPolygon(one);
     if (kind == CocoKind::kKeypoints) {
       object.box = Array<4>(one["bbox"]);
       double labelled = 0;
@@ -190,11 +216,15 @@ CocoTruths TruthsOf(const JsonCursor& top, CocoKind kind) {
     truths.objects.push_back(std::move(object));
   }
   if (zero) truths.notes.push_back("an annotation has the id 0: pycocotools counts detections that match it as wrong; here they are right");
+  if (box_polygons > 0)
+    truths.notes.push_back("polygons of four numbers, of " + std::to_string(box_polygons) +
+                           " annotations, are taken for boxes [x, y, width, height], as pycocotools does");
   if (ignored) truths.notes.push_back("'ignore' of annotations is not looked at: pycocotools overwrites it with 'iscrowd'");
   return truths;
 }
 
 std::vector<CocoObject> ResultsOf(const JsonCursor& top, CocoKind kind, CocoTruths& truths) {
+  RefuseTruths(top);
   const JsonCursor list = top.is_object() ? top["annotations"] : top;
   const auto images = ById(truths.images);
   std::vector<CocoObject> results;

@@ -5,6 +5,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/eval/files/file_pairs.h"
 #include "airsim360/eval/files/number_array.h"
 #include "airsim360/eval/files/picture_files.h"
 #include "airsim360/image/codecs.h"
@@ -41,7 +42,9 @@ NumberPicture FromFlo(const fs::path& path) {
 NumberPicture FromKitti(const fs::path& path) {
   const Bytes bytes = ReadFile(path);
   const PngKind kind = ReadPngKind(bytes, path.string());
-  if (kind.channels != 3 || kind.bit_depth != 16) throw InputError(path.string() + ": flow in a PNG needs 16-bit colour (KITTI's layout)");
+  if (kind.channels != 3 || kind.bit_depth != 16)
+    throw InputError(path.string() + ": a PNG of " + std::to_string(kind.channels) + (kind.channels == 1 ? " channel" : " channels") +
+                     " and " + std::to_string(kind.bit_depth) + " bits; flow in a PNG needs 16-bit colour (KITTI's layout)");
   const Image<Rgb16> image = DecodeRgb16Png(bytes, path.string());
   NumberPicture flow{image.width(), image.height(), 2, {}};
   for (const Rgb16 p : image.pixels()) {
@@ -82,7 +85,10 @@ NumberPicture FromNpyFlow(const fs::path& path) {
 }  // namespace
 
 NumberPicture ReadFlowPicture(const fs::path& path, bool visible) {
-  const std::string ending = path.extension().string();
+  const std::string ending = internal::LowerEnding(path);
+  if (visible && ending != ".exr")
+    throw InputError(path.string() +
+                     ": --visible needs the channel `occluded` of an .exr; give the truth as one (flow/ of a dataset of ours)");
   if (ending == ".flo") return FromFlo(path);
   if (ending == ".png") return FromKitti(path);
   if (ending == ".exr") return FromExr(path, visible);

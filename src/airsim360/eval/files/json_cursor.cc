@@ -33,7 +33,10 @@ Json ParseText(std::string_view text, const std::string& name, size_t line) {
       else
         ++column;
     }
-    throw InputError(name + ":" + std::to_string(line) + ":" + std::to_string(column) + ": not JSON");
+    const std::string_view near = text.substr(at > 0 ? at - 1 : 0, 10);
+    const bool no_number = near.find("NaN") != near.npos || near.find("Inf") != near.npos;
+    throw InputError(name + ":" + std::to_string(line) + ":" + std::to_string(column) + ": not JSON" +
+                     (no_number ? ", which has no NaN or Infinity: leave the value out" : ""));
   } catch (const Json::exception&) {
     throw InputError(name + ": a number is too large");
   }

@@ -21,7 +21,7 @@ std::string_view NextWord(std::string_view& line) {
   return word;
 }
 
-std::vector<Vec2d> FromLines(std::string_view text, const std::string& name) {
+std::vector<Vec2d> CornersOfLines(std::string_view text, const std::string& name) {
   std::vector<Vec2d> corners;
   int number = 0;
   for (size_t at = 0; at < text.size();) {
@@ -55,7 +55,7 @@ RoomLayout ParseLayoutFile(std::string_view text, const std::string& name, bool 
       corners.push_back({uv[0] * width, uv[1] * height});
     }
   } else {
-    corners = FromLines(text, name);
+    corners = CornersOfLines(text, name);
   }
   if (corners.size() % 2 != 0 || corners.size() > kMostCorners)
     throw InputError(name + ": " + std::to_string(corners.size()) + " corners; they come in pairs of a ceiling and a floor corner");

@@ -13,23 +13,24 @@ using internal::JsonCursor;
 using internal::JsonFile;
 using internal::OwnId;
 
-std::vector<PanopticCategory> PanopticCategories(const JsonCursor& list) {
+std::vector<PanopticCategory> PanopticCategories(const JsonCursor& list, bool things_known) {
   std::vector<PanopticCategory> categories;
   std::set<int64_t> ids;
   for (size_t i = 0; i < list.size(); ++i) {
     const JsonCursor one = list[i];
-    categories.push_back({OwnId(one, ids), one.Has("name") ? one["name"].Text() : "", one["isthing"].Flag()});
+    categories.push_back(
+        {OwnId(one, ids), one.Has("name") ? one["name"].Text() : "", things_known ? one.FlagOr("isthing", false) : one["isthing"].Flag()});
   }
   return categories;
 }
 
-std::map<int64_t, std::string> Sequences(const JsonCursor& top) {
-  std::map<int64_t, std::string> sequences;
+std::map<std::string, std::string> Sequences(const JsonCursor& top) {
+  std::map<std::string, std::string> sequences;
   if (!top.Has("images")) return sequences;
   const JsonCursor list = top["images"];
   for (size_t i = 0; i < list.size(); ++i) {
     const char* field = list[i].Has("video_id") ? "video_id" : "sequence";
-    if (list[i].Has(field)) sequences[list[i]["id"].Integer()] = list[i][field].IdText();
+    if (list[i].Has(field)) sequences[list[i]["id"].IdText()] = list[i][field].IdText();
   }
   return sequences;
 }
@@ -48,7 +49,7 @@ std::vector<PanopticSegment> Segments(const JsonCursor& list, const std::map<int
 }
 
 std::string FileName(const JsonCursor& value) {
-  const fs::path path = value.Text();
+  const fs::path path = value.is_number() ? value.IdText() : value.Text();
   for (const fs::path& part : path) {
     if (part == "..") value.Fail("'" + path.string() + "' leads out of the folder");
   }
@@ -58,18 +59,29 @@ std::string FileName(const JsonCursor& value) {
 
 PanopticFile Read(const JsonCursor& top, const std::vector<PanopticCategory>* known) {
   PanopticFile file;
-  file.categories = known ? *known : PanopticCategories(top["categories"]);
+  if (!known || top.Has("categories")) file.own_categories = PanopticCategories(top["categories"], known != nullptr);
+  file.categories = known ? *known : file.own_categories;
   std::map<int64_t, size_t> categories;
   for (size_t c = 0; c < file.categories.size(); ++c) categories[file.categories[c].id] = c;
   const auto sequences = Sequences(top);
   const JsonCursor list = top["annotations"];
-  std::set<int64_t> images;
+  std::set<std::string> images;
+  const auto add = [&](const JsonCursor& one, const std::string& video) {
+    const std::string folder = video.empty() ? "" : video + "/", image = folder + one["image_id"].IdText();
+    PanopticFrame frame{image, folder + FileName(one["file_name"]), video, Segments(one["segments_info"], categories)};
+    if (!images.insert(image).second) one.Fail("image_id " + image + " occurs twice");
+    if (const auto sequence = sequences.find(image); sequence != sequences.end()) frame.sequence = sequence->second;
+    file.frames.push_back(std::move(frame));
+  };
   for (size_t i = 0; i < list.size(); ++i) {
     const JsonCursor one = list[i];
-    PanopticFrame frame{one["image_id"].Integer(), FileName(one["file_name"]), "", Segments(one["segments_info"], categories)};
-    if (!images.insert(frame.image).second) one.Fail("image_id " + std::to_string(frame.image) + " occurs twice");
-    if (const auto sequence = sequences.find(frame.image); sequence != sequences.end()) frame.sequence = sequence->second;
-    file.frames.push_back(std::move(frame));
+    if (!one.Has("annotations")) {
+      add(one, "");
+      continue;
+    }
+    const JsonCursor frames = one["annotations"];
+    const std::string video = FileName(one["video_id"]);
+    for (size_t f = 0; f < frames.size(); ++f) add(frames[f], video);
   }
   return file;
 }
@@ -85,9 +97,12 @@ PanopticFile ParsePanopticFile(std::string_view text, const std::string& name, c
 }
 
 fs::path PanopticFolder(const fs::path& json) {
-  const fs::path own = fs::path(json).replace_extension(), entity = json.parent_path() / "entity";
+  const fs::path own = fs::path(json).replace_extension(), beside = json.parent_path();
   if (fs::is_directory(own)) return own;
-  return fs::is_directory(entity) ? entity : json.parent_path();
+  for (const char* name : {"entity", "panomasksRGB"}) {
+    if (fs::is_directory(beside / name)) return beside / name;
+  }
+  return beside;
 }
 
 }  // namespace airsim360

@@ -54,6 +54,10 @@ PersonPairs JoinPersons(const JsonFile& prediction, const JsonFile& truth) {
     pairs.truth.push_back(Person(truths[i]));
   }
   if (truths.size() == 0) truths.Fail("no persons");
+  for (size_t i = list.size(); i-- > 0;) {
+    const std::string id = list[i]["id"].IdText();
+    if (!seen.contains(id)) ++pairs.extra, pairs.first_extra = id;
+  }
   if (missing > 0)
     list.Fail("no prediction for " + std::to_string(missing) + " of " + std::to_string(truths.size()) + " persons, '" + first + "' first");
   return pairs;

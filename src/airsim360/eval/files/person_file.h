@@ -13,6 +13,8 @@ namespace airsim360 {
 struct PersonPairs {
   std::vector<std::string> ids;
   std::vector<PersonPose> prediction, truth;  ///< one an id
+  size_t extra = 0;                           ///< predictions without a truth, left out
+  std::string first_extra;
 };
 
 /// JSON or JSON lines: a list of persons {id, distance or xyz, angle_deg or yaw_deg} (or an object whose `persons` is one). `distance` is metres; `xyz` the centre in the

@@ -1,6 +1,8 @@
 #include "airsim360/eval/files/picture_files.h"
 
+#include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
@@ -8,6 +10,7 @@
 #include "airsim360/eval/files/hdf5_file.h"
 #include "airsim360/eval/files/number_array.h"
 #include "airsim360/image/codecs.h"
+#include "airsim360/image/exr_metadata.h"
 #include "airsim360/image/palette_png.h"
 
 namespace airsim360 {
@@ -43,6 +46,19 @@ NumberPicture FromImage(const Image<Pixel>& image, double scale) {
   return picture;
 }
 
+// The only channel, or the one that is named as depth; Y and Z of positions are none.
+std::string DepthChannel(const Bytes& bytes, const fs::path& path) {
+  const std::vector<std::string> channels = ExrChannels(bytes, path.string());
+  if (channels.size() == 1) return channels[0];
+  const auto has = [&](const char* name) { return std::find(channels.begin(), channels.end(), name) != channels.end(); };
+  for (const char* name : {"range", "Range", "depth", "Depth", "Z", "Y"}) {
+    if (has(name) && !(has("X") && (*name == 'Y' || *name == 'Z'))) return name;
+  }
+  std::string list;
+  for (const std::string& name : channels) list += (list.empty() ? "" : ", ") + name;
+  throw InputError(path.string() + ": an EXR of the channels " + list + "; depth needs one channel, or one named range, depth, Z or Y");
+}
+
 LabelPicture FromNpy(const fs::path& path) {
   const NumberPicture numbers = OneChannel(DecodeNpy(ReadFile(path), path.string()), path);
   LabelPicture labels{numbers.width, numbers.height, {}};
@@ -55,12 +71,30 @@ LabelPicture FromNpy(const fs::path& path) {
   return labels;
 }
 
+// Ids in the alpha channel, as the AirSim360 release has them beside a colour of each class; no pixels where alpha is transparency or is not there.
+LabelPicture FromAlpha(const Image<Rgba8>& image) {
+  LabelPicture labels{image.width(), image.height(), {}};
+  labels.ids.reserve(image.size());
+  std::unordered_map<uint32_t, uint32_t> id_of_color;
+  bool opaque = false, between = false;
+  for (const Rgba8 p : image.pixels()) {
+    opaque |= p.a == 255;
+    between |= p.a > 0 && p.a < 255;
+    if (id_of_color.emplace(p.r | p.g << 8 | p.b << 16, p.a).first->second != p.a) return {};
+    labels.ids.push_back(p.a);
+  }
+  return opaque && !between ? LabelPicture{} : labels;
+}
+
 }  // namespace
 
 NumberPicture ReadDepthPicture(const fs::path& path, const DepthFileOptions& options) {
   const std::string ending = LowerEnding(path);
   if (ending == ".npy") return OneChannel(DecodeNpy(ReadFile(path), path.string()), path);
-  if (ending == ".exr") return FromImage(DecodeExr(ReadFile(path), path.string()), 1);
+  if (ending == ".exr") {
+    const Bytes bytes = ReadFile(path);
+    return FromImage(DecodeExrChannel(bytes, path.string(), DepthChannel(bytes, path)), 1);
+  }
   if (ending == ".h5" || ending == ".hdf5") return OneChannel(ReadHdf5(path, options.h5_key), path);
   if (ending == ".png") {
     const Bytes bytes = ReadFile(path);
@@ -75,7 +109,15 @@ NumberPicture ReadDepthPicture(const fs::path& path, const DepthFileOptions& opt
 
 LabelPicture ReadLabelPicture(const fs::path& path) {
   if (LowerEnding(path) == ".npy") return FromNpy(path);
-  const Image<uint16_t> image = DecodeLabelPng(ReadFile(path), path.string());
+  const Bytes bytes = ReadFile(path);
+  if (ReadPngKind(bytes, path.string()).channels == 3 && !IsPalettePng(bytes, path.string())) {
+    LabelPicture labels = FromAlpha(DecodeRgba8(bytes, path.string()));
+    if (!labels.ids.empty()) return labels;
+    throw InputError(
+        path.string() +
+        ": a PNG of colours, not of ids: label pictures are gray or have a palette (of colours an alpha channel may hold the ids)");
+  }
+  const Image<uint16_t> image = DecodeLabelPng(bytes, path.string());
   return {image.width(), image.height(), {image.pixels().begin(), image.pixels().end()}};
 }
 

@@ -21,10 +21,10 @@ struct DepthFileOptions {
   double png_scale = 0.001;  ///< metres a unit of 16-bit PNGs
   std::string h5_key;        ///< dataset of HDF5 files; "" as ReadHdf5 chooses
 };
-/// .npy, .exr (channel Y, else R, else the first), .h5/.hdf5, 16-bit gray .png. InputError naming the file, and the kinds that are known.
+/// .npy, .exr (of one channel, or with one named range, depth, Z or Y and no X), .h5/.hdf5, 16-bit gray .png. InputError naming the file, and the kinds that are known.
 NumberPicture ReadDepthPicture(const std::filesystem::path& path, const DepthFileOptions& options);
 
-/// .npy of integers, gray or palette .png. InputError naming the file.
+/// .npy of integers; .png of gray, with a palette, or with ids in the alpha channel (omni360's). InputError naming the file.
 LabelPicture ReadLabelPicture(const std::filesystem::path& path);
 /// PNG whose pixels are id = R + 256 G + 65536 B, or .npy of integers.
 LabelPicture ReadIdPicture(const std::filesystem::path& path);

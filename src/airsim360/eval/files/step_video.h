@@ -17,9 +17,14 @@ struct StepClasses {
 };
 struct StepFrame {
   LabelPicture ids;                       ///< 65536 (class + 1) + instance, 0 = ignored
+  std::vector<uint8_t> blue;              ///< as stored
   std::vector<PanopticSegment> segments;  ///< in the order of ids
 };
-/// Instance 0 of a thing is a crowd in truths. InputError naming the file for a class that does not exist.
+/// Instance 0 of a thing is a crowd in truths. InputError naming the file for a class that does not exist, what is no 8-bit RGB PNG, and truths whose
+/// channels are the other way round.
 StepFrame ReadStepFrame(const std::filesystem::path& path, const StepClasses& classes, bool truth);
+
+/// Whether blue says far oftener than red what the class is: whoever wrote the prediction had the channels the other way round. Pixels of class 0 say nothing.
+bool ChannelsReversed(const StepFrame& prediction, const StepFrame& truth);
 
 }  // namespace airsim360

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,11 +16,15 @@ struct NamedVlnEpisode {
   VlnEpisode episode;
 };
 
-/// JSON or JSON lines: a list of episodes, {"episodes": [...]}, or an object id -> episode. `episodes` has under each id (`id` or `episode_id`) the reference
-/// (`ref` or `reference_path`) and perhaps `goal` (a point, or an object with its `position`), `shortest` (or `geodesic_length`, `geodesic_distance`); `results` the flown path (`pred`, `path`) and perhaps `stop`, `collision`.
-/// Either file may hold both, and they may be the same. Points are [x, y, z, …] or [x, y]. In the order of `episodes`. InputError naming the file
-/// and the field, or how many episodes have no result and which is the first.
-std::vector<NamedVlnEpisode> ReadVlnFiles(const std::filesystem::path& episodes, const std::filesystem::path& results);
+/// JSON or JSON lines: a list of episodes, {"episodes": [...]}, or an object id -> episode. `episodes` has under each id (`id` or
+/// `episode_id`) the reference (`ref` or `reference_path`) and perhaps `goal` (a point, or an object with its `position`, `radius` and other
+/// `places`), `radius`, `shortest` (or `geodesic_length`, `geodesic_distance`); `results` the flown path (`pred`, `path`) and perhaps `stop`,
+/// `collision`. One file may be both. Of two files the truth is the episodes' alone: results that name another goal, reference, shortest
+/// way or radius are refused. `radius` replaces what files say of it. Points are [x, y, z, …], or all of an episode [x, y]. In the order of
+/// `episodes`. InputError naming the file and the field, how many episodes have no result and which is the first, files that are swapped
+/// and paths in other units.
+std::vector<NamedVlnEpisode> ReadVlnFiles(const std::filesystem::path& episodes, const std::filesystem::path& results,
+                                          std::optional<double> radius = {});
 std::vector<NamedVlnEpisode> ParseVlnFiles(std::string_view episodes, const std::string& name, std::string_view results,
                                            const std::string& results_name, bool lines);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace airsim360 {
@@ -23,5 +24,13 @@ std::array<double, kFlowFigures.size()> Figures(const FlowErrors& errors);
 /// wide as high. InputError for arrays of different length or a prediction that is no number where there is a truth.
 FlowErrors MeasureFlow(std::span<const double> prediction, std::span<const double> truth, int width, int height,
                        std::span<const uint32_t> source = {}, std::span<const double> weights = {});
+
+struct FlowMistake {
+  std::string text;   ///< names it; "" where none is likely
+  bool sure = false;  ///< undoing it takes away nearly all of the error, not only half
+};
+/// What predictions of whole pictures got wrong: sign, exchanged axes, units, pictures that were mirrored or turned. None is likely where undoing it leaves more
+/// than half of the error, judged by a sample of the pixels whose prediction that changes.
+FlowMistake LikelyFlowMistake(std::span<const double> prediction, std::span<const double> truth, int width, int height);
 
 }  // namespace airsim360

@@ -6,8 +6,10 @@
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/text.h"
 #include "airsim360/eval/boxes/box_overlap.h"
 #include "airsim360/math/angles.h"
+#include "airsim360/math/plane.h"
 #include "airsim360/math/triangulate.h"
 
 namespace airsim360 {
@@ -29,6 +31,12 @@ Room Raise(const RoomLayout& layout, int width, int height, const char* whose) {
     throw InputError(name + ": a room has at least three pairs of a ceiling and a floor corner");
   Room room;
   for (size_t i = 0; i < layout.floor.size(); ++i) {
+    // Half a width covers what is written on from the seam; farther off is another size of picture.
+    for (const Vec2d corner : {layout.floor[i], layout.ceiling[i]}) {
+      if (!(std::abs(corner.x - width / 2.0) <= width))
+        throw InputError(name + ": a corner of pair " + std::to_string(i) + " in column " + ShortestText(corner.x) +
+                         " is not in a picture of " + std::to_string(width) + " columns (--size)");
+    }
     const double down = Down(layout.floor[i].y, height), up = -Down(layout.ceiling[i].y, height),
                  azimuth = Azimuth(layout.floor[i].x, width);
     if (!(down > 0 && down < kPi / 2 && up > 0 && up < kPi / 2))
@@ -40,6 +48,19 @@ Room Raise(const RoomLayout& layout, int width, int height, const char* whose) {
     room.ceiling += distance * std::tan(up) / static_cast<double>(layout.floor.size());
   }
   return room;
+}
+
+bool Crosses(Vec2d a, Vec2d b, Vec2d c, Vec2d d) {
+  return Cross(b - a, c - a) * Cross(b - a, d - a) < 0 && Cross(d - c, a - c) * Cross(d - c, b - c) < 0;
+}
+
+bool PlanCrosses(std::span<const Vec2d> plan) {
+  for (size_t i = 0; i < plan.size(); ++i) {
+    for (size_t k = i + 2; k < plan.size(); ++k) {
+      if (Crosses(plan[i], plan[i + 1], plan[k], plan[(k + 1) % plan.size()])) return true;
+    }
+  }
+  return false;
 }
 
 // Distance of the nearest wall in a direction; 0 where there is none.
@@ -70,12 +91,17 @@ Seen Look(const Room& room, double wall, double down) {
   return {kWall, wall / std::cos(down)};
 }
 
-double CornerError(const RoomLayout& a, const RoomLayout& b, int width, int height) {
+double CornerError(const RoomLayout& a, const RoomLayout& b, int width, int height, size_t start = 0, bool round = false) {
   if (a.floor.size() != b.floor.size()) return std::numeric_limits<double>::quiet_NaN();
+  const auto distance = [&](Vec2d p, Vec2d q) {
+    const double dx = p.x - q.x;
+    return std::hypot(round ? std::remainder(dx, static_cast<double>(width)) : dx, p.y - q.y);
+  };
   double sum = 0;
-  for (size_t i = 0; i < a.floor.size(); ++i)
-    sum += std::hypot(a.floor[i].x - b.floor[i].x, a.floor[i].y - b.floor[i].y) +
-           std::hypot(a.ceiling[i].x - b.ceiling[i].x, a.ceiling[i].y - b.ceiling[i].y);
+  for (size_t i = 0; i < a.floor.size(); ++i) {
+    const size_t k = (i + start) % a.floor.size();
+    sum += distance(a.floor[k], b.floor[i]) + distance(a.ceiling[k], b.ceiling[i]);
+  }
   return 100 * sum / (2 * static_cast<double>(a.floor.size())) / std::hypot(width, height);
 }
 
@@ -104,8 +130,18 @@ std::array<double, kLayoutFigures.size()> Figures(const LayoutErrors& e) {
   return {e.iou2d, e.iou3d, e.corner_error, e.pixel_error, e.rmse, e.delta1};
 }
 
+double CornerErrorFromAnyStart(const RoomLayout& prediction, const RoomLayout& truth, int width, int height) {
+  double least = CornerError(prediction, truth, width, height, 0, true);
+  for (size_t start = 1; start < truth.floor.size(); ++start)
+    least = std::min(least, CornerError(prediction, truth, width, height, start, true));
+  return least;
+}
+
+bool WallsCross(const RoomLayout& room, int width, int height) { return PlanCrosses(Raise(room, width, height, "the room").plan); }
+
 LayoutErrors MeasureLayout(const RoomLayout& prediction, const RoomLayout& truth, int width, int height) {
   const Room p = Raise(prediction, width, height, "the prediction"), g = Raise(truth, width, height, "the truth");
+  if (PlanCrosses(g.plan)) throw InputError("the truth: walls cross each other; corners must come in turn around the room");
   const double shared = SharedPolygonArea(p.plan, g.plan), area_p = std::abs(SignedArea(p.plan)), area_g = std::abs(SignedArea(g.plan));
   const double high_p = p.ceiling + kCameraHeight, high_g = g.ceiling + kCameraHeight, shared_volume = shared * std::min(high_p, high_g);
   LayoutErrors errors;

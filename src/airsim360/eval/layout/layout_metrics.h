@@ -28,7 +28,14 @@ inline constexpr std::array<std::string_view, 6> kLayoutFigures = {"iou2d", "iou
 std::array<double, kLayoutFigures.size()> Figures(const LayoutErrors& errors);
 
 /// As HorizonNet's evaluation (Sun et al., CVPR 2019) has them, but boundaries are exact where that code joins rounded columns. InputError for fewer than three
-/// pairs, corners on the wrong side of the horizon, pairs whose columns differ by more than a pixel, or a camera outside the room.
+/// pairs, corners on the wrong side of the horizon or more than half a width beside the picture, pairs whose columns differ by more than a pixel, a camera outside
+/// the room, or a truth whose walls cross each other.
 LayoutErrors MeasureLayout(const RoomLayout& prediction, const RoomLayout& truth, int width, int height);
+
+/// The corner error where the prediction may begin at any corner and columns go round; NaN for different numbers.
+double CornerErrorFromAnyStart(const RoomLayout& prediction, const RoomLayout& truth, int width, int height);
+
+/// Whether walls that are no neighbours cross, seen from above.
+bool WallsCross(const RoomLayout& room, int width, int height);
 
 }  // namespace airsim360

@@ -1,4 +1,4 @@
-// What usually went wrong when predicted ranges are far from the truth: a guess in words, from the numbers alone.
+// What usually went wrong when predictions are far from the truth: a guess in words, from the numbers alone.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,28 @@
 
 namespace airsim360 {
 
-/// A sentence that names the likely mistake, or "" where none is likely: another unit (a ratio close to 100 or 1000), depth along an
-/// axis for range along the ray (in panoramas the ratio follows the cosine), pictures that are mirrored, turned by 180 degrees or upside down.
-/// Looks at a regular sample of the pixels with truths above 0; row-major, width x height. Mistakes are named only where undoing them
-/// explains most of the error.
-std::string LikelyDepthMistake(std::span<const double> prediction, std::span<const double> truth, int width, int height);
+struct LikelyMistake {
+  std::string text;   ///< names it; "" where none is likely
+  bool sure = false;  ///< no honest prediction looks so, however noisy, blurred or constantly scaled; else it is merely probable
+};
 
-/// The same of label pictures: mirrored, turned or upside down, where undoing it gives more than twice as many equal pixels.
-std::string LikelyLabelMistake(std::span<const uint32_t> prediction, std::span<const uint32_t> truth, int width, int height);
+struct DepthLook {
+  bool panorama = true;  ///< equirectangular over the whole width and height: rolls and the cosines of rays are looked for
+  double png_scale = 0;  ///< metres a unit of predictions that are 16-bit PNGs; 0 = they are none
+};
+
+/// Another unit, depth along an axis for range along the ray (in panoramas the ratio follows the cosine), inverse or normalised depth,
+/// logarithms, and pictures that are mirrored, rolled or upside down. Looks at a regular grid of pixels, row-major, width x height. A turn is
+/// judged where it changes the truth, so that a symmetric scene shows none.
+LikelyMistake LikelyDepthMistake(std::span<const double> prediction, std::span<const double> truth, int width, int height,
+                                 const DepthLook& look = {});
+
+/// The same of label pictures: another numbering (off by one, any other), one label everywhere, mirrored, rolled or upside down. Pixels whose
+/// truth is `void_label` do not count.
+LikelyMistake LikelyLabelMistake(std::span<const uint32_t> prediction, std::span<const uint32_t> truth, int width, int height,
+                                 uint32_t void_label, bool panorama = true);
+
+/// A sentence where many truths share the largest value, as sky or what is out of reach is written; "" otherwise. Truths up to `max_depth`.
+std::string SharedMaximum(std::span<const double> truth, double max_depth);
 
 }  // namespace airsim360

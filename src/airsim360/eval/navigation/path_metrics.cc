@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "airsim360/base/error.h"
@@ -16,6 +18,10 @@ double PathLength(std::span<const Vec3d> path) {
 }
 
 double SuccessByLength(bool success, double shortest, double flown) {
+  for (const auto& [what, length] : {std::pair("shortest", shortest), std::pair("flown", flown)}) {
+    if (!(length >= 0 && std::isfinite(length)))
+      throw InputError(std::string(what) + ": " + std::to_string(length) + " is not a length of at least 0 m");
+  }
   const double longer = std::max(shortest, flown);
   if (!success) return 0;
   return longer > 0 ? shortest / longer : 1;
@@ -36,7 +42,8 @@ double DynamicTimeWarping(std::span<const Vec3d> path, std::span<const Vec3d> re
 }
 
 double NormalizedTimeWarping(std::span<const Vec3d> path, std::span<const Vec3d> reference, double threshold) {
-  if (!(threshold > 0)) throw InputError("time warping: threshold " + std::to_string(threshold) + " is not positive");
+  if (!(threshold > 0 && std::isfinite(threshold)))
+    throw InputError("time warping: threshold " + std::to_string(threshold) + " is not a number above 0");
   return std::exp(-DynamicTimeWarping(path, reference) / (static_cast<double>(reference.size()) * threshold));
 }
 

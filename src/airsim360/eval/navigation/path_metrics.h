@@ -10,7 +10,7 @@ namespace airsim360 {
 double PathLength(std::span<const Vec3d> path);
 
 /// Success weighted by path length: success * shortest / max(flown, shortest); 1 for a success of no length
-/// (Anderson et al., "On Evaluation of Embodied Navigation Agents", 2018).
+/// (Anderson et al., "On Evaluation of Embodied Navigation Agents", 2018). InputError for lengths that are not numbers of at least 0.
 double SuccessByLength(bool success, double shortest, double flown);
 
 /// Least sum of distances over all monotone pairings of two sequences of points that pair first with first

@@ -91,18 +91,26 @@ double CoverageByLength(std::span<const Vec3d> path, std::span<const Vec3d> refe
 VlnScore ScoreVln(const VlnEpisode& e, double radius, const VlnProtocol& protocol) {
   CheckPath("the reference", e.reference);
   CheckPath("the flown path", e.flown);
-  if (!(radius > 0 && std::isfinite(radius))) throw InputError("--radius " + std::to_string(radius) + " is not a number above 0");
-  const Vec3d goal = e.goal.value_or(e.reference.back());
+  if (!(radius > 0 && std::isfinite(radius))) throw InputError("the radius, " + std::to_string(radius) + ", is not a number above 0");
+  if (e.shortest && !(*e.shortest >= 0 && std::isfinite(*e.shortest)))
+    throw InputError("the shortest way, " + std::to_string(*e.shortest) + ", is not a number of at least 0");
+  std::vector<Vec3d> places = e.places;
+  places.insert(places.begin(), e.goal.value_or(e.reference.back()));
+  const auto distance = [&](Vec3d p, Vec3d place) { return Distance(p, place, protocol.horizontal); };
   const auto arrived = [&](Vec3d p) {
-    const double d = Distance(p, goal, protocol.horizontal);
-    return protocol.strict ? d < radius : d <= radius;
+    return std::ranges::any_of(places, [&](Vec3d place) {
+      const double d = distance(p, place);
+      return protocol.strict ? d < radius : d <= radius;
+    });
   };
+  // The first of those that are equally near: the goal itself before its other places.
+  const Vec3d goal = *std::ranges::min_element(places, {}, [&](Vec3d place) { return distance(e.flown.back(), place); });
   VlnScore s;
   const bool success = arrived(e.flown.back()) && (e.stopped || !protocol.needs_stop) && !(e.collided && protocol.collision_fails);
   const double straight = Norm(goal - e.reference.front()), reference = PathLength(e.reference);
   s.success = success;
-  s.oracle = std::any_of(e.flown.begin(), e.flown.end(), arrived);
-  s.error = Distance(e.flown.back(), goal, protocol.horizontal);
+  s.oracle = std::ranges::any_of(e.flown, arrived);
+  s.error = distance(e.flown.back(), goal);
   s.length = PathLength(e.flown);
   s.spl = SplOf(protocol, success, e.shortest.value_or(reference), straight, reference, s.length, radius);
   s.spl_straight = SuccessByLength(success, straight, s.length);

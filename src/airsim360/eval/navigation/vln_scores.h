@@ -12,9 +12,12 @@
 
 namespace airsim360 {
 
+inline constexpr double kUsualVlnRadius = 20;  ///< metres of success where files say none
+
 struct VlnEpisode {
   std::vector<Vec3d> reference{}, flown{};  ///< at least one point each
   std::optional<Vec3d> goal{};              ///< else the last point of the reference
+  std::vector<Vec3d> places{};              ///< other points that are the goal too; a path is judged by the one nearest to its end
   std::optional<double> radius{};           ///< of success, where the files say one; for those who score many
   std::optional<double> shortest{};         ///< shortest free way from start to goal; else the length of the reference
   bool stopped = true;                      ///< the agent said that it had arrived
@@ -37,7 +40,7 @@ const VlnProtocol& FindVlnProtocol(const std::string& name);
 
 struct VlnScore {
   double success = 0;       ///< 1 if the last point is within the radius of the goal
-  double oracle = 0;        ///< 1 if any point is
+  double oracle = 0;        ///< 1 if any point is, or is within the radius of another of the goal's places
   double spl = 0;           ///< success x shortest / max(shortest, flown) (Anderson et al., 2018)
   double spl_straight = 0;  ///< the same with the straight line from start to goal
   double error = 0;         ///< distance of the last point from the goal
@@ -51,7 +54,7 @@ inline constexpr std::array<std::string_view, 9> kVlnFigures = {"sr",   "osr",  
                                                                 "ndtw", "sdtw", "cls", "path_length"};
 std::array<double, kVlnFigures.size()> Figures(const VlnScore& score);
 
-/// InputError for a path without points, numbers that are not finite or a radius that is not above 0.
+/// InputError for a path without points, numbers that are not finite, a radius that is not above 0 or a shortest way below 0.
 VlnScore ScoreVln(const VlnEpisode& episode, double radius, const VlnProtocol& protocol = VlnProtocols()[0]);
 
 /// Coverage of the reference by the path times how well the lengths agree, in [0, 1]; `radius` is the distance at which coverage has

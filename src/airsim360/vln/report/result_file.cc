@@ -91,6 +91,7 @@ std::string ResultLine(const VlnResult& r) {
                   {"ref", PointsJson(r.ref)},
                   {"pred", PointsJson(r.pred)}};
   if (r.goal) json["goal"] = internal::ToJson(*r.goal);
+  if (!r.places.empty()) json["places"] = PointsJson(r.places);
   if (!r.heading_deg.empty()) json["heading_deg"] = r.heading_deg;
   if (!r.log.empty()) json["log"] = LogJson(r.log);
   return json.dump(-1, ' ', false, VlnJson::error_handler_t::replace);
@@ -127,6 +128,8 @@ VlnResult ParseResultLine(const std::string& line, const std::string& where) {
   r.seconds = fields.Number("seconds", 0, 0, 1e9);
   if (const VlnJson* parts = fields.Find("parts"); parts != nullptr) r.parts = fields.Points("parts", kMostParts);
   if (fields.Find("goal") != nullptr) r.goal = fields.Point("goal");
+  // The goal and its at most 4096 other places.
+  if (fields.Find("places") != nullptr) r.places = fields.Points("places", 4097);
   r.ref = fields.Points("ref", 100'000);
   r.pred = fields.Points("pred", 1'000'000);
   if (const VlnJson* headings = fields.Find("heading_deg"); headings != nullptr)

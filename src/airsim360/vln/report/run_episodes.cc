@@ -63,13 +63,12 @@ double RadiusOf(const FlightRules& protocol, const LanguageEpisode& e) {
   return protocol.radius > 0 && !nearer ? protocol.radius : e.radius;
 }
 
-// The place of the goal that is nearest to the last one of a flight; none: there is one alone.
-std::optional<Vec3d> NearestGoal(const LanguageEpisode& e, Vec3d p) {
-  if (e.places.empty()) return std::nullopt;
-  Vec3d nearest = e.goal;
-  for (const Vec3d& place : e.places)
-    if (Norm(place - p) < Norm(nearest - p)) nearest = place;
-  return nearest;
+// Where the goal is many places: them, and the one that is nearest to the last of the flight.
+void SetGoal(const LanguageEpisode& e, VlnResult& r) {
+  if (e.places.empty()) return;
+  r.places = e.places;
+  r.places.insert(r.places.begin(), e.goal);
+  r.goal = *std::ranges::min_element(r.places, {}, [&](Vec3d place) { return Norm(place - r.pred.back()); });
 }
 
 // A move as a path with points on its legs. An autopilot that is sent to a point climbs and flies level as fast as it can do
@@ -203,7 +202,7 @@ class Flight {
     }
     r.pred.push_back(Milli(flight_.vehicle().motion.X_WB.p));
     r.heading_deg.push_back(Degrees(HeadingOfBody(flight_.vehicle().motion.X_WB)));
-    r.goal = NearestGoal(episode_, r.pred.back());
+    SetGoal(episode_, r);
     r.ref = episode_.ref;
     for (const EpisodePart& part : episode_.before) r.parts.push_back(Milli(part.goal));
     r.geodesic_length = std::round(episode_.geodesic_length * 1000) / 1000;
@@ -266,7 +265,7 @@ VlnResult NotFlown(const LanguageEpisode& e, const VlnRunOptions& options, const
   r.explanation = "the flight cannot begin: " + why;
   r.ref = e.ref;
   r.pred = {Milli(e.start.p_W)};
-  r.goal = NearestGoal(e, r.pred.back());
+  SetGoal(e, r);
   r.distance = ScoreOf(r).error;
   return r;
 }
@@ -418,7 +417,7 @@ class Crew {
 
 VlnScore ScoreOf(const VlnResult& r) {
   // As a file holds them, so that whoever reads it finds the same.
-  return ScoreVln({.reference = r.ref, .flown = r.pred, .goal = r.goal, .shortest = {}, .stopped = r.stopped, .collided = r.collided},
+  return ScoreVln({.reference = r.ref, .flown = r.pred, .goal = r.goal, .places = r.places, .stopped = r.stopped, .collided = r.collided},
                   r.radius, FindVlnProtocol(FindFlightRules(r.protocol).scores));
 }
 

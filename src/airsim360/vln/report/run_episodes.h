@@ -55,6 +55,7 @@ struct VlnResult {
   double yaw_turned_deg = 0, seconds = 0;
   /// Where a thing in a room can be stopped at in many places, the one of them that is nearest to where the flight ended.
   std::optional<Vec3d> goal = {};
+  std::vector<Vec3d> places = {};        ///< with `goal`: all of them; passing any is an oracle success. Empty in files of older versions
   std::vector<Vec3d> parts = {};         ///< goals of the parts of the instruction before the last
   std::vector<Vec3d> ref, pred;          ///< the way that was meant; the one flown, every kPathEveryNs and the end
   std::vector<double> heading_deg = {};  ///< at each place of `pred`; empty in files of versions that did not write it

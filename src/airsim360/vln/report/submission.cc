@@ -48,10 +48,16 @@ void CompareScores(const VlnJson& said, const std::vector<VlnResult>& results, s
   }
 }
 
-// As versions wrote it that kept no log.
-VlnResult WithoutLog(VlnResult result) {
-  result.log.clear();
-  result.heading_deg.clear();
+// As the version wrote it that wrote `like`: some kept no log, some no places of the goal.
+VlnResult AsOld(VlnResult result, const VlnResult& like) {
+  if (like.log.empty()) {
+    result.log.clear();
+    result.heading_deg.clear();
+  }
+  if (like.places.empty() && !result.places.empty()) {
+    result.places.clear();
+    result.oracle_success = ScoreOf(result).oracle > 0;
+  }
   return result;
 }
 
@@ -111,8 +117,12 @@ std::vector<std::string> VerifySubmission(
     }
     if (Norm(r.ref.back() - found->second->goal) > 2e-3) problems.push_back(r.id + ": its reference does not end at the episode's goal");
     const LanguageEpisode& e = *found->second;
-    const auto is_it = [&](Vec3d p) { return Norm(p - r.goal.value_or(e.goal)) <= 2e-3; };
-    if (!is_it(e.goal) && std::ranges::none_of(e.places, is_it)) problems.push_back(r.id + ": its goal is none of the episode's");
+    const auto is_goal = [&](Vec3d p) {
+      const auto is_it = [&](Vec3d place) { return Norm(p - place) <= 2e-3; };
+      return is_it(e.goal) || std::ranges::any_of(e.places, is_it);
+    };
+    if (!is_goal(r.goal.value_or(e.goal)) || !std::ranges::all_of(r.places, is_goal))
+      problems.push_back(r.id + ": its goal is none of the episode's");
     Rescore(r, problems);
     flown.push_back(*found->second);
   }
@@ -123,7 +133,7 @@ std::vector<std::string> VerifySubmission(
   if (!fly || !problems.empty()) return problems;
   const std::vector<VlnResult> again = fly(flown, results.front());
   for (size_t i = 0; i < results.size(); ++i)
-    if (ResultLine(results[i].log.empty() ? WithoutLog(again[i]) : again[i]) != ResultLine(results[i]))
+    if (ResultLine(AsOld(again[i], results[i])) != ResultLine(results[i]))
       problems.push_back(results[i].id + ": flown again it gives another result");
   return problems;
 }
