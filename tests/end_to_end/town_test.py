@@ -40,6 +40,23 @@ class WorldMakeTest(ProgramTest):
         self.run_bad(2, "world", "make", "a town", "--out", self.folder / "town.txt", says=["town.yaml"])
         self.assertEqual(list(self.folder.iterdir()), [])
 
+    def test_no_people_file_of_other_words_is_left(self):
+        out, people = self.folder / "town.yaml", self.folder / "town.people.yaml"
+        self.run_ok("world", "make", "a crowded town, 4 ha", "--out", out)
+        self.assertTrue(people.exists())
+        self.run_ok("world", "make", "a deserted town, 4 ha", "--out", out)
+        self.assertFalse(people.exists())
+        taken = self.folder / "taken.yaml"
+        taken.mkdir()
+        self.run_bad(2, "world", "make", "a crowded town, 4 ha", "--out", taken, says=["is a folder"])
+        self.assertFalse((self.folder / "taken.people.yaml").exists())
+
+    def test_a_town_without_trees_has_none(self):
+        out = self.folder / "bare.yaml"
+        self.run_ok("world", "make", "village, 3 ha, no trees, no cars", "--out", out)
+        rows = json.loads(self.run_ok("world", "entities", out, "--json").stdout)
+        self.assertEqual([row["name"] for row in rows if row["category_path"].startswith("vegetation/tree") and row["name"].startswith("way/")], [])
+
     def test_a_world_file_says_where_its_town_is_wrong(self):
         for text, says in (("world: town\ntown:\n  plan: gird\n", ["plan", "grid"]), ("world: town\ntown:\n  width: 9e9\n", ["width"]), ("world: town\ntown:\n  least_floors: 9\n  most_floors: 3\n", ["least_floors"]),
                            ("world: town\ntown:\n  churches: true\n", ["church"]), ("world: box_room\ntown:\n  church: true\n", ["world town"])):

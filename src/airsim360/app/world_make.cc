@@ -60,16 +60,21 @@ void RunWorldMake(const MakeArguments& arguments, const GlobalOptions& globals) 
     request.people = building->people;
     for (const auto& [word, as] : building->words) request.words.push_back({word, as});
   }
+  if (!building) SettleTown(request, globals.seed);
+  // Of the people who are wanted now, or none: an older file of them would be taken for these.
+  const fs::path people_file = fs::path(out).replace_extension(".people.yaml");
+  for (const fs::path& file : {out, people_file})
+    if (fs::is_directory(file)) throw InputError("--out: '" + file.string() + "' is a folder");
   if (out.has_parent_path()) CreateWritableFolder(out.parent_path());
-  fs::path people;
-  if (request.people > 0) {
-    people = fs::path(out).replace_extension(".people.yaml");
-    WriteFileAtomically(people, std::string_view(std::string("areas:\n  - name: ") + (building ? "building" : "town") +
-                                                 "\n    count: " + std::to_string(request.people) + "\n"));
-  }
+  const fs::path people = request.people > 0 ? people_file : fs::path();
   const std::string text = building ? BuildingText(arguments.words, *building, people.filename().string(), globals.seed)
                                     : WorldText(arguments.words, request, people.filename().string(), globals.seed);
   WriteFileAtomically(out, std::string_view(text));
+  if (people.empty())
+    fs::remove(people_file);
+  else
+    WriteFileAtomically(people, std::string_view(std::string("areas:\n  - name: ") + (building ? "building" : "town") +
+                                                 "\n    count: " + std::to_string(request.people) + "\n"));
   if (globals.json) {
     nlohmann::ordered_json json{{"out", out.string()}, {"seed", globals.seed}, {"people", request.people}};
     if (!people.empty()) json["people_file"] = people.string();

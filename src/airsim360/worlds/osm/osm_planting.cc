@@ -16,7 +16,8 @@ void Dresser::Areas() {
     if (tags.Is("natural", "wood") || tags.Is("landuse", "forest")) Plant(area, 46, 0);
     if (tags.Is("natural", "scrub")) Shrubs(area);
     if (tags.Is("landuse", "orchard")) Plant(area, 36, 0);
-    if (scene_.options.fill && (tags.Is("leisure", "park") || tags.Is("leisure", "garden") || tags.Is("leisure", "common")))
+    if (scene_.options.fill && !tags.Is("trees", "none") &&
+        (tags.Is("leisure", "park") || tags.Is("leisure", "garden") || tags.Is("leisure", "common")))
       Plant(area, 150, 2);
     if (tags.Is("leisure", "playground")) Playground(area);
     if (tags.Is("amenity", "parking") && scene_.options.fill) Parked(area);

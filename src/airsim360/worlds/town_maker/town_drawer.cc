@@ -75,6 +75,7 @@ TownMap TownDrawer::Draw() {
   BuildHouses();
   DressStreets();
   PlantWoods();
+  map_.houses = houses_;
   map_.heights = ReliefOf(spec_, seed_, map_);
   auto& nodes = map_.data.nodes;
   std::stable_sort(nodes.begin(), nodes.end(), [](const OsmNode& a, const OsmNode& b) { return a.id < b.id; });
@@ -285,7 +286,10 @@ void TownDrawer::LaySquare(const Patch& patch, size_t number) {
 void TownDrawer::LayPark(const Patch& patch, size_t number) {
   const Bounds2d box = BoundsOf(patch.outer);
   const Vec2d m = (box.min + box.max) * 0.5;
-  AddArea(patch.outer, {{"leisure", "park"}, {"name", "Park " + std::to_string(number + 1)}});
+  TagList tags{{"leisure", "park"}, {"name", "Park " + std::to_string(number + 1)}};
+  // Else parks without mapped trees are planted.
+  if (spec_.trees == 0) tags.emplace_back("trees", "none");
+  AddArea(patch.outer, tags);
   const double rx = (box.max.x - box.min.x) / 2, ry = (box.max.y - box.min.y) / 2;
   // A walk across, one around, a pond in the larger ones.
   std::vector<Vec2d> across, around;

@@ -21,6 +21,27 @@ void Old(TownSpec& s) {
   s.block = 54;
 }
 
+bool Always(const D&) { return true; }
+bool Uneven(const D& d) { return d.spec.relief != TownRelief::kFlat; }
+template <TownRelief kRelief>
+bool Lies(const D& d) {
+  return d.spec.relief == kRelief;
+}
+
+// Much of it: what another word has more of already stays.
+void Much(double& field, double amount) { field = amount >= 1 ? std::max(field, amount) : amount; }
+void Trees(D& d, double amount) {
+  Much(d.spec.trees, amount);
+  if (amount == 0) d.spec.palms = false;
+}
+void Traffic(D& d, double amount) { Much(d.spec.traffic, amount); }
+void People(D& d, double amount) {
+  if (amount == 0)
+    d.people_share = -1;
+  else
+    Much(d.people_share, amount);
+}
+
 void Village(D& d) {
   Size(d.spec, 300, 260);
   Floors(d.spec, 1, 2);
@@ -158,14 +179,14 @@ constexpr auto kWords = std::to_array<TownWord>({
     {"farming", P, "trade", "country: fields", [](D& d) { d.spec.country = TownCountry::kFields; }},
     {"rural", P, "trade", "country: fields", [](D& d) { Rural(d.spec); }},
     // Size.
-    {"tiny", S, "size", "sides x 0.6", [](D& d) { d.scale *= 0.6; }},
-    {"small", S, "size", "sides x 0.8", [](D& d) { d.scale *= 0.8; }},
-    {"little", S, "size", "sides x 0.8", [](D& d) { d.scale *= 0.8; }},
-    {"medium sized", S, "size", "sides x 1", [](D&) {}},
-    {"large", S, "size", "sides x 1.3", [](D& d) { d.scale *= 1.3; }},
-    {"big", S, "size", "sides x 1.3", [](D& d) { d.scale *= 1.3; }},
-    {"huge", S, "size", "sides x 1.7", [](D& d) { d.scale *= 1.7; }},
-    {"vast", S, "size", "sides x 1.7", [](D& d) { d.scale *= 1.7; }},
+    {"tiny", S, "size", "sides x 0.6", [](D& d) { d.scale *= 0.6; }, Always},
+    {"small", S, "size", "sides x 0.8", [](D& d) { d.scale *= 0.8; }, Always},
+    {"little", S, "size", "sides x 0.8", [](D& d) { d.scale *= 0.8; }, Always},
+    {"medium sized", S, "size", "sides x 1", [](D&) {}, Always},
+    {"large", S, "size", "sides x 1.3", [](D& d) { d.scale *= 1.3; }, Always},
+    {"big", S, "size", "sides x 1.3", [](D& d) { d.scale *= 1.3; }, Always},
+    {"huge", S, "size", "sides x 1.7", [](D& d) { d.scale *= 1.7; }, Always},
+    {"vast", S, "size", "sides x 1.7", [](D& d) { d.scale *= 1.7; }, Always},
     // Plan and streets.
     {"grid", S, "plan", "plan: grid", [](D& d) { d.spec.plan = TownPlan::kGrid; }},
     {"grid plan", S, "plan", "plan: grid", [](D& d) { d.spec.plan = TownPlan::kGrid; }},
@@ -188,11 +209,11 @@ constexpr auto kWords = std::to_array<TownWord>({
     {"single street", S, "plan", "plan: linear", [](D& d) { d.spec.plan = TownPlan::kLinear; }},
     {"two street", S, "plan", "plan: linear", [](D& d) { d.spec.plan = TownPlan::kLinear; }},
     {"along a road", S, "plan", "plan: linear", [](D& d) { d.spec.plan = TownPlan::kLinear; }},
-    {"scattered", S, "plan", "plan: scattered", [](D& d) { d.spec.plan = TownPlan::kScattered; d.spec.setback = 0; }},
-    {"dispersed", S, "plan", "plan: scattered", [](D& d) { d.spec.plan = TownPlan::kScattered; d.spec.setback = 0; }},
-    {"narrow", S, "street", "street: narrow", [](D& d) { d.spec.street = std::max(5.6, 0.62 * d.spec.street); d.spec.block = std::max(36.0, 0.85 * d.spec.block); }},
-    {"wide", S, "street", "street: wide", [](D& d) { d.spec.street = std::min(34.0, 1.45 * d.spec.street); d.spec.block *= 1.1; }},
-    {"broad", S, "street", "street: wide", [](D& d) { d.spec.street = std::min(34.0, 1.45 * d.spec.street); d.spec.block *= 1.1; }},
+    {"scattered", S, "plan", "plan: scattered", [](D& d) { d.spec.plan = TownPlan::kScattered; d.spec.setback = 0; }, [](const D& d) { return d.spec.plan == TownPlan::kScattered; }},
+    {"dispersed", S, "plan", "plan: scattered", [](D& d) { d.spec.plan = TownPlan::kScattered; d.spec.setback = 0; }, [](const D& d) { return d.spec.plan == TownPlan::kScattered; }},
+    {"narrow", S, "street", "street: narrow", [](D& d) { d.spec.street = std::max(5.6, 0.62 * d.spec.street); d.spec.block = std::max(36.0, 0.85 * d.spec.block); }, Always},
+    {"wide", S, "street", "street: wide", [](D& d) { d.spec.street = std::min(34.0, 1.45 * d.spec.street); d.spec.block *= 1.1; }, Always},
+    {"broad", S, "street", "street: wide", [](D& d) { d.spec.street = std::min(34.0, 1.45 * d.spec.street); d.spec.block *= 1.1; }, Always},
     {"boulevard", S, "boulevard", "street: at least 22 m", [](D& d) { d.spec.street = std::max(22.0, d.spec.street); }},
     {"avenue", S, "boulevard", "street: at least 18 m", [](D& d) { d.spec.street = std::max(18.0, d.spec.street); }},
     {"cobbled", S, "paving", "paving: cobbles", [](D& d) { d.spec.paving = TownPaving::kCobbles; }},
@@ -206,19 +227,19 @@ constexpr auto kWords = std::to_array<TownWord>({
     {"dusty", S, "paving", "paving: dirt", [](D& d) { d.spec.paving = TownPaving::kDirt; }},
     {"muddy", S, "paving", "paving: dirt", [](D& d) { d.spec.paving = TownPaving::kDirt; }},
     // Ground.
-    {"flat", S, "relief", "relief: flat", [](D& d) { d.spec.relief = TownRelief::kFlat; }},
-    {"level", S, "relief", "relief: flat", [](D& d) { d.spec.relief = TownRelief::kFlat; }},
-    {"rolling", S, "relief", "relief: rolling", [](D& d) { d.spec.relief = TownRelief::kRolling; d.spec.climb = 14; }},
-    {"hilly", S, "relief", "relief: rolling", [](D& d) { d.spec.relief = TownRelief::kRolling; d.spec.climb = 26; d.hilly = true; }},
-    {"hill", S, "relief", "relief: hill", [](D& d) { d.spec.relief = TownRelief::kHill; d.spec.climb = 34; }},
-    {"hilltop", S, "relief", "relief: hill", [](D& d) { d.spec.relief = TownRelief::kHill; d.spec.climb = 34; }},
-    {"slope", S, "relief", "relief: slope", [](D& d) { d.spec.relief = TownRelief::kSlope; d.spec.climb = 34; }},
-    {"sloping", S, "relief", "relief: slope", [](D& d) { d.spec.relief = TownRelief::kSlope; d.spec.climb = 30; }},
-    {"hillside", S, "relief", "relief: slope", [](D& d) { d.spec.relief = TownRelief::kSlope; d.spec.climb = 40; }},
-    {"valley", S, "relief", "relief: valley", [](D& d) { d.spec.relief = TownRelief::kValley; d.spec.climb = 36; }},
+    {"flat", S, "relief", "relief: flat", [](D& d) { d.spec.relief = TownRelief::kFlat; }, Lies<TownRelief::kFlat>},
+    {"level", S, "relief", "relief: flat", [](D& d) { d.spec.relief = TownRelief::kFlat; }, Lies<TownRelief::kFlat>},
+    {"rolling", S, "relief", "relief: rolling", [](D& d) { d.spec.relief = TownRelief::kRolling; d.spec.climb = 14; }, Lies<TownRelief::kRolling>},
+    {"hilly", S, "relief", "relief: rolling", [](D& d) { d.spec.relief = TownRelief::kRolling; d.spec.climb = 26; d.hilly = true; }, Lies<TownRelief::kRolling>},
+    {"hill", S, "relief", "relief: hill", [](D& d) { d.spec.relief = TownRelief::kHill; d.spec.climb = 34; }, Lies<TownRelief::kHill>},
+    {"hilltop", S, "relief", "relief: hill", [](D& d) { d.spec.relief = TownRelief::kHill; d.spec.climb = 34; }, Lies<TownRelief::kHill>},
+    {"slope", S, "relief", "relief: slope", [](D& d) { d.spec.relief = TownRelief::kSlope; d.spec.climb = 34; }, Lies<TownRelief::kSlope>},
+    {"sloping", S, "relief", "relief: slope", [](D& d) { d.spec.relief = TownRelief::kSlope; d.spec.climb = 30; }, Lies<TownRelief::kSlope>},
+    {"hillside", S, "relief", "relief: slope", [](D& d) { d.spec.relief = TownRelief::kSlope; d.spec.climb = 40; }, Lies<TownRelief::kSlope>},
+    {"valley", S, "relief", "relief: valley", [](D& d) { d.spec.relief = TownRelief::kValley; d.spec.climb = 36; }, Lies<TownRelief::kValley>},
     {"mountain", S, "relief", "relief: valley, country: forest", [](D& d) { d.spec.relief = TownRelief::kValley; d.spec.climb = 42; d.spec.country = TownCountry::kForest; }},
-    {"steep", S, "steep", "climb: 24 % of the shorter side", [](D& d) { if (d.spec.relief == TownRelief::kFlat) d.spec.relief = TownRelief::kSlope; d.spec.climb = 999; }},
-    {"gentle", S, "steep", "climb: 12", [](D& d) { if (d.spec.relief == TownRelief::kFlat) d.spec.relief = TownRelief::kRolling; d.spec.climb = 12; }},
+    {"steep", S, "steep", "climb: 24 % of the shorter side", [](D& d) { if (d.spec.relief == TownRelief::kFlat) d.spec.relief = TownRelief::kSlope; d.spec.climb = 999; }, Uneven},
+    {"gentle", S, "steep", "climb: 12", [](D& d) { if (d.spec.relief == TownRelief::kFlat) d.spec.relief = TownRelief::kRolling; d.spec.climb = 12; }, Uneven},
     // Water.
     {"coastal", S, "water", "water: sea", [](D& d) { d.spec.water = TownWater::kSea; }},
     {"coast", S, "water", "water: sea", [](D& d) { d.spec.water = TownWater::kSea; }},
@@ -282,31 +303,31 @@ constexpr auto kWords = std::to_array<TownWord>({
     {"slate roof", S, "roofs", "roofs: slate", [](D& d) { d.spec.roofs = TownRoofs::kSlate; }},
     {"flat roof", S, "roofs", "roofs: flat", [](D& d) { d.spec.roofs = TownRoofs::kFlat; }},
     {"flat roofed", S, "roofs", "roofs: flat", [](D& d) { d.spec.roofs = TownRoofs::kFlat; }},
-    {"low", S, "heights", "floors: 1 to 2", [](D& d) { Floors(d.spec, 1, 2); }},
-    {"low rise", S, "heights", "floors: 2 to 4", [](D& d) { Floors(d.spec, 2, 4); }},
-    {"mid rise", S, "heights", "floors: 4 to 8", [](D& d) { Floors(d.spec, 4, 8); }},
-    {"tall", S, "heights", "floors: 7 to 18", [](D& d) { Floors(d.spec, 7, 18); }},
-    {"high", S, "heights", "floors: 7 to 18", [](D& d) { Floors(d.spec, 7, 18); }},
-    {"high rise", S, "heights", "floors: 10 to 30", [](D& d) { Floors(d.spec, 10, 30); d.spec.style = d.spec.style == TownStyle::kBrick ? TownStyle::kBrick : TownStyle::kModern; d.spec.street = std::max(18.0, d.spec.street); d.spec.block = std::max(84.0, d.spec.block); }},
+    {"low", S, "heights", "floors: 1 to 2", [](D& d) { Floors(d.spec, 1, 2); }, Always},
+    {"low rise", S, "heights", "floors: 2 to 4", [](D& d) { Floors(d.spec, 2, 4); }, Always},
+    {"mid rise", S, "heights", "floors: 4 to 8", [](D& d) { Floors(d.spec, 4, 8); }, Always},
+    {"tall", S, "heights", "floors: 7 to 18", [](D& d) { Floors(d.spec, 7, 18); }, Always},
+    {"high", S, "heights", "floors: 7 to 18", [](D& d) { Floors(d.spec, 7, 18); }, Always},
+    {"high rise", S, "heights", "floors: 10 to 30", [](D& d) { Floors(d.spec, 10, 30); d.spec.style = d.spec.style == TownStyle::kBrick ? TownStyle::kBrick : TownStyle::kModern; d.spec.street = std::max(18.0, d.spec.street); d.spec.block = std::max(84.0, d.spec.block); }, Always},
     {"dense", S, "built", "built: 1, setback: 0", [](D& d) { d.spec.built = 1; d.spec.setback = 0; }},
     {"compact", S, "built", "built: 1, setback: 0", [](D& d) { d.spec.built = 1; d.spec.setback = 0; }},
     {"crammed", S, "built", "built: 1, setback: 0", [](D& d) { d.spec.built = 1; d.spec.setback = 0; }},
     {"sparse", S, "built", "built: 0.45", [](D& d) { d.spec.built = 0.45; }},
     {"spacious", S, "built", "built: 0.6", [](D& d) { d.spec.built = 0.6; }},
-    {"detached", S, "setback", "setback: 5", [](D& d) { d.spec.setback = 5; }},
-    {"lawn", S, "setback", "setback: 6", [](D& d) { d.spec.setback = std::max(6.0, d.spec.setback); }},
-    {"garden", S, "setback", "setback: 5", [](D& d) { d.spec.setback = std::max(5.0, d.spec.setback); }},
-    {"front garden", S, "setback", "setback: 5", [](D& d) { d.spec.setback = std::max(5.0, d.spec.setback); }},
+    {"detached", S, "apart", "setback: at least 5", [](D& d) { d.spec.setback = 5; }, [](const D& d) { return d.spec.setback >= 5; }},
+    {"lawn", S, "lawns", "setback: at least 6", [](D& d) { d.spec.setback = std::max(6.0, d.spec.setback); }, [](const D& d) { return d.spec.setback >= 5; }},
+    {"garden", S, "gardens", "setback: at least 5", [](D& d) { d.spec.setback = std::max(5.0, d.spec.setback); }, [](const D& d) { return d.spec.setback >= 5; }},
+    {"front garden", S, "gardens", "setback: at least 5", [](D& d) { d.spec.setback = std::max(5.0, d.spec.setback); }, [](const D& d) { return d.spec.setback >= 5; }},
     {"terraced", S, "setback", "setback: 0", [](D& d) { d.spec.setback = 0; }},
     {"row house", S, "setback", "setback: 0", [](D& d) { d.spec.setback = 0; }},
-    {"green", S, "green", "trees: 1.5", [](D& d) { d.spec.trees = 1.5; }},
-    {"leafy", S, "green", "trees: 1.5", [](D& d) { d.spec.trees = 1.5; }},
-    {"busy", S, "life", "traffic: 1.4, people: many", [](D& d) { d.spec.traffic = 1.4; d.people_share = 1.6; }},
-    {"lively", S, "life", "traffic: 1.2, people: many", [](D& d) { d.spec.traffic = 1.2; d.people_share = 1.6; }},
-    {"crowded", S, "crowd", "people: many", [](D& d) { d.people_share = 1.8; }},
-    {"quiet", S, "life", "traffic: 0.3", [](D& d) { d.spec.traffic = 0.3; }},
-    {"sleepy", S, "life", "traffic: 0.3", [](D& d) { d.spec.traffic = 0.3; }},
-    {"peaceful", S, "life", "traffic: 0.3", [](D& d) { d.spec.traffic = 0.3; }},
+    {"green", S, "green", "trees: 1.5", [](D& d) { d.spec.trees = 1.5; }, [](const D& d) { return d.spec.trees >= 1; }},
+    {"leafy", S, "green", "trees: 1.5", [](D& d) { d.spec.trees = 1.5; }, [](const D& d) { return d.spec.trees >= 1; }},
+    {"busy", S, "life", "traffic: 1.4, people: many", [](D& d) { d.spec.traffic = 1.4; d.people_share = 1.6; }, [](const D& d) { return d.spec.traffic >= 1.2 && d.people_share >= 1; }},
+    {"lively", S, "life", "traffic: 1.2, people: many", [](D& d) { d.spec.traffic = 1.2; d.people_share = 1.6; }, [](const D& d) { return d.spec.traffic >= 1.2 && d.people_share >= 1; }},
+    {"crowded", S, "crowd", "people: many", [](D& d) { d.people_share = 1.8; }, [](const D& d) { return d.people_share >= 1; }},
+    {"quiet", S, "life", "traffic: 0.3", [](D& d) { d.spec.traffic = 0.3; }, [](const D& d) { return d.spec.traffic <= 0.4; }},
+    {"sleepy", S, "life", "traffic: 0.3", [](D& d) { d.spec.traffic = 0.3; }, [](const D& d) { return d.spec.traffic <= 0.4; }},
+    {"peaceful", S, "life", "traffic: 0.3", [](D& d) { d.spec.traffic = 0.3; }, [](const D& d) { return d.spec.traffic <= 0.4; }},
     {"deserted", S, "crowd", "people: none", [](D& d) { d.people_share = -1; }},
     {"car free", S, "life", "traffic: 0", [](D& d) { d.spec.traffic = 0; }},
     {"pedestrian", S, "life", "traffic: 0", [](D& d) { d.spec.traffic = 0; }},
@@ -330,14 +351,14 @@ constexpr auto kWords = std::to_array<TownWord>({
 });
 
 constexpr auto kStuffs = std::to_array<TownStuff>({
-    {"tree", "trees", [](D& d, double amount) { d.spec.trees = amount; }},
-    {"street tree", "trees", [](D& d, double amount) { d.spec.trees = amount; }},
-    {"car", "traffic", [](D& d, double amount) { d.spec.traffic = amount; }},
-    {"traffic", "traffic", [](D& d, double amount) { d.spec.traffic = amount; }},
-    {"vehicle", "traffic", [](D& d, double amount) { d.spec.traffic = amount; }},
-    {"people", "people", [](D& d, double amount) { d.people_share = amount == 0 ? -1 : amount; }},
-    {"pedestrian", "people", [](D& d, double amount) { d.people_share = amount == 0 ? -1 : amount; }},
-    {"passer by", "people", [](D& d, double amount) { d.people_share = amount == 0 ? -1 : amount; }},
+    {"tree", "trees", Trees},
+    {"street tree", "trees", Trees},
+    {"car", "traffic", Traffic},
+    {"traffic", "traffic", Traffic},
+    {"vehicle", "traffic", Traffic},
+    {"people", "people", People},
+    {"pedestrian", "people", People},
+    {"passer by", "people", People},
     {"water", "water",
      [](D& d, double amount) {
        if (amount == 0)

@@ -26,6 +26,8 @@ struct TownWord {
   std::string_view subject;  ///< what it speaks about: two words of one subject and level must mean the same
   std::string_view means;    ///< as a world file says it; "" = filler
   void (*apply)(TownDraft&);
+  /// Whether a draft is as the word says; nullptr: applying it changes nothing.
+  bool (*holds)(const TownDraft&) = nullptr;
 };
 std::span<const TownWord> TownWords();
 

@@ -32,8 +32,9 @@ struct TownMap {
   HeightGrid heights;  ///< empty where the town is flat
   std::vector<TownStreet> streets;
   std::vector<TownSpot> spots;
-  Patches wet;      ///< sea, river, lake
-  Patches squares;  ///< in order of their distance from the middle
+  Patches wet;          ///< sea, river, lake
+  Patches squares;      ///< in order of their distance from the middle
+  uint64_t houses = 0;  ///< the landmarks are none
 };
 
 /// The map of a town that Check accepts; a function of the measures and the seed.

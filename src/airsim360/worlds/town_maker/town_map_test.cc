@@ -127,6 +127,22 @@ TEST(TownMap, HousesAreAsManyAndAsHighAsSaid) {
   }
 }
 
+TEST(TownMap, ParksWithoutTreesSayThatTheyHaveNone) {
+  for (double trees : {0.0, 1.0}) {
+    TownSpec spec;
+    spec.trees = trees;
+    spec.parks = 2;
+    const TownMap map = DrawTown(spec, 0);
+    int parks = 0;
+    for (const OsmWay& way : map.data.ways)
+      if (way.tags.Is("leisure", "park")) {
+        ++parks;
+        EXPECT_EQ(way.tags.Is("trees", "none"), trees == 0);
+      }
+    EXPECT_EQ(parks, 2);
+  }
+}
+
 TEST(TownSpec, FieldsThatExcludeEachOtherAreRefused) {
   const auto refused = [](const auto& change) {
     TownSpec spec;

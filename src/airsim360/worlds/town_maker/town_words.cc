@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "airsim360/base/config.h"
 #include "airsim360/base/error.h"
+#include "airsim360/worlds/town_maker/town_adjectives.h"
 #include "airsim360/worlds/town_maker/town_lexicon.h"
+#include "airsim360/worlds/town_maker/town_tokens.h"
 
 namespace airsim360 {
 namespace {
@@ -20,22 +23,29 @@ using namespace internal;
 constexpr size_t kLongest = 1000, kMostWords = 4;       // characters; words of a phrase
 constexpr double kPersonEach = 1700;                    // m^2 of a town for one who walks outside, usually
 constexpr double kMostPeople = 400, kPopulation = 200;  // who walk; more than so many people live there rather
+constexpr double kLaneStreet = 8.2;                     // metres; old towns have lanes without cars between streets so narrow
 
 // One word a line would hide them.
 // clang-format off
 constexpr auto kFillers = std::to_array<std::string_view>(
-    {"a", "an", "the", "with", "and", "of", "in", "on", "at", "by", "to", "for", "near", "beside", "around", "along", "through",
+    {"a", "an", "the", "with", "and", "of", "in", "on", "at", "by", "to", "for", "near", "beside", "along", "through",
      "between", "over", "above", "under", "below", "behind", "into", "from", "its", "it", "is", "are", "be", "that", "which", "where",
-     "there", "has", "have", "having", "like", "s", "as", "very", "quite", "rather", "also", "all", "any", "some", "one", "other",
+     "has", "have", "having", "like", "s", "as", "very", "quite", "rather", "also", "all", "any", "some", "other",
      "each", "every", "house", "home", "building", "block", "apartment", "street", "alley", "lane", "road", "path", "roof", "wall",
      "pavement", "sidewalk", "district", "quarter", "neighbourhood", "neighborhood", "area", "place", "settlement", "centre", "center",
      "community", "facade", "front", "plan", "style", "type", "kind", "view", "land", "ground", "side", "surrounded", "lined", "built",
      "full", "set", "located", "situated", "about", "roughly", "central", "main", "make", "create", "generate", "build", "please",
-     "me", "want", "i", "world", "scene", "storey", "terrain", "architecture"});
-constexpr auto kNumbers = std::to_array<std::pair<std::string_view, double>>(
-    {{"two", 2}, {"three", 3}, {"four", 4}, {"five", 5}, {"six", 6}, {"seven", 7}, {"eight", 8}, {"nine", 9}, {"ten", 10},
-     {"twelve", 12}, {"fifteen", 15}, {"twenty", 20}, {"thirty", 30}, {"forty", 40}, {"fifty", 50}, {"hundred", 100}});
+     "me", "want", "i", "world", "scene", "storey", "terrain", "architecture", "but", "need", "site",
+     "exactly", "approximately", "around", "there"});
 constexpr auto kNone = std::to_array<std::string_view>({"no", "without", "free of", "hardly any", "not any", "devoid of"});
+// Before a number.
+enum class Limit { kNone, kAtLeast, kMost, kOver, kUnder };
+constexpr auto kLimits = std::to_array<std::pair<std::string_view, Limit>>(
+    {{"at least", Limit::kAtLeast}, {"no fewer than", Limit::kAtLeast}, {"no less than", Limit::kAtLeast}, {"minimum", Limit::kAtLeast},
+     {"a minimum of", Limit::kAtLeast}, {"minimum of", Limit::kAtLeast}, {"at most", Limit::kMost}, {"up to", Limit::kMost},
+     {"maximum", Limit::kMost}, {"a maximum of", Limit::kMost}, {"maximum of", Limit::kMost}, {"no more than", Limit::kMost},
+     {"not more than", Limit::kMost}, {"over", Limit::kOver}, {"above", Limit::kOver}, {"more than", Limit::kOver},
+     {"under", Limit::kUnder}, {"below", Limit::kUnder}, {"less than", Limit::kUnder}, {"fewer than", Limit::kUnder}});
 struct Amount {
   std::string_view words;
   double share;
@@ -44,6 +54,19 @@ constexpr auto kAmounts = std::to_array<Amount>(
     {{"few", 0.4}, {"a few", 0.4}, {"very few", 0.25}, {"little", 0.4}, {"light", 0.4}, {"sparse", 0.4}, {"moderate", 1}, {"some", 1},
      {"many", 1.5}, {"lots of", 1.5}, {"a lot of", 1.5}, {"plenty of", 1.5}, {"heavy", 1.5}, {"dense", 1.5}, {"big", 1.3},
      {"large", 1.3}});
+// What else can be denied.
+struct Absent {
+  std::string_view noun, subject, means;
+  void (*apply)(TownDraft&);
+};
+constexpr auto kAbsent = std::to_array<Absent>(
+    {{"hill", "relief", "relief: flat", [](TownDraft& d) { d.spec.relief = TownRelief::kFlat; }},
+     {"slope", "relief", "relief: flat", [](TownDraft& d) { d.spec.relief = TownRelief::kFlat; }},
+     {"sea", "sea", "water: no sea", [](TownDraft& d) { if (d.spec.water == TownWater::kSea) d.spec.water = TownWater::kNone; }},
+     {"river", "no river", "water: no river", [](TownDraft& d) { if (d.spec.water == TownWater::kRiver) d.spec.water = TownWater::kNone; }},
+     {"lake", "no lake", "water: no lake", [](TownDraft& d) { if (d.spec.water == TownWater::kLake) d.spec.water = TownWater::kNone; }},
+     {"harbour", "harbour", "harbour: false", [](TownDraft& d) { d.spec.harbour = false; }},
+     {"boat", "harbour", "harbour: false", [](TownDraft& d) { d.spec.harbour = false; }}});
 // clang-format on
 
 bool IsAny(const std::string& word, std::initializer_list<std::string_view> list) {
@@ -56,91 +79,26 @@ std::string Number(double value) {
   return text;
 }
 
-// "houses" and "house", "cities" and "city", "churches" and "church".
-std::string Singular(std::string word) {
-  const auto ends = [&](std::string_view end) { return word.size() > end.size() + 1 && word.ends_with(end); };
-  if (ends("ies") && word.size() > 4) return word.replace(word.size() - 3, 3, "y");
-  if (ends("ches") || ends("shes") || ends("sses") || ends("xes")) return word.erase(word.size() - 2);
-  if (word.size() > 3 && ends("s") && !ends("ss") && !ends("us") && !ends("is")) word.pop_back();
-  return word;
-}
-
-struct Token {
-  std::string text, plain;  // as written; lower case, without accents, singular
-  std::optional<double> number;
-};
-
-// Lower case letters, digits and points; letters with accents as they are without.
-std::string Plain(std::string_view text) {
-  static constexpr std::pair<std::string_view, char> kAccents[] = {{"é", 'e'}, {"è", 'e'}, {"ç", 'c'}, {"ã", 'a'}, {"á", 'a'}, {"ü", 'u'},
-                                                                   {"ö", 'o'}, {"ä", 'a'}, {"ñ", 'n'}, {"²", '2'}, {"×", 'x'}};
-  std::string plain;
-  for (size_t i = 0; i < text.size();) {
-    const auto accent =
-        std::find_if(std::begin(kAccents), std::end(kAccents), [&](const auto& row) { return text.substr(i).starts_with(row.first); });
-    if (accent != std::end(kAccents)) {
-      plain += accent->second;
-      i += accent->first.size();
-      continue;
-    }
-    const auto c = static_cast<unsigned char>(text[i++]);
-    plain += c == '%'                                   ? std::string(" percent ")
-             : std::isalnum(c) || c == '.' || c >= 0x80 ? std::string(1, static_cast<char>(std::tolower(c)))
-                                                        : std::string(" ");
-  }
-  return plain;
-}
-
-std::vector<Token> TokensOf(std::string_view description) {
-  std::vector<Token> tokens;
-  const std::string plain = Plain(description) + " ";
-  std::string word;
-  const auto finish = [&] {
-    while (!word.empty() && word.back() == '.') word.pop_back();
-    while (!word.empty() && word.front() == '.') word.erase(0, 1);
-    if (word.empty()) return;
-    // "40ha" is two words.
-    const size_t digits = std::min(word.find_first_not_of("0123456789."), word.size());
-    if (digits > 0 && digits < word.size() && word.find_first_of("0123456789", digits) > word.size() - 2) {
-      const std::string unit = word.substr(digits);
-      word.resize(digits);
-      tokens.push_back({word, word, {}});
-      tokens.push_back({unit, Singular(unit), {}});
-    } else {
-      tokens.push_back({word, Singular(word), {}});
-    }
-    word.clear();
-  };
-  for (char c : plain) {
-    if (c == ' ')
-      finish();
-    else
-      word += c;
-  }
-  for (Token& token : tokens) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(token.text.data(), token.text.data() + token.text.size(), value);
-    if (error == std::errc() && end == token.text.data() + token.text.size() && std::isfinite(value)) token.number = value;
-    for (const auto& [name, number] : kNumbers)
-      if (token.plain == name) token.number = number;
-  }
-  return tokens;
-}
-
 class Reader {
  public:
-  explicit Reader(std::string_view description) : tokens_(TokensOf(description)) {}
+  explicit Reader(std::string_view description) : tokens_(TownTokens(description)) {}
 
   TownRequest Read() {
     if (tokens_.empty()) throw InputError("the description is empty: say what town, as in \"a small coastal town with a church\"");
     for (size_t i = 0; i < tokens_.size();) i = Step(i);
+    if (std::ranges::all_of(request_.words, [](const UnderstoodWords& row) { return row.as == "filler"; }))
+      throw InputError("'" + Joined(0, tokens_.size(), false) +
+                       "' says nothing about a town: say what town, as in \"a small coastal town with a church\"");
     return Finish();
   }
 
  private:
-  struct Said {
+  struct Saying {
     WordLevel level;
-    void (*apply)(TownDraft&);
+    std::string words, means;
+    std::function<void(TownDraft&)> apply;
+    std::function<bool(const TownDraft&)> holds;  // empty: applying it changes nothing
+    int order = 0;                                // within a level
   };
   struct Claim {
     std::string means, words;
@@ -157,12 +115,17 @@ class Reader {
   }
 
   void Note(size_t i, size_t n, std::string as) { request_.words.push_back({Joined(i, n, false), std::move(as)}); }
+  // The words of a number, with "at least" and the like before it.
+  std::string Numbered(size_t i, size_t n) const { return Joined(i - lead_, n + lead_, false); }
+
+  [[noreturn]] static void Exclude(const std::string& a, const std::string& means_a, const std::string& b, const std::string& means_b) {
+    throw InputError("'" + a + "' (" + means_a + ") and '" + b + "' (" + means_b + ") exclude each other");
+  }
 
   // Two words about one subject must mean the same.
   void Agree(const std::string& subject, const std::string& means, const std::string& words) {
     const auto [it, fresh] = claims_.try_emplace(subject, Claim{means, words});
-    if (!fresh && it->second.means != means)
-      throw InputError("'" + it->second.words + "' (" + it->second.means + ") and '" + words + "' (" + means + ") exclude each other");
+    if (!fresh && it->second.means != means) Exclude(it->second.words, it->second.means, words, means);
   }
 
   template <class Table, class Key>
@@ -174,18 +137,26 @@ class Reader {
   }
 
   size_t Step(size_t i) {
+    if (const size_t n = Limited(i)) return i + n;
     if (const size_t n = Denied(i)) return i + n;
     if (const size_t n = Some(i)) return i + n;
-    if (tokens_[i].number)
-      if (const size_t n = Counted(i)) return i + n;
+    if (const size_t n = Measured(i)) return i + n;
     // The longest of all that is known.
     size_t words = 0, things = 0, stuffs = 0;
     const TownWord* word = Longest(TownWords(), i, words, [](const TownWord& row) { return row.phrase; });
     const TownThing* thing = Longest(TownThings(), i, things, [](const TownThing& row) { return row.noun; });
     const TownStuff* stuff = Longest(TownStuffs(), i, stuffs, [](const TownStuff& row) { return row.noun; });
+    // Pedestrians are people, a pedestrian street is not.
+    if (word && stuff && words == stuffs && (tokens_[i].text != tokens_[i].plain || NounAfter(tokens_, i + words).kind == 0))
+      word = nullptr;
     if (word && words >= things && words >= stuffs) return Word(i, words, *word);
     if (thing && things >= stuffs) return Thing(i, things, *thing, true);
     if (stuff) return Stuff(i, 0, stuffs, *stuff, 1);
+    // One of what there is once is no number; one tree is.
+    if (tokens_[i].number == 1.0 && i + 1 < tokens_.size() && Single(i + 1)) {
+      Note(i, 1, "filler");
+      return i + 1;
+    }
     if (std::find(kFillers.begin(), kFillers.end(), tokens_[i].plain) != kFillers.end() ||
         std::find(kFillers.begin(), kFillers.end(), tokens_[i].text) != kFillers.end()) {
       Note(i, 1, "filler");
@@ -197,32 +168,56 @@ class Reader {
   [[noreturn]] void Unknown(size_t i) const {
     if (tokens_[i].number)
       throw InputError(
-          "'" + Joined(i, std::min<size_t>(3, tokens_.size() - i), false) +
+          "'" + Numbered(i, std::min<size_t>(3, tokens_.size() - i)) +
           "': a number of what? Understood are hectares, metres by metres, storeys, houses, people, squares, parks, and per cent of slope");
     std::vector<std::string> known;
     for (const TownWord& row : TownWords()) known.emplace_back(row.phrase);
     for (const TownThing& row : TownThings()) known.emplace_back(row.noun);
     for (const TownStuff& row : TownStuffs()) known.emplace_back(row.noun);
-    for (std::string_view filler : kFillers) known.emplace_back(filler);
     const std::string nearest = NearestChoice(tokens_[i].plain, known);
     throw InputError("the word '" + tokens_[i].text + "' says nothing about towns" +
                      (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") + " (docs/guide/towns.md lists the words)");
   }
 
   size_t Word(size_t i, size_t n, const TownWord& word) {
+    const TownNoun noun = NounAfter(tokens_, i + n);
+    if (std::string of; !Suits(word.subject, noun, of))
+      throw InputError("'" + Joined(i, noun.end - i, false) + "': '" + Joined(i, n, false) + "' (" + std::string(word.means) +
+                       ") is said of " + of + ", not of '" + Joined(noun.end - 1, 1, false) + "'");
     // Kinds may be named again, and parts of one beside them.
     Agree(std::string(word.subject), std::string(word.means), Joined(i, n, false));
-    said_.push_back({word.level, word.apply});
+    // Degrees bend what the others say.
+    const int order = word.subject == "apart" ? -1 : word.subject == "steep" ? 1 : 0;
+    said_.push_back({word.level, Joined(i, n, false), std::string(word.means), word.apply, {}, order});
+    if (word.holds) said_.back().holds = word.holds;
+    if (IsAny(std::string(word.subject), {"bridge", "harbour", "terrace"}))
+      request_.promises.push_back({Joined(i, n, false), std::string(word.subject), 1});
     Note(i, n, std::string(word.means));
     return i + n;
   }
 
   size_t Thing(size_t i, size_t n, const TownThing& thing, bool there) {
-    const std::string means = std::string(thing.setting) + (there ? ": true" : ": false");
-    Agree(std::string(thing.setting), means, Joined(i, n, false));
-    things_.emplace_back(thing.field, there);
-    Note(i, n, means);
+    Affirm(thing, i, n, n, there);
     return i + n;
+  }
+
+  // The thing's own `n` words end the phrase of `all` words from i on.
+  void Affirm(const TownThing& thing, size_t i, size_t all, size_t n, bool there) {
+    const std::string means = std::string(thing.setting) + (there ? ": true" : ": false"), words = Joined(i, all, false);
+    // "a church, no chapel": what a town has once under several names is there if one of them is wanted.
+    const bool also = IsAny(std::string(thing.noun), {"chapel", "cathedral", "bar", "pub"}),
+               other = claims_.contains(std::string(thing.setting));
+    if (also && !there) {
+      Agree(std::string(thing.noun), means, words);
+      denied_.emplace_back(&thing, request_.words.size());
+    } else {
+      if (also) Agree(std::string(thing.noun), means, words);
+      Agree(std::string(thing.setting), means, words);
+      bool TownSpec::*field = thing.field;
+      things_.push_back({WordLevel::kSaid, words, means, [field, there](TownDraft& d) { d.spec.*field = there; }, {}});
+      if (there && !other) request_.promises.push_back({words, std::string(thing.setting), 1});
+    }
+    Note(i + all - n, n, means);
   }
 
   // `before` words of amount, then the noun.
@@ -230,12 +225,17 @@ class Reader {
     const bool plural = tokens_[i + before + n - 1].text != tokens_[i + before + n - 1].plain;
     // "parks" alone are two.
     std::string means = std::string(stuff.setting) + " x " + Number(amount);
-    Agree(std::string(stuff.setting), means, Joined(i, before + n, false));
-    stuffs_.emplace_back(stuff.set, amount);
+    // "water, a lake" is one thing.
+    Agree(stuff.setting == "water" && amount > 0 ? "some water" : std::string(stuff.setting), means, Joined(i, before + n, false));
+    Stuffed(stuff, amount, Joined(i, before + n, false), means);
     if (before == 0 && plural && IsAny(std::string(stuff.setting), {"parks", "squares"}))
       (stuff.setting == "parks" ? parks_ : squares_) = 2;
     Note(i, before + n, means);
     return i + before + n;
+  }
+
+  void Stuffed(const TownStuff& stuff, double amount, const std::string& words, const std::string& means) {
+    stuffs_.push_back({WordLevel::kSaid, words, means, [set = stuff.set, amount](TownDraft& d) { set(d, amount); }, {}});
   }
 
   // "no trees", "without a church": words read, 0 = not this.
@@ -251,14 +251,20 @@ class Reader {
       const TownThing* thing = Longest(TownThings(), from, things, [](const TownThing& row) { return row.noun; });
       const TownStuff* stuff = Longest(TownStuffs(), from, stuffs, [](const TownStuff& row) { return row.noun; });
       if (thing && things >= stuffs) {
-        Agree(std::string(thing->setting), std::string(thing->setting) + ": false", Joined(i, from + things - i, false));
-        things_.emplace_back(thing->field, false);
-        Note(from, things, std::string(thing->setting) + ": false");
+        Affirm(*thing, i, from + things - i, things, false);
         return things;
+      }
+      const auto* absent = std::ranges::find_if(kAbsent, [&](const Absent& row) { return Reads(from, 1, row.noun); });
+      if (!stuff && absent != kAbsent.end()) {
+        const std::string words = Joined(i, from + 1 - i, false), means(absent->means);
+        Agree(std::string(absent->subject), means, words);
+        said_.push_back({WordLevel::kSaid, words, means, absent->apply, {}});
+        Note(from, 1, means);
+        return 1;
       }
       if (!stuff) return 0;
       Agree(std::string(stuff->setting), std::string(stuff->setting) + " x 0", Joined(i, from + stuffs - i, false));
-      stuffs_.emplace_back(stuff->set, 0.0);
+      Stuffed(*stuff, 0, Joined(i, from + stuffs - i, false), std::string(stuff->setting) + " x 0");
       Note(from, stuffs, std::string(stuff->setting) + ": none");
       return stuffs;
     };
@@ -280,6 +286,7 @@ class Reader {
     std::string list;
     for (const TownStuff& row : TownStuffs()) list += std::string(row.noun) + ", ";
     for (const TownThing& row : TownThings()) list += std::string(row.noun) + ", ";
+    for (const Absent& row : kAbsent) list += std::string(row.noun) + ", ";
     list.resize(list.size() - 2);
     return list;
   }
@@ -298,95 +305,162 @@ class Reader {
 
   void Bound(size_t i, size_t n, double value, double low, double high, const char* unit) const {
     if (!(value >= low && value <= high))
-      throw InputError("'" + Joined(i, n, false) + "': " + Number(value) + " is not from " + Number(low) + " to " + Number(high) + " " +
-                       unit);
+      throw InputError("'" + Numbered(i, n) + "': " + Number(value) + " is not from " + Number(low) + " to " + Number(high) + " " + unit);
   }
 
-  // Numbers with what they count: words read, 0 = not this.
+  void NoteNumber(size_t i, size_t n, std::string as) { Note(i - lead_, n + lead_, std::move(as)); }
+
+  // "at least 20 houses", "over 4 storeys": words read, 0 = not this.
+  size_t Limited(size_t i) {
+    size_t n = 0;
+    const auto* limit = Longest(kLimits, i, n, [](const auto& row) { return row.first; });
+    if (!limit || i + n >= tokens_.size()) return 0;
+    size_t at = i + n;
+    if (IsAny(tokens_[at].text, {"a", "about"})) ++at;
+    if (at >= tokens_.size() || !tokens_[at].number) return 0;
+    limit_ = limit->second;
+    lead_ = at - i;
+    const size_t read = Counted(at);
+    if (read == 0) Unknown(at);
+    limit_ = Limit::kNone;
+    return std::exchange(lead_, 0) + read;
+  }
+
+  // Numbers with what they count, and words before them: words read, 0 = not this.
+  size_t Measured(size_t i) {
+    if (tokens_[i].number) return Counted(i);
+    // between two and four storeys
+    if (IsAny(WordAt(i), {"between", "from"}) && NumberAt(i + 1) && IsAny(WordAt(i + 2), {"and", "to"}) && NumberAt(i + 3) &&
+        IsStorey(WordAt(i + 4)))
+      return Storeys(i, 5, *tokens_[i + 1].number, *tokens_[i + 3].number);
+    // streets 8 m wide, a slope of 10 %
+    if (IsAny(WordAt(i), {"street", "road", "lane"}) && NumberAt(i + 1) && MetresAt(i + 2) > 0 && WordAt(i + 3) == "wide")
+      return Street(i, 4, *tokens_[i + 1].number * MetresAt(i + 2));
+    if (IsAny(WordAt(i), {"slope", "gradient", "grade"}) && WordAt(i + 1) == "of" && NumberAt(i + 2) && WordAt(i + 3) == "percent")
+      return Slope(i, 4, *tokens_[i + 2].number);
+    return 0;
+  }
+
   size_t Counted(size_t i) {
     const double value = *tokens_[i].number;
-    const auto word = [&](size_t at) { return WordAt(at); };
     const size_t k = i + 1;
     if (const size_t read = Extent(i, value)) return read;
     // 2 to 5 storeys
-    if (word(k) == "to" && k + 1 < tokens_.size() && tokens_[k + 1].number && IsStorey(word(k + 2)))
-      return Storeys(i, 4, value, *tokens_[k + 1].number);
-    if (k < tokens_.size() && tokens_[k].number && IsStorey(word(k + 1))) return Storeys(i, 3, value, *tokens_[k].number);
-    if (IsStorey(word(k)))
-      return Storeys(i, IsAny(word(k + 1), {"high", "tall"}) ? 3 : 2, value <= 3 ? value : std::round((value > 12 ? 0.3 : 0.7) * value),
-                     value);
+    if (IsAny(WordAt(k), {"to", "or"}) && NumberAt(k + 1) && IsStorey(WordAt(k + 2))) return Storeys(i, 4, value, *tokens_[k + 1].number);
+    if (NumberAt(k) && IsStorey(WordAt(k + 1))) return Storeys(i, 3, value, *tokens_[k].number);
+    if (IsStorey(WordAt(k))) {
+      const size_t n = IsAny(WordAt(k + 1), {"high", "tall"}) ? 3 : 2;
+      const bool more = limit_ == Limit::kAtLeast || limit_ == Limit::kOver, less = limit_ == Limit::kMost || limit_ == Limit::kUnder;
+      if (more) {
+        const double least = value + (limit_ == Limit::kOver ? 1 : 0);
+        Bound(i, n, value, 0, TownSpec::kMostFloors - 1, "storeys");
+        return Storeys(i, n, least, std::min(TownSpec::kMostFloors, std::round(1.4 * least) + 1));
+      }
+      if (less) {
+        const double most = value - (limit_ == Limit::kUnder ? 1 : 0);
+        return Storeys(i, n, std::max(1.0, std::round(0.3 * most)), most);
+      }
+      return Storeys(i, n, value, value);
+    }
     if (const size_t read = Things(i, value)) return read;
-    if (IsAny(word(k), {"percent"}) && IsAny(word(k + 1), {"slope", "gradient", "grade"})) {
-      Bound(i, 3, value, 0, 26, "per cent");
-      slope_ = value / 100;
-      Note(i, 3, "climb: " + Number(value) + " % of the depth");
-      return 3;
-    }
-    if (IsMetre(k) && IsAny(word(k + 1), {"wide"}) && IsAny(word(k + 2), {"street", "road", "lane"})) {
-      Bound(i, 4, value, 4, 40, "m");
-      street_ = value;
-      Note(i, 4, "street: " + Number(value));
-      return 4;
-    }
+    if (WordAt(k) == "percent" && IsAny(WordAt(k + 1), {"slope", "gradient", "grade"})) return Slope(i, 3, value);
+    if (MetresAt(k) > 0 && WordAt(k + 1) == "wide" && IsAny(WordAt(k + 2), {"street", "road", "lane"}))
+      return Street(i, 4, value * MetresAt(k));
+    if (MetresAt(k) > 0 && IsAny(WordAt(k + 1), {"street", "road", "lane"})) return Street(i, 3, value * MetresAt(k));
     return 0;
   }
 
   std::string WordAt(size_t k) const { return k < tokens_.size() ? tokens_[k].plain : std::string(); }
-  bool IsMetre(size_t k) const { return IsAny(WordAt(k), {"m", "metre", "meter"}); }
+  bool NumberAt(size_t k) const { return k < tokens_.size() && tokens_[k].number.has_value(); }
+  // Metres of a unit, 0 where there is none.
+  double MetresAt(size_t k) const {
+    return IsAny(WordAt(k), {"m", "metre", "meter"})  ? 1
+           : IsAny(WordAt(k), {"ft", "foot", "feet"}) ? 0.3048
+           : IsAny(WordAt(k), {"yd", "yard"})         ? 0.9144
+                                                      : 0;
+  }
+  // What is there at most once.
+  bool Single(size_t at) const {
+    size_t n = 0;
+    const TownThing* thing = Longest(TownThings(), at, n, [](const TownThing& row) { return row.noun; });
+    if (thing)
+      return IsAny(std::string(thing->setting), {"church", "castle", "clock_tower", "windmill", "market", "playground", "fountain"}) &&
+             thing->noun != "stall";
+    const TownWord* word = Longest(TownWords(), at, n, [](const TownWord& row) { return row.phrase; });
+    return word && IsAny(std::string(word->subject), {"kind", "terrace", "relief", "water"});
+  }
+
+  // Lengths and areas are as said: only these two limits keep to that.
+  void Exact(size_t i, size_t n) const {
+    if (limit_ == Limit::kOver || limit_ == Limit::kUnder)
+      throw InputError("'" + Numbered(i, n) + "': a town is made as large, wide or steep as the number says: give the number alone");
+  }
 
   // "300 m by 400 m", "40 ha", "2 square kilometres".
   size_t Extent(size_t i, double value) {
-    const auto word = [&](size_t at) { return WordAt(at); };
     const size_t k = i + 1;
-    const size_t cross = IsMetre(k) ? k + 1 : k;
-    if (IsAny(word(cross), {"by", "x", "times"}) && cross + 1 < tokens_.size() && tokens_[cross + 1].number) {
-      const size_t n = cross + 2 + (IsMetre(cross + 2) ? 1 : 0) - i;
-      const double other = *tokens_[cross + 1].number;
-      for (double side : {value, other}) Bound(i, n, side, TownSpec::kLeastSide, TownSpec::kMostSide, "m");
-      return Size(i, n, value, other);
+    const double unit = MetresAt(k);
+    const size_t cross = unit > 0 ? k + 1 : k;
+    if (IsAny(WordAt(cross), {"by", "x", "times"}) && NumberAt(cross + 1)) {
+      const double after = MetresAt(cross + 2), of_both = after > 0 ? after : 1, first = unit > 0 ? unit : of_both;
+      const size_t n = cross + 2 + (after > 0 ? 1 : 0) - i;
+      const double second = after > 0 ? after : first;
+      const double sides[] = {value * first, *tokens_[cross + 1].number * second};
+      for (double side : sides) Bound(i, n, side, TownSpec::kLeastSide, TownSpec::kMostSide, "m");
+      Exact(i, n);
+      return Size(i, n, sides[0], sides[1]);
     }
-    const double square = IsAny(word(k), {"ha", "hectare"}) ? 1e4
-                          : word(k) == "acre"               ? 4046.9
-                          : IsAny(word(k), {"km2", "sqkm"}) ? 1e6
-                          : IsAny(word(k), {"m2", "sqm"})   ? 1
-                                                            : 0;
-    const bool two = IsAny(word(k), {"square", "sq"}) && IsAny(word(k + 1), {"kilometre", "kilometer", "km", "metre", "meter", "m"});
-    if (square > 0 || two) {
-      const double unit = square > 0 ? square : IsAny(word(k + 1), {"kilometre", "kilometer", "km"}) ? 1e6 : 1;
-      const size_t n = square > 0 ? 2 : 3;
-      Bound(i, n, value * unit / 1e4, 1.5, 144, "hectares");
-      const double wide = std::sqrt(value * unit * 1.12);
-      return Size(i, n, std::min(wide, TownSpec::kMostSide), value * unit / std::min(wide, TownSpec::kMostSide));
-    }
-    return 0;
+    const double square = IsAny(WordAt(k), {"ha", "hectare"}) ? 1e4
+                          : WordAt(k) == "acre"               ? 4046.9
+                          : IsAny(WordAt(k), {"km2", "sqkm"}) ? 1e6
+                          : IsAny(WordAt(k), {"m2", "sqm"})   ? 1
+                                                              : 0;
+    const bool kilometres = IsAny(WordAt(k + 1), {"kilometre", "kilometer", "km"});
+    const bool two = IsAny(WordAt(k), {"square", "sq"}) && (kilometres || IsAny(WordAt(k + 1), {"metre", "meter", "m"}));
+    if (square == 0 && !two) return 0;
+    const double hectares = value * (square > 0 ? square : kilometres ? 1e6 : 1) / 1e4;
+    const size_t n = square > 0 ? 2 : 3;
+    if (!std::isfinite(hectares)) throw InputError("'" + Numbered(i, n) + "' is not from 1.5 to 144 hectares");
+    Bound(i, n, hectares, 1.5, 144, "hectares");
+    Exact(i, n);
+    const double wide = std::min(std::sqrt(hectares * 1e4 * 1.12), TownSpec::kMostSide);
+    return Size(i, n, wide, hectares * 1e4 / wide);
   }
 
   // Houses, people, parks and squares.
-  size_t Things(size_t i, double value) {
-    const auto word = [&](size_t at) { return WordAt(at); };
+  size_t Things(size_t i, double said) {
     const size_t k = i + 1;
-    if (IsAny(word(k), {"house", "home", "building", "cabin", "hut", "cottage"})) {
+    const double value = said + (limit_ == Limit::kOver ? 1 : limit_ == Limit::kUnder ? -1 : 0);
+    if (IsAny(WordAt(k), {"house", "home", "building", "cabin", "hut", "cottage"})) {
+      const bool cabins = IsAny(WordAt(k), {"cabin", "hut"});
       Whole(i, value, 1, 4000, "houses");
-      Agree("houses", "houses: " + Number(value), Joined(i, 2, false));
+      Agree("houses in numbers", "houses: " + Number(value), Numbered(i, 2));
       houses_ = value;
-      if (word(k) == "cabin" || word(k) == "hut") Step(k);
-      Note(i, word(k) == "cabin" || word(k) == "hut" ? 1 : 2, "houses: " + Number(value));
+      // At most so many is what the setting means.
+      if (limit_ != Limit::kMost && limit_ != Limit::kUnder)
+        request_.promises.push_back({Numbered(i, 2), "houses", static_cast<uint64_t>(value)});
+      NoteNumber(i, cabins ? 1 : 2, "houses: " + Number(value));
+      if (cabins) {
+        lead_ = 0;
+        Step(k);
+      }
       return 2;
     }
-    if (IsAny(word(k), {"people", "inhabitant", "resident", "pedestrian", "person", "citizen"})) {
+    if (IsAny(WordAt(k), {"people", "inhabitant", "resident", "pedestrian", "person", "citizen"})) {
       Whole(i, value, 1, 100000, "people");
-      Agree("people", "people: " + Number(value), Joined(i, 2, false));
+      Agree("people", "people: " + Number(value), Numbered(i, 2));
       people_ = value <= kPopulation ? value : std::min(value / 20, kMostPeople);
       if (value > kPopulation) population_ = value;
-      Note(i, 2, value <= kPopulation ? "people: " + Number(value) : "people: " + Number(std::round(people_)) + " of them outside");
+      NoteNumber(i, 2, value <= kPopulation ? "people: " + Number(value) : "people: " + Number(std::round(people_)) + " of them outside");
       return 2;
     }
-    if (IsAny(word(k), {"park", "square", "plaza"})) {
-      const bool park = word(k) == "park";
+    if (IsAny(WordAt(k), {"park", "square", "plaza"}) && !IsAny(WordAt(k + 1), {"kilometre", "kilometer", "km", "metre", "meter", "m"})) {
+      const bool park = WordAt(k) == "park";
       Whole(i, value, 1, park ? 6 : 4, park ? "parks" : "squares");
-      Agree(park ? "parks" : "squares", Number(value), Joined(i, 2, false));
+      Agree(park ? "parks" : "squares", Number(value), Numbered(i, 2));
       (park ? parks_ : squares_) = value;
-      Note(i, 2, (park ? "parks: " : "squares: ") + Number(value));
+      request_.promises.push_back({Numbered(i, 2), park ? "parks" : "squares", static_cast<uint64_t>(value)});
+      NoteNumber(i, 2, (park ? "parks: " : "squares: ") + Number(value));
       return 2;
     }
     return 0;
@@ -396,26 +470,49 @@ class Reader {
 
   void Whole(size_t i, double value, double low, double high, const char* what) const {
     Bound(i, 2, value, low, high, what);
-    if (value != std::round(value)) throw InputError("'" + Joined(i, 2, false) + "': " + Number(value) + " is no whole number");
+    if (value != std::round(value)) throw InputError("'" + Numbered(i, 2) + "': " + Number(value) + " is no whole number");
   }
 
   size_t Size(size_t i, size_t n, double width, double depth) {
     const std::string means = "width: " + Number(std::round(width)) + ", depth: " + Number(std::round(depth));
-    Agree("size in numbers", means, Joined(i, n, false));
+    Agree("size in numbers", means, Numbered(i, n));
     width_ = std::round(width);
     depth_ = std::round(depth);
-    Note(i, n, means);
+    NoteNumber(i, n, means);
     return n;
   }
 
   size_t Storeys(size_t i, size_t n, double least, double most) {
-    for (double floors : {least, most}) Bound(i, n, floors, 1, TownSpec::kMostFloors, "storeys");
-    if (least > most) throw InputError("'" + Joined(i, n, false) + "': " + Number(least) + " is more than " + Number(most));
+    for (double floors : {least, most}) {
+      Bound(i, n, floors, 1, TownSpec::kMostFloors, "storeys");
+      if (floors != std::round(floors)) throw InputError("'" + Numbered(i, n) + "': " + Number(floors) + " is no whole number");
+    }
+    if (least > most) throw InputError("'" + Numbered(i, n) + "': " + Number(least) + " is more than " + Number(most));
     const std::string means = "floors: " + Number(least) + " to " + Number(most);
-    Agree("floors in numbers", means, Joined(i, n, false));
+    Agree("floors in numbers", means, Numbered(i, n));
     least_ = least;
     most_ = most;
-    Note(i, n, means);
+    NoteNumber(i, n, means);
+    return n;
+  }
+
+  size_t Slope(size_t i, size_t n, double value) {
+    Bound(i, n, value, 0, 24, "per cent");
+    Exact(i, n);
+    const std::string means = value > 0 ? "climb: " + Number(value) + " % of the depth" : "relief: flat";
+    Agree("slope in numbers", means, Numbered(i, n));
+    slope_ = value / 100;
+    NoteNumber(i, n, means);
+    return n;
+  }
+
+  size_t Street(size_t i, size_t n, double value) {
+    Bound(i, n, value, 4, 40, "m");
+    Exact(i, n);
+    const std::string means = "street: " + Number(value);
+    Agree("street in numbers", means, Numbered(i, n));
+    street_ = value;
+    NoteNumber(i, n, means);
     return n;
   }
 
@@ -423,32 +520,37 @@ class Reader {
     TownDraft draft;
     TownSpec& spec = draft.spec;
     spec.country = TownCountry::kFields;
-    for (WordLevel level : {WordLevel::kKind, WordLevel::kPlace, WordLevel::kSaid})
-      for (const Said& said : said_)
-        if (said.level == level) said.apply(draft);
-    for (const auto& [set, amount] : stuffs_) set(draft, amount);
-    for (const auto& [field, there] : things_) spec.*field = there;
-    CheckHeights();
+    std::stable_sort(said_.begin(), said_.end(),
+                     [](const Saying& a, const Saying& b) { return a.level != b.level ? a.level < b.level : a.order < b.order; });
+    said_.insert(said_.end(), stuffs_.begin(), stuffs_.end());
+    said_.insert(said_.end(), things_.begin(), things_.end());
+    for (const auto& [thing, note] : denied_) {
+      if (claims_.contains(std::string(thing->setting)))
+        request_.words[note].as = "none beside the " + claims_.at(std::string(thing->setting)).words;
+      else
+        spec.*(thing->field) = false,
+        said_.push_back({WordLevel::kSaid, "", "", [field = thing->field](TownDraft& d) { d.spec.*field = false; }, {}});
+    }
+    for (const Saying& saying : said_) saying.apply(draft);
+    CheckSayings(draft);
+    CheckNumbers(draft);
     if (most_ > 0) spec.least_floors = least_, spec.most_floors = most_;
     if (parks_ >= 0) spec.parks = static_cast<uint64_t>(parks_);
     if (squares_ >= 0) spec.squares = static_cast<uint64_t>(squares_);
     if (houses_ > 0) spec.houses = static_cast<uint64_t>(houses_);
-    if (street_ > 0) spec.street = street_;
     Sides(draft);
-    // What needs something else brings it along, unless that was denied.
-    if (spec.most_floors > 8)
-      spec.street = std::max(spec.street, 15.0), spec.block = std::max(spec.block, 76.0), spec.setback = std::min(spec.setback, 6.0);
-    if (spec.harbour && spec.water == TownWater::kNone && !claims_.contains("water")) spec.water = TownWater::kSea;
-    if ((spec.market || spec.fountain || spec.clock_tower) && spec.squares == 0 && !claims_.contains("squares")) spec.squares = 1;
-    if (spec.terrace) spec.most_floors = std::max(spec.most_floors, 10.0);
-    if (spec.playground) spec.parks = std::max<uint64_t>(spec.parks, claims_.contains("parks") ? spec.parks : 1);
+    Bring(spec);
     if (slope_ >= 0) spec.relief = slope_ > 0 ? TownRelief::kSlope : TownRelief::kFlat, spec.climb = slope_ * spec.depth;
-    spec.climb = std::min({spec.climb, 0.24 * std::min(spec.width, spec.depth), TownSpec::kMostClimb});
-    spec.climb = std::round(spec.climb);
+    const double steepest = std::min(0.24 * std::min(spec.width, spec.depth), TownSpec::kMostClimb);
+    if (slope_ >= 0 && spec.climb > steepest)
+      throw InputError("'" + claims_.at("slope in numbers").words + "' climbs " + Number(std::round(spec.climb)) + " m in a town of " +
+                       Number(spec.width) + " x " + Number(spec.depth) + " m: at most " + Number(std::floor(steepest)) + " m are possible");
+    spec.climb = std::round(std::min(spec.climb, steepest));
     if (spec.country == TownCountry::kFields && spec.most_floors > 8) spec.country = TownCountry::kCity;
     spec.Check("");
     request_.spec = spec;
     request_.weather = draft.weather;
+    request_.sized = width_ > 0;
     request_.people = static_cast<uint64_t>(
         std::round(people_ > 0              ? people_
                    : draft.people_share > 0 ? std::clamp(draft.people_share * spec.width * spec.depth / kPersonEach, 4.0, kMostPeople)
@@ -456,17 +558,73 @@ class Reader {
     return std::move(request_);
   }
 
-  void CheckHeights() const {
-    const auto said = claims_.find("heights");
-    if (said == claims_.end() || most_ <= 0) return;
-    const bool low = said->second.words.starts_with("low");
-    if ((low && least_ > 5) || (!low && most_ < 4))
-      throw InputError("'" + said->second.words + "' and '" + claims_.at("floors in numbers").words + "' exclude each other");
+  // What needs something else brings it along, unless that was denied.
+  void Bring(TownSpec& spec) const {
+    if (spec.arches && !claims_.contains("street") && !claims_.contains("boulevard")) spec.street = std::min(spec.street, kLaneStreet);
+    if (spec.most_floors > 8)
+      spec.street = std::max(spec.street, 15.0), spec.block = std::max(spec.block, 76.0), spec.setback = std::min(spec.setback, 6.0);
+    if (street_ > 0) spec.street = street_;
+    if (spec.harbour && spec.water == TownWater::kNone && !claims_.contains("water") && !claims_.contains("sea"))
+      spec.water = TownWater::kSea;
+    if ((spec.market || spec.fountain || spec.clock_tower) && spec.squares == 0 && !claims_.contains("squares")) spec.squares = 1;
+    if (spec.terrace && most_ <= 0 && !(claims_.contains("heights") && spec.most_floors >= 6))
+      spec.most_floors = std::max(spec.most_floors, 10.0);
+    if (spec.playground) spec.parks = std::max<uint64_t>(spec.parks, claims_.contains("parks") ? spec.parks : 1);
   }
 
-  void Sides(TownDraft& draft) const {
+  static std::string Described(const TownDraft& draft) {
+    TownSpec spec = draft.spec;
+    return DescribeConfig([&](ConfigVisitor& v) { spec.Visit(v); }) + draft.weather + Number(draft.people_share);
+  }
+
+  // Nothing that was said may be undone by what else was said.
+  void CheckSayings(const TownDraft& draft) const {
+    const auto undone = [](const Saying& saying, const TownDraft& by) {
+      if (saying.level != WordLevel::kSaid) return false;
+      if (saying.holds) return !saying.holds(by);
+      TownDraft again = by;
+      saying.apply(again);
+      return Described(again) != Described(by);
+    };
+    for (const Saying& a : said_) {
+      if (!undone(a, draft)) continue;
+      for (const Saying& b : said_) {
+        TownDraft both = draft;
+        a.apply(both);
+        b.apply(both);
+        if (b.level == WordLevel::kSaid && undone(a, both)) Exclude(a.words, a.means, b.words, b.means);
+      }
+    }
+  }
+
+  void CheckNumbers(const TownDraft& draft) const {
+    const auto exclude = [&](const char* a, const char* b) {
+      Exclude(claims_.at(a).words, claims_.at(a).means, claims_.at(b).words, claims_.at(b).means);
+    };
+    if (claims_.contains("heights") && most_ > 0) {
+      const bool low = claims_.at("heights").words.starts_with("low");
+      if ((low && least_ > 5) || (!low && most_ < 4)) exclude("heights", "floors in numbers");
+    }
+    if (claims_.contains("terrace") && most_ > 0 && most_ < 6) exclude("terrace", "floors in numbers");
+    if (claims_.contains("terrace") && claims_.contains("heights") && most_ <= 0 && draft.spec.most_floors < 6)
+      exclude("terrace", "heights");
+    if (claims_.contains("relief") && slope_ >= 0 && draft.spec.relief != (slope_ > 0 ? TownRelief::kSlope : TownRelief::kFlat))
+      exclude("relief", "slope in numbers");
+    if (claims_.contains("steep") && slope_ >= 0 && (slope_ > 0.1) != (claims_.at("steep").words == "steep"))
+      exclude("steep", "slope in numbers");
+    if (claims_.contains("street") && street_ > 0 && (claims_.at("street").words == "narrow" ? street_ > 10 : street_ < 10))
+      exclude("street", "street in numbers");
+    if (claims_.contains("boulevard") && street_ > 0 && street_ < 18) exclude("boulevard", "street in numbers");
+    if (claims_.contains("crowd") && people_ > 0 && draft.people_share < 0) exclude("crowd", "people");
+    if (claims_.contains("playground") && draft.spec.playground && claims_.contains("parks") && parks_ < 0 && draft.spec.parks == 0)
+      exclude("playground", "parks");
+  }
+
+  void Sides(TownDraft& draft) {
     TownSpec& spec = draft.spec;
     if (width_ > 0) {
+      for (UnderstoodWords& row : request_.words)
+        if (row.as.starts_with("sides x")) row.as = "as large as " + claims_.at("size in numbers").words;
       spec.width = width_;
       spec.depth = depth_;
       return;
@@ -477,12 +635,13 @@ class Reader {
     spec.depth = fit(spec.depth);
   }
 
-  std::vector<Token> tokens_;
+  std::vector<TownToken> tokens_;
   TownRequest request_;
   std::map<std::string, Claim> claims_;
-  std::vector<Said> said_;
-  std::vector<std::pair<void (*)(TownDraft&, double), double>> stuffs_;
-  std::vector<std::pair<bool TownSpec::*, bool>> things_;
+  std::vector<Saying> said_, stuffs_, things_;
+  std::vector<std::pair<const TownThing*, size_t>> denied_;  // and its place in the report
+  Limit limit_ = Limit::kNone;
+  size_t lead_ = 0;  // words of the limit before a number
   double width_ = 0, depth_ = 0, least_ = 0, most_ = 0, houses_ = 0, people_ = 0, population_ = 0, parks_ = -1, squares_ = -1, street_ = 0,
          slope_ = -1;
 };

@@ -95,6 +95,15 @@ TEST(TownWords, WhatIsDeniedIsNotThere) {
   EXPECT_EQ(SpecOf("a town with no parks and no squares").parks, 0u);
 }
 
+TEST(TownWords, GroundWaterAndHarboursCanBeDenied) {
+  EXPECT_EQ(SpecOf("an alpine village with no hills").relief, TownRelief::kFlat);
+  EXPECT_EQ(SpecOf("a resort with no sea").water, TownWater::kNone);
+  EXPECT_FALSE(SpecOf("a fishing village without boats").harbour);
+  for (const char* words : {"a hilltop town with no hills", "a coastal town, no sea", "a marina without boats", "riverside town, no river"})
+    EXPECT_NE(Refusal(words).find("exclude each other"), std::string::npos) << words << ": " << Refusal(words);
+  EXPECT_NE(Refusal("a harbour but no sea"), "");
+}
+
 TEST(TownWords, MoreOfAWordMeansMoreOfTheThing) {
   EXPECT_GT(SpecOf("a town with many trees").trees, SpecOf("a town with few trees").trees);
   EXPECT_GT(SpecOf("a town with heavy traffic").traffic, SpecOf("a town with light traffic").traffic);
@@ -108,6 +117,118 @@ TEST(TownWords, TheOrderOfWordsDoesNotMatter) {
   EXPECT_EQ(a.relief, b.relief);
   EXPECT_EQ(a.style, b.style);
   EXPECT_EQ(a.street, b.street);
+}
+
+// As Refusal, of the town of seed 0 too.
+std::string NotBuilt(const std::string& words) {
+  try {
+    TownRequest request = TownFromWords(words);
+    SettleTown(request, 0);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(TownWords, AMinusSignBelongsToItsNumber) {
+  for (const char* words : {"town with -3 storeys", "town, -5 ha", "town -5ha", "a -10 % slope", "-20 people", "village of -4 houses",
+                            "300 m by -200 m", "\u22125 ha", "\u20135 ha", "-.5 ha", "2 to -4 storeys", "-2 parks"})
+    EXPECT_NE(Refusal(words).find("is not from"), std::string::npos) << words << ": " << Refusal(words);
+  EXPECT_EQ(SpecOf("a 3-5 storey town").least_floors, 3);
+  EXPECT_EQ(SpecOf("a two-storey town").most_floors, 2);
+}
+
+TEST(TownWords, NothingSaidIsUndoneByWhatElseIsSaid) {
+  for (const char* words : {"car-free town with heavy traffic",
+                            "pedestrian town with cars",
+                            "leafy town with no trees",
+                            "deserted village with people",
+                            "deserted town with 30 people",
+                            "rooftop terrace, 2 storeys",
+                            "low houses with a roof terrace",
+                            "town with palms, no trees",
+                            "busy town without cars",
+                            "quiet town with heavy traffic",
+                            "crowded town with no people",
+                            "boulevards, narrow streets",
+                            "a flat town with a 10 % slope",
+                            "steep flat town",
+                            "dense detached houses",
+                            "terraced houses with lawns",
+                            "beach with a harbour",
+                            "bridge, no water",
+                            "playground, no parks",
+                            "narrow streets, 20 m wide streets",
+                            "green town, few trees"})
+    EXPECT_NE(Refusal(words).find("exclude each other"), std::string::npos) << words << ": " << Refusal(words);
+  for (const char* words : {"busy town with heavy traffic", "leafy town with many trees", "detached houses with front lawns",
+                            "front gardens and lawns", "cafes, no bars", "no chapel but a church", "a steep hill town", "water, a lake",
+                            "quiet town without cars", "crowded town with many people", "car-free town with no cars"})
+    EXPECT_EQ(Refusal(words), "") << words;
+  EXPECT_GT(SpecOf("a town on a steep hill").climb, SpecOf("a town on a hill").climb);
+  EXPECT_FALSE(SpecOf("a resort with no trees").palms);
+}
+
+TEST(TownWords, LimitsOfNumbersAreKept) {
+  EXPECT_EQ(SpecOf("a city of 20 storeys").least_floors, 20);
+  EXPECT_EQ(SpecOf("one-storey village").most_floors, 1);
+  EXPECT_EQ(SpecOf("one house").houses, 1u);
+  EXPECT_EQ(SpecOf("a town of over 4 storeys").least_floors, 5);
+  EXPECT_EQ(SpecOf("a town of at least 4 storeys").least_floors, 4);
+  EXPECT_EQ(SpecOf("a town under 3 storeys").most_floors, 2);
+  EXPECT_EQ(SpecOf("a town of up to 4 storeys").most_floors, 4);
+  EXPECT_EQ(SpecOf("between two and four storeys").least_floors, 2);
+  EXPECT_EQ(SpecOf("a town with fewer than 20 houses").houses, 19u);
+  EXPECT_NE(Refusal("a town of over 4 ha"), "");
+  EXPECT_NE(Refusal("a town over 60 storeys"), "");
+  EXPECT_NE(Refusal("one tree"), "");
+  EXPECT_EQ(Refusal("one church over a river"), "");
+}
+
+TEST(TownWords, AnAdjectiveIsSaidOfWhatItSuits) {
+  for (const char* words :
+       {"tall trees",  "a high hill",  "a wide river", "green roofs",   "old people",    "yellow cars", "tiny cars",
+        "large park",  "small church", "wooden boats", "narrow canal",  "cobbled roofs", "modern cars", "tall and old trees",
+        "steep roofs", "quiet sea",    "round square", "brick streets", "dense forest",  "white boats"})
+    EXPECT_NE(Refusal(words).find("is said of"), std::string::npos) << words << ": " << Refusal(words);
+  for (const char* words :
+       {"small market town", "tall houses", "narrow cobbled streets", "old harbour town", "wide green boulevards", "town, tall, river",
+        "white brick houses", "medieval castle", "quiet leafy university campus", "glass skyscrapers", "steep hillside"})
+    EXPECT_EQ(Refusal(words), "") << words;
+  EXPECT_GT(TownFromWords("town with pedestrians").people, 0u);
+  EXPECT_EQ(SpecOf("town with pedestrian streets").traffic, 0);
+}
+
+TEST(TownWords, NumbersAreReadAsTheyAreWritten) {
+  EXPECT_EQ(SpecOf("two hundred and fifty houses").houses, 250u);
+  EXPECT_EQ(SpecOf("twenty five houses").houses, 25u);
+  EXPECT_EQ(SpecOf("a dozen houses").houses, 12u);
+  EXPECT_NEAR(SpecOf("1,5 ha").width * SpecOf("1,5 ha").depth, 15000, 200);
+  EXPECT_NEAR(SpecOf("20,000 m2").width * SpecOf("20,000 m2").depth, 20000, 200);
+  EXPECT_NEAR(SpecOf("streets 40 ft wide").street, 12.19, 0.01);
+  EXPECT_EQ(SpecOf("3\u20135 storeys").most_floors, 5);
+  EXPECT_EQ(TownFromWords("one hundred houses").words[0].words, "one hundred houses");
+  EXPECT_EQ(Refusal("1e308 ha").find("inf"), std::string::npos);
+  EXPECT_NE(Refusal("twenty two-storey houses"), "");
+  EXPECT_NE(Refusal("of the with"), "");
+}
+
+TEST(TownWords, WhatHasNoRoomIsMadeRoomForOrRefused) {
+  for (const char* words :
+       {"medieval hilltop town with castle, 6 ha", "town with castle, 4 ha", "village with a castle", "town with arches, 4 ha",
+        "town of 200 houses", "town with a playground, 4 ha", "river town with a bridge, 6 ha", "town with two parks, 6 ha"})
+    EXPECT_EQ(NotBuilt(words), "") << words;
+  for (const auto& [words, says] : {std::array<const char*, 2>{"400 houses, 2 ha", "room for"},
+                                    {"cabins with cafes", "'cafes'"},
+                                    {"cabins with cycle lanes", "'cycle lanes'"},
+                                    {"bridge by the sea", "'bridge'"},
+                                    {"arches, wide streets", "'arches'"}})
+    EXPECT_NE(NotBuilt(words).find(says), std::string::npos) << words << ": " << NotBuilt(words);
+  TownRequest request = TownFromWords("medieval hilltop town with castle, 6 ha");
+  SettleTown(request, 0);
+  bool said = false;
+  for (const UnderstoodWords& row : request.words) said = said || row.as.starts_with("castle: true, block: ");
+  EXPECT_TRUE(said);
 }
 
 TEST(TownWords, AnyTextIsUnderstoodOrRefusedAndNeverBreaksTheBounds) {
