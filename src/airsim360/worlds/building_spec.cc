@@ -42,6 +42,7 @@ void BuildingSpec::Visit(ConfigVisitor& v) {
   v.Field("storey_height", "metres from floor to floor; 0 = as usual for the use", storey_height, 0, 14);
   v.Field("open_doors", "share of the doors that stand open", open_doors, 0, 1);
   v.Field("clutter", "how much stands about, 1 = as in use", clutter, 0, 1.5);
+  v.Field("furnished", "false: no furniture, goods and cars", furnished);
   v.Field("atrium", "a hall through all storeys", atrium);
 }
 
@@ -62,6 +63,8 @@ void BuildingSpec::Check(const char* prefix) const {
     refuse("atrium: true goes with use: office, mall or library, not " + name);
   if (atrium && Settled().storeys < 2) refuse("atrium: true needs storeys: 2 or more");
 }
+
+std::pair<double, double> BuildingSpec::LeastSides(BuildingUse use) { return {UsualOf(use).least_width, UsualOf(use).least_depth}; }
 
 BuildingSpec BuildingSpec::Settled() const {
   BuildingSpec s = *this;

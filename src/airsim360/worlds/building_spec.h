@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "airsim360/base/config.h"
 
@@ -20,12 +21,15 @@ struct BuildingSpec {
   double storey_height = 0;     ///< metres from floor to floor; 0 = as usual for the use
   double open_doors = 0.6;      ///< share of the doors that stand open
   double clutter = 1;           ///< how much stands about, 1 = as in use
-  bool atrium = false;          ///< a hall through all storeys (offices; malls and libraries of several storeys have one anyway)
+  bool furnished = true;        ///< false: no furniture, goods and cars; what is fixed stays (lamps, sinks, kitchen units)
+  bool atrium = false;          ///< a hall through all storeys (offices, libraries; malls have one anyway)
 
   /// Names the fields.
   void Visit(ConfigVisitor& v);
   /// InputError, beginning with `prefix`, for measures that a building of this use cannot have.
   void Check(const char* prefix) const;
+  /// Metres east and north that the plan of a use needs.
+  static std::pair<double, double> LeastSides(BuildingUse use);
   /// The same with every 0 replaced by what is usual for the use.
   BuildingSpec Settled() const;
 };

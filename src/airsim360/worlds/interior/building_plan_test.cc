@@ -22,6 +22,7 @@ void ForPlans(const Visit& visit) {
     for (uint64_t seed = 0; seed < 8; ++seed) {
       SCOPED_TRACE(std::string(kBuildingUses[static_cast<size_t>(use)]) + " seed " + std::to_string(seed));
       visit(PlanOf(use, seed));
+      if (use == BuildingUse::kLibrary) visit(PlanBuilding({.use = use, .atrium = true}, seed));
     }
 }
 
@@ -153,6 +154,24 @@ TEST(InteriorPlan, OpeningsLieInTheirWallsAndApart) {
       }
     }
   });
+}
+
+TEST(InteriorPlan, LibrariesHaveAnAtriumWhereItIsAskedFor) {
+  const auto open = [](const InteriorPlan& plan) {
+    return std::count_if(plan.rooms.begin(), plan.rooms.end(), [](const PlanRoom& r) { return r.type == RoomType::kAtrium; });
+  };
+  for (const uint64_t storeys : {1, 2, 3}) {
+    const InteriorPlan plan = PlanBuilding({.use = BuildingUse::kLibrary, .storeys = storeys}, 0);
+    EXPECT_EQ(open(plan), 0);
+    // Floors go through: only stairs and lifts have none.
+    for (const PlanRoom& room : plan.rooms)
+      EXPECT_TRUE(room.has_floor || room.type == RoomType::kStairwell || room.type == RoomType::kLiftShaft) << room.name;
+    if (storeys > 1) {
+      const InteriorPlan asked = PlanBuilding({.use = BuildingUse::kLibrary, .storeys = storeys, .atrium = true}, 0);
+      EXPECT_EQ(open(asked), static_cast<int>(2 * storeys));
+      EXPECT_LT(asked.area_m2(), plan.area_m2());
+    }
+  }
 }
 
 TEST(InteriorPlan, RampsAndEscalatorsAreAsSteepAsRealOnes) {

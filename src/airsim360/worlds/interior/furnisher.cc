@@ -1,6 +1,7 @@
 #include "airsim360/worlds/interior/furnisher.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
@@ -10,6 +11,41 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kWallStep = 0.15f;
+
+// What belongs to the building and its grounds: services, sanitary ware, kitchen units, marks of bays, plants outside.
+constexpr auto kFixed = std::to_array<std::string_view>({"pendant_lamp",
+                                                         "downlight",
+                                                         "ceiling_panel",
+                                                         "high_bay_lamp",
+                                                         "tube_light",
+                                                         "air_vent",
+                                                         "duct",
+                                                         "sprinkler",
+                                                         "smoke_detector",
+                                                         "exit_sign",
+                                                         "fire_extinguisher",
+                                                         "switch_plate",
+                                                         "radiator",
+                                                         "electric_box",
+                                                         "washbasin",
+                                                         "toilet",
+                                                         "bathtub",
+                                                         "shower",
+                                                         "kitchen_counter",
+                                                         "kitchen_sink_counter",
+                                                         "stove",
+                                                         "wall_cabinet",
+                                                         "wheel_stop",
+                                                         "parking_sign",
+                                                         "ticket_machine",
+                                                         "street_light",
+                                                         "hedge",
+                                                         "shrub",
+                                                         "flower_bed",
+                                                         "tree_generic",
+                                                         "tree_narrowleaf",
+                                                         "red_tree"});
+bool IsFixed(std::string_view kind) { return std::find(kFixed.begin(), kFixed.end(), kind) != kFixed.end(); }
 
 Vec2f Turned(Vec2f v, float yaw) { return {v.x * std::cos(yaw) - v.y * std::sin(yaw), v.x * std::sin(yaw) + v.y * std::cos(yaw)}; }
 
@@ -36,7 +72,8 @@ const Furnisher::Individual& Furnisher::Get(std::string_view kind, uint32_t vari
 const Box3f& Furnisher::BoxOf(std::string_view kind, uint32_t variant) { return Get(kind, variant).box; }
 uint32_t Furnisher::Variants(std::string_view kind) { return static_cast<uint32_t>(std::max(1, FindPropKind(kind).variants)); }
 
-EntityId Furnisher::Put(std::string_view kind, Vec3f p, float yaw, uint32_t variant, Vec3f tint) {
+std::optional<EntityId> Furnisher::Put(std::string_view kind, Vec3f p, float yaw, uint32_t variant, Vec3f tint) {
+  if (!furnished_ && !IsFixed(kind)) return std::nullopt;
   const PropKind& found = FindPropKind(kind);
   const Individual& one = Get(kind, variant);
   const Vec2f middle = Turned({one.box.center().x, one.box.center().y}, yaw);
@@ -46,7 +83,7 @@ EntityId Furnisher::Put(std::string_view kind, Vec3f p, float yaw, uint32_t vari
   return entity;
 }
 
-EntityId Furnisher::Hang(std::string_view kind, Vec3f p, float yaw, uint32_t variant) {
+std::optional<EntityId> Furnisher::Hang(std::string_view kind, Vec3f p, float yaw, uint32_t variant) {
   const Box3f& box = BoxOf(kind, variant);
   return Put(kind, {p.x, p.y, p.z - box.max.z + std::max(box.min.z, 0.0f)}, yaw, variant);
 }

@@ -16,16 +16,17 @@ namespace airsim360::internal {
 /// Props by kind with their measured boxes, each an entity of its own.
 class Furnisher {
  public:
-  Furnisher(SceneBuilder& builder, const ModelSource* models, uint64_t seed)
-      : builder_(builder), shelf_(builder, models, seed), models_(models), seed_(seed) {}
+  /// Where not `furnished`, what can be carried or driven away is measured and not put.
+  Furnisher(SceneBuilder& builder, const ModelSource* models, uint64_t seed, bool furnished = true)
+      : builder_(builder), shelf_(builder, models, seed), models_(models), seed_(seed), furnished_(furnished) {}
 
   /// Of an individual as it stands, front towards -Y.
   const Box3f& BoxOf(std::string_view kind, uint32_t variant);
   uint32_t Variants(std::string_view kind);
-  /// Its box's middle comes to (p.x, p.y), its foot to p.z.
-  EntityId Put(std::string_view kind, Vec3f p, float yaw, uint32_t variant, Vec3f tint = {1, 1, 1});
+  /// Its box's middle comes to (p.x, p.y), its foot to p.z. nullopt: it is not put.
+  std::optional<EntityId> Put(std::string_view kind, Vec3f p, float yaw, uint32_t variant, Vec3f tint = {1, 1, 1});
   /// Its box's middle comes to (p.x, p.y), its top to p.z.
-  EntityId Hang(std::string_view kind, Vec3f p, float yaw = 0, uint32_t variant = 0);
+  std::optional<EntityId> Hang(std::string_view kind, Vec3f p, float yaw = 0, uint32_t variant = 0);
   SceneBuilder& builder() { return builder_; }
 
  private:
@@ -39,6 +40,7 @@ class Furnisher {
   PropShelf shelf_;
   const ModelSource* models_;
   uint64_t seed_;
+  bool furnished_;
   std::map<std::string, std::vector<Individual>, std::less<>> made_;
 };
 

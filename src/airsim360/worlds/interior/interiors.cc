@@ -276,7 +276,7 @@ std::shared_ptr<const Scene> Build(std::string_view name, const BuildingSpec& sp
   builder.environment().sun_elevation_deg = 36;
   const Finishes finishes(builder);
   InteriorPen shell(builder, finishes), outside(builder, finishes);
-  Furnisher furnisher(builder, options.models, options.seed);
+  Furnisher furnisher(builder, options.models, options.seed, spec.furnished);
   BuildShell(plan, shell);
   BuildStairs(plan, shell);
   BuildStructure(plan, shell);

@@ -1,4 +1,4 @@
-// Malls and libraries: rooms on both sides of a hall through all storeys, with galleries along it.
+// Malls and libraries: rooms on both sides of a hall through all storeys (of libraries, where it is asked for), with galleries along it.
 #include <algorithm>
 
 #include "airsim360/worlds/interior/plan_strips.h"
@@ -15,6 +15,7 @@ struct GalleryStyle {
   float ceiling;                             ///< of rooms and galleries, 0 = as high as can be
   T room, ground_way, east_room;
   bool shopfronts, escalators;
+  bool hall;  ///< through all storeys; else floors go through, with rooms of the east_room's kind
 };
 
 struct GalleryFloor {
@@ -54,11 +55,15 @@ GalleryFloor PlanFloor(PlanPen& pen, const GalleryStyle& style, int storey, cons
   f.way_north = pen.Room(way, storey, {xw, y3, xe, y4}, style.ceiling);
   f.west = pen.Room(storey == 0 ? T::kLobby : T::kGallery, storey, {0, y1, xw, y4}, style.ceiling);
   f.east = pen.Room(style.east_room, storey, {xe, y1, w, y4}, style.ceiling);
-  f.atrium_west = pen.Room(T::kAtrium, storey, {xw, y2, xb - style.bridge / 2, y3});
+  const T middle = style.hall ? T::kAtrium : style.east_room;
+  const float ceiling = style.hall ? 0 : style.ceiling;
+  f.atrium_west = pen.Room(middle, storey, {xw, y2, xb - style.bridge / 2, y3}, ceiling);
   f.bridge = pen.Room(way, storey, {xb - style.bridge / 2, y2, xb + style.bridge / 2, y3}, style.ceiling);
-  f.atrium_east = pen.Room(T::kAtrium, storey, {xb + style.bridge / 2, y2, xe, y3});
-  MakeAtrium(pen, f.atrium_west);
-  MakeAtrium(pen, f.atrium_east);
+  f.atrium_east = pen.Room(middle, storey, {xb + style.bridge / 2, y2, xe, y3}, ceiling);
+  if (style.hall) {
+    MakeAtrium(pen, f.atrium_west);
+    MakeAtrium(pen, f.atrium_east);
+  }
   for (const int room : f.north) {
     if (pen.room(room).type == T::kStairwell) MakeStairwell(pen, room);
     if (pen.room(room).type == T::kLiftShaft)
@@ -67,8 +72,8 @@ GalleryFloor PlanFloor(PlanPen& pen, const GalleryStyle& style, int storey, cons
   return f;
 }
 
-void OpenHall(PlanPen& pen, const GalleryFloor& f, int storey) {
-  const WallKind edge = storey == 0 ? WallKind::kOpen : WallKind::kBalustrade;
+void OpenHall(PlanPen& pen, const GalleryStyle& style, const GalleryFloor& f, int storey) {
+  const WallKind edge = storey == 0 || !style.hall ? WallKind::kOpen : WallKind::kBalustrade;
   for (const int hall : {f.atrium_west, f.atrium_east})
     for (const int beside : {f.way_south, f.way_north, f.bridge, f.west, f.east}) pen.Between(hall, beside, edge);
   for (const int way : {f.way_south, f.way_north})
@@ -143,7 +148,7 @@ void PlanGalleries(PlanPen& pen, const GalleryStyle& style) {
   pen.FindWalls();
   for (size_t s = 0; s < floors.size(); ++s) {
     const int storey = static_cast<int>(s);
-    OpenHall(pen, floors[s], storey);
+    OpenHall(pen, style, floors[s], storey);
     OpenRow(pen, style, floors[s], floors[s].south, true);
     OpenRow(pen, style, floors[s], floors[s].north, false);
     if (!style.shopfronts) {
@@ -179,7 +184,8 @@ void PlanMall(PlanPen& pen) {
                       .ground_way = T::kConcourse,
                       .east_room = T::kFoodCourt,
                       .shopfronts = true,
-                      .escalators = true});
+                      .escalators = true,
+                      .hall = true});
 }
 
 void PlanLibrary(PlanPen& pen) {
@@ -193,7 +199,8 @@ void PlanLibrary(PlanPen& pen) {
                       .ground_way = T::kGallery,
                       .east_room = T::kReadingRoom,
                       .shopfronts = false,
-                      .escalators = false});
+                      .escalators = false,
+                      .hall = pen.plan().spec.atrium});
 }
 
 }  // namespace airsim360::internal
