@@ -52,11 +52,22 @@ bool IsA(const Scene& scene, EntityId entity, const char* category) {
   return entity != kNoEntity && scene.tree[scene.entity(entity).category].path.starts_with(category);
 }
 
-std::vector<Box3f> Ceilings(const Scene& scene) {
+bool IsOver(const Box3f& box, Vec3f p) {
+  return box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y && p.z < box.max.z;
+}
+
+// Ceilings of a building that stands in the open and is entered at its first viewpoint; none of other scenes.
+std::vector<Box3f> RoomsCeilings(const Scene& scene) {
+  if (scene.sky_entity == kNoEntity || !scene.spawn) return {};
   std::vector<Box3f> ceilings;
-  for (const Entity& entity : scene.entities)
-    if (!entity.bounds.empty() && IsA(scene, entity.id, kCeiling)) ceilings.push_back(entity.bounds);
-  return ceilings;
+  bool entered = false;
+  for (const Entity& entity : scene.entities) {
+    const Box3f& box = entity.bounds;
+    if (box.empty() || !IsA(scene, entity.id, kCeiling)) continue;
+    ceilings.push_back(box);
+    entered |= IsOver(box, *scene.spawn);
+  }
+  return entered ? ceilings : std::vector<Box3f>();
 }
 
 double LevelArea(const Box3f& box) { return static_cast<double>(box.size().x) * box.size().y; }
@@ -78,16 +89,11 @@ double LowDiscrepancy(uint64_t k, int axis, double offset) {
   return x - std::floor(x);
 }
 
-bool BeginsUnderACeiling(const Scene& scene) {
-  return scene.sky_entity != kNoEntity && scene.spawn && std::ranges::any_of(Ceilings(scene), [p = *scene.spawn](const Box3f& box) {
-           return box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y && box.max.z > p.z;
-         });
-}
+bool BeginsUnderACeiling(const Scene& scene) { return !RoomsCeilings(scene).empty(); }
 
 SurveyedGround FindSurveyedGround(const Scene& scene) {
   constexpr size_t kFewestCells = 16;
-  SurveyedGround ground{OccupiedCells(scene), scene.bounds, {}};
-  if (BeginsUnderACeiling(scene)) ground.ceilings = Ceilings(scene);
+  SurveyedGround ground{OccupiedCells(scene), scene.bounds, RoomsCeilings(scene)};
   if (ground.cells.size() >= kFewestCells) return ground;
   ground.cells.clear();
   if (scene.sky_entity == kNoEntity) return ground;
@@ -123,10 +129,8 @@ std::optional<RoomSpot> SurveyedGround::InRoom(const RayTracer& tracer, double u
 }
 
 bool SurveyedGround::IsInRoom(const RayTracer& tracer, Vec3d p) const {
-  const auto below = [&](const Box3f& box) {
-    return box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y && p.z < box.max.z;
-  };
-  return std::ranges::any_of(ceilings, below) && tracer.Intersect(VecCast<float>(p), {0, 0, 1});
+  const Vec3f at = VecCast<float>(p);
+  return std::ranges::any_of(ceilings, [&](const Box3f& box) { return IsOver(box, at); }) && tracer.Intersect(at, {0, 0, 1});
 }
 
 Vec2d SurveyedGround::At(double u, double v) const {
