@@ -124,7 +124,7 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
   }
   IndoorLight room;
   const bool indoors = impl.LookIndoors(rays, surfaces, room);
-  impl.LightByLamps(rays, indoors ? 0 : kLampRays, surfaces);
+  impl.LightByLamps(rays, kLampRays, indoors ? room.share : nullptr, surfaces);
   if (indoors && impl.view.lamps.lamps != nullptr) impl.kernels.mix_lamps(room, rays.count, surfaces);
   impl.LightByMovingLamps(rays, kLampRays, surfaces);
   alignas(64) float u[kBatch], v[kBatch];

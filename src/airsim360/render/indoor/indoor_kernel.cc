@@ -126,11 +126,7 @@ void MixLampsIndoors(const IndoorLight& indoor, int count, SurfaceSet& s) {
     const real share = load(indoor.share + i);
     const real3 grid = load3(s.lamp_r + i, s.lamp_g + i, s.lamp_b + i);
     const real3 own = load3(indoor.lamp_r + i, indoor.lamp_g + i, indoor.lamp_b + i);
-    const real seen = rmin(luminance(own) / rmax(luminance(grid), real(1e-12f)), real(1.0f));
     store3(s.lamp_r + i, s.lamp_g + i, s.lamp_b + i, lerp3(grid, own, share));
-    const real kept = 1.0f + (seen - 1.0f) * share;
-    store3(s.lamp_shine_r + i, s.lamp_shine_g + i, s.lamp_shine_b + i,
-           load3(s.lamp_shine_r + i, s.lamp_shine_g + i, s.lamp_shine_b + i) * kept);
   }
 }
 

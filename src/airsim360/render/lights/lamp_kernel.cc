@@ -7,8 +7,9 @@ namespace {
 
 #define KERNEL static inline __attribute__((always_inline, unused))
 
-constexpr int kSlots = 16;         // lamps of a cell, one spare
-constexpr float kBesideStill = 3;  // how much more than moving lamps those that stand count where a ray to a moving one is weighed
+constexpr int kSlots = 16;                 // lamps of a cell, one spare
+constexpr float kFaintHighlight = 0.004f;  // of a surface's irradiance: a fainter one is not worth a ray
+constexpr float kBesideStill = 3;          // how much more than moving lamps those that stand count where a ray to a moving one is weighed
 static_assert(kSlots % kLanes == 0 && LampCell::kLamps < kSlots);
 
 /// The lamps of one cell as lanes. Unused slots send nothing.
@@ -79,6 +80,8 @@ struct alignas(64) Effects {
   bool leaf, shiny;  // else back and shine are not filled
 };
 
+KERNEL float Brightness(const float (&rgb)[3][kSlots], int k) { return 0.2126f * rgb[0][k] + 0.7152f * rgb[1][k] + 0.0722f * rgb[2][k]; }
+
 KERNEL real3 Same(float x, float y, float z) { return make3(real(x), real(y), real(z)); }
 
 KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellLanes& c, const float* weight, Effects& e) {
@@ -135,32 +138,25 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
   }
 }
 
-/// A point of the lamp's sphere instead of its centre.
-KERNEL void Soften(uint32_t key, float radius, LampRays::Ray& ray) {
-  key = hash_bits(key);
-  const float z = 2 * static_cast<float>(key & 0xffff) * (1.0f / 65536) - 1;
-  const float turn = static_cast<float>(key >> 16) * (1.0f / 65536);
-  const float whole = ray.distance + radius * kLampEnd;
-  // A point of the square around the circle is near enough: sine and cosine would cost more than they give.
-  const float a = 4 * turn, side = __builtin_sqrtf(1 - z * z);
-  const float c = a < 1 ? 1 - 2 * a : a < 2 ? -1 : a < 3 ? 2 * a - 5 : 1;
-  const float q = a < 1 ? 1 : a < 2 ? 3 - 2 * a : a < 3 ? -1 : 2 * a - 7;
-  const float scale = 0.85f * radius * side / __builtin_sqrtf(c * c + q * q);
-  const float x = ray.dx * whole + c * scale, y = ray.dy * whole + q * scale, h = ray.dz * whole + 0.85f * radius * z;
-  const float length = __builtin_sqrtf(x * x + y * y + h * h);
-  const float inverse = 1 / (length > 1e-6f ? length : 1e-6f);
-  ray.dx = x * inverse, ray.dy = y * inverse, ray.dz = h * inverse;
+/// Ranks lamps by their highlights alone; the least rank that is worth a ray.
+KERNEL float RankHighlights(const CellLanes& c, Effects& e) {
+  float brought = 0;
+  for (int k = 0; k < c.count; ++k) {
+    brought += Brightness(e.front, k) * e.guess[k];
+    e.rank[k] = e.shiny ? Brightness(e.shine, k) * (kUnseenLamp + (1 - kUnseenLamp) * e.guess[k]) : 0;
+  }
+  return kFaintHighlight * brought;
 }
 
 /// Takes the strongest lamps out for rays. The less a lamp stands out from the first one left behind, the
 /// less its ray counts: so nothing jumps where the order changes.
-KERNEL void ChooseRays(const CellLanes& c, Effects& e, float total, int count, bool soft, uint32_t key, int i, LampRays& wanted) {
+KERNEL void ChooseRays(const CellLanes& c, Effects& e, float least, int count, int i, LampRays& wanted) {
   int chosen[LampRays::kMost + 1];
   float rank[LampRays::kMost + 1];
   for (int k = 0; k <= count; ++k) {
     int best = -1;
     for (int j = 0; j < c.count; ++j) {
-      if (e.rank[j] > kFaintLamp * total && (best < 0 || e.rank[j] > e.rank[best])) best = j;
+      if (e.rank[j] > least && (best < 0 || e.rank[j] > e.rank[best])) best = j;
     }
     chosen[k] = best;
     rank[k] = best < 0 ? 0 : e.rank[best];
@@ -178,13 +174,12 @@ KERNEL void ChooseRays(const CellLanes& c, Effects& e, float total, int count, b
     ray.guess = e.guess[j];
     for (int q = 0; q < 3; ++q)
       ray.front[q] = e.front[q][j], ray.back[q] = e.leaf ? e.back[q][j] : 0, ray.shine[q] = e.shiny ? e.shine[q][j] : 0;
-    if (soft && ray.distance > 0) Soften(key * 4u + static_cast<uint32_t>(k), c.radius[j], ray);
   }
 }
 
 /// Light of the lamps of every surface's cell. `moving`: lamps in columns, which come on top of the others.
 template <bool moving>
-KERNEL void LightBy(const LampView& lamps, const RaySet& rays, int count, bool soft, SurfaceSet& s, LampRays& wanted) {
+KERNEL void LightBy(const LampView& lamps, const RaySet& rays, int count, const float* in_room, SurfaceSet& s, LampRays& wanted) {
   CellLanes cell;
   cell.count = 0;
   uint32_t loaded = 0;
@@ -208,7 +203,9 @@ KERNEL void LightBy(const LampView& lamps, const RaySet& rays, int count, bool s
         for (int q = 0; q < 3 && e.shiny; ++q) shine[q] += e.shine[q][k] * e.guess[k];
         total += e.rank[k];
       }
-      if (count > 0) ChooseRays(cell, e, total, count, soft, rays.key[i], i, wanted);
+      float least = kFaintLamp * total;
+      if (in_room != nullptr && in_room[i] > 0.5f) least = RankHighlights(cell, e);
+      if (count > 0) ChooseRays(cell, e, least, count, i, wanted);
     }
     if (moving) {
       s.lamp_r[i] += front[0], s.lamp_g[i] += front[1], s.lamp_b[i] += front[2];
@@ -230,12 +227,12 @@ bool LightByMovingLamps(const ShadeView& view, const RaySet& rays, int count, Su
   uint32_t near = 0;
   for (int i = 0; i < rays.count; ++i) near |= Locate(lamps, s.px[i], s.py[i], lamps.origin_z).cell;
   if (near == 0) return false;
-  LightBy<true>(lamps, rays, count, false, s, wanted);
+  LightBy<true>(lamps, rays, count, nullptr, s, wanted);
   return true;
 }
 
-void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool soft, SurfaceSet& s, LampRays& wanted) {
-  LightBy<false>(view.lamps, rays, count, soft, s, wanted);
+void LightByLamps(const ShadeView& view, const RaySet& rays, int count, const float* in_room, SurfaceSet& s, LampRays& wanted) {
+  LightBy<false>(view.lamps, rays, count, in_room, s, wanted);
 }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

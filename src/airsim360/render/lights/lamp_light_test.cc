@@ -92,7 +92,7 @@ struct World {
       set->dx[i] = -normal.x, set->dy[i] = -normal.y, set->dz[i] = -normal.z;
       set->distance[i] = 5;
     }
-    AIRSIM360_SELECT_KERNEL(LightByLamps)(view, *set, rays, false, *s, *wanted);
+    AIRSIM360_SELECT_KERNEL(LightByLamps)(view, *set, rays, nullptr, *s, *wanted);
     TraceLamps(*tracer, *tables, *set, *wanted, rays, *s);
     return {s->lamp_g, s->lamp_g + points.size()};
   }
@@ -183,6 +183,44 @@ TEST(LampLight, APlateThatFacesDownLightsByTheCosineLawAndNothingAboveIt) {
     EXPECT_NEAR(light[i] / exact, 1, 0.02f) << points[i].x;
   }
   for (float x : world.Light({{0, 0, 9}, {1, 1, 9}}, 2, {0, 0, -1})) EXPECT_EQ(x, 0);
+}
+
+// What a glossy place on a wall mirrors of a plate under the ceiling, by the kernel and its rays. Half of the corners of its cell are
+// behind the wall. Brighter plates to both sides light the place more, but are not where it mirrors the viewer.
+float HighlightOnAWall(bool with_others, const float* in_room) {
+  World world;
+  const auto plate = [&](float x, float radiance) {
+    world.Add(Quad({x - 0.3f, 1.8f, 2.4f}, {x + 0.3f, 1.8f, 2.4f}, {x + 0.3f, 1.2f, 2.4f}, {x - 0.3f, 1.2f, 2.4f}), 0,
+              {radiance, radiance, radiance});
+  };
+  plate(2, 4);
+  world.Add(Quad({-8, 0, 0}, {-8, 0, 4}, {12, 0, 4}, {12, 0, 0}), 0.5f);
+  world.Add(Quad({-8, -0.1f, 0}, {12, -0.1f, 0}, {12, -0.1f, 4}, {-8, -0.1f, 4}), 0.5f);
+  if (with_others) {
+    for (float x : {-1.5f, -0.5f, 4.5f, 5.5f}) plate(x, 60);
+  }
+  world.Build();
+  auto rays = std::make_unique<RaySet>();
+  auto s = std::make_unique<SurfaceSet>();
+  auto wanted = std::make_unique<LampRays>();
+  *rays = {}, *s = {};
+  rays->count = 1;
+  s->px[0] = 2, s->pz[0] = 1.6f, s->ny[0] = s->gy[0] = 1;
+  s->ar[0] = s->ag[0] = s->ab[0] = 0.7f, s->roughness[0] = 0.1f;
+  const Vec3f d = Normalized(Vec3f{0, -1.5f, 0.8f});
+  rays->dx[0] = d.x, rays->dy[0] = d.y, rays->dz[0] = d.z, rays->distance[0] = 2;
+  AIRSIM360_SELECT_KERNEL(LightByLamps)(world.view, *rays, 2, in_room, *s, *wanted);
+  TraceLamps(*world.tracer, *world.tables, *rays, *wanted, 2, *s);
+  return s->lamp_shine_g[0];
+}
+
+TEST(LampLight, InRoomsRaysGoWhereHighlightsStandOut) {
+  const float in_room[kBatch] = {1};
+  const float alone = HighlightOnAWall(false, nullptr);
+  EXPECT_GT(alone, 0.01f);
+  EXPECT_NEAR(HighlightOnAWall(false, in_room), alone, 0.01f * alone);
+  EXPECT_NEAR(HighlightOnAWall(true, in_room), alone, 0.03f * alone);
+  EXPECT_LT(HighlightOnAWall(true, nullptr), 0.9f * alone);  // by corners of the cell alone
 }
 
 TEST(LampLight, NoLampLightsThroughAWall) {
@@ -277,11 +315,13 @@ TEST(LampLight, IsTheSameOnEveryInstructionSetAndWithAnyNumberOfThreads) {
     SurfaceSet s;
     LampRays wanted;
   };
+  float in_room[kBatch];
+  for (int i = 0; i < kBatch; ++i) in_room[i] = static_cast<float>(i % 2);
   const auto run = [&](auto kernel, const ShadeView& view) {
     auto result = std::make_unique<Result>();
     std::memset(static_cast<void*>(result.get()), 0, sizeof(Result));
     result->s = *start;
-    kernel(view, *rays, 4, true, result->s, result->wanted);
+    kernel(view, *rays, 4, in_room, result->s, result->wanted);
     return result;
   };
   const auto base = run(isa_sse42::LightByLamps, world.view);

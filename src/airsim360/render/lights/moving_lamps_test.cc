@@ -93,7 +93,7 @@ struct Road {
     set->dx[0] = -normal.x, set->dy[0] = -normal.y, set->dz[0] = -normal.z;
     set->distance[0] = 5;
     if (view.lamps.lamps != nullptr) {
-      AIRSIM360_SELECT_KERNEL(LightByLamps)(view, *set, rays, false, *s, *wanted);
+      AIRSIM360_SELECT_KERNEL(LightByLamps)(view, *set, rays, nullptr, *s, *wanted);
       TraceLamps(*tracer, *tables, *set, *wanted, rays, *s);
     }
     if (view.moving_lamps.lamps != nullptr && AIRSIM360_SELECT_KERNEL(LightByMovingLamps)(view, *set, rays, *s, *wanted))

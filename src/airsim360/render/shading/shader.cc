@@ -312,10 +312,10 @@ void Shader::Impl::FollowPolished(const RaySet& rays, const internal::IndoorLigh
   if (misses.count > 0) kernels.sky(view, misses, false, light), put(misses, light);
 }
 
-void Shader::Impl::LightByLamps(const RaySet& rays, int count, SurfaceSet& s) const {
+void Shader::Impl::LightByLamps(const RaySet& rays, int count, const float* in_room, SurfaceSet& s) const {
   if (view.lamps.lamps == nullptr) return;
   internal::LampRays wanted;
-  kernels.lamps(view, rays, count, false, s, wanted);
+  kernels.lamps(view, rays, count, in_room, s, wanted);
   internal::TraceLamps(*tracer, tables, rays, wanted, count, s);
 }
 
@@ -357,9 +357,10 @@ void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light, cons
   // What is seen in a mirror does without rays to lamps.
   internal::IndoorLight room;
   const bool indoors = LookIndoors(rays, surfaces, room);
-  LightByLamps(rays, bounce == 0 && !indoors ? internal::kLampRays : 0, surfaces);
+  const int lamp_rays = bounce == 0 ? internal::kLampRays : 0;
+  LightByLamps(rays, lamp_rays, indoors ? room.share : nullptr, surfaces);
   if (indoors && view.lamps.lamps != nullptr) kernels.mix_lamps(room, rays.count, surfaces);
-  LightByMovingLamps(rays, bounce == 0 ? internal::kLampRays : 0, surfaces);
+  LightByMovingLamps(rays, lamp_rays, surfaces);
   if (bounce == 0) {
     internal::TraceContact(*tracer, rays, surfaces);
     FollowRays(rays, surfaces, around, sun);

@@ -53,7 +53,7 @@ struct Shader::Impl {
   /// The light of rooms on surfaces; false: none of them is in a room. Things that move have no part in it.
   bool LookIndoors(const internal::RaySet& rays, const internal::SurfaceSet& surfaces, internal::IndoorLight& light) const;
   /// Fills lamp_* of surfaces, with `count` rays each.
-  void LightByLamps(const internal::RaySet& rays, int count, internal::SurfaceSet& surfaces) const;
+  void LightByLamps(const internal::RaySet& rays, int count, const float* in_room, internal::SurfaceSet& surfaces) const;
   /// Adds the light of lamps that moved, after all that is known of rooms.
   void LightByMovingLamps(const internal::RaySet& rays, int count, internal::SurfaceSet& surfaces) const;
   /// Lamps of what moved shine where it is now, and no longer where it was.

@@ -35,10 +35,10 @@ AIRSIM360_DECLARE_KERNEL(void AmbientRays(const AmbientOrigins& origins, const f
 AIRSIM360_DECLARE_KERNEL(void ShadeAmbient(const ShadeView& view, const SunMapView& sun_map, const RayHit16& rays, const AmbientHits& hits,
                                            float* r, float* g, float* b))
 /// Light of the lamps around every surface with the visibility that the grid knows (fills lamp_*), and the
-/// `count` rays of each that would tell better; `soft`: towards random points of the lamps, else their
-/// centres.
-AIRSIM360_DECLARE_KERNEL(void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool soft, SurfaceSet& surfaces,
-                                           LampRays& wanted))
+/// `count` rays of each that would tell better. `in_room`: for each surface the share of its light that is kept for rooms, which
+/// knows what lamps bring, so that rays go where highlights stand out; nullptr outdoors.
+AIRSIM360_DECLARE_KERNEL(void LightByLamps(const ShadeView& view, const RaySet& rays, int count, const float* in_room,
+                                           SurfaceSet& surfaces, LampRays& wanted))
 /// Adds the light of ShadeView::moving_lamps in the same way; false: there is none on any of the surfaces.
 AIRSIM360_DECLARE_KERNEL(bool LightByMovingLamps(const ShadeView& view, const RaySet& rays, int count, SurfaceSet& surfaces,
                                                  LampRays& wanted))
