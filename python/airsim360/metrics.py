@@ -4,6 +4,6 @@ Pictures are (H, W, 3) uint8 sRGB of the same size, paths (N, 3) metres; anythin
 Truths that a numpy.ma array hides are not valid in depth, flow, semantic, panoptic and tracking; elsewhere hidden elements are a ValueError.
 """
 from . import _native as _native  # says what is missing where it cannot be loaded
-from ._native.metrics import (bfov_iou, depth, entity, flip, flow, layout, mpde, ndtw, panoptic, path_length, psnr, semantic, spl, ssim, tracking, vln, ws_psnr)
+from ._native.metrics import (bfov_iou, boxes, depth, entity, flip, flow, keypoints, layout, mpde, ndtw, panoptic, path_length, psnr, semantic, spl, ssim, tracking, vln, ws_psnr)
 
-__all__ = ["bfov_iou", "depth", "entity", "flip", "flow", "layout", "mpde", "ndtw", "panoptic", "path_length", "psnr", "semantic", "spl", "ssim", "tracking", "vln", "ws_psnr"]
+__all__ = ["bfov_iou", "boxes", "depth", "entity", "flip", "flow", "keypoints", "layout", "mpde", "ndtw", "panoptic", "path_length", "psnr", "semantic", "spl", "ssim", "tracking", "vln", "ws_psnr"]

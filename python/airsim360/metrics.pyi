@@ -12,7 +12,7 @@ _Picture = npt.NDArray[np.uint8]
 _Numbers = npt.NDArray[Any]
 _Path = Sequence[Sequence[float]] | npt.NDArray[Any]
 
-__all__ = ["bfov_iou", "depth", "entity", "flip", "flow", "layout", "mpde", "ndtw", "panoptic", "path_length", "psnr", "semantic", "spl", "ssim", "tracking", "vln", "ws_psnr"]
+__all__ = ["bfov_iou", "boxes", "depth", "entity", "flip", "flow", "keypoints", "layout", "mpde", "ndtw", "panoptic", "path_length", "psnr", "semantic", "spl", "ssim", "tracking", "vln", "ws_psnr"]
 
 def psnr(a: _Picture, b: _Picture) -> float:
     """Peak signal-to-noise ratio, dB; infinity for equal pictures."""
@@ -46,6 +46,27 @@ def panoptic(prediction: _Numbers, truth: _Numbers, pred_categories: dict[int, i
 
 def entity(predictions: Sequence[_Numbers], scores: Sequence[_Numbers], truths: Sequence[_Numbers], weights: str = "pixel") -> dict[str, float]:
     """COCO's twelve figures of masks without categories: of each picture masks (K, H, W) and scores (K,)."""
+
+def boxes(predictions: Sequence[Any], scores: Sequence[Any], truths: Sequence[Any], kind: str = "bbox", pred_categories: Sequence[Any] | None = None,
+          categories: Sequence[Any] | None = None, crowds: Sequence[Any] | None = None, areas: Sequence[Any] | None = None,
+          wrap: int | None = None) -> dict[str, Any]:
+    """COCO's average precision of boxes (cocodataset.org/#detection-eval), lists of one entry a picture: predictions (K,
+    columns), scores (K,), truths (G, columns). kind: bbox (x, y, width, height, pixels), bfov (lon, lat, width, height[,
+    turn], radians) or box3d (centre x, y, z, length, width, height, metres, yaw, radians). pred_categories (K,) and
+    categories (G,): whole numbers, both or neither (all are one). crowds (G,): 1 = a crowd. areas (G,): pixels, of bbox,
+    instead of width * height. wrap: width of panoramas in pixels whose columns go round, of bbox. A dict: of bbox the
+    twelve figures ap, ap50, ap75, ap_small, ap_medium, ap_large, ar1, ar10, ar100, ar_small, ar_medium, ar_large, else
+    ap, ap50, ap75, ar; per_category, those of each id. -1 = no truth. ValueError names the argument that does not fit."""
+
+def keypoints(predictions: Sequence[Any], scores: Sequence[Any], truths: Sequence[Any], boxes: Sequence[Any], sigmas: Any = None,
+              pred_categories: Sequence[Any] | None = None, categories: Sequence[Any] | None = None, crowds: Sequence[Any] | None = None,
+              areas: Sequence[Any] | None = None) -> dict[str, Any]:
+    """COCO's average precision by object keypoint similarity (cocodataset.org/#keypoints-eval), lists of one entry a
+    picture: predictions (K, n, 3), scores (K,), truths (G, n, 3): x, y in pixels, v above 0 where labelled; truths
+    without any do not count. boxes (G, 4) of the truths: x, y, width, height, pixels. sigmas (n,): deviations relative to
+    the root of the area, COCO's 17 by default. areas (G,): pixels, instead of width * height. Categories and crowds as of
+    boxes. A dict: ap, ap50, ap75, ap_medium, ap_large, ar, ar50, ar75, ar_medium, ar_large; per_category. -1 = no truth.
+    ValueError names the argument that does not fit."""
 
 def flow(prediction: _Numbers, truth: _Numbers, weights: str = "pixel") -> dict[str, float]:
     """Errors of flow (H, W, 2) or (2, H, W), NaN = unknown: epe, fl_all, below1, below3, below5, angle_error_deg, valid."""

@@ -90,6 +90,47 @@ std::vector<Vec3d> ToPoints(const py::handle& value, const char* what) {
   return points;
 }
 
+PointOrPoints ToPointOrPoints(const py::handle& value, const char* what) {
+  const Doubles a = ToDoubles(value, what);
+  if (a.ndim() == 1 && a.shape(0) == 3) return {{{a.data()[0], a.data()[1], a.data()[2]}}, true};
+  if (a.ndim() != 2 || a.shape(1) != 3) throw InputError(std::string(what) + ": shape " + ShapeText(a) + " is neither (3,) nor (N, 3)");
+  return {ToPoints(a, what), false};
+}
+
+namespace {
+
+// What Python calls a whole number, as one; else ValueError.
+py::int_ Whole(const py::handle& value, const char* what) {
+  if (PyIndex_Check(value.ptr()) && !PyBool_Check(value.ptr())) return py::reinterpret_steal<py::int_>(PyNumber_Index(value.ptr()));
+  std::string text = std::string(what) + ": " + py::repr(value).cast<std::string>() + " is not a whole number";
+  if (PyFloat_Check(value.ptr()) && std::isfinite(PyFloat_AS_DOUBLE(value.ptr())))
+    text += "; did you mean " + std::to_string(std::llround(PyFloat_AS_DOUBLE(value.ptr()))) + "?";
+  throw InputError(text);
+}
+
+[[noreturn]] void RefuseRange(const py::int_& value, const char* what, const std::string& low, const std::string& high, bool below) {
+  throw InputError(std::string(what) + ": " + py::repr(value).cast<std::string>() + " is not in " + low + " … " + high +
+                   "; the nearest is " + (below ? low : high));
+}
+
+}  // namespace
+
+int64_t ToWhole(const py::handle& value, const char* what, int64_t low, int64_t high) {
+  const py::int_ whole = Whole(value, what);
+  int beyond = 0;
+  const int64_t number = PyLong_AsLongLongAndOverflow(whole.ptr(), &beyond);
+  if (beyond == 0 && number >= low && number <= high) return number;
+  RefuseRange(whole, what, std::to_string(low), std::to_string(high), beyond < 0 || (beyond == 0 && number < low));
+}
+
+uint64_t ToSeed(const py::handle& value) {
+  const py::int_ whole = Whole(value, "seed");
+  const uint64_t seed = PyLong_AsUnsignedLongLong(whole.ptr());
+  if (PyErr_Occurred() == nullptr) return seed;
+  PyErr_Clear();
+  RefuseRange(whole, "seed", "0", "18446744073709551615", whole < py::int_(0));
+}
+
 py::array_t<double> FromVec3(Vec3d v) {
   py::array_t<double> a(3);
   for (int i = 0; i < 3; ++i) a.mutable_data()[i] = v[i];

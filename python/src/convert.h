@@ -33,6 +33,16 @@ struct PlainArray {
 PlainArray ToPlainArray(const py::handle& value, const char* what, bool may_hide);
 /// ValueError "what: numbers of the dtype …: text".
 [[noreturn]] void RefuseDtype(const py::array& array, const char* what, const char* text);
+/// A whole number in low … high; ValueError naming `what` and the nearest one otherwise, also for 256.0 and the like.
+int64_t ToWhole(const py::handle& value, const char* what, int64_t low, int64_t high);
+/// The same in 0 … 2^64 - 1.
+uint64_t ToSeed(const py::handle& value);
+/// (3,) or (N, 3) such numbers as ToPoints takes.
+struct PointOrPoints {
+  std::vector<Vec3d> points;
+  bool one = false;  ///< (3,)
+};
+PointOrPoints ToPointOrPoints(const py::handle& value, const char* what);
 /// A finite number; ValueError naming `what` otherwise.
 double Finite(double value, const char* what);
 
@@ -83,6 +93,7 @@ void BindSimulation(py::module_& m);
 void BindPlanning(py::module_& m);
 void BindMetrics(py::module_& m);
 void BindTaskMetrics(py::module_& metrics);
+void BindCocoMetrics(py::module_& metrics);
 void BindVideo(py::module_& m);
 void BindGeodesy(py::module_& m);
 void BindPictures(py::module_& m);

@@ -53,6 +53,7 @@ void BindMetrics(py::module_& m) {
       "Normalised dynamic time warping of paths (N, 3), (M, 3), in (0, 1]; threshold: metres that count as "
       "success.");
   BindTaskMetrics(metrics);
+  BindCocoMetrics(metrics);
 }
 
 }  // namespace airsim360::python

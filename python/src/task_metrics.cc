@@ -6,6 +6,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/eval/coco/objects.h"
+#include "airsim360/eval/coco/summary.h"
 #include "airsim360/eval/depth/depth_metrics.h"
 #include "airsim360/eval/flow/flow_metrics.h"
 #include "airsim360/eval/layout/layout_metrics.h"
@@ -167,6 +168,10 @@ py::dict Semantic(const py::object& prediction, const py::object& truth, const s
   const auto p = ToIds(prediction, "prediction"), g = ToIds(truth, "truth", kLeastId, kMostId, NoClass(classes));
   CheckSameShape(p, g, "prediction, truth");
   if (classes.empty() || classes.size() >= Confusion::kOther) throw InputError("classes: must be 1 to 65534 ids");
+  std::vector<int64_t> sorted = classes;
+  std::ranges::sort(sorted);
+  if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
+    throw InputError("classes: the id " + std::to_string(*twice) + " occurs twice");
   Confusion confusion(classes.size());
   confusion.Add(Classes(p, classes), Classes(g, classes), WeightsOf(g, weights));
   if (std::isnan(confusion.PixelAccuracy())) throw InputError("truth: no pixel is of one of the classes");
@@ -196,6 +201,9 @@ py::dict Panoptic(const py::object& prediction, const py::object& truth, const s
   // What is hidden is void.
   const auto p = ToIds(prediction, "prediction", 0, kMost32, 0), g = ToIds(truth, "truth", 0, kMost32, 0);
   CheckSameShape(p, g, "prediction, truth");
+  for (const uint32_t crowd : crowds) {
+    if (!real.contains(crowd)) throw InputError("crowds: " + std::to_string(crowd) + " is no segment of the truth (categories)");
+  }
   std::map<int64_t, size_t> categories;
   for (const auto* segments : {&predicted, &real}) {
     for (const auto& [id, category] : *segments) categories.emplace(category, categories.size());
@@ -258,15 +266,7 @@ py::dict EntityPrecision(const py::sequence& predictions, const py::sequence& sc
   });
   const CocoTable table = AccumulateCoco(matches, run.options, 1);
   py::dict dict;
-  const auto all_t = CocoTable::kAll;
-  dict["ap"] = table.MeanPrecision(all_t, all_t, 0, 2), dict["ap50"] = table.MeanPrecision(0, all_t, 0, 2),
-  dict["ap75"] = table.MeanPrecision(5, all_t, 0, 2);
-  dict["ap_small"] = table.MeanPrecision(all_t, all_t, 1, 2), dict["ap_medium"] = table.MeanPrecision(all_t, all_t, 2, 2),
-  dict["ap_large"] = table.MeanPrecision(all_t, all_t, 3, 2);
-  dict["ar1"] = table.MeanRecall(all_t, all_t, 0, 0), dict["ar10"] = table.MeanRecall(all_t, all_t, 0, 1),
-  dict["ar100"] = table.MeanRecall(all_t, all_t, 0, 2);
-  dict["ar_small"] = table.MeanRecall(all_t, all_t, 1, 2), dict["ar_medium"] = table.MeanRecall(all_t, all_t, 2, 2),
-  dict["ar_large"] = table.MeanRecall(all_t, all_t, 3, 2);
+  for (const CocoFigure& figure : InstanceFigures(run.options)) dict[py::str(figure.name)] = ValueOf(figure, table, run.options);
   return dict;
 }
 
@@ -286,8 +286,8 @@ Doubles ToFlow(const Doubles& flow, const char* what) {
 py::dict FlowOf(const py::object& prediction, const py::object& truth, const std::string& weights) {
   const Doubles p = ToFlow(ToNumbers(prediction, "prediction"), "prediction"), g = ToFlow(ToNumbers(truth, "truth", kNan), "truth");
   CheckSameShape(p, g, "prediction, truth");
-  const FlowErrors errors =
-      MeasureFlow(Span(p), Span(g), static_cast<int>(g.shape(1)), static_cast<int>(g.shape(0)), {}, WeightsOf(g, weights, 1));
+  const FlowErrors errors = MeasureFlow(Span(p), Span(g), static_cast<int>(g.shape(1)), static_cast<int>(g.shape(0)),
+                                        g.shape(1) == 2 * g.shape(0), {}, WeightsOf(g, weights, 1));
   if (errors.valid == 0) throw InputError("truth: no pixel has a flow");
   py::dict dict = ToDict(kFlowFigures, Figures(errors));
   dict["valid"] = errors.valid;

@@ -3,9 +3,7 @@ import unittest
 
 import numpy as np
 
-from references import AREAS, EvalTest, average_precision, coco_summary, compressed, mask_overlap, row_areas, runs
-
-SIGMAS = np.array([26, 25, 25, 35, 35, 79, 79, 72, 72, 62, 62, 107, 107, 87, 87, 89, 89]) / 1000
+from references import AREAS, EvalTest, average_precision, coco_summary, compressed, keypoint_similarity, keypoint_summary, mask_overlap, row_areas, runs
 
 
 def rectangle(width, height, x, y, w, h):
@@ -169,27 +167,14 @@ class Keypoints(EvalTest):
             self.write("pred.json", detections)
 
             def similarity(d, t):
-                d, g = np.reshape(d["keypoints"], (17, 3)), np.reshape(t["keypoints"], (17, 3))
-                known = g[:, 2] > 0
-                if known.any():
-                    distance = ((d[:, :2] - g[:, :2]) ** 2).sum(1)
-                else:
-                    x, y, w, h = t["bbox"]
-                    low, high = np.array([x - w, y - h]), np.array([x + 2 * w, y + 2 * h])
-                    distance = ((np.maximum(0, low - d[:, :2]) + np.maximum(0, d[:, :2] - high)) ** 2).sum(1)
-                    known[:] = True
-                return np.exp(-distance / (2 * (t["area"] + np.spacing(1)) * (2 * SIGMAS) ** 2))[known].mean()
+                return keypoint_similarity(np.reshape(d["keypoints"], (17, 3)), np.reshape(t["keypoints"], (17, 3)), t["area"], t["bbox"])
 
             cells = []
             for image in range(1, 5):
                 t, d = ([x for x in some if x["image_id"] == image] for some in (truths, detections))
                 extent = lambda x: np.prod(np.ptp(np.reshape(x["keypoints"], (17, 3))[:, :2], axis=0))
                 cells.append(([[similarity(a, b) for b in t] for a in d], [(b["area"], False, b["num_keypoints"] == 0) for b in t], [(a["score"], extent(a)) for a in d]))
-            found, wanted = self.eval("keypoints", self.folder / "pred.json", self.folder / "gt.json"), []
-            full, medium, large = (average_precision(cells, AREAS[a], 20) for a in ("all", "medium", "large"))
-            for part in (0, 1):
-                wanted += [full[part].mean(), full[part][0].mean(), full[part][5].mean()] if full else [-1] * 3
-                wanted += [f[part].mean() if f else -1 for f in (medium, large)]
+            found, wanted = self.eval("keypoints", self.folder / "pred.json", self.folder / "gt.json"), keypoint_summary(cells)
             for a, b in zip(found["summary"], wanted):
                 self.assertSame(a, float(b), str(seed))
 
@@ -226,6 +211,11 @@ class Mistakes(EvalTest):
         for noise in (15, 60, 300):
             files = self.boxes(lambda b: np.abs(b), noise=noise)
             self.assertNotIn("warnings", self.eval("boxes", *files))
+        for seed in range(20):  # each category for any other one, boxes too large or elsewhere
+            random = np.random.default_rng(seed)
+            taken = dict(zip((1, 2, 3, 5), random.permutation([1, 2, 3, 5]) if seed % 2 else random.choice([1, 2, 3, 4, 5], 4)))
+            scale, moved = np.exp(random.uniform(-1, 1)) * (seed % 3 == 0) + (seed % 3 > 0), random.normal(0, 40, 2) * (seed % 4 == 0)
+            self.eval("boxes", *self.boxes(lambda b: [*(b[:2] + moved), *np.abs(scale * b[2:])], category=lambda c: int(taken[c]), noise=random.uniform(0, 30)))
 
     def test_unknown_categories_are_said(self):
         found = self.eval("boxes", *self.boxes(category=lambda c: 81 if c == 5 else c))
@@ -290,7 +280,8 @@ class Boxes(EvalTest):
         pred.write_text(pred.read_text().replace('"bbox"', f'"bbox_wrap": {wrapped}, "bbox"'))
         found = self.eval("boxes", pred, gt, "--wrap")
         self.assertSame(found["ap"], 1)
-        self.assertIn("1 truths and 1 detections", str(found["notes"]))
+        self.assertIn("of 1 truths", str(found["notes"]))
+        self.assertIn("of 1 detections", str(found["notes"]))
         self.files("bbox", [], [(0.9, wrapped)])
         gt.write_text(self.files("bbox", [plain], [(0.9, wrapped)])[1].read_text().replace('"bbox"', f'"bbox_wrap": {wrapped}, "bbox"'))
         self.assertSame(self.eval("boxes", pred, gt, "--wrap")["ap"], 1)

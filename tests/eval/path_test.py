@@ -105,8 +105,13 @@ class Navigation(EvalTest):
     def test_paths_in_other_units_or_frames_are_named(self):
         e = {"id": "a", "ref": [[40, 0, 2], [70, 0, 2]], "pred": [[40, 0, 2], [64, 3, 2]]}
         self.refuse("vln", self.write("e.json", [{**e, "pred": [[40, 0], [64, 3]]}]), says=["[0].pred[0]", "[x, y]"])
-        self.refuse("vln", self.write("e.json", [{**e, "pred": (100 * np.array(e["pred"])).tolist()}]), says=["centimetres"])
+        self.name("vln", self.write("e.json", [{**e, "pred": (100 * np.array(e["pred"])).tolist()}]), says="centimetres", refused=True)
+        self.name("vln", self.write("e.json", [{**e, "pred": [[4000, 0, 200], [6400, 1900, 200]]}]), says="centimetres", refused=False)
         self.assertIn("another frame", self.eval("vln", self.write("e.json", [{**e, "pred": [[40, 90, 2], [64, 93, 2]]}]))["warnings"][0])
+        for seed in range(20):  # agents that go anywhere, as far as they like
+            random = np.random.default_rng(seed)
+            episodes = [{"id": i, "ref": np.cumsum(random.normal(0, 9, (6, 3)) * (np.arange(6) > 0)[:, None], 0).tolist(), "pred": np.cumsum(random.normal(0, 9 * np.exp(random.uniform(-2, 6)), (8, 3)) * (np.arange(8) > 0)[:, None], 0).tolist()} for i in range(5)]
+            self.eval("vln", self.write("e.json", episodes))
         # An agent that strays far is scored.
         found = self.eval("vln", self.write("e.json", [{**e, "pred": [[40, 0, 2], [340, 0, 2]]}]))
         self.assertEqual(found["ne"], 270)
@@ -273,6 +278,14 @@ class Layout(EvalTest):
             ranges.append(np.minimum(*candidates))
         return float(np.sqrt(np.mean((ranges[0] - ranges[1]) ** 2)))
 
+    def test_corners_that_are_written_otherwise_are_named(self):
+        room = np.array([[c, y] for c in (100, 300, 600, 900) for y in (180, 400)], float)
+        lines = lambda corners: "".join(f"{x} {y}\n" for x, y in corners)
+        self.write("g.TXT", lines(room))
+        for wrong, says in ((room[:, ::-1], "x and y exchanged"), (room / [1024, 512], "shares of the width")):
+            self.refuse("layout", self.write("p.txt", lines(wrong)), self.folder / "g.TXT", says=[says])
+        self.assertEqual(self.eval("layout", self.write("p.JSON", {"uv": (room / [1024, 512]).tolist()}), self.folder / "g.TXT")["iou3d"], 1)
+
     def test_bad_corners_are_refused(self):
         self.write("g.txt", self.corners([(-2, -3), (-2, 3), (2, 3), (2, -3)], 1))
         for text, says in (("1 2\n3", "p.txt:2"), ("1 2\n", "pairs"), ("1 200\n1 100\n" * 3, "pair 0"), (self.corners([(1, 1), (1, 3), (3, 3)], 1), "outside the room")):
@@ -310,7 +323,8 @@ class People(EvalTest):
     def test_units_and_missing_persons_are_named(self):
         truth = [{"id": i, "distance": 5 + i, "angle_deg": 0} for i in range(4)]
         gt = self.write("g.json", truth)
-        self.refuse("mpde", self.write("p.json", [{**t, "distance": 104 * t["distance"]} for t in truth]), gt, says=["centimetres"])
+        self.name("mpde", self.write("p.json", [{**t, "distance": 104 * t["distance"]} for t in truth]), gt, says="centimetres", refused=True)
+        self.name("mpde", self.write("p.json", [{**t, "distance": 75 * t["distance"]} for t in truth]), gt, says="centimetres", refused=False)
         self.refuse("mpde", self.write("p.json", truth[:2]), gt, says=["2 of 4", "'2'"])
         found = self.eval("mpde", self.write("p.json", truth + [{"id": 9, "distance": 3, "angle_deg": 0}]), gt)
         self.assertIn("'9'", str(found["notes"]))
@@ -322,9 +336,15 @@ class People(EvalTest):
             honest = self.write("h.json", [{**t, "angle_deg": a} for t, a in zip(turned, angles)])
             self.eval("mpde", honest, gt)
             radians = self.write("p.json", [{**t, "angle_deg": math.remainder(math.radians(a), 2 * math.pi)} for t, a in zip(turned, angles)])
-            self.refuse("mpde", radians, gt, says=["p.json", "radians"])
-            self.refuse("mpde", honest, radians, says=["p.json", "radians"])
+            self.name("mpde", radians, gt, says="p.json: angles lie within a turn of radians", refused=noise == 0)
+            self.name("mpde", honest, radians, says="p.json: angles lie within a turn of radians", refused=True)
         self.eval("mpde", self.write("p.json", [{**t, "angle_deg": 0} for t in turned]), gt)
+        for seed in range(20):  # bad networks: any scale, any angle, angles that are all alike
+            random = np.random.default_rng(seed)
+            spread, scale = random.choice([0, 1, 3, 30, 180]), np.exp(random.uniform(-3, 3))
+            mean = random.uniform(-6, 6) if seed % 2 else random.uniform(-180, 180)
+            gt = self.write("g.json", [{"id": i, "distance": float(random.uniform(2, 40)), "angle_deg": float(random.normal(170, 5) if seed % 3 == 0 else random.uniform(-180, 180))} for i in range(12)])
+            self.eval("mpde", self.write("p.json", [{"id": i, "distance": float(scale * random.uniform(2, 40)), "angle_deg": float(random.normal(mean, spread))} for i in range(12)]), gt)
         self.refuse("mpde", self.write("p.json", [{"id": 0, "angle_deg": 0}]), gt, says=["has no 'distance'"])
 
 

@@ -53,6 +53,18 @@ class EvalTest(unittest.TestCase):
         for text in says:
             self.assertIn(text, done.stderr)
 
+    def name(self, *arguments, says, refused=None):
+        """The likely mistake is named: in the refusal (then also in the warnings with --force), or in the warnings of what is scored."""
+        done = self.run_program(*arguments, "--json")
+        if refused is not None:
+            self.assertEqual(done.returncode, 2 if refused else 0, (says, done.stderr + done.stdout))
+        if done.returncode == 2:
+            self.assertIn(says, done.stderr)
+            self.assertIn("--force", done.stderr)
+        scored = self.eval(*arguments, *["--force"] * (done.returncode == 2))
+        self.assertIn(says, str(scored["warnings"]))
+        return scored
+
     def write(self, name, value):
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -127,6 +139,7 @@ def mean_quality(counts, chosen):
 
 
 THRESHOLDS = np.linspace(0.5, 0.95, 10)
+SIGMAS = np.array([26, 25, 25, 35, 35, 79, 79, 72, 72, 62, 62, 107, 107, 87, 87, 89, 89]) / 1000  # of COCO's 17 keypoints
 AREAS = {"all": (0, 1e10), "small": (0, 32**2), "medium": (32**2, 96**2), "large": (96**2, 1e10)}
 
 
@@ -194,6 +207,36 @@ def mask_overlap(d, t, crowd):
     shared = np.sum(d & t)
     union = np.sum(d) if crowd else np.sum(d | t)
     return shared / union if shared else 0.0
+
+
+def box_overlap(d, t, crowd):
+    """Of [x, y, width, height]."""
+    d, t = np.array(d), np.array(t)
+    size = np.minimum(d[:2] + d[2:], t[:2] + t[2:]) - np.maximum(d[:2], t[:2])
+    shared = np.prod(size) if (size > 0).all() else 0.0
+    return shared / (np.prod(d[2:]) if crowd else np.prod(d[2:]) + np.prod(t[2:]) - shared) if shared else 0.0
+
+
+def keypoint_similarity(d, g, area, box, sigmas=SIGMAS):
+    """OKS of (n, 3) and (n, 3): cocodataset.org/#keypoints-eval, and pycocotools' rule for truths without labelled points."""
+    known = g[:, 2] > 0
+    if known.any():
+        distance = ((d[:, :2] - g[:, :2]) ** 2).sum(1)
+    else:
+        x, y, w, h = box
+        low, high = np.array([x - w, y - h]), np.array([x + 2 * w, y + 2 * h])
+        distance = ((np.maximum(0, low - d[:, :2]) + np.maximum(0, d[:, :2] - high)) ** 2).sum(1)
+        known = known | True
+    return np.exp(-distance / (2 * (area + np.spacing(1)) * (2 * sigmas) ** 2))[known].mean()
+
+
+def keypoint_summary(cells):
+    full, medium, large = (average_precision(cells, AREAS[a], 20) for a in ("all", "medium", "large"))
+    wanted = []
+    for part in (0, 1):
+        wanted += [full[part].mean(), full[part][0].mean(), full[part][5].mean()] if full else [-1] * 3
+        wanted += [f[part].mean() if f else -1 for f in (medium, large)]
+    return wanted
 
 
 def runs(mask):

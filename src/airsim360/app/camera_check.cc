@@ -10,6 +10,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/math/median.h"
 #include "airsim360/sensors/surface_label.h"
 #include "airsim360/trace/whereabouts.h"
 
@@ -30,14 +31,6 @@ std::string NameOf(const Scene& scene, EntityId entity) {
 std::string CameraText(const Flight& flight, size_t frame, Vec3d p) {
   const std::string place = "the camera at " + Text(p);
   return flight.shots.size() > 1 ? "frame " + std::to_string(frame) + ": " + place : place;
-}
-
-// The element in the middle; 0 of none.
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 }  // namespace
@@ -84,8 +77,9 @@ void CheckFlowSteps(const RayTracer& tracer, const DatasetSpec& spec, const Flig
       if (const auto hit = tracer.Intersect(p, VecCast<float>(direction))) ranges.push_back(static_cast<double>(hit->distance));
     }
   }
-  const double step = Median(steps), range = Median(ranges);
-  if (ranges.empty() || step < 0.5 * range) return;
+  if (ranges.empty()) return;
+  const double step = UpperMedian(steps), range = UpperMedian(ranges);
+  if (step < 0.5 * range) return;
   char text[240];
   std::snprintf(text, sizeof text,
                 "--products flow: consecutive frames are %.3g m apart and what they show is %.3g m away (medians): little of one "

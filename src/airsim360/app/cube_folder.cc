@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/file_name.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/image/palette_png.h"
 #include "airsim360/projection/camera.h"
@@ -109,8 +110,6 @@ bool ShareAPalette(const CubeFolder& faces) {
 }
 
 }  // namespace
-
-std::string LowerCaseExtension(const fs::path& path) { return LowerCase(path.extension()); }
 
 CubeFolder ReadCubeFolder(const std::string& folder, const std::string& axes) {
   CubeFolder faces{.files = FindFaces(folder, axes), .bytes = {}};

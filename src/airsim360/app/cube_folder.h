@@ -28,7 +28,4 @@ struct CubeFolder {
 /// that are missing (and what is there) or there twice, different kinds.
 CubeFolder ReadCubeFolder(const std::string& folder, const std::string& axes);
 
-/// ".png" and so on, in lower case.
-std::string LowerCaseExtension(const std::filesystem::path& path);
-
 }  // namespace airsim360

@@ -6,15 +6,13 @@
 #include <map>
 #include <memory>
 #include <set>
-#include <sstream>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/eval_commands.h"
 #include "airsim360/app/eval_views.h"
 #include "airsim360/base/error.h"
-#include "airsim360/base/file.h"
-#include "airsim360/base/text.h"
 #include "airsim360/eval/coco/likely_reading.h"
+#include "airsim360/eval/coco/summary.h"
 #include "airsim360/eval/files/coco_file.h"
 
 namespace airsim360 {
@@ -31,14 +29,6 @@ struct CocoArguments {
   ReportOptions report;
 };
 
-/// A figure of the summary: mean precision or recall over a threshold, a range of area and a number of detections.
-struct Row {
-  std::string name;
-  bool precision;
-  double threshold;  // 0 = all
-  size_t area, most;
-};
-
 constexpr size_t kUnlimited = std::numeric_limits<size_t>::max();
 
 std::vector<size_t> ParseMost(const std::vector<int64_t>& given, const std::vector<size_t>& usual) {
@@ -53,49 +43,9 @@ std::vector<size_t> ParseMost(const std::vector<int64_t>& given, const std::vect
   return most;
 }
 
-// COCO's order: twelve figures of masks and boxes.
-std::vector<Row> InstanceRows(const std::vector<size_t>& most) {
-  const size_t last = most.size() - 1;
-  std::vector<Row> rows = {{"ap", true, 0, 0, last},       {"ap50", true, 0.5, 0, last},    {"ap75", true, 0.75, 0, last},
-                           {"ap_small", true, 0, 1, last}, {"ap_medium", true, 0, 2, last}, {"ap_large", true, 0, 3, last}};
-  for (size_t m = 0; m < most.size(); ++m) rows.push_back({"ar" + std::to_string(most[m]), false, 0, 0, m});
-  rows.push_back({"ar_small", false, 0, 1, last});
-  rows.push_back({"ar_medium", false, 0, 2, last});
-  rows.push_back({"ar_large", false, 0, 3, last});
-  return rows;
-}
-
-// Ten of keypoints.
-std::vector<Row> KeypointRows() {
-  std::vector<Row> rows;
-  for (const bool precision : {true, false}) {
-    const std::string name = precision ? "ap" : "ar";
-    rows.insert(rows.end(), {{name, precision, 0, 0, 0},
-                             {name + "50", precision, 0.5, 0, 0},
-                             {name + "75", precision, 0.75, 0, 0},
-                             {name + "_medium", precision, 0, 1, 0},
-                             {name + "_large", precision, 0, 2, 0}});
-  }
-  return rows;
-}
-
-std::vector<Row> SimpleRows(const std::vector<size_t>& most) {
-  const size_t last = most.size() - 1;
-  return {{"ap", true, 0, 0, last}, {"ap50", true, 0.5, 0, last}, {"ap75", true, 0.75, 0, last}, {"ar", false, 0, 0, last}};
-}
-
-double Value(const CocoTable& table, const Row& row, const CocoOptions& options, size_t category = CocoTable::kAll) {
-  size_t threshold = CocoTable::kAll;
-  for (size_t t = 0; t < options.thresholds.size(); ++t) {
-    if (row.threshold > 0 && std::abs(options.thresholds[t] - row.threshold) < 1e-9) threshold = t;
-  }
-  return row.precision ? table.MeanPrecision(threshold, category, row.area, row.most)
-                       : table.MeanRecall(threshold, category, row.area, row.most);
-}
-
 struct Task {
   CocoRun run;
-  std::vector<Row> rows;
+  std::vector<CocoFigure> rows;
   bool unlimited = false;  // ap_all beside the limited figures
 };
 
@@ -103,7 +53,7 @@ Json PerClass(const CocoTable& table, const CocoTruths& truths, const Task& task
   Json list = Json::object();
   for (size_t k = 0; k < truths.categories.size(); ++k) {
     Json one = {{"id", truths.categories[k].id}};
-    for (const Row& row : task.rows) one[row.name] = Value(table, row, task.run.options, k);
+    for (const CocoFigure& row : task.rows) one[row.name] = ValueOf(row, table, task.run.options, k);
     const std::string name = truths.categories[k].name;
     list[name.empty() || list.contains(name) ? std::to_string(truths.categories[k].id) : name] = std::move(one);
   }
@@ -124,7 +74,7 @@ Json OpenWorld(const CocoTable& table, const CocoTruths& truths, const Task& tas
   for (const bool unknown : {false, true}) {
     double sum = 0, count = 0;
     for (size_t k = 0; k < truths.categories.size(); ++k) {
-      const double ap = Value(table, task.rows[0], task.run.options, k);
+      const double ap = ValueOf(task.rows[0], table, task.run.options, k);
       if (held.contains(k) == unknown && ap >= 0) sum += ap, count += 1;
     }
     json[unknown ? "ap_held_out" : "ap_known"] = count > 0 ? sum / count : -1;
@@ -192,42 +142,21 @@ void AppendPlaces(Json& json, const CocoArguments& a, const CocoTruths& truths, 
 
 void WriteTable(const std::string& path, const CocoTable& table, const CocoTruths& truths, const Task& task) {
   std::vector<std::vector<std::string>> rows = {{"category", "id"}};
-  for (const Row& row : task.rows) rows[0].push_back(row.name);
+  for (const CocoFigure& row : task.rows) rows[0].push_back(row.name);
   for (size_t k = 0; k < (task.run.class_agnostic ? 1 : truths.categories.size()); ++k) {
     auto& line = rows.emplace_back(task.run.class_agnostic
                                        ? std::vector<std::string>{"all", "1"}
                                        : std::vector<std::string>{truths.categories[k].name, std::to_string(truths.categories[k].id)});
-    for (const Row& row : task.rows) line.push_back(NumberText(Value(table, row, task.run.options, k)));
+    for (const CocoFigure& row : task.rows) line.push_back(NumberText(ValueOf(row, table, task.run.options, k)));
   }
   WriteCsv(path, rows);
-}
-
-// The text of a file that was read before, with `bbox_wrap`, the box on the circle of columns, in the place of `bbox`; counts the boxes that had one.
-std::string WithWrappedBoxes(const std::string& path, size_t& count) {
-  const std::string text = ReadTextFile(path, uint64_t{4} << 30);
-  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-  if (json.is_discarded()) {  // JSON lines
-    json = nlohmann::json::array();
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-      if (!Trimmed(line).empty()) json.push_back(nlohmann::json::parse(line));
-    }
-  }
-  for (nlohmann::json& one : json.is_object() ? json["annotations"] : json) {
-    const auto wrapped = one.find("bbox_wrap");
-    if (wrapped == one.end() || !wrapped->is_array()) continue;
-    one["bbox"] = *wrapped;
-    ++count;
-  }
-  return json.dump();
 }
 
 // What makes figures mean nothing is refused, what is left out is said.
 void Judge(const CocoArguments& a, const CocoTruths& truths, const std::vector<CocoObject>& results, const CocoRun& run, double ap50,
            Json& json) {
   if (const std::string text = VoidTruths(truths, run.kind); !text.empty()) JudgeMistakes({{a.gt, {text, true}}}, a.force, json);
-  if (const std::string text = LikelyReading(truths, results, run, ap50); !text.empty())
-    JudgeMistakes({{a.pred, {text, true}}}, a.force, json);
+  JudgeMistakes({{a.pred, LikelyReading(truths, results, run, ap50)}}, a.force, json);
   if (run.class_agnostic) return;
   std::set<int64_t> known, unknown;
   for (const CocoCategory& category : truths.categories) known.insert(category.id);
@@ -245,16 +174,8 @@ void Judge(const CocoArguments& a, const CocoTruths& truths, const std::vector<C
 }
 
 void RunTask(const CocoArguments& a, Task task, const GlobalOptions& globals, std::vector<std::string> notes) {
-  CocoTruths truths = ReadCocoTruths(a.gt, task.run.kind);
-  std::vector<CocoObject> results = ReadCocoResults(a.pred, task.run.kind, truths);
-  if (task.run.wrap) {
-    size_t true_boxes = 0, boxes = 0;
-    truths = ParseCocoTruths(WithWrappedBoxes(a.gt, true_boxes), a.gt, task.run.kind);
-    results = ParseCocoResults(WithWrappedBoxes(a.pred, boxes), a.pred, task.run.kind, truths);
-    if (true_boxes + boxes > 0)
-      notes.push_back("bbox_wrap is taken for bbox where there is one: of " + std::to_string(true_boxes) + " truths and " +
-                      std::to_string(boxes) + " detections");
-  }
+  CocoTruths truths = ReadCocoTruths(a.gt, task.run.kind, task.run.wrap);
+  const std::vector<CocoObject> results = ReadCocoResults(a.pred, task.run.kind, truths, task.run.wrap);
   if (truths.images.empty()) throw InputError(a.gt + ": has no images");
   task.run.class_agnostic = a.class_agnostic;
   if (task.unlimited) task.run.options.most_detections.push_back(kUnlimited);
@@ -265,8 +186,8 @@ void RunTask(const CocoArguments& a, Task task, const GlobalOptions& globals, st
   Json json;
   Judge(a, truths, results, task.run, table.MeanPrecision(0, CocoTable::kAll, 0, task.run.options.most_detections.size() - 1), json);
   Json summary = Json::array();
-  for (const Row& row : task.rows) {
-    json[row.name] = Value(table, row, task.run.options);
+  for (const CocoFigure& row : task.rows) {
+    json[row.name] = ValueOf(row, table, task.run.options);
     summary.push_back(json[row.name]);
   }
   json["summary"] = summary;
@@ -284,12 +205,12 @@ void RunTask(const CocoArguments& a, Task task, const GlobalOptions& globals, st
   }
   AppendPlaces(json, a, truths, results, task.run);
   std::vector<std::string> names;
-  for (const Row& row : task.rows) names.push_back(row.name);
+  for (const CocoFigure& row : task.rows) names.push_back(row.name);
   AppendIntervals(json, a.report, globals.seed, matches.size(), names, [&](std::span<const uint32_t> draws) {
     const CocoTable drawn = AccumulateCoco(matches, task.run.options, categories, draws);
     std::vector<double> values;
-    for (const Row& row : task.rows) {
-      const double value = Value(drawn, row, task.run.options);
+    for (const CocoFigure& row : task.rows) {
+      const double value = ValueOf(row, drawn, task.run.options);
       values.push_back(value < 0 ? std::numeric_limits<double>::quiet_NaN() : value);
     }
     return values;
@@ -309,7 +230,7 @@ void AddCommon(CLI::App& command, CocoArguments& a) {
   command.add_flag("--class-agnostic", a.class_agnostic, "all categories are one");
   command.add_option("--open-world", a.held_out, "categories that training has not seen, by name: their AP beside that of the others")
       ->delimiter(',');
-  command.add_flag("--force", a.force, "measure in spite of what looks like a mistake of ids or units");
+  AddForceFlag(command, a.force);
   AddReportFlags(command, a.report, "a row a category");
 }
 
@@ -332,7 +253,7 @@ void RunEntity(CocoArguments a, const GlobalOptions& globals) {
   if (task.run.solid_angle && a.type == "bbox")
     throw InputError("--weights solid_angle is for masks; boxes on the sphere are `eval boxes --kind bfov`");
   task.run.options.most_detections = ParseMost(a.most, task.run.options.most_detections);
-  task.rows = InstanceRows(task.run.options.most_detections);
+  task.rows = InstanceFigures(task.run.options);
   task.unlimited = true;
   RunTask(a, task, globals, notes);
 }
@@ -341,7 +262,7 @@ void RunKeypoints(const CocoArguments& a, const GlobalOptions& globals) {
   Task task;
   task.run.kind = CocoKind::kKeypoints;
   task.run.options = KeypointCocoOptions();
-  task.rows = KeypointRows();
+  task.rows = KeypointFigures();
   RunTask(a, task, globals, {"at most 20 detections of a picture count; sigmas are the category's `sigmas`, else COCO's 17"});
 }
 
@@ -352,13 +273,13 @@ void RunBoxes(const CocoArguments& a, const GlobalOptions& globals) {
   if (a.kind == "bbox") {
     task.run.kind = CocoKind::kBoxes;
     task.run.wrap = a.wrap;
-    task.rows = InstanceRows(task.run.options.most_detections);
+    task.rows = InstanceFigures(task.run.options);
     if (a.wrap) notes.push_back("columns go round: boxes are compared on the circle, x + width may exceed the picture's width");
   } else if (a.kind == "bfov" || a.kind == "box3d") {
     if (a.wrap) throw InputError("--wrap is for --kind bbox: the others have no seam");
     task.run.kind = a.kind == "bfov" ? CocoKind::kSphericalBoxes : CocoKind::kBoxes3d;
     task.run.options.areas = {{-1, std::numeric_limits<double>::infinity()}};
-    task.rows = SimpleRows(task.run.options.most_detections);
+    task.rows = PlainFigures(task.run.options);
     notes.push_back(a.kind == "bfov" ? "overlap is the unbiased spherical IoU, exact" : "overlap is that of the volumes of upright boxes");
   } else {
     throw InputError("--kind: " + UnknownChoiceMessage("kind of box", a.kind, std::vector<std::string>{"bbox", "bfov", "box3d"}));

@@ -11,6 +11,7 @@
 #include "airsim360/app/eval_sheet.h"
 #include "airsim360/app/eval_views.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/file_name.h"
 #include "airsim360/eval/depth/depth_metrics.h"
 #include "airsim360/eval/files/file_pairs.h"
 #include "airsim360/eval/files/picture_files.h"
@@ -121,7 +122,7 @@ void JudgePair(const FilePair& pair, const NumberPicture& pred, const NumberPict
   for (double& t : truths) {
     if (!(t > a.depth.min_depth && t <= a.depth.max_depth)) t = 0;
   }
-  const bool png = internal::LowerEnding(pair.prediction) == ".png";
+  const bool png = LowerCaseExtension(pair.prediction) == ".png";
   const DepthLook look = {a.panorama && gt.width == 2 * gt.height, png ? a.files.png_scale * a.pred_scale : 0};
   result.mistake = LikelyDepthMistake(pred.values, truths, gt.width, gt.height, look);
   result.shared = SharedMaximum(truths, std::numeric_limits<double>::infinity());
@@ -215,7 +216,7 @@ void CheckFileFlags(const DepthArguments& a, const FilePairs& files) {
   const auto any = [&](std::initializer_list<const char*> endings) {
     return std::any_of(files.pairs.begin(), files.pairs.end(), [&](const FilePair& pair) {
       return std::any_of(endings.begin(), endings.end(), [&](const char* ending) {
-        return internal::LowerEnding(pair.prediction) == ending || internal::LowerEnding(pair.truth) == ending;
+        return LowerCaseExtension(pair.prediction) == ending || LowerCaseExtension(pair.truth) == ending;
       });
     });
   };
@@ -228,6 +229,7 @@ void Run(DepthArguments a, const GlobalOptions& globals) {
   Check(a);
   const std::vector<std::string> endings = {".npy", ".exr", ".h5", ".hdf5", ".png"};
   const FilePairs files = PairFiles(a.pred, a.gt, endings, "range");
+  CheckDatasetFiles(a.gt, {"range"});
   CheckFileFlags(a, files);
   a.panorama = ArePanoramas(a.view, {a.gt, a.pred});
   const std::vector<Rolled> turns = ParseRolled(a.view);

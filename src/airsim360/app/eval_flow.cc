@@ -14,6 +14,7 @@ namespace airsim360 {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
 struct FlowResult {
   std::vector<FlowErrors> views;
   LikelyMistake mistake;
@@ -26,14 +27,14 @@ struct FlowArguments {
   ReportOptions report;
 };
 
-FlowResult MeasurePair(const FilePair& pair, const FlowArguments& a, ViewCache& cache) {
+FlowResult MeasurePair(const FilePair& pair, const FlowArguments& a, bool panoramas, ViewCache& cache) {
   const NumberPicture pred = ReadFlowPicture(pair.prediction, false), gt = ReadFlowPicture(pair.truth, a.visible);
   if (pred.width != gt.width || pred.height != gt.height)
     throw InputError(pair.prediction.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " +
                      pair.truth.string() + " has " + std::to_string(gt.width) + "x" + std::to_string(gt.height));
+  const bool panorama = panoramas && gt.width == 2 * gt.height;
   FlowResult result;
-  const FlowMistake mistake = LikelyFlowMistake(pred.values, gt.values, gt.width, gt.height);
-  result.mistake = {mistake.text, mistake.sure};
+  result.mistake = LikelyFlowMistake(pred.values, gt.values, gt.width, gt.height, panorama);
   for (const PixelView& view : *cache.Of(gt.width, gt.height)) {
     try {
       std::vector<double> p, g;
@@ -42,7 +43,8 @@ FlowResult MeasurePair(const FilePair& pair, const FlowArguments& a, ViewCache& 
         g.insert(g.end(), {gt.values[2 * size_t{i}], gt.values[2 * size_t{i} + 1]});
       }
       const bool all = view.source.empty();
-      result.views.push_back(MeasureFlow(all ? pred.values : p, all ? gt.values : g, gt.width, gt.height, view.source, view.weights));
+      result.views.push_back(
+          MeasureFlow(all ? pred.values : p, all ? gt.values : g, gt.width, gt.height, panorama, view.source, view.weights));
     } catch (const InputError& error) {
       throw InputError(pair.prediction.string() + ": " + error.what());
     }
@@ -76,11 +78,12 @@ Json ViewJson(const std::vector<FlowResult>& results, size_t view) {
 
 void Run(const FlowArguments& a, const GlobalOptions& globals) {
   CheckViewOptions(a.view);
-  ArePanoramas(a.view, {a.pred, a.gt});
+  const bool panorama = ArePanoramas(a.view, {a.pred, a.gt});
   const FilePairs files = PairFiles(a.pred, a.gt, {".flo", ".npy", ".exr", ".png"}, "flow");
+  CheckDatasetFiles(a.gt, {"flow"});
   ViewCache cache(a.view);
   const auto results =
-      MeasureAll<FlowResult>("eval flow", files.pairs.size(), [&](size_t i) { return MeasurePair(files.pairs[i], a, cache); });
+      MeasureAll<FlowResult>("eval flow", files.pairs.size(), [&](size_t i) { return MeasurePair(files.pairs[i], a, panorama, cache); });
   Json json = ViewJson(results, 0);
   JudgeMistakes(results, a.view.force, json, [&](size_t i) { return files.pairs[i].prediction.string(); });
   if (json["valid"].get<int64_t>() == 0) throw InputError(a.gt + ": no pixel has a flow");

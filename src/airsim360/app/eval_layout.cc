@@ -1,4 +1,5 @@
 // airsim360 eval layout and eval mpde: rooms told by corners; distance and orientation of people.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -12,6 +13,7 @@
 #include "airsim360/eval/files/layout_file.h"
 #include "airsim360/eval/files/person_file.h"
 #include "airsim360/math/angles.h"
+#include "airsim360/math/median.h"
 
 namespace airsim360 {
 namespace {
@@ -24,6 +26,7 @@ struct LayoutArguments {
 };
 struct MpdeArguments {
   std::string pred, gt, protocol;
+  bool force = false;
   ReportOptions report;
 };
 
@@ -121,38 +124,48 @@ Json MpdeJson(const MpdeErrors& e) {
           {"angle_unwrapped_mae_deg", e.angle_unwrapped_mae_deg}};
 }
 
-// A ratio near 100 or 1000 of most persons is a unit, no error.
-void RefuseUnits(const PersonPairs& pairs, const std::string& path) {
+// A ratio near 100 or 1000 of most persons is a unit; surely so where nearly all are right in it, and their median is met closely.
+LikelyMistake UnitMistake(const PersonPairs& pairs) {
+  std::vector<double> ratios;
+  for (size_t i = 0; i < pairs.truth.size(); ++i) ratios.push_back(pairs.prediction[i].distance / pairs.truth[i].distance);
+  const auto share_within = [&](double low, double high) {
+    return static_cast<double>(std::ranges::count_if(ratios, [&](double r) { return r > low && r < high; })) /
+           static_cast<double>(ratios.size());
+  };
   for (const double factor : {100.0, 1000.0, 0.01, 0.001}) {
-    size_t close = 0;
-    for (size_t i = 0; i < pairs.truth.size(); ++i) {
-      const double ratio = pairs.prediction[i].distance / pairs.truth[i].distance;
-      close += ratio > 0.7 * factor && ratio < 1.4 * factor;
-    }
-    if (2 * close > pairs.truth.size())
-      throw InputError(path + ": distances are about " + NumberText(factor) + " times the truth: are they in " +
-                       (factor == 100    ? "centimetres"
-                        : factor == 1000 ? "millimetres"
-                                         : "metres, and the truth is not") +
-                       "?");
+    if (share_within(0.7 * factor, 1.4 * factor) <= 0.5) continue;
+    const double median = UpperMedian(ratios) / factor;
+    return {"distances are about " + NumberText(factor) + " times the truth: are they in " +
+                (factor == 100    ? "centimetres"
+                 : factor == 1000 ? "millimetres"
+                                  : "metres, and the truth is not") +
+                "?",
+            share_within(factor / 1.25, 1.25 * factor) >= internal::kNearlyAll && std::abs(median - 1) < 0.05};
   }
+  return {};
 }
 
-// Radians as degrees: all within a turn of radians, and far nearer to the others times 57.3 than as they are.
-void RefuseRadians(const std::vector<PersonPose>& suspects, const std::vector<PersonPose>& others, const std::string& path) {
+// Radians as degrees: all within a turn of radians, and far nearer to the others times 57.3 than as they are or all one.
+LikelyMistake RadianMistake(const std::vector<PersonPose>& suspects, const std::vector<PersonPose>& others) {
   constexpr size_t kLeastPersons = 5;
-  constexpr double kTurn = 2 * kPi;
+  constexpr double kTurn = 2 * kPi, kRight = 20 * kDegree;
   const size_t n = suspects.size();
-  if (n < kLeastPersons) return;
-  double straight = 0, converted = 0;
+  if (n < kLeastPersons) return {};
+  double straight = 0, converted = 0, right = 0, x = 0, y = 0;
   for (size_t i = 0; i < n; ++i) {
     const double degrees = suspects[i].angle / kDegree;  // what the file says
-    if (std::abs(degrees) > kTurn) return;
-    straight += std::abs(WrapAngle(suspects[i].angle - others[i].angle));
-    converted += std::abs(WrapAngle(degrees - others[i].angle));
+    if (std::abs(degrees) > kTurn) return {};
+    const double error = std::abs(WrapAngle(degrees - others[i].angle));
+    straight += std::abs(WrapAngle(suspects[i].angle - others[i].angle)) / static_cast<double>(n);
+    converted += error / static_cast<double>(n);
+    right += error < kRight ? 1 / static_cast<double>(n) : 0;
+    x += std::cos(others[i].angle), y += std::sin(others[i].angle);
   }
-  if (straight / static_cast<double>(n) > 20 * kDegree && converted < 0.5 * straight)
-    throw InputError(path + ": angles lie within a turn of radians and fit far better as such: angle_deg is degrees");
+  double same = 0;  // error of one angle for all
+  for (const PersonPose& other : others) same += std::abs(WrapAngle(std::atan2(y, x) - other.angle)) / static_cast<double>(n);
+  if (straight <= kRight || converted >= 0.5 * straight) return {};
+  return {"angles lie within a turn of radians and fit far better as such: angle_deg is degrees",
+          right >= internal::kNearlyAll && converted < 0.5 * same};
 }
 
 void RunMpde(const MpdeArguments& a, const GlobalOptions& globals) {
@@ -160,10 +173,10 @@ void RunMpde(const MpdeArguments& a, const GlobalOptions& globals) {
     throw InputError("--protocol: " +
                      UnknownChoiceMessage("protocol of distances of people", a.protocol, std::vector<std::string>{"monoloco"}));
   const PersonPairs pairs = ReadPersonFiles(a.pred, a.gt);
-  RefuseUnits(pairs, a.pred);
-  RefuseRadians(pairs.prediction, pairs.truth, a.pred);
-  RefuseRadians(pairs.truth, pairs.prediction, a.gt);
   Json json = MpdeJson(MeasureMpde(pairs.prediction, pairs.truth));
+  JudgeMistakes({{a.pred, UnitMistake(pairs)}}, a.force, json);
+  JudgeMistakes({{a.pred, RadianMistake(pairs.prediction, pairs.truth)}}, a.force, json);
+  JudgeMistakes({{a.gt, RadianMistake(pairs.truth, pairs.prediction)}}, a.force, json);
   const auto groups = MeasureMpdeGroups(pairs.prediction, pairs.truth);
   constexpr std::array<const char*, 4> kGroups = {"below_10_m", "10_to_20_m", "20_to_30_m", "from_30_m"};
   for (size_t g = 0; g < groups.size(); ++g) json["by_distance"][kGroups[g]] = MpdeJson(groups[g]);
@@ -211,6 +224,7 @@ void AddEvalMpde(CLI::App& command, GlobalOptions& globals) {
   mpde->add_option("pred", a->pred, ".json or .jsonl of persons: id, distance or xyz (metres), angle_deg or yaw_deg")->required();
   mpde->add_option("gt", a->gt, "the truth: the same ids")->required();
   mpde->add_option("--protocol", a->protocol, "monoloco: its figures are always among those given");
+  AddForceFlag(*mpde, a->force);
   AddReportFlags(*mpde, a->report, "a row a person");
   mpde->callback([a, &globals] { RunMpde(*a, globals); });
 }

@@ -64,8 +64,8 @@ PanopticResult MeasureFrame(const PanopticInput& input, size_t i, const std::vec
   } catch (const InputError& error) {
     throw InputError("picture " + gt_frame.image + " (" + gt_frame.file + "): " + error.what());
   }
-  result.mistake = LikelyLabelMistake(CategoriesOf(pred, pred_frame), CategoriesOf(gt, gt_frame), gt.width, gt.height, 0,
-                                      panorama && gt.width == 2 * gt.height);
+  result.mistake = LikelyLabelMistake(CategoriesOf(pred, pred_frame), CategoriesOf(gt, gt_frame), gt.width, gt.height,
+                                      {.void_label = 0, .panorama = panorama && gt.width == 2 * gt.height});
   return result;
 }
 
@@ -118,6 +118,7 @@ Json OpenWorld(const Counts& counts, const std::vector<PanopticCategory>& catego
 void Run(PanopticArguments a, const GlobalOptions& globals) {
   CheckViewOptions(a.view);
   CheckSheetOptions(a.sheet);
+  CheckTruthFiles(a.paths);
   const PanopticInput input(a.paths);
   const auto& categories = input.truth.categories;
   ChooseCategories(categories, a.held_out, "--open-world");

@@ -60,6 +60,10 @@ void AddPanopticPaths(CLI::App& command, PanopticPaths& paths) {
   command.add_option("--gt-dir", paths.gt_dir, "folder of the truth's PNGs");
 }
 
+void CheckTruthFiles(const PanopticPaths& paths) {
+  if (paths.gt_dir.empty()) CheckDatasetFiles(paths.gt, {"panoptic.json", "entity"});
+}
+
 PanopticInput::PanopticInput(const PanopticPaths& paths)
     : truth(ReadPanopticFile(JsonPath(paths.gt))),
       prediction_(ReadPanopticFile(JsonPath(paths.pred), &truth.categories)),
@@ -78,7 +82,6 @@ PanopticInput::PanopticInput(const PanopticPaths& paths)
     }
   }
   CompareCategories(prediction_, truth, paths.pred, warnings);
-  if (paths.gt_dir.empty()) CheckDatasetFiles(paths.gt, {"panoptic.json", "entity"});
   if (truth.frames.empty()) throw InputError(paths.gt + ": has no annotations");
   if (missing > 0)
     throw InputError(paths.pred + ": has no annotation for " + std::to_string(missing) + " of " + std::to_string(truth.frames.size()) +

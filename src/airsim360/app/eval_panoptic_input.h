@@ -21,6 +21,9 @@ void AddPanopticPaths(CLI::App& command, PanopticPaths& paths);
 /// The file that a folder stands for: its panoptic.json, or VIPSeg's panoptic_gt.json; "" where it has neither, `path` itself where it is no folder.
 std::filesystem::path PanopticJson(const std::string& path);
 
+/// CheckDatasetFiles of a truth that is a dataset of ours.
+void CheckTruthFiles(const PanopticPaths& paths);
+
 /// Truth and prediction, read and matched by image_id. Folders stand for their PanopticJson.
 class PanopticInput {
  public:

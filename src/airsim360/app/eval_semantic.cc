@@ -1,4 +1,5 @@
 // airsim360 eval semantic: mIoU of label pictures.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -29,7 +30,7 @@ struct SemanticArguments {
 struct SemanticResult {
   std::vector<Confusion> views, rolled;
   LikelyMistake mistake;
-  int64_t unknown = 0;  // predicted ids that are no class
+  int64_t unknown = 0;  // predicted ids that are no class, or an ignored one
 };
 
 constexpr uint32_t kVoidLabel = 0xffffffff;
@@ -49,6 +50,13 @@ size_t FindClass(const std::vector<LabelClass>& classes, const std::string& name
   }
   throw InputError(std::string(flag) + ": " + UnknownChoiceMessage("class", name, names));
 }
+
+// What is asked of every pair.
+struct SemanticTask {
+  ClassIndex index, listed;  // of the classes that count; of all in the file
+  size_t classes = 0;
+  bool panorama = true;
+};
 
 ClassIndex IndexClasses(const std::vector<LabelClass>& classes) {
   ClassIndex index(65536, Confusion::kOther);
@@ -86,32 +94,36 @@ Confusion Measure(const std::vector<uint16_t>& pred, const std::vector<uint16_t>
 }
 
 SemanticResult MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, const std::vector<Rolled>& turns, size_t i,
-                           const ClassIndex& index, size_t classes, ViewCache& cache, const ViewOptions& options, bool panorama) {
+                           const SemanticTask& task, ViewCache& cache, const ViewOptions& options) {
   const LabelPicture gt = ReadLabelPicture(pair.truth), pred = ReadPrediction(pair.prediction, gt, pair.truth, options);
   const auto views = cache.Of(gt.width, gt.height);
-  const std::vector<uint16_t> gt_classes = ClassesOf(gt, index), pred_classes = ClassesOf(pred, index);
+  const std::vector<uint16_t> gt_classes = ClassesOf(gt, task.index), pred_classes = ClassesOf(pred, task.index);
   SemanticResult result;
   for (const uint16_t c : pred_classes) result.unknown += c == Confusion::kOther;
   if (pred.width != gt.width || pred.height != gt.height) {
     const auto bring = [&](const std::vector<uint16_t>& ids, const LabelPicture& of) {
       return Take<uint16_t>(ids, ResizedView(of.width, of.height, options.resize_width, options.resize_height));
     };
-    result.views.push_back(Measure(bring(pred_classes, pred), bring(gt_classes, gt), PixelView{}, classes));
+    result.views.push_back(Measure(bring(pred_classes, pred), bring(gt_classes, gt), PixelView{}, task.classes));
     return result;
   }
   std::vector<uint32_t> truths = gt.ids;
   for (size_t p = 0; p < truths.size(); ++p) {
     if (gt_classes[p] == Confusion::kOther) truths[p] = kVoidLabel;
   }
-  result.mistake = LikelyLabelMistake(pred.ids, truths, gt.width, gt.height, kVoidLabel, panorama && gt.width == 2 * gt.height);
-  if (static_cast<size_t>(result.unknown) == pred.ids.size() && !result.mistake.sure)
+  const auto is_class = [&](uint32_t id) { return id < task.listed.size() && task.listed[id] != Confusion::kOther; };
+  result.mistake =
+      LikelyLabelMistake(pred.ids, truths, gt.width, gt.height,
+                         {.void_label = kVoidLabel, .panorama = task.panorama && gt.width == 2 * gt.height, .is_class = is_class});
+  if (!result.mistake.sure && std::ranges::none_of(pred.ids, is_class))
     result.mistake = {
         "no predicted pixel is of a class of the file (the first is " + std::to_string(pred.ids[0]) + "): are they other ids, or a mask?",
         true};
-  for (const PixelView& view : *views) result.views.push_back(Measure(pred_classes, gt_classes, view, classes));
+  for (const PixelView& view : *views) result.views.push_back(Measure(pred_classes, gt_classes, view, task.classes));
   for (size_t r = 0; r < turns.size(); ++r) {
     const LabelPicture turned = ReadPrediction(rolled[r].pairs[i].prediction, gt, pair.truth, options);
-    result.rolled.push_back(Measure(turns[r].Back<uint16_t>(ClassesOf(turned, index), gt.width), gt_classes, views->front(), classes));
+    result.rolled.push_back(
+        Measure(turns[r].Back<uint16_t>(ClassesOf(turned, task.index), gt.width), gt_classes, views->front(), task.classes));
   }
   return result;
 }
@@ -191,24 +203,27 @@ Json Notes(const SemanticArguments& a, const FilePairs& files, const std::vector
 void Run(SemanticArguments a, const GlobalOptions& globals) {
   Check(a);
   std::vector<LabelClass> classes = ReadClassFile(a.classes);
+  SemanticTask task;
+  task.listed = IndexClasses(classes);
   // Their truths do not count, so their own IoU means nothing; where others are taken for them is an error of the others.
   for (const std::string& name : a.ignore)
     classes.erase(classes.begin() + static_cast<std::ptrdiff_t>(FindClass(classes, name, "--ignore")));
   if (classes.empty()) throw InputError("--ignore: leaves no class of " + a.classes);
-  const ClassIndex index = IndexClasses(classes);
+  task.index = IndexClasses(classes);
+  task.classes = classes.size();
   for (const std::string& name : a.held_out) FindClass(classes, name, "--open-world");
 
   const std::vector<std::string> endings = {".png", ".npy"};
   const FilePairs files = PairFiles(a.pred, a.gt, endings, "semantic");
-  const bool panorama = ArePanoramas(a.view, {a.gt, a.pred});
+  CheckDatasetFiles(a.gt, {"semantic"});
+  task.panorama = ArePanoramas(a.view, {a.gt, a.pred});
   const std::vector<Rolled> turns = ParseRolled(a.view);
   std::vector<FilePairs> rolled;
   for (const Rolled& turn : turns) rolled.push_back(PairFiles(turn.path, a.gt, endings, "semantic"));
   ViewCache cache(a.view);
   const size_t n = classes.size();
-  const auto results = MeasureAll<SemanticResult>("eval semantic", files.pairs.size(), [&](size_t i) {
-    return MeasurePair(files.pairs[i], rolled, turns, i, index, n, cache, a.view, panorama);
-  });
+  const auto results = MeasureAll<SemanticResult>(
+      "eval semantic", files.pairs.size(), [&](size_t i) { return MeasurePair(files.pairs[i], rolled, turns, i, task, cache, a.view); });
 
   const auto of_view = [&](size_t view, std::span<const uint32_t> draws = {}) {
     return Sum(

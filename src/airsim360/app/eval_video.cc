@@ -26,6 +26,7 @@ struct EvalVideoArguments {
   std::vector<int> windows = {1, 2, 3, 4};
   int classes = 19, void_class = 255;
   std::vector<int> things = {11, 13};
+  bool force = false;
   std::string step_flag;  // the first flag that was given and is for STEP's PNGs alone
   ReportOptions report;
 };
@@ -34,6 +35,8 @@ struct EvalVideoArguments {
 struct VideoFrame {
   LabelPicture prediction, truth;
   std::vector<PanopticSegment> predicted, real;
+  std::string file;       // of what looks like a mistake
+  LikelyMistake mistake;  // in the files, whatever they show
 };
 struct Sequence {
   std::string name;
@@ -49,11 +52,16 @@ struct Video {
 struct Result {
   std::shared_ptr<TrackingQuality> tracking;
   std::map<int, std::vector<PanopticCount>> windows;
+  std::vector<std::pair<std::string, LikelyMistake>> mistakes;  // of each frame
 };
 
 Video PanopticVideo(const EvalVideoArguments& a) {
+  CheckTruthFiles(a.paths);
   auto input = std::make_shared<PanopticInput>(a.paths);
-  Video video{input->truth.categories, {}, input->notes, input->warnings};
+  Video video;
+  video.categories = input->truth.categories;
+  video.notes = input->notes;
+  video.warnings = input->warnings;
   std::map<std::string, size_t> index;
   for (size_t i = 0; i < input->truth.frames.size(); ++i) {
     const std::string& name = input->truth.frames[i].sequence;
@@ -61,7 +69,8 @@ Video PanopticVideo(const EvalVideoArguments& a) {
     if (fresh) video.sequences.push_back({name, {}});
     video.sequences[at->second].frames.push_back([input, i] {
       auto [pred, gt] = input->Read(i);
-      return VideoFrame{std::move(pred), std::move(gt), input->Prediction(i).segments, input->truth.frames[i].segments};
+      return VideoFrame{
+          std::move(pred), std::move(gt), input->Prediction(i).segments, input->truth.frames[i].segments, input->Prediction(i).file, {}};
     });
   }
   return video;
@@ -90,10 +99,12 @@ Video StepVideo(const EvalVideoArguments& a) {
       StepFrame pred = ReadStepFrame(pair.prediction, classes, false), gt = ReadStepFrame(pair.truth, classes, true);
       if (pred.ids.width != gt.ids.width || pred.ids.height != gt.ids.height)
         throw InputError(pair.prediction.string() + " and " + pair.truth.string() + " are of different size");
-      if (ChannelsReversed(pred, gt))
-        throw InputError(pair.prediction.string() +
-                         ": blue says what the class is, not red: write the channels the other way round (cv2 takes blue, green, red)");
-      return VideoFrame{std::move(pred.ids), std::move(gt.ids), std::move(pred.segments), std::move(gt.segments)};
+      const std::string file = (gt.reversed ? pair.truth : pair.prediction).string();
+      LikelyMistake mistake = ChannelMistake(pred, gt);
+      if (gt.reversed)
+        mistake = {"red is 0 where blue is not: are the channels the other way round (red is the class, 256 green + blue the instance)?",
+                   true};
+      return VideoFrame{std::move(pred.ids), std::move(gt.ids), std::move(pred.segments), std::move(gt.segments), file, std::move(mistake)};
     });
   }
   return video;
@@ -156,19 +167,27 @@ void CountWindows(const std::vector<SeenFrame>& frames, int window, std::vector<
 }
 
 Result MeasureSequence(const Sequence& sequence, const EvalVideoArguments& a, const std::vector<PanopticCategory>& categories,
-                       ViewCache& cache) {
+                       bool panorama, ViewCache& cache) {
   std::vector<bool> things;
   for (const PanopticCategory& category : categories) things.push_back(category.thing);
-  Result result{std::make_shared<TrackingQuality>(things), {}};
+  Result result{std::make_shared<TrackingQuality>(things), {}, {}};
   std::vector<SeenFrame> frames;
   try {
     for (size_t f = 0; f < sequence.frames.size(); ++f) {
       const VideoFrame frame = sequence.frames[f]();
       const std::string name = "frame " + std::to_string(f);
       const Labels pred = LabelsOf(frame.prediction, frame.predicted, things, name), gt = LabelsOf(frame.truth, frame.real, things, name);
-      const auto views = cache.Of(frame.truth.width, frame.truth.height);
+      const int width = frame.truth.width, height = frame.truth.height;
+      const auto views = cache.Of(width, height);
       const std::vector<double>& weights = views->front().weights;
       result.tracking->Add({pred.category, pred.instance}, {gt.category, gt.instance}, weights);
+      LikelyMistake mistake = frame.mistake;
+      if (!mistake.sure) {
+        LikelyMistake seen_so = LikelyLabelMistake(pred.category, gt.category, width, height,
+                                                   {.void_label = TrackingQuality::kVoid, .panorama = panorama && width == 2 * height});
+        if (seen_so.sure || mistake.text.empty()) mistake = std::move(seen_so);
+      }
+      result.mistakes.push_back({frame.file, std::move(mistake)});
       SeenFrame& seen = frames.emplace_back();
       seen.overlap.Add(frame.prediction.ids, frame.truth.ids, weights);
       seen.predicted = frame.predicted;
@@ -254,12 +273,17 @@ void Run(const EvalVideoArguments& a, const GlobalOptions& globals) {
   const bool pictures = PanopticJson(a.paths.gt).empty();
   if (!pictures && !a.step_flag.empty()) throw InputError(a.step_flag + " is for STEP's PNGs: panoptic JSON names its categories");
   const Video video = pictures ? StepVideo(a) : PanopticVideo(a);
-  const auto results = MeasureAll<Result>("eval video", video.sequences.size(),
-                                          [&](size_t i) { return MeasureSequence(video.sequences[i], a, video.categories, cache); });
+  const bool panorama = ArePanoramas(view, {a.paths.gt, a.paths.pred});
+  const auto results = MeasureAll<Result>("eval video", video.sequences.size(), [&](size_t i) {
+    return MeasureSequence(video.sequences[i], a, video.categories, panorama, cache);
+  });
 
   const Scores scores = Pool(results, video.categories.size());
   const std::vector<Figure> main = FiguresOf(scores, video.categories);
   Json json = ToJson(main);
+  std::vector<std::pair<std::string, LikelyMistake>> mistakes;
+  for (const Result& result : results) mistakes.insert(mistakes.end(), result.mistakes.begin(), result.mistakes.end());
+  JudgeMistakes(mistakes, a.force, json);
   json["tubes"] = scores.tracking.tubes;
   json["frames"] = scores.tracking.frames;
   json["weights"] = a.weights;
@@ -308,6 +332,7 @@ void AddEvalVideo(CLI::App& command, GlobalOptions& globals) {
   video->add_option("--classes", a->classes, "STEP's PNGs: number of classes (default 19)");
   video->add_option("--things", a->things, "STEP's PNGs: classes whose instances are followed (default 11,13)")->delimiter(',');
   video->add_option("--void", a->void_class, "STEP's PNGs: class of ignored pixels (default 255)");
+  AddForceFlag(*video, a->force);
   AddReportFlags(*video, a->report, "a row a sequence");
   video->callback([a, video, &globals] {
     for (const char* flag : {"--classes", "--things", "--void"}) {

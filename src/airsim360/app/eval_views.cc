@@ -78,6 +78,11 @@ void AddOutputOption(CLI::App& command, const char* name, std::string& file, con
           ""));
 }
 
+void AddForceFlag(CLI::App& command, bool& force) {
+  command.add_flag("--force", force,
+                   "measure in spite of what surely looks like a mistake (of units, axes, ids, orientation): it is a warning then");
+}
+
 void AddReportFlags(CLI::App& command, ReportOptions& options, const char* csv_rows) {
   command.add_option("--bootstrap", options.bootstrap,
                      "95 % intervals from so many draws of the pictures with replacement, by --seed; 0 = none");
@@ -99,7 +104,7 @@ void AddViewFlags(CLI::App& command, ViewOptions& options, bool turned_back) {
         "--turned", options.turned,
         "YAW,PITCH,ROLL=PRED: also predictions made of panoramas of a camera that was turned so (degrees: right, up, clockwise); several may be given");
   }
-  command.add_flag("--force", options.force, "measure in spite of what looks like a mistake of units, axes or orientation");
+  AddForceFlag(command, options.force);
 }
 
 void CheckViewOptions(const ViewOptions& options) {

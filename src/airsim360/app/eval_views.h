@@ -11,7 +11,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -29,6 +28,9 @@ namespace airsim360 {
 /// The option `name` of a file that is written. InputError if it names an input of the command or lies in one: a file that is there, a
 /// picture among pictures, anything in a dataset of ours.
 void AddOutputOption(CLI::App& command, const char* name, std::string& file, const std::string& help);
+
+/// --force.
+void AddForceFlag(CLI::App& command, bool& force);
 
 struct ReportOptions {
   int bootstrap = 0;  ///< replicates of 95 % intervals; 0 = none
@@ -100,16 +102,11 @@ void AppendIntervals(nlohmann::ordered_json& json, const ReportOptions& options,
 /// `force`; those that are merely probable in most pictures, and sure ones in a few, are warnings.
 void JudgeMistakes(const std::vector<std::pair<std::string, LikelyMistake>>& files_and_mistakes, bool force, nlohmann::ordered_json& json);
 
-/// The same of the mistakes of `results`, texts being sure; file_of(i) names their files.
+/// The same of the mistakes of `results`; file_of(i) names their files.
 template <class Result, class FileOf>
 void JudgeMistakes(const std::vector<Result>& results, bool force, nlohmann::ordered_json& json, const FileOf& file_of) {
   std::vector<std::pair<std::string, LikelyMistake>> mistakes;
-  for (size_t i = 0; i < results.size(); ++i) {
-    if constexpr (std::is_same_v<decltype(results[i].mistake), std::string>)
-      mistakes.push_back({file_of(i), {results[i].mistake, true}});
-    else
-      mistakes.push_back({file_of(i), results[i].mistake});
-  }
+  for (size_t i = 0; i < results.size(); ++i) mistakes.push_back({file_of(i), results[i].mistake});
   JudgeMistakes(mistakes, force, json);
 }
 

@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 struct VlnArguments {
   std::string episodes, results, protocol = "ours";
   std::optional<double> radius;
+  bool force = false;
   ReportOptions report;
 };
 
@@ -62,6 +63,7 @@ void Run(const VlnArguments& a, const GlobalOptions& globals) {
     }
   });
   Json json;
+  JudgeMistakes({{results, VlnUnitMistake(episodes)}}, a.force, json);
   const std::vector<double> means = MeanFigures(scores);
   const std::vector<std::string> names(kVlnFigures.begin(), kVlnFigures.end());
   for (size_t f = 0; f < names.size(); ++f) json[names[f]] = means[f];
@@ -95,6 +97,7 @@ void AddEvalVln(CLI::App& command, GlobalOptions& globals) {
   vln->add_option("results", a->results, "the same ids with the flown path `pred` (default: the first file holds both)");
   vln->add_option("--radius", a->radius, "metres from the goal that count as success (default: what the episodes say, or 20)");
   vln->add_option("--protocol", a->protocol, "ours, aerialvln, openfly, citynav-mgp, citynav-vlnce, traveluav or uavon");
+  AddForceFlag(*vln, a->force);
   AddReportFlags(*vln, a->report, "a row an episode");
   vln->callback([a, &globals] { Run(*a, globals); });
 }

@@ -11,6 +11,7 @@
 #include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/file_name.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/image/palette_png.h"

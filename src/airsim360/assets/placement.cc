@@ -9,6 +9,7 @@
 #include "airsim360/assets/place_model.h"
 #include "airsim360/base/error.h"
 #include "airsim360/math/box.h"
+#include "airsim360/math/median.h"
 
 namespace airsim360 {
 namespace {
@@ -106,17 +107,16 @@ std::string GuessUnits(const std::vector<KnownSize>& sizes, double extent) {
     if (size.extent > 0) ratios.push_back(std::log10(size.extent / size.usual));
   }
   if (!ratios.empty()) {
-    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::nth_element(ratios.begin(), middle, ratios.end());
+    const double middle = UpperMedian(ratios);
     const KnownSize* example = &sizes[0];
     for (const KnownSize& size : sizes) {
-      if (size.extent > 0 && std::log10(size.extent / size.usual) == *middle) example = &size;
+      if (size.extent > 0 && std::log10(size.extent / size.usual) == middle) example = &size;
     }
     const std::string seen = "'" + example->name + "' (" + example->category + ") is " + Short(example->extent) + " m large: ";
-    if (*middle > 2.5) return seen + "looks like millimetres: use scale: 0.001";
-    if (*middle > 1.7) return seen + "looks like centimetres: use scale: 0.01";
-    if (*middle > 1.3) return seen + "looks like inches: use scale: 0.0254";
-    if (*middle < -1.7) return seen + "looks like units of 100 m: use scale: 100";
+    if (middle > 2.5) return seen + "looks like millimetres: use scale: 0.001";
+    if (middle > 1.7) return seen + "looks like centimetres: use scale: 0.01";
+    if (middle > 1.3) return seen + "looks like inches: use scale: 0.0254";
+    if (middle < -1.7) return seen + "looks like units of 100 m: use scale: 100";
     return "";
   }
   constexpr double kWide = 2000;

@@ -1,7 +1,7 @@
 #include "airsim360/base/file_name.h"
 
 #include <algorithm>
-#include <string>
+#include <cctype>
 
 #include "airsim360/base/error.h"
 
@@ -31,6 +31,12 @@ void CheckFileName(std::string_view what, std::string_view name) {
   std::string shown(name.substr(0, kLongestName));
   std::ranges::replace_if(shown, IsControl, '?');
   throw InputError(std::string(what) + ": '" + shown + "' " + problem + ": it becomes the name of a file");
+}
+
+std::string LowerCaseExtension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
 }
 
 }  // namespace airsim360

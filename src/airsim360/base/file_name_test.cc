@@ -51,5 +51,10 @@ TEST(FileName, SaysWhatIsWrong) {
   EXPECT_NE(refusal(std::string(201, 'a')).find("201 bytes"), std::string::npos);
 }
 
+TEST(FileName, ExtensionsAreToldInLowerCase) {
+  EXPECT_EQ(LowerCaseExtension("some.dir/Sky.JPEG"), ".jpeg");
+  EXPECT_EQ(LowerCaseExtension("some.dir/sky"), "");
+}
+
 }  // namespace
 }  // namespace airsim360

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/dataset/plan/viewpoints.h"
+#include "airsim360/math/median.h"
 #include "airsim360/routes/route.h"
 
 namespace airsim360 {
@@ -18,9 +19,7 @@ double MedianRange(const RayTracer& tracer, Vec3d p_W) {
     if (const auto hit = tracer.Intersect(VecCast<float>(p_W), direction, kFar)) ranges.push_back(hit->distance);
   }
   if (ranges.empty()) return kFar;
-  const auto middle = ranges.begin() + static_cast<ptrdiff_t>((ranges.size() - 1) / 2);
-  std::nth_element(ranges.begin(), middle, ranges.end());
-  return *middle;
+  return LowerMedian(std::move(ranges));
 }
 
 // Times at which the parallax since the start is (k + 1/2) / n of that of the whole way.

@@ -16,6 +16,7 @@ using Change = std::function<bool(CocoObject&, const CocoImage&)>;
 struct Reading {
   const char* text;
   Change change;
+  bool of_categories = false;
 };
 
 bool SizeKnown(const CocoImage& image) { return image.width > 1 && image.height > 1; }
@@ -29,23 +30,26 @@ int64_t CategoryAt(const CocoTruths& truths, int64_t place) {
 std::vector<Reading> ReadingsOf(const CocoTruths& truths, const CocoRun& run) {
   std::vector<Reading> readings;
   if (!run.class_agnostic) {
-    readings.push_back(
-        {"category ids that are one too large (counted from 1 where the truth counts from 0?)", [](CocoObject& o, const CocoImage&) {
-           --o.category;
-           return true;
-         }});
-    readings.push_back(
-        {"category ids that are one too small (counted from 0 where the truth counts from 1?)", [](CocoObject& o, const CocoImage&) {
-           ++o.category;
-           return true;
-         }});
+    readings.push_back({"category ids that are one too large (counted from 1 where the truth counts from 0?)",
+                        [](CocoObject& o, const CocoImage&) {
+                          --o.category;
+                          return true;
+                        },
+                        true});
+    readings.push_back({"category ids that are one too small (counted from 0 where the truth counts from 1?)",
+                        [](CocoObject& o, const CocoImage&) {
+                          ++o.category;
+                          return true;
+                        },
+                        true});
     for (const int64_t first : {0, 1})
       readings.push_back({first == 0 ? "category ids that are places in the truth's list, counted from 0"
                                      : "category ids that are places in the truth's list, counted from 1",
                           [&truths, first](CocoObject& o, const CocoImage&) {
                             o.category = CategoryAt(truths, o.category - first);
                             return true;
-                          }});
+                          },
+                          true});
   }
   switch (run.kind) {
     case CocoKind::kBoxes:
@@ -84,29 +88,33 @@ std::vector<Reading> ReadingsOf(const CocoTruths& truths, const CocoRun& run) {
 
 }  // namespace
 
-std::string LikelyReading(const CocoTruths& truths, std::span<const CocoObject> results, const CocoRun& run, double ap50) {
+LikelyMistake LikelyReading(const CocoTruths& truths, std::span<const CocoObject> results, const CocoRun& run, double ap50) {
   constexpr double kWellEnough = 0.15, kFarBetter = 0.25;
-  if (results.empty() || ap50 < 0 || ap50 >= kWellEnough) return "";
+  if (results.empty() || ap50 < 0 || ap50 >= kWellEnough) return {};
   CocoRun quick = run;
   quick.options.thresholds = {0.5};
   quick.options.areas.resize(1);
   quick.options.most_detections = {100};
   std::unordered_map<int64_t, const CocoImage*> images;
   for (const CocoImage& image : truths.images) images.emplace(image.id, &image);
-  const char* best = nullptr;
+  const Reading* best = nullptr;
   double best_ap50 = kFarBetter + 4 * ap50;
-  for (const Reading& reading : ReadingsOf(truths, run)) {
+  const std::vector<Reading> readings = ReadingsOf(truths, run);
+  for (const Reading& reading : readings) {
     std::vector<CocoObject> changed(results.begin(), results.end());
     if (!std::ranges::all_of(changed, [&](CocoObject& o) { return reading.change(o, *images.at(o.image)); })) continue;
     const size_t categories = run.class_agnostic ? 1 : truths.categories.size();
     const CocoTable table = AccumulateCoco(MatchAll(truths, changed, quick), quick.options, categories);
     const double read_so = table.MeanPrecision(0, CocoTable::kAll, 0, 0);
-    if (read_so > best_ap50) best = reading.text, best_ap50 = read_so;
+    if (read_so > best_ap50) best = &reading, best_ap50 = read_so;
   }
-  if (best == nullptr) return "";
+  if (best == nullptr) return {};
+  const bool known = std::ranges::all_of(results, [&](const CocoObject& o) {
+    return std::ranges::any_of(truths.categories, [&](const CocoCategory& c) { return c.id == o.category; });
+  });
   char figures[64];
   std::snprintf(figures, sizeof figures, " (AP50 is %.2g, read so %.2g)", ap50, best_ap50);
-  return std::string(best) + figures;
+  return {std::string(best->text) + figures, best_ap50 >= internal::kNearlyAll && !(best->of_categories && known)};
 }
 
 std::string VoidTruths(const CocoTruths& truths, CocoKind kind) {

@@ -42,4 +42,13 @@ double KeypointSimilarity(std::span<const double> detection, std::span<const dou
   return sum / static_cast<double>(labelled > 0 ? labelled : sigmas.size());
 }
 
+double KeypointArea(std::span<const double> keypoints) {
+  double left = keypoints[0], right = left, top = keypoints[1], bottom = top;
+  for (size_t k = 0; k < keypoints.size(); k += 3) {
+    left = std::min(left, keypoints[k]), right = std::max(right, keypoints[k]);
+    top = std::min(top, keypoints[k + 1]), bottom = std::max(bottom, keypoints[k + 1]);
+  }
+  return (right - left) * (bottom - top);
+}
+
 }  // namespace airsim360

@@ -17,4 +17,7 @@ std::span<const double> CocoKeypointSigmas();
 double KeypointSimilarity(std::span<const double> detection, std::span<const double> truth, std::span<const double> sigmas,
                           double truth_area, const std::array<double, 4>& truth_box);
 
+/// Of the box around [x, y, v] * k, whatever v says: the area of a detection in COCO's terms.
+double KeypointArea(std::span<const double> keypoints);
+
 }  // namespace airsim360

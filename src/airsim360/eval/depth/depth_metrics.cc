@@ -8,6 +8,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/text.h"
+#include "airsim360/math/median.h"
 
 namespace airsim360 {
 namespace {
@@ -34,13 +35,7 @@ std::vector<Pixel> ValidPixels(std::span<const double> prediction, std::span<con
   return pixels;
 }
 
-// torch.median's rule: the lower of the two in the middle.
-double LowerMedian(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
+// As torch.median takes it: the lower one.
 void ScaleByMedian(std::vector<Pixel>& pixels) {
   std::vector<double> p, g;
   for (const Pixel& pixel : pixels) p.push_back(pixel.p), g.push_back(pixel.g);

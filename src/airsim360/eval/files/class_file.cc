@@ -7,6 +7,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/file_name.h"
 #include "airsim360/base/text.h"
 #include "airsim360/eval/files/json_cursor.h"
 
@@ -110,7 +111,7 @@ std::vector<LabelClass> ParseClassFile(std::string_view text, const std::string&
 }
 
 std::vector<LabelClass> ReadClassFile(const std::filesystem::path& path) {
-  return ParseClassFile(ReadTextFile(path, kMostClassBytes), path.string(), path.extension() == ".json");
+  return ParseClassFile(ReadTextFile(path, kMostClassBytes), path.string(), LowerCaseExtension(path) == ".json");
 }
 
 }  // namespace airsim360

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "airsim360/base/error.h"
+#include "airsim360/eval/coco/similarity.h"
 #include "airsim360/eval/files/json_cursor.h"
 #include "airsim360/image/codecs.h"
 
@@ -110,7 +111,8 @@ std::array<double, 7> Box3d(const JsonCursor& value) {
   return box;
 }
 
-void ReadShape(const JsonCursor& one, CocoKind kind, const CocoImage& image, CocoObject& object) {
+// Counts the boxes that had another one on the circle of columns, which is taken if `wrapped` is not null.
+void ReadShape(const JsonCursor& one, CocoKind kind, const CocoImage& image, size_t* wrapped, CocoObject& object) {
   switch (kind) {
     case CocoKind::kMasks: {
       const JsonCursor segmentation = one["segmentation"];
@@ -123,10 +125,14 @@ void ReadShape(const JsonCursor& one, CocoKind kind, const CocoImage& image, Coc
       }
       break;
     }
-    case CocoKind::kBoxes:
-      object.box = Array<4>(one["bbox"]);
-      if (object.box[2] < 0 || object.box[3] < 0) one["bbox"].Fail("a box is [x, y, width, height]; a width or height is not below 0");
+    case CocoKind::kBoxes: {
+      const bool round = wrapped && one.Has("bbox_wrap");
+      if (round) ++*wrapped;
+      const JsonCursor box = one[round ? "bbox_wrap" : "bbox"];
+      object.box = Array<4>(box);
+      if (object.box[2] < 0 || object.box[3] < 0) box.Fail("a box is [x, y, width, height]; a width or height is not below 0");
       break;
+    }
     case CocoKind::kKeypoints:
       object.keypoints = one["keypoints"].Numbers();
       if (object.keypoints.empty() || object.keypoints.size() % 3 != 0) one["keypoints"].Fail("keypoints are [x, y, v] each");
@@ -142,18 +148,13 @@ void ReadShape(const JsonCursor& one, CocoKind kind, const CocoImage& image, Coc
 
 // pycocotools' rule: of the box where the first result has one, else of what is compared.
 double ResultArea(const CocoObject& object, const JsonCursor& one, CocoKind kind, bool boxes) {
+  if (kind == CocoKind::kBoxes) return object.box[2] * object.box[3];
   if (boxes && kind != CocoKind::kSphericalBoxes && kind != CocoKind::kBoxes3d) {
     const std::array<double, 4> box = Array<4>(one["bbox"]);
     return box[2] * box[3];
   }
   if (kind == CocoKind::kMasks) return static_cast<double>(MaskArea(object.mask));
-  if (kind != CocoKind::kKeypoints) return 0;
-  double left = object.keypoints[0], right = left, top = object.keypoints[1], bottom = top;
-  for (size_t k = 0; k < object.keypoints.size(); k += 3) {
-    left = std::min(left, object.keypoints[k]), right = std::max(right, object.keypoints[k]);
-    top = std::min(top, object.keypoints[k + 1]), bottom = std::max(bottom, object.keypoints[k + 1]);
-  }
-  return (right - left) * (bottom - top);
+  return kind == CocoKind::kKeypoints ? KeypointArea(object.keypoints) : 0;
 }
 
 std::unordered_map<int64_t, const CocoImage*> ById(const std::vector<CocoImage>& images) {
@@ -182,7 +183,11 @@ void RefuseTruths(const JsonCursor& top) {
     top.Fail("annotations without scores, where results are expected: are the two files swapped? The prediction comes first");
 }
 
-CocoTruths TruthsOf(const JsonCursor& top, CocoKind kind) {
+void NoteWrapped(size_t count, const char* what, CocoTruths& truths) {
+  if (count > 0) truths.notes.push_back("bbox_wrap is taken for bbox where there is one: of " + std::to_string(count) + " " + what);
+}
+
+CocoTruths TruthsOf(const JsonCursor& top, CocoKind kind, bool wrap) {
   RefuseResults(top);
   CocoTruths truths;
   truths.images = Images(top["images"], kind == CocoKind::kMasks);
@@ -193,7 +198,7 @@ CocoTruths TruthsOf(const JsonCursor& top, CocoKind kind) {
   const JsonCursor list = top["annotations"];
   std::set<int64_t> ids;
   bool zero = false, ignored = false;
-  size_t box_polygons = 0;
+  size_t box_polygons = 0, wrapped = 0;
   for (size_t i = 0; i < list.size(); ++i) {
     const JsonCursor one = list[i];
     CocoObject object{.image = one["image_id"].Integer(), .category = one["category_id"].Integer()};
@@ -203,7 +208,7 @@ CocoTruths TruthsOf(const JsonCursor& top, CocoKind kind) {
     if (one.Has("id")) zero |= OwnId(one, ids) == 0;
     object.crowd = one.FlagOr("iscrowd", false);
     ignored |= one.FlagOr("ignore", false) && !object.crowd;
-    ReadShape(one, kind, *image->second, object);
+    ReadShape(one, kind, *image->second, wrap ? &wrapped : nullptr, object);
     if (kind == CocoKind::kMasks) box_polygons += HasBoxPolygon(one);
     if (kind == CocoKind::kKeypoints) {
       object.box = Array<4>(one["bbox"]);
@@ -215,6 +220,7 @@ CocoTruths TruthsOf(const JsonCursor& top, CocoKind kind) {
     object.area = one.NumberOr("area", own);
     truths.objects.push_back(std::move(object));
   }
+  NoteWrapped(wrapped, "truths", truths);
   if (zero) truths.notes.push_back("an annotation has the id 0: pycocotools counts detections that match it as wrong; here they are right");
   if (box_polygons > 0)
     truths.notes.push_back("polygons of four numbers, of " + std::to_string(box_polygons) +
@@ -223,13 +229,14 @@ CocoTruths TruthsOf(const JsonCursor& top, CocoKind kind) {
   return truths;
 }
 
-std::vector<CocoObject> ResultsOf(const JsonCursor& top, CocoKind kind, CocoTruths& truths) {
+std::vector<CocoObject> ResultsOf(const JsonCursor& top, CocoKind kind, bool wrap, CocoTruths& truths) {
   RefuseTruths(top);
   const JsonCursor list = top.is_object() ? top["annotations"] : top;
   const auto images = ById(truths.images);
   std::vector<CocoObject> results;
   const bool boxes = list.size() > 0 && list[size_t{0}].Has("bbox") && list[size_t{0}]["bbox"].size() > 0;
   std::set<int64_t> strangers;
+  size_t wrapped = 0;
   for (size_t i = 0; i < list.size(); ++i) {
     const JsonCursor one = list[i];
     CocoObject object{.image = one["image_id"].Integer(), .category = one["category_id"].Integer(), .score = one["score"].Number()};
@@ -238,13 +245,14 @@ std::vector<CocoObject> ResultsOf(const JsonCursor& top, CocoKind kind, CocoTrut
       strangers.insert(object.image);
       continue;
     }
-    ReadShape(one, kind, *image->second, object);
+    ReadShape(one, kind, *image->second, wrap ? &wrapped : nullptr, object);
     object.area = ResultArea(object, one, kind, boxes);
     results.push_back(std::move(object));
   }
   if (!strangers.empty())
     list.Fail("results of " + std::to_string(strangers.size()) + " pictures that the ground truth does not have, image_id " +
               std::to_string(*strangers.begin()) + " first: are they of another split or numbered otherwise?");
+  NoteWrapped(wrapped, "detections", truths);
   if (boxes && kind == CocoKind::kMasks)
     truths.notes.push_back(
         "results hold boxes beside masks: as pycocotools does, their areas (small, medium, large) are those of the boxes");
@@ -253,18 +261,20 @@ std::vector<CocoObject> ResultsOf(const JsonCursor& top, CocoKind kind, CocoTrut
 
 }  // namespace
 
-CocoTruths ReadCocoTruths(const std::filesystem::path& path, CocoKind kind) { return TruthsOf(JsonFile::Read(path).top(), kind); }
-
-CocoTruths ParseCocoTruths(std::string_view text, const std::string& name, CocoKind kind) {
-  return TruthsOf(JsonFile::Parse(text, name).top(), kind);
+CocoTruths ReadCocoTruths(const std::filesystem::path& path, CocoKind kind, bool wrap) {
+  return TruthsOf(JsonFile::Read(path).top(), kind, wrap);
 }
 
-std::vector<CocoObject> ReadCocoResults(const std::filesystem::path& path, CocoKind kind, CocoTruths& truths) {
-  return ResultsOf(JsonFile::Read(path).top(), kind, truths);
+CocoTruths ParseCocoTruths(std::string_view text, const std::string& name, CocoKind kind) {
+  return TruthsOf(JsonFile::Parse(text, name).top(), kind, false);
+}
+
+std::vector<CocoObject> ReadCocoResults(const std::filesystem::path& path, CocoKind kind, CocoTruths& truths, bool wrap) {
+  return ResultsOf(JsonFile::Read(path).top(), kind, wrap, truths);
 }
 
 std::vector<CocoObject> ParseCocoResults(std::string_view text, const std::string& name, CocoKind kind, CocoTruths& truths) {
-  return ResultsOf(JsonFile::Parse(text, name).top(), kind, truths);
+  return ResultsOf(JsonFile::Parse(text, name).top(), kind, false, truths);
 }
 
 }  // namespace airsim360

@@ -11,13 +11,13 @@
 namespace airsim360 {
 
 /// InputError naming the file, the field and the value for damage, ids that occur twice, objects of unknown pictures or categories and masks
-/// whose size is not that of their picture.
-CocoTruths ReadCocoTruths(const std::filesystem::path& path, CocoKind kind);
+/// whose size is not that of their picture. `wrap`: of boxes, `bbox_wrap` (on the circle of columns, as our exports have it) is taken for `bbox` where there is one.
+CocoTruths ReadCocoTruths(const std::filesystem::path& path, CocoKind kind, bool wrap = false);
 CocoTruths ParseCocoTruths(std::string_view text, const std::string& name, CocoKind kind);
 
 /// A list of results, or an object whose `annotations` is one. Areas follow pycocotools: of the box where the first result has one, even if
 /// masks are compared. InputError as above; unknown pictures are named with the number of them.
-std::vector<CocoObject> ReadCocoResults(const std::filesystem::path& path, CocoKind kind, CocoTruths& truths);
+std::vector<CocoObject> ReadCocoResults(const std::filesystem::path& path, CocoKind kind, CocoTruths& truths, bool wrap = false);
 std::vector<CocoObject> ParseCocoResults(std::string_view text, const std::string& name, CocoKind kind, CocoTruths& truths);
 
 }  // namespace airsim360

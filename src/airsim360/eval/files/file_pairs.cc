@@ -1,11 +1,11 @@
 #include "airsim360/eval/files/file_pairs.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/file_name.h"
 #include "airsim360/base/hash.h"
 #include "airsim360/base/parallel.h"
 
@@ -18,8 +18,7 @@ namespace fs = std::filesystem;
 std::map<std::string, fs::path> FilesBelow(const fs::path& folder, const std::vector<std::string>& endings) {
   std::map<std::string, fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file() || std::find(endings.begin(), endings.end(), internal::LowerEnding(entry.path())) == endings.end())
-      continue;
+    if (!entry.is_regular_file() || std::find(endings.begin(), endings.end(), LowerCaseExtension(entry.path())) == endings.end()) continue;
     const std::string name = entry.path().lexically_relative(folder).replace_extension().string();
     const auto [at, fresh] = files.emplace(name, entry.path());
     if (!fresh)
@@ -83,12 +82,6 @@ void CheckDatasetFiles(const fs::path& dataset, const std::vector<std::string>& 
   }
 }
 
-std::string internal::LowerEnding(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
 FilePairs PairFiles(const fs::path& prediction, const fs::path& truth, const std::vector<std::string>& endings,
                     const std::string& product) {
   for (const fs::path& path : {prediction, truth}) {
@@ -99,7 +92,6 @@ FilePairs PairFiles(const fs::path& prediction, const fs::path& truth, const std
                      (fs::is_directory(prediction) ? prediction : truth).string() + " a folder: give two of a kind");
   if (!fs::is_directory(truth)) return {{{truth.stem().string(), prediction, truth}}, {}};
   for (const fs::path& path : {prediction, truth}) CheckProduct(path, product);
-  if (!product.empty()) CheckDatasetFiles(truth, {product});
   const auto truths = FilesBelow(ProductFolder(truth, product), endings);
   auto predictions = FilesBelow(ProductFolder(prediction, product), endings);
   if (truths.empty()) {

@@ -5,7 +5,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
-#include "airsim360/eval/files/file_pairs.h"
+#include "airsim360/base/file_name.h"
 #include "airsim360/eval/files/number_array.h"
 #include "airsim360/eval/files/picture_files.h"
 #include "airsim360/image/codecs.h"
@@ -85,7 +85,7 @@ NumberPicture FromNpyFlow(const fs::path& path) {
 }  // namespace
 
 NumberPicture ReadFlowPicture(const fs::path& path, bool visible) {
-  const std::string ending = internal::LowerEnding(path);
+  const std::string ending = LowerCaseExtension(path);
   if (visible && ending != ".exr")
     throw InputError(path.string() +
                      ": --visible needs the channel `occluded` of an .exr; give the truth as one (flow/ of a dataset of ours)");

@@ -4,6 +4,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/file_name.h"
 #include "airsim360/base/json_depth.h"
 
 namespace airsim360::internal {
@@ -71,7 +72,7 @@ std::string Shown(const Json& value) {
 }  // namespace
 
 JsonFile JsonFile::Read(const std::filesystem::path& path) {
-  return Parse(ReadTextFile(path, kMostJsonBytes), path.string(), path.extension() == ".jsonl");
+  return Parse(ReadTextFile(path, kMostJsonBytes), path.string(), LowerCaseExtension(path) == ".jsonl");
 }
 
 JsonFile JsonFile::Parse(std::string_view text, std::string name, bool lines) {

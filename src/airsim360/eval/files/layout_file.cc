@@ -5,6 +5,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/file_name.h"
 #include "airsim360/eval/files/json_cursor.h"
 
 namespace airsim360 {
@@ -68,7 +69,7 @@ RoomLayout ParseLayoutFile(std::string_view text, const std::string& name, bool 
 }
 
 RoomLayout ReadLayoutFile(const std::filesystem::path& path, int width, int height) {
-  return ParseLayoutFile(ReadTextFile(path, kMostLayoutBytes), path.string(), path.extension() == ".json", width, height);
+  return ParseLayoutFile(ReadTextFile(path, kMostLayoutBytes), path.string(), LowerCaseExtension(path) == ".json", width, height);
 }
 
 }  // namespace airsim360

@@ -6,7 +6,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
-#include "airsim360/eval/files/file_pairs.h"
+#include "airsim360/base/file_name.h"
 #include "airsim360/eval/files/hdf5_file.h"
 #include "airsim360/eval/files/number_array.h"
 #include "airsim360/image/codecs.h"
@@ -18,12 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using internal::LowerEnding;
-
 std::string ShapeText(const NumberArray& array) {
   std::string text;
-  for (const int64_t n : array.shape) text += (text.empty() ? "(" : ", ") + std::to_string(n);
-  return text + ")";
+  for (const int64_t n : array.shape) text += (text.empty() ? "" : ", ") + std::to_string(n);
+  return "(" + text + ")";
 }
 
 // (H, W), or with ones around it.
@@ -89,7 +87,7 @@ LabelPicture FromAlpha(const Image<Rgba8>& image) {
 }  // namespace
 
 NumberPicture ReadDepthPicture(const fs::path& path, const DepthFileOptions& options) {
-  const std::string ending = LowerEnding(path);
+  const std::string ending = LowerCaseExtension(path);
   if (ending == ".npy") return OneChannel(DecodeNpy(ReadFile(path), path.string()), path);
   if (ending == ".exr") {
     const Bytes bytes = ReadFile(path);
@@ -108,7 +106,7 @@ NumberPicture ReadDepthPicture(const fs::path& path, const DepthFileOptions& opt
 }
 
 LabelPicture ReadLabelPicture(const fs::path& path) {
-  if (LowerEnding(path) == ".npy") return FromNpy(path);
+  if (LowerCaseExtension(path) == ".npy") return FromNpy(path);
   const Bytes bytes = ReadFile(path);
   if (ReadPngKind(bytes, path.string()).channels == 3 && !IsPalettePng(bytes, path.string())) {
     LabelPicture labels = FromAlpha(DecodeRgba8(bytes, path.string()));
@@ -122,7 +120,7 @@ LabelPicture ReadLabelPicture(const fs::path& path) {
 }
 
 LabelPicture ReadIdPicture(const fs::path& path) {
-  if (LowerEnding(path) == ".npy") return FromNpy(path);
+  if (LowerCaseExtension(path) == ".npy") return FromNpy(path);
   const Image<uint32_t> image = DecodeIdPng(ReadFile(path), path.string());
   return {image.width(), image.height(), {image.pixels().begin(), image.pixels().end()}};
 }

@@ -35,10 +35,7 @@ StepFrame ReadStepFrame(const std::filesystem::path& path, const StepClasses& cl
     if (frame.ids.ids.size() < 2 || frame.ids.ids.back() != frame.ids.ids[frame.ids.ids.size() - 2]) seen.insert(frame.ids.ids.back());
   }
   // Nearly all of a picture in the other order seems to be of class 0, and its classes stand in blue.
-  if (truth && !classes.things.contains(0) && 10 * zero > 7 * image.size() && 10 * numbered > 4 * image.size())
-    throw InputError(path.string() +
-                     ": red is 0 where blue is not: are the channels the other way round (red is the class, 256 green + blue the "
-                     "instance)?");
+  frame.reversed = !classes.things.contains(0) && 10 * zero > 7 * image.size() && 10 * numbered > 4 * image.size();
   seen.erase(0);
   for (const uint32_t id : seen) {
     const size_t category = (id >> 16) - 1;
@@ -47,7 +44,7 @@ StepFrame ReadStepFrame(const std::filesystem::path& path, const StepClasses& cl
   return frame;
 }
 
-bool ChannelsReversed(const StepFrame& prediction, const StepFrame& truth) {
+LikelyMistake ChannelMistake(const StepFrame& prediction, const StepFrame& truth) {
   constexpr size_t kLeastPixels = 64;
   size_t pixels = 0, red = 0, blue = 0;
   for (size_t i = 0; i < truth.ids.ids.size(); ++i) {
@@ -57,7 +54,9 @@ bool ChannelsReversed(const StepFrame& prediction, const StepFrame& truth) {
     red += prediction.ids.ids[i] >> 16 == category;
     blue += prediction.blue[i] + 1u == category;
   }
-  return pixels >= kLeastPixels && 10 * blue > 3 * pixels && blue > 3 * red;
+  if (pixels < kLeastPixels || 10 * blue <= 3 * pixels || blue <= 3 * red) return {};
+  return {"blue says what the class is, not red: write the channels the other way round (cv2 takes blue, green, red)",
+          static_cast<double>(blue) >= internal::kNearlyAll * static_cast<double>(pixels)};
 }
 
 }  // namespace airsim360

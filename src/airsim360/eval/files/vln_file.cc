@@ -134,22 +134,6 @@ double Extent(const std::vector<Vec3d>& path) {
   return extent;
 }
 
-// A flight in another unit leads as many times farther, from as many times the start. Most of the flights must.
-void RefuseUnits(const std::vector<NamedVlnEpisode>& list, const JsonCursor& results) {
-  for (const double factor : {100.0, 1000.0}) {
-    size_t so = 0;
-    for (const auto& [id, e] : list) {
-      const double ratio = Extent(e.flown) / Extent(e.reference);
-      so += ratio > 0.3 * factor && ratio < 3 * factor && Norm(e.flown.front() / factor - e.reference.front()) <= *e.radius;
-    }
-    if (2 * so > list.size())
-      results.Fail(std::string("flown paths lead about ") +
-                   (factor == 100 ? "100 times as far as their references: are they in centi"
-                                  : "1000 times as far as their references: are they in milli") +
-                   "metres?");
-  }
-}
-
 std::vector<NamedVlnEpisode> JoinEpisodes(const JsonFile& episodes, const JsonFile& results, bool one_file, std::optional<double> radius) {
   const std::vector<Entry> truths = Entries(episodes.top()), flights = one_file ? truths : Entries(results.top());
   if (truths.empty()) episodes.top().Fail("no episodes");
@@ -183,7 +167,6 @@ std::vector<NamedVlnEpisode> JoinEpisodes(const JsonFile& episodes, const JsonFi
   if (missing > 0)
     results.top().Fail("no flown path ('pred') for " + std::to_string(missing) + " of " + std::to_string(list.size()) + " episodes, '" +
                        list[first].id + "' first");
-  RefuseUnits(list, results.top());
   return list;
 }
 
@@ -200,6 +183,27 @@ std::vector<NamedVlnEpisode> ReadVlnFiles(const std::filesystem::path& episodes,
 std::vector<NamedVlnEpisode> ParseVlnFiles(std::string_view episodes, const std::string& name, std::string_view results,
                                            const std::string& results_name, bool lines) {
   return JoinEpisodes(JsonFile::Parse(episodes, name, lines), JsonFile::Parse(results, results_name, lines), name == results_name, {});
+}
+
+// A flight in another unit leads as many times farther, from as many times the start.
+LikelyMistake VlnUnitMistake(const std::vector<NamedVlnEpisode>& episodes) {
+  for (const double factor : {100.0, 1000.0}) {
+    size_t near = 0, close = 0;
+    for (const auto& [id, e] : episodes) {
+      const double extent = Extent(e.reference), ratio = Extent(e.flown) / extent / factor,
+                   start = Norm(e.flown.front() / factor - e.reference.front());
+      near += ratio > 0.3 && ratio < 3 && start <= e.radius.value_or(kUsualVlnRadius);
+      // As far as it should be, and arrived.
+      close += ratio > 0.8 && ratio < 1.25 && start < 0.1 * extent && Norm(e.flown.back() / factor - e.reference.back()) < 0.25 * extent;
+    }
+    if (2 * near <= episodes.size()) continue;
+    return {std::string("flown paths lead about ") +
+                (factor == 100 ? "100 times as far as their references: are they in centi"
+                               : "1000 times as far as their references: are they in milli") +
+                "metres?",
+            static_cast<double>(close) >= internal::kNearlyAll * static_cast<double>(episodes.size())};
+  }
+  return {};
 }
 
 }  // namespace airsim360

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace airsim360 {
@@ -20,17 +19,8 @@ struct FlowErrors {
 inline constexpr std::array<std::string_view, 6> kFlowFigures = {"epe", "fl_all", "below1", "below3", "below5", "angle_error_deg"};
 std::array<double, kFlowFigures.size()> Figures(const FlowErrors& errors);
 
-/// Flows as (dx, dy) a pixel, NaN = unknown. `source[i]` is the pixel of the width x height picture that entry i belongs to (empty = i); panoramas are twice as
-/// wide as high. InputError for arrays of different length or a prediction that is no number where there is a truth.
-FlowErrors MeasureFlow(std::span<const double> prediction, std::span<const double> truth, int width, int height,
+/// Flows as (dx, dy) a pixel, NaN = unknown. `source[i]` is the pixel of the width x height picture that entry i belongs to (empty = i). InputError for arrays of different length or a prediction that is no number where there is a truth.
+FlowErrors MeasureFlow(std::span<const double> prediction, std::span<const double> truth, int width, int height, bool panorama,
                        std::span<const uint32_t> source = {}, std::span<const double> weights = {});
-
-struct FlowMistake {
-  std::string text;   ///< names it; "" where none is likely
-  bool sure = false;  ///< undoing it takes away nearly all of the error, not only half
-};
-/// What predictions of whole pictures got wrong: sign, exchanged axes, units, pictures that were mirrored or turned. None is likely where undoing it leaves more
-/// than half of the error, judged by a sample of the pixels whose prediction that changes.
-FlowMistake LikelyFlowMistake(std::span<const double> prediction, std::span<const double> truth, int width, int height);
 
 }  // namespace airsim360

@@ -25,7 +25,7 @@ struct Room {
   double ceiling = 0;       // above the camera
 };
 
-Room Raise(const RoomLayout& layout, int width, int height, const char* whose) {
+Room RaiseAsItIs(const RoomLayout& layout, int width, int height, const char* whose) {
   const std::string name(whose);
   if (layout.floor.size() < 3 || layout.ceiling.size() != layout.floor.size())
     throw InputError(name + ": a room has at least three pairs of a ceiling and a floor corner");
@@ -48,6 +48,42 @@ Room Raise(const RoomLayout& layout, int width, int height, const char* whose) {
     room.ceiling += distance * std::tan(up) / static_cast<double>(layout.floor.size());
   }
   return room;
+}
+
+RoomLayout Changed(const RoomLayout& layout, Vec2d (*change)(Vec2d corner, Vec2d size), Vec2d size) {
+  RoomLayout changed = layout;
+  for (auto* corners : {&changed.ceiling, &changed.floor}) {
+    for (Vec2d& corner : *corners) corner = change(corner, size);
+  }
+  return changed;
+}
+
+// A room that is none may be one when it is read otherwise.
+Room Raise(const RoomLayout& layout, int width, int height, const char* whose) {
+  struct Reading {
+    const char* text;
+    Vec2d (*change)(Vec2d corner, Vec2d size);
+  };
+  constexpr Reading kReadings[] = {{": are x and y exchanged?",
+                                    [](Vec2d c, Vec2d) {
+                                      return Vec2d{c.y, c.x};
+                                    }},
+                                   {": are they shares of the width and height instead of pixels?", [](Vec2d c, Vec2d s) {
+                                      return Vec2d{c.x * s.x, c.y * s.y};
+                                    }}};
+  try {
+    return RaiseAsItIs(layout, width, height, whose);
+  } catch (const InputError& error) {
+    for (const Reading& reading : kReadings) {
+      try {
+        RaiseAsItIs(Changed(layout, reading.change, {1.0 * width, 1.0 * height}), width, height, whose);
+      } catch (const InputError&) {
+        continue;
+      }
+      throw InputError(std::string(error.what()) + reading.text);
+    }
+    throw;
+  }
 }
 
 bool Crosses(Vec2d a, Vec2d b, Vec2d c, Vec2d d) {

@@ -11,12 +11,17 @@
 namespace airsim360 {
 namespace {
 
+using internal::kNearlyAll;
 using internal::SampleGrid;
-using internal::Turn;
 
-constexpr size_t kLeastLabels = 50;
 // Labels of fewer pixels than this share say nothing of the numbering.
 constexpr double kLeastShare = 0.005;
+// A net predicts classes alone; one that takes each class for another one looks like another numbering. So that is sure where it
+// explains nearly all and a part of the pixels have labels that are no class, or where nearly all have.
+constexpr double kLeastForeign = 0.1;
+bool IsSureNumbering(double explained, double foreign) {
+  return foreign >= kNearlyAll || (explained >= kNearlyAll && foreign >= kLeastForeign);
+}
 
 struct JointCounts {
   std::map<std::pair<uint32_t, uint32_t>, size_t> pairs;  // truth and prediction
@@ -29,13 +34,42 @@ struct JointCounts {
   }
 };
 
+JointCounts Count(std::span<const uint32_t> prediction, std::span<const uint32_t> truth, const std::vector<size_t>& pixels,
+                  uint32_t void_label) {
+  std::vector<std::pair<uint32_t, uint32_t>> list;
+  for (const size_t p : pixels) {
+    if (truth[p] != void_label) list.push_back({truth[p], prediction[p]});
+  }
+  std::ranges::sort(list);
+  JointCounts counts;
+  counts.all = list.size();
+  for (size_t first = 0; first < list.size();) {
+    size_t end = first;
+    while (end < list.size() && list[end] == list[first]) ++end;
+    counts.pairs[list[first]] = end - first;
+    counts.truths[list[first].first] += end - first;
+    counts.predictions[list[first].second] += end - first;
+    first = end;
+  }
+  return counts;
+}
+
 std::string Percent(double share) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.3g %%", 100 * share);
   return text;
 }
 
-LikelyMistake ConstantMistake(const JointCounts& counts) {
+// How much one prediction a class explains: where floor and ceiling are taken for each other the picture is not upside down.
+double ShareByClass(const JointCounts& counts) {
+  std::map<uint32_t, size_t> most;
+  for (const auto& [pair, count] : counts.pairs) most[pair.first] = std::max(most[pair.first], count);
+  size_t sum = 0;
+  for (const auto& [label, count] : most) sum += count;
+  return counts.Share(sum);
+}
+
+LikelyMistake ConstantMistake(const JointCounts& counts, double foreign) {
   if (counts.predictions.size() != 1 || counts.truths.size() < 2) return {};
   const uint32_t label = counts.predictions.begin()->first;
   const auto truth = counts.truths.find(label);
@@ -43,7 +77,7 @@ LikelyMistake ConstantMistake(const JointCounts& counts) {
   if (right > 0.5) return {};
   return {"every predicted pixel is " + std::to_string(label) + ", which is right for " + Percent(right) +
               ": is that a label of these classes?",
-          right < kLeastShare};
+          foreign > 0};
 }
 
 // Labels of the truth that are each predicted as another one of their own, and how many pixels are so.
@@ -71,9 +105,7 @@ Renumbering BestRenumbering(const JointCounts& counts) {
   return best;
 }
 
-LikelyMistake NumberingMistake(const JointCounts& counts) {
-  size_t right = 0, most = 0;
-  for (const auto& [label, count] : counts.truths) right += counts.Of(label, label), most = std::max(most, count);
+LikelyMistake ShiftMistake(const JointCounts& counts, size_t right, double foreign) {
   for (const uint32_t step : {1u, ~0u}) {
     size_t agree = 0, labels = 0;
     for (const auto& [label, count] : counts.truths) {
@@ -81,20 +113,30 @@ LikelyMistake NumberingMistake(const JointCounts& counts) {
       agree += here;
       labels += 2 * here > count && counts.Share(count) >= kLeastShare;
     }
-    if (labels >= 2 && counts.Share(agree) > 0.3 && 5 * right < agree)
-      return {"the labels of the predictions are those of the truth " + std::string(step == 1 ? "plus" : "less") + " 1 (" +
-                  Percent(counts.Share(agree)) + " of the pixels; " + Percent(counts.Share(right)) +
+    const double share = counts.Share(agree);
+    if (labels >= 2 && share > 0.3 && 5 * right < agree)
+      return {"the labels of the predictions are those of the truth " + std::string(step == 1 ? "plus" : "less") + " 1 (" + Percent(share) +
+                  " of the pixels; " + Percent(counts.Share(right)) +
                   " are right as they are): are labels counted from 0 here and from 1 there?",
-              counts.Share(agree) > 0.5};
+              IsSureNumbering(share, foreign)};
   }
+  return {};
+}
+
+LikelyMistake NumberingMistake(const JointCounts& counts, double foreign) {
+  size_t right = 0, most = 0;
+  for (const auto& [label, count] : counts.truths) right += counts.Of(label, label), most = std::max(most, count);
+  if (LikelyMistake shift = ShiftMistake(counts, right, foreign); !shift.text.empty()) return shift;
   const Renumbering best = BestRenumbering(counts);
   // One label for all is as good as this without seeing anything.
   const double share = counts.Share(best.agree), blind = counts.Share(most);
-  const std::string text = "the predictions have another numbering of the classes: as they are " + Percent(counts.Share(right)) +
-                           " of the pixels are right, renumbered " + Percent(share) + " would be (" + best.example + ")";
-  if (best.renumbered >= 3 && 2 * best.renumbered > best.labels && share - blind > 0.4 * (1 - blind) && 5 * right < best.agree)
-    return {text, true};
-  if (best.renumbered >= 3 && share - blind > 0.5 * (1 - blind) && 1 - share < 0.5 * (1 - counts.Share(right))) return {text, false};
+  const double gain = share - blind;
+  const bool clear = 2 * best.renumbered > best.labels && gain > 0.4 * (1 - blind) && 5 * right < best.agree;
+  const bool half = gain > 0.5 * (1 - blind) && 1 - share < 0.5 * (1 - counts.Share(right));
+  if (best.renumbered >= 3 && (clear || half))
+    return {"the predictions have another numbering of the classes: as they are " + Percent(counts.Share(right)) +
+                " of the pixels are right, renumbered " + Percent(share) + " would be (" + best.example + ")",
+            clear && IsSureNumbering(share, foreign)};
   if (counts.Share(right) < 0.02)
     return {"only " + Percent(counts.Share(right)) +
                 " of the pixels are right: are the labels numbered otherwise, or pictures named otherwise?",
@@ -102,33 +144,42 @@ LikelyMistake NumberingMistake(const JointCounts& counts) {
   return {};
 }
 
+internal::LikelyTurn LabelTurn(std::span<const uint32_t> prediction, std::span<const uint32_t> truth, int width, int height,
+                               const LabelLook& look) {
+  const auto same = [truth](std::span<const size_t> a, std::span<const size_t> b) {
+    std::vector<uint8_t> equal;
+    equal.reserve(a.size());
+    for (size_t i = 0; i < a.size(); ++i) equal.push_back(truth[a[i]] == truth[b[i]]);
+    return equal;
+  };
+  return internal::FindTurn(width, height, look.panorama, [&](const SampleGrid& grid) {
+    const auto errors = [&](std::span<const size_t> places) {
+      std::vector<double> all;
+      all.reserve(places.size());
+      for (size_t p = 0; p < places.size(); ++p) {
+        const uint32_t t = truth[places[p]];
+        all.push_back(t == look.void_label ? std::nan("") : t != prediction[grid.pixels[p]]);
+      }
+      return all;
+    };
+    return internal::TurnComparison{errors, same};
+  });
+}
+
 }  // namespace
 
 LikelyMistake LikelyLabelMistake(std::span<const uint32_t> prediction, std::span<const uint32_t> truth, int width, int height,
-                                 uint32_t void_label, bool panorama) {
-  const SampleGrid grid(width, height);
-  JointCounts counts;
-  for (const size_t p : grid.pixels) {
-    if (truth[p] == void_label) continue;
-    ++counts.pairs[{truth[p], prediction[p]}];
-    ++counts.truths[truth[p]];
-    ++counts.predictions[prediction[p]];
-    ++counts.all;
-  }
-  if (counts.all < kLeastLabels) return {};
-  if (LikelyMistake found = ConstantMistake(counts); !found.text.empty()) return found;
-  LikelyMistake numbering = NumberingMistake(counts);
+                                 const LabelLook& look) {
+  const JointCounts counts = Count(prediction, truth, SampleGrid(width, height).pixels, look.void_label);
+  if (counts.all < internal::kLeastSamples) return {};
+  size_t none = 0;
+  for (const auto& [label, count] : counts.predictions) none += look.is_class && !look.is_class(label) ? count : 0;
+  const double foreign = counts.Share(none);
+  if (LikelyMistake found = ConstantMistake(counts, foreign); !found.text.empty()) return found;
+  LikelyMistake numbering = NumberingMistake(counts, foreign);
   if (numbering.sure) return numbering;
-  const auto errors = [&](const Turn& turn) {
-    std::vector<double> all;
-    for (size_t p = 0; p < grid.pixels.size(); ++p) {
-      const uint32_t t = truth[turn.From(grid, grid.pixels[p])];
-      all.push_back(t == void_label ? std::nan("") : t != prediction[grid.pixels[p]]);
-    }
-    return all;
-  };
-  const auto same = [&](size_t a, size_t b) { return truth[a] == truth[b]; };
-  const internal::LikelyTurn turn = internal::FindTurn(grid, panorama, errors, same);
+  internal::LikelyTurn turn = LabelTurn(prediction, truth, width, height, look);
+  turn.sure = turn.sure && 1 - turn.right < 0.6 * (1 - ShareByClass(counts));
   if (turn.sure || (!turn.words.empty() && numbering.text.empty()))
     return {"predictions fit far better when they are " + turn.words + ": are they?", turn.sure};
   return numbering;

@@ -1,5 +1,6 @@
 #include "airsim360/eval/panoptic/panoptic_quality.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <unordered_set>
@@ -13,6 +14,13 @@ constexpr uint32_t kVoid = 0;
 
 uint64_t Key(uint32_t truth, uint32_t prediction) { return uint64_t{truth} << 32 | prediction; }
 
+// What is said of ids that differ where they would be the same with the first and the third byte exchanged; else "".
+std::string ExchangedChannels(std::span<const PanopticSegment> segments, const std::unordered_map<uint32_t, double>& pixels) {
+  const auto drawn = [&](const PanopticSegment& s) { return pixels.contains((s.id & 0xff) << 16 | (s.id & 0xff00) | (s.id >> 16 & 0xff)); };
+  if (segments.empty() || !std::ranges::all_of(segments, drawn)) return "";
+  return "; red and blue exchanged it would be: ids of PNGs are R + 256 G + 65536 B (cv2 takes blue, green, red)";
+}
+
 // Segment of each id; ids of pixels and of the list are the same.
 std::unordered_map<uint32_t, const PanopticSegment*> Index(std::span<const PanopticSegment> segments,
                                                            const std::unordered_map<uint32_t, double>& pixels, const char* whose,
@@ -22,11 +30,12 @@ std::unordered_map<uint32_t, const PanopticSegment*> Index(std::span<const Panop
     const std::string name = std::string(whose) + " segment " + std::to_string(segment.id);
     if (segment.category >= categories) throw InputError(name + " has an unknown category");
     if (!index.emplace(segment.id, &segment).second) throw InputError(name + " is listed twice");
-    if (!pixels.contains(segment.id)) throw InputError(name + " is listed, but no pixel has this id");
+    if (!pixels.contains(segment.id)) throw InputError(name + " is listed, but no pixel has this id" + ExchangedChannels(segments, pixels));
   }
   for (const auto& [id, area] : pixels) {
     if (id != kVoid && !index.contains(id))
-      throw InputError("pixels have the id " + std::to_string(id) + ", but no " + std::string(whose) + " segment of it is listed");
+      throw InputError("pixels have the id " + std::to_string(id) + ", but no " + std::string(whose) + " segment of it is listed" +
+                       ExchangedChannels(segments, pixels));
   }
   return index;
 }
