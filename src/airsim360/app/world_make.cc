@@ -9,6 +9,7 @@
 #include "airsim360/base/config.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/text.h"
 #include "airsim360/worlds/interior/building_words.h"
 #include "airsim360/worlds/town_maker/town_words.h"
 
@@ -38,6 +39,7 @@ std::string WorldText(const std::string& words, const TownRequest& request, cons
   std::string text = Comment(words) + "world: town\nseed: " + std::to_string(seed) + "\n";
   if (!people.empty()) text += Comment("people: open it with --people " + people);
   if (!request.weather.empty()) text += "environment:\n  weather: " + request.weather + "\n";
+  for (const auto& [key, value] : request.environment) text += "  " + key + ": " + ShortestText(value) + "\n";
   text += "town:\n";
   TownSpec spec = request.spec;
   std::istringstream lines(DescribeConfig([&](ConfigVisitor& v) { spec.Visit(v); }));

@@ -13,7 +13,7 @@ void TownSpec::Visit(ConfigVisitor& v) {
   v.Field("style", "of the houses", style, kTownStyles);
   v.Field("relief", "of the ground", relief, kTownReliefs);
   v.Field("climb", "metres between the lowest and the highest ground; nothing where it is flat", climb, 0, kMostClimb);
-  v.Field("water", "in or beside the town", water, kTownWaters);
+  v.Field("water", "in, beside or around the town", water, kTownWaters);
   v.Field("paving", "of streets and squares", paving, kTownPavings);
   v.Field("country", "around the town", country, kTownCountries);
   v.Field("colours", "of walls", colours, kTownColours);
@@ -40,12 +40,15 @@ void TownSpec::Visit(ConfigVisitor& v) {
   v.Field("ruins", "columns and old walls", ruins);
   v.Field("arches", "over lanes", arches);
   v.Field("wires", "tram tracks and the wires over them", wires);
-  v.Field("harbour", "piers and boats; needs sea, river or lake", harbour);
+  v.Field("harbour", "piers and boats; needs sea, island, river or lake", harbour);
   v.Field("playground", "in a park of its own", playground);
   v.Field("fountain", "on the square", fountain);
   v.Field("towers", "high-rises among the houses", towers);
   v.Field("cycle_lanes", "on the main streets", cycle_lanes);
   v.Field("palms", "instead of street trees", palms);
+  v.Field("lamps", "along the streets", lamps);
+  v.Field("bus_stops", "on the main streets, near corners", bus_stops);
+  v.Field("central_water", "a river, canal or lake lies in the middle of the town", central_water);
   v.Field("terrace", "the world begins on the roof in its middle", terrace);
 }
 
@@ -58,7 +61,7 @@ void TownSpec::Check(const char* prefix) const {
   };
   if (least_floors > most_floors) refuse("least_floors: " + number(least_floors) + " is more than most_floors: " + number(most_floors));
   if (harbour && (water == TownWater::kNone || water == TownWater::kCanal))
-    refuse(std::string("harbour: true needs water: sea, river or lake, not ") + kTownWaters[static_cast<int>(water)]);
+    refuse(std::string("harbour: true needs water: sea, island, river or lake, not ") + kTownWaters[static_cast<int>(water)]);
   if (squares > 4) refuse("squares: " + std::to_string(squares) + " is not from 0 to 4");
   if (parks > 6) refuse("parks: " + std::to_string(parks) + " is not from 0 to 6");
   if (houses > 4000) refuse("houses: " + std::to_string(houses) + " is not from 0 to 4000");

@@ -10,7 +10,8 @@ namespace airsim360 {
 enum class TownPlan { kGrid, kOrganic, kRadial, kLinear, kScattered };
 enum class TownStyle { kModern, kBrick, kAzulejo, kOchre, kTimber, kWhitewashed, kStone, kSuburban, kIndustrial, kMixed };
 enum class TownRelief { kFlat, kRolling, kSlope, kHill, kValley };
-enum class TownWater { kNone, kSea, kRiver, kLake, kCanal };
+/// kIsland: the sea on all sides.
+enum class TownWater { kNone, kSea, kRiver, kLake, kCanal, kIsland };
 enum class TownPaving { kAsphalt, kCobbles, kCalcada, kDirt };
 /// What goes on around the town, to the horizon.
 enum class TownCountry { kCity, kFields, kForest, kDesert };
@@ -25,7 +26,7 @@ inline constexpr const char* kTownPlans[] = {"grid", "organic", "radial", "linea
 inline constexpr const char* kTownStyles[] = {"modern",      "brick", "azulejo",  "ochre",      "timber",
                                               "whitewashed", "stone", "suburban", "industrial", "mixed"};
 inline constexpr const char* kTownReliefs[] = {"flat", "rolling", "slope", "hill", "valley"};
-inline constexpr const char* kTownWaters[] = {"none", "sea", "river", "lake", "canal"};
+inline constexpr const char* kTownWaters[] = {"none", "sea", "river", "lake", "canal", "island"};
 inline constexpr const char* kTownPavings[] = {"asphalt", "cobbles", "calcada", "dirt"};
 inline constexpr const char* kTownCountries[] = {"city", "fields", "forest", "desert"};
 
@@ -52,6 +53,8 @@ struct TownSpec {
   bool church = false, castle = false, clock_tower = false, windmill = false, market = false, cafes = false, ruins = false, arches = false,
        wires = false, harbour = false, playground = false, fountain = false, towers = false, palms = false, terrace = false,
        cycle_lanes = false;
+  bool lamps = true, bus_stops = false;
+  bool central_water = false;  ///< a river, canal or lake lies in the middle
 
   /// Names the fields.
   void Visit(ConfigVisitor& v);

@@ -1,9 +1,6 @@
 #include "airsim360/worlds/interior/building_words.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -11,211 +8,22 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/nearest_name.h"
+#include "airsim360/worlds/interior/building_lexicon.h"
 #include "airsim360/worlds/town_maker/town_lexicon.h"
+#include "airsim360/worlds/words/number_words.h"
+#include "airsim360/worlds/words/word_tokens.h"
 
 namespace airsim360 {
 namespace {
 
+using namespace internal;
+using namespace building_tables;
 using Names = std::span<const std::string_view>;
 
 constexpr size_t kLongestDescription = 1000;
 constexpr double kMostInside = 400;  // people
 
-struct UseWord {
-  std::string_view words;
-  BuildingUse use;
-};
-constexpr auto kUses = std::to_array<UseWord>({{"apartment", BuildingUse::kApartment},
-                                               {"flat", BuildingUse::kApartment},
-                                               {"maisonette", BuildingUse::kApartment},
-                                               {"office", BuildingUse::kOffice},
-                                               {"offices", BuildingUse::kOffice},
-                                               {"office building", BuildingUse::kOffice},
-                                               {"office tower", BuildingUse::kOffice},
-                                               {"warehouse", BuildingUse::kWarehouse},
-                                               {"storage hall", BuildingUse::kWarehouse},
-                                               {"mall", BuildingUse::kMall},
-                                               {"shopping mall", BuildingUse::kMall},
-                                               {"shopping centre", BuildingUse::kMall},
-                                               {"shopping center", BuildingUse::kMall},
-                                               {"car park", BuildingUse::kCarPark},
-                                               {"parking garage", BuildingUse::kCarPark},
-                                               {"multi storey car park", BuildingUse::kCarPark},
-                                               {"library", BuildingUse::kLibrary},
-                                               {"public library", BuildingUse::kLibrary}});
-// One word a line would hide them.
-// clang-format off
-constexpr auto kFillerWords = std::to_array<std::string_view>({"a", "an", "the", "with", "and", "but", "of", "in", "its", "it", "that", "which", "has", "have", "having",
-                                "is", "are", "building", "for", "make", "create", "build", "please", "me", "i", "want", "need"});
-// Words of a place out of doors: such descriptions are of towns.
-constexpr auto kPlaceWords = std::to_array<std::string_view>(
-    {"town", "city", "village", "street", "streets", "suburb", "downtown", "hamlet", "settlement", "harbour", "island", "forest", "cabins",
-     "houses", "towers"});
-// Beside these "flat" is how land lies.
-constexpr auto kLandWords = std::to_array<std::string_view>(
-    {"slope", "hill", "hills", "hilltop", "castle", "roofs", "terrain", "land", "landscape", "ha", "hectares", "campus", "park", "trees",
-     "sea", "coast"});
-// Of which no inside is made.
-constexpr auto kOtherBuildings = std::to_array<std::string_view>({"hospital", "school", "hotel", "museum", "theatre", "theater", "cinema", "airport", "stadium",
-                                   "supermarket", "restaurant", "gym", "prison", "hangar", "bank", "laboratory", "clinic", "kindergarten",
-                                   "factory", "workshop", "studio", "shop", "gallery", "gymnasium", "hostel", "arena"});
-constexpr auto kNumberWords = std::to_array<std::pair<std::string_view, double>>(
-    {{"zero", 0}, {"one", 1}, {"single", 1}, {"two", 2}, {"three", 3}, {"four", 4}, {"five", 5}, {"six", 6}, {"seven", 7}, {"eight", 8},
-     {"nine", 9}, {"ten", 10}, {"eleven", 11}, {"twelve", 12}, {"fifteen", 15}, {"twenty", 20}, {"thirty", 30}, {"forty", 40},
-     {"fifty", 50}, {"sixty", 60}, {"seventy", 70}, {"eighty", 80}, {"ninety", 90}, {"dozen", 12}, {"hundred", 100}});
-constexpr auto kStoreyWords = std::to_array<std::string_view>({"storey", "storeys", "story", "stories", "storied", "floor", "floors", "level", "levels", "deck", "decks"});
-constexpr auto kPeopleWords = std::to_array<std::string_view>({"people", "persons", "visitors", "workers", "shoppers", "readers"});
-constexpr auto kAbout = std::to_array<std::string_view>({"about", "around", "approximately", "roughly"});
-constexpr auto kBounds = std::to_array<std::string_view>({"over", "under", "above", "below", "at", "least", "most", "up", "to", "more", "less", "fewer", "than",
-                           "between", "minus", "nearly", "almost", "several", "many", "few"});
-constexpr auto kDenials = std::to_array<std::string_view>({"no", "without", "not", "free"});
-constexpr auto kLightWords = std::to_array<std::string_view>({"night", "day", "evening", "morning", "dusk", "sunset", "fog", "foggy", "rain", "rainy", "snow", "snowy",
-                               "sunny", "dark"});
-// clang-format on
-
-// What a word sets; two that set one key must agree.
-struct Setting {
-  std::string_view words, as;
-  void (*set)(BuildingSpec&);
-  std::array<std::string_view, 2> keys;  ///< "clutter=0"
-};
-constexpr auto kSettings = std::to_array<Setting>({
-    {"atrium", "atrium: true", [](BuildingSpec& s) { s.atrium = true; }, {"atrium=true"}},
-    {"cluttered", "clutter: 1.5", [](BuildingSpec& s) { s.clutter = 1.5; }, {"clutter=1.5", "furnished=true"}},
-    {"messy", "clutter: 1.5", [](BuildingSpec& s) { s.clutter = 1.5; }, {"clutter=1.5", "furnished=true"}},
-    {"busy", "clutter: 1.3", [](BuildingSpec& s) { s.clutter = 1.3; }, {"clutter=1.3", "furnished=true"}},
-    {"tidy", "clutter: 0", [](BuildingSpec& s) { s.clutter = 0; }, {"clutter=0", "furnished=true"}},
-    {"furnished", "furnished: true", [](BuildingSpec& s) { s.furnished = true; }, {"furnished=true"}},
-    {"unfurnished", "furnished: false", [](BuildingSpec& s) { s.furnished = false; }, {"furnished=false"}},
-    {"empty", "furnished: false", [](BuildingSpec& s) { s.furnished = false; }, {"furnished=false"}},
-    {"half open doors", "open_doors: 0.5", [](BuildingSpec& s) { s.open_doors = 0.5; }, {"doors=0.5"}},
-    {"doors half open", "open_doors: 0.5", [](BuildingSpec& s) { s.open_doors = 0.5; }, {"doors=0.5"}},
-    {"open doors", "open_doors: 1", [](BuildingSpec& s) { s.open_doors = 1; }, {"doors=1"}},
-    {"doors open", "open_doors: 1", [](BuildingSpec& s) { s.open_doors = 1; }, {"doors=1"}},
-    {"all doors open", "open_doors: 1", [](BuildingSpec& s) { s.open_doors = 1; }, {"doors=1"}},
-    {"no closed doors", "open_doors: 1", [](BuildingSpec& s) { s.open_doors = 1; }, {"doors=1"}},
-    {"closed doors", "open_doors: 0", [](BuildingSpec& s) { s.open_doors = 0; }, {"doors=0"}},
-    {"doors closed", "open_doors: 0", [](BuildingSpec& s) { s.open_doors = 0; }, {"doors=0"}},
-    {"all doors closed", "open_doors: 0", [](BuildingSpec& s) { s.open_doors = 0; }, {"doors=0"}},
-    {"no open doors", "open_doors: 0", [](BuildingSpec& s) { s.open_doors = 0; }, {"doors=0"}},
-    {"no atrium", "atrium: false", [](BuildingSpec& s) { s.atrium = false; }, {"atrium=false"}},
-    {"no clutter", "clutter: 0", [](BuildingSpec& s) { s.clutter = 0; }, {"clutter=0"}},
-    {"no furniture", "furnished: false", [](BuildingSpec& s) { s.furnished = false; }, {"furnished=false"}},
-});
-// Small ones have the least sides of the use, large ones 1.4 times the usual.
-constexpr auto kSmall = std::to_array<std::string_view>({"small", "little", "tiny"});
-constexpr auto kLarge = std::to_array<std::string_view>({"large", "big", "huge", "spacious"});
-
-// What buildings of a use have in any case, and so can be said.
-struct Part {
-  std::string_view words;
-  unsigned uses;                        ///< their bits
-  bool storeys = false, loose = false;  ///< needs two storeys; gone where unfurnished
-};
-// Bits of uses.
-constexpr unsigned kHome = 1, kOffices = 2, kHalls = 4, kMalls = 8, kDecksOfCars = 16, kLibraries = 32;
-constexpr auto kParts = std::to_array<Part>({{"furniture", kHome | kOffices | kHalls | kMalls | kLibraries, false, true},
-                                             {"lamp", kHome | kOffices | kHalls | kMalls | kDecksOfCars | kLibraries},
-                                             {"living room", kHome},
-                                             {"dining room", kHome},
-                                             {"kitchen", kHome},
-                                             {"bedroom", kHome},
-                                             {"bathroom", kHome},
-                                             {"meeting room", kOffices},
-                                             {"pantry", kOffices},
-                                             {"desk", kOffices, false, true},
-                                             {"pallet rack", kHalls, false, true},
-                                             {"rack", kHalls, false, true},
-                                             {"goods", kHalls, false, true},
-                                             {"forklift", kHalls, false, true},
-                                             {"shop", kMalls},
-                                             {"supermarket", kMalls},
-                                             {"food court", kMalls},
-                                             {"escalator", kMalls, true},
-                                             {"car", kDecksOfCars, false, true},
-                                             {"parked car", kDecksOfCars, false, true},
-                                             {"ramp", kDecksOfCars, true},
-                                             {"lift", kOffices | kMalls | kLibraries},
-                                             {"stairs", kOffices | kMalls | kLibraries, true},
-                                             {"reading room", kLibraries},
-                                             {"book stack", kLibraries}});
-
 bool IsAmong(Names list, std::string_view word) { return std::find(list.begin(), list.end(), word) != list.end(); }
-bool IsAmong(std::initializer_list<std::string_view> list, std::string_view word) {
-  return std::find(list.begin(), list.end(), word) != list.end();
-}
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-
-struct BuildingToken {
-  std::string text;
-  bool starts = false;  ///< behind a comma or another mark, or the first
-};
-
-// "40x20m" in four, "600m2" in two.
-void AddTokens(const std::string& word, bool starts, std::vector<BuildingToken>& tokens) {
-  double value = 0;
-  const char* const end = word.data() + word.size();
-  const bool whole = std::from_chars(word.data(), end, value).ptr == end;
-  size_t at = 0;
-  while (!whole && at < word.size() && (IsDigit(word[at]) || (at == 0 && word[0] == '-'))) {
-    const size_t digits = std::min(word.find_first_not_of("0123456789.,-", at), word.size());
-    size_t letters = std::min(word.find_first_of("0123456789", digits), word.size());
-    if (letters + 1 == word.size() && word[letters] == '2') letters = word.size();
-    tokens.push_back({word.substr(at, digits - at), starts});
-    if (letters > digits) tokens.push_back({word.substr(digits, letters - digits)});
-    starts = false;
-    at = letters;
-  }
-  if (at < word.size()) tokens.push_back({word.substr(at), starts});
-}
-
-// Lower case words, numbers with their signs ("-2", "3-5", "10,000"), and signs that are neither blanks nor marks ("%").
-std::vector<BuildingToken> TokensOfBuilding(std::string text) {
-  static constexpr std::pair<std::string_view, std::string_view> kSigns[] = {{"²", "2"}, {"×", " x "}, {"–", "-"},    {"—", "-"},
-                                                                             {"−", "-"}, {"’", " "},   {"&", " and "}};
-  for (const auto& [sign, as] : kSigns)
-    for (size_t at = 0; (at = text.find(sign, at)) != std::string::npos; at += as.size()) text.replace(at, sign.size(), as);
-  std::vector<BuildingToken> tokens;
-  std::string word;
-  bool starts = true;
-  const auto end = [&] {
-    if (word.empty()) return;
-    AddTokens(word, starts, tokens);
-    starts = false;
-    word.clear();
-  };
-  for (size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const bool digit_next = i + 1 < text.size() && IsDigit(text[i + 1]), digit_before = i > 0 && IsDigit(text[i - 1]);
-    const bool letter_before = i > 0 && std::isalpha(static_cast<unsigned char>(text[i - 1]));
-    if (std::isalnum(c) || c >= 0x80 || (digit_next && ((c == '-' && !letter_before) || c == '.' || (c == ',' && digit_before)))) {
-      word += static_cast<char>(std::tolower(c));
-      continue;
-    }
-    end();
-    if (c == ',' || c == ';' || c == '.' || c == ':' || c == '!' || c == '?' || c == '\n') starts = true;
-    if (std::isspace(c) || std::string_view(",;.:!?-()'\"").find(static_cast<char>(c)) != std::string_view::npos) continue;
-    tokens.push_back({std::string(1, static_cast<char>(c)), starts});
-    starts = false;
-  }
-  end();
-  return tokens;
-}
-
-std::optional<double> NumberIn(std::string text) {
-  for (const auto& [name, value] : kNumberWords)
-    if (name == text) return value;
-  // Commas part thousands.
-  for (size_t at = text.find(','); at != std::string::npos; at = text.find(',', at)) {
-    if (text.size() < at + 4 || (text.size() > at + 4 && text[at + 4] != ',' && text[at + 4] != '.')) return std::nullopt;
-    text.erase(at, 1);
-  }
-  double value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || !std::isfinite(value) || stop != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 std::string Short(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", value);
@@ -231,18 +39,18 @@ std::string UsesInWords() {
 
 class BuildingReader {
  public:
-  explicit BuildingReader(std::vector<BuildingToken> words) : words_(std::move(words)) {}
+  explicit BuildingReader(std::vector<WordToken> words) : words_(std::move(words)) {}
 
   /// False: of a town. InputError for a building of which no inside is made, and for a use that is misspelt.
   bool IsOfBuilding() const {
-    for (const BuildingToken& word : words_)
+    for (const WordToken& word : words_)
       if (IsAmong(kPlaceWords, word.text)) return false;
     for (size_t i = 0; i < words_.size(); ++i)
       if (const UseWord* use = UseAt(i); use && (use->words != "flat" || IsHome(i))) return true;
-    for (const BuildingToken& word : words_)
-      if (!IsKnown(word.text) && IsOfTowns(word.text)) return false;
-    for (const BuildingToken& word : words_) {
-      if (IsKnown(word.text) || IsOfTowns(word.text)) continue;
+    for (const WordToken& word : words_)
+      if (!IsKnown(word) && IsOfTowns(word.text)) return false;
+    for (const WordToken& word : words_) {
+      if (IsKnown(word) || IsOfTowns(word.text)) continue;
       if (IsAmong(kOtherBuildings, word.text)) throw InputError("'" + word.text + "': buildings from inside are: " + UsesInWords());
       for (const UseWord& use : kUses) {
         std::string many(use.words);
@@ -269,7 +77,7 @@ class BuildingReader {
     static const std::string none;
     return i < words_.size() ? words_[i].text : none;
   }
-  bool IsEnd(size_t i) const { return i >= words_.size() || words_[i].starts; }
+  bool IsEnd(size_t i) const { return i >= words_.size() || words_[i].breaks; }
 
   // How many words of a phrase stand at i, the last perhaps in the plural; 0 = not all of them do.
   size_t Matches(std::string_view phrase, size_t i, bool plural = false) const {
@@ -291,10 +99,11 @@ class BuildingReader {
       if (Matches(use.words, i) > 0 && (!longest || use.words.size() > longest->words.size())) longest = &use;
     return longest;
   }
-  bool IsKnown(const std::string& word) const {
+  bool IsKnown(const WordToken& token) const {
+    const std::string& word = token.text;
     const auto in = [&](std::string_view phrase) { return (" " + std::string(phrase) + " ").find(" " + word + " ") != std::string::npos; };
     return IsAmong(kFillerWords, word) || IsAmong(kStoreyWords, word) || IsAmong(kPeopleWords, word) || IsAmong(kSmall, word) ||
-           IsAmong(kLarge, word) || IsAmong(kBounds, word) || IsAmong(kAbout, word) || IsAmong(kDenials, word) || NumberIn(word) ||
+           IsAmong(kLarge, word) || IsAmong(kBounds, word) || token.number || IsAmong(kDenials, word) ||
            std::any_of(kSettings.begin(), kSettings.end(), [&](const Setting& s) { return in(s.words); });
   }
   static bool IsOfTowns(std::string word) {
@@ -309,19 +118,15 @@ class BuildingReader {
   }
   // "a flat", "flat with …", "tidy flat"; not "flat roofs", "a campus, flat".
   bool IsHome(size_t i) const {
-    if (!IsEnd(i + 1) && !IsKnown(Word(i + 1))) return false;
+    if (!IsEnd(i + 1) && !IsKnown(words_[i + 1])) return false;
     if (std::any_of(words_.begin(), words_.end(), [](const auto& w) { return IsAmong(kLandWords, w.text); })) return false;
     size_t from = i;
-    while (!words_[from].starts) --from;
+    while (from > 0 && !words_[from].breaks) --from;
     if (from < i && (Word(from) == "a" || Word(from) == "one")) return Word(i - 1) != "is" && Word(i - 1) != "and";
-    return std::all_of(words_.begin(), words_.begin() + static_cast<std::ptrdiff_t>(i), [&](const auto& w) { return IsKnown(w.text); });
+    return std::all_of(words_.begin(), words_.begin() + static_cast<std::ptrdiff_t>(i), [&](const auto& w) { return IsKnown(w); });
   }
 
-  std::string Text(size_t from, size_t count) const {
-    std::string text;
-    for (size_t i = 0; i < count; ++i) text += (i ? " " : "") + Word(from + i);
-    return text;
-  }
+  std::string Text(size_t from, size_t count) const { return JoinedTokens(words_, from, count); }
   void Took(size_t count, std::string as) {
     request_.words.emplace_back(Text(at_, count), std::move(as));
     at_ += count;
@@ -387,29 +192,9 @@ class BuildingReader {
     return false;
   }
 
-  // "two hundred", "twenty five", "40"; how many words it has, 0 = no number.
-  std::pair<double, size_t> NumberAt(size_t i) const {
-    const auto first = i < words_.size() ? NumberIn(Word(i)) : std::nullopt;
-    if (!first) return {0, 0};
-    double value = *first;
-    size_t n = 1;
-    if (const auto next = NumberIn(Word(i + n)); next && value >= 20 && value < 100 && *next >= 1 && *next < 10 && !IsDigit(Word(i)[0]))
-      value += *next, ++n;
-    while (!IsEnd(i + n) && (Word(i + n) == "hundred" || Word(i + n) == "dozen")) value *= *NumberIn(Word(i + n)), ++n;
-    return {value, n};
-  }
-  // Metres that a unit of length at i has, or square metres of a unit of area; and its words.
-  std::pair<double, size_t> UnitAt(size_t i, bool area) const {
-    const auto length = [&](const std::string& unit) {
-      return IsAmong({"m", "metre", "metres", "meter", "meters"}, unit) ? 1.0 : IsAmong({"ft", "foot", "feet"}, unit) ? 0.3048 : 0.0;
-    };
-    if (!area) return {length(Word(i)), length(Word(i)) > 0 ? 1 : 0};
-    if (Word(i) == "m2" || Word(i) == "sqm") return {1, 1};
-    if (Word(i) == "ft2" || Word(i) == "sqft") return {0.3048 * 0.3048, 1};
-    if (Word(i) != "square" && Word(i) != "sq") return {0, 0};
-    const double side = length(Word(i + 1));
-    return {side * side, side > 0 ? 2 : 0};
-  }
+  bool NumberAt(size_t i) const { return i < words_.size() && words_[i].number.has_value(); }
+  // Metres of a unit of length, 0 where there is none.
+  double UnitAt(size_t i) const { return i < words_.size() ? MetresOf(words_[i].plain) : 0; }
 
   void Side(const char* field, double& side, double value, const std::string& said) {
     if (!(value > 0 && value < 1e6))
@@ -421,21 +206,16 @@ class BuildingReader {
   }
 
   bool Quantity() {
-    const size_t about = IsAmong(kAbout, Word(at_)) ? 1 : 0;
-    size_t i = at_ + about;
     // "people: 10".
-    if (about == 0 && !NumberAt(at_).second && NumberAt(at_ + 1).second && words_[at_ + 1].starts && !words_[at_].text.empty() &&
-        IsAmong(kPeopleWords, Word(at_)) && IsEnd(at_ + 1 + NumberAt(at_ + 1).second)) {
-      const auto [value, n] = NumberAt(at_ + 1);
-      return People(value, 1 + n);
-    }
-    const auto [value, n] = NumberAt(i);
-    if (n == 0) return false;
-    i += n;
+    if (!NumberAt(at_) && NumberAt(at_ + 1) && words_[at_ + 1].breaks && IsAmong(kPeopleWords, Word(at_)) && IsEnd(at_ + 2))
+      return People(*words_[at_ + 1].number, 2);
+    if (!NumberAt(at_) || words_[at_].upper || words_[at_].limit != NumberLimit::kNone) return false;
+    const double value = *words_[at_].number;
+    const size_t i = at_ + 1;
     const size_t high = Word(i + 1) == "high" || Word(i + 1) == "tall";
-    if (IsAmong(kStoreyWords, Word(i))) return Storeys(value, i + 1 + high - at_);
-    if (IsAmong(kPeopleWords, Word(i))) return People(value, i + 1 - at_);
-    if (const auto [unit, words] = UnitAt(i, true); words > 0) return Area(value * unit, i + words - at_);
+    if (IsAmong(kStoreyWords, Word(i))) return Storeys(value, 2 + high);
+    if (IsAmong(kPeopleWords, Word(i))) return People(value, 2);
+    if (const auto [unit, words] = SquareMetresAt(words_, i); words > 0) return Area(value * unit, 1 + words);
     return Lengths(value, i);
   }
   bool Storeys(double value, size_t count) {
@@ -466,14 +246,13 @@ class BuildingReader {
   }
   // "40 x 30 m", "40 m by 30 m", "12 m high".
   bool Lengths(double value, size_t i) {
-    auto [unit, words] = UnitAt(i, false);
-    const size_t behind = i + words;
+    const double unit = UnitAt(i);
+    const size_t words = unit > 0, behind = i + words;
     if (Word(behind) == "x" || Word(behind) == "by") {
-      const auto [second, n] = NumberAt(behind + 1);
-      const auto [unit2, words2] = UnitAt(behind + 1 + n, false);
-      if (n == 0) return false;
-      const double last = words2 > 0 ? unit2 : words > 0 ? unit : 1, first = words > 0 ? unit : last;
-      const size_t count = behind + 1 + n + words2 - at_;
+      if (!NumberAt(behind + 1) || words_[behind + 1].upper) return false;
+      const double second = *words_[behind + 1].number, unit2 = UnitAt(behind + 2);
+      const double last = unit2 > 0 ? unit2 : words > 0 ? unit : 1, first = words > 0 ? unit : last;
+      const size_t count = behind + 2 + (unit2 > 0) - at_;
       Side("width", request_.spec.width, value * first, Text(at_, count));
       Side("depth", request_.spec.depth, second * last, Text(at_, count));
       Took(count, "width: " + Short(request_.spec.width) + ", depth: " + Short(request_.spec.depth));
@@ -582,11 +361,12 @@ class BuildingReader {
   // The phrase at at_, to its noun: "at least 3 storeys".
   std::string Phrase() const {
     size_t n = 1;
-    const auto goes_on = [&](const std::string& word) {
-      return NumberIn(word) || IsDigit(word[0]) || IsAmong(kBounds, word) || IsAmong(kDenials, word) || IsAmong(kAbout, word) ||
-             IsAmong(kSmall, word) || IsAmong(kLarge, word) || word == "of" || word == "the" || word == "a" || word == "an" || word == "-";
+    const auto goes_on = [&](const WordToken& token) {
+      const std::string& word = token.text;
+      return token.number || IsAmong(kBounds, word) || IsAmong(kDenials, word) || IsAmong(AboutWords(), word) || IsAmong(kSmall, word) ||
+             IsAmong(kLarge, word) || word == "of" || word == "the" || word == "a" || word == "an" || word == "-";
     };
-    while (n < 7 && !IsEnd(at_ + n) && goes_on(Word(at_ + n - 1))) ++n;
+    while (n < 7 && !IsEnd(at_ + n) && goes_on(words_[at_ + n - 1])) ++n;
     return Text(at_, n);
   }
   [[noreturn]] void Refuse() const {
@@ -612,7 +392,7 @@ class BuildingReader {
                                  : nearest));
   }
 
-  std::vector<BuildingToken> words_;
+  std::vector<WordToken> words_;
   size_t at_ = 0;
   std::optional<std::string_view> used_;
   std::map<std::string, std::pair<std::string, std::string>> claims_;  // key → value, words
@@ -627,7 +407,7 @@ class BuildingReader {
 
 std::optional<BuildingRequest> BuildingFromWords(std::string_view description) {
   if (description.size() > kLongestDescription) return std::nullopt;
-  BuildingReader reader(TokensOfBuilding(std::string(description)));
+  BuildingReader reader(WordTokens(description));
   if (!reader.IsOfBuilding()) return std::nullopt;
   return reader.Read();
 }

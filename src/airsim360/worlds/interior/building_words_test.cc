@@ -75,6 +75,8 @@ TEST(BuildingWords, SignsOfNumbersAreKept) {
   ExpectPart("library, 0 storeys", "storeys: 0 is not");
   ExpectPart("office of 3–5 storeys", "'3-5 storeys'");
   ExpectPart("a two-storey office", "storeys: 2");
+  ExpectPart("office, several people", "'several people'");
+  ExpectPart("office, 3 storeys at most", "'3 storeys at most'");
 }
 
 TEST(BuildingWords, WhatExcludesIsRefusedWithBoth) {
@@ -100,6 +102,10 @@ TEST(BuildingWords, MeasuresInWordsThatPeopleUse) {
   ExpectPart("library, twenty-five people", "people: 25");
   ExpectPart("mall, people: 10", "people: 10");
   ExpectPart("small office", "width: 30, depth: 19.4");
+  ExpectPart("office with one hundred and twenty workers", "people: 120");
+  ExpectPart("office, approx. 15,000 sq. ft, ~25 workers", "people: 25");
+  ExpectPart("office, half an acre", "width: 59.76, depth: 33.86");
+  ExpectPart("parking garage of 0.9 acres with 2 levels", "storeys: 2");
   for (const char* words : {"office of 1,200 m²", "office, 2 storeys, 2,400 square metres"}) {
     const auto request = BuildingFromWords(words);
     ASSERT_TRUE(request);

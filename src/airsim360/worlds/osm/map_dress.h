@@ -26,7 +26,7 @@ struct MapWall {
 
 struct MapDress {
   double trees = 1, traffic = 1;      ///< share of what is put along streets by rule: 0 … 1.6
-  const char* lamp = "street_light";  ///< kind of prop along streets
+  const char* lamp = "street_light";  ///< kind of prop along streets; nullptr: none
   bool yard_trees = true, yard_cars = true;
   bool town_around = true;  ///< the town goes on beyond the map where it is dense; else open country
   std::map<std::string, MapWall, std::less<>> walls;

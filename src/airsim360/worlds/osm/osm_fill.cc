@@ -22,7 +22,7 @@ void Dresser::Fill() {
       const double pavement = segment.pavement[side > 0 ? 0 : 1];
       // Staggered, so that the nearest lamp is 19 to 20 m away, over the street.
       const double across = 2 * (segment.half + 0.55), stagger = std::sqrt(std::max(19.7 * 19.7 - across * across, 150.0));
-      if (!lamps && pavement > 1.2) Row(segment, s0 + (side > 0 ? 0 : stagger), s1, 2 * stagger, side, 0.55, lamp, rng);
+      if (lamp && !lamps && pavement > 1.2) Row(segment, s0 + (side > 0 ? 0 : stagger), s1, 2 * stagger, side, 0.55, lamp, rng);
       if ((trees_ == 0 || scene_.dress) && trees > 0 && pavement > 2.6 && rng.Chance(0.8 * trees)) TreeRow(segment, s0 + 5, s1, side, rng);
       if (pavement > 2.2) {
         if (!bins) Row(segment, s0 + rng.Uniform(4, 60), s1, 80, side, 0.7, "trash_can", rng);

@@ -64,6 +64,10 @@ void Dresser::Yards() {
           if (tree && planted_ >= kMostPlanted) continue;
           if (scene_.dress && ((tree && !scene_.dress->yard_trees) || (std::string_view(thing->kind) == "car" && !scene_.dress->yard_cars)))
             continue;
+          // Where few trees stand along streets, few stand in yards.
+          constexpr double kFew = 0.5, kVariants = 36;
+          const double trees = scene_.dress ? scene_.dress->trees : 1;
+          if (tree && trees > 0 && trees < kFew && variant >= kVariants * trees) continue;
           // Cars stand square to each other; everything else as it likes.
           const double turn = std::string_view(thing->kind) == "car" ? std::round(yaw) * (M_PI / 2) : yaw;
           const Footprint place = FootprintOf(thing->kind, ToFloat(p), static_cast<float>(turn), thing->scale);

@@ -51,7 +51,8 @@ constexpr auto kSuits = std::to_array<Suit>({
     {"life", kPlaces | kStreets | kSquares | kMarkets, "a town"},
     {"crowd", kPlaces | kStreets | kSquares | kMarkets, "a town"},
     {"green", kPlaces | kStreets | kTrees | kGround | kCountry | kGardens | kSquares, "a town"},
-    {"weather", kAnything, ""},
+    {"tree lined", kPlaces | kStreets | kSquares, "streets"},
+    {"palm lined", kPlaces | kStreets | kSquares | kWaters, "streets"},
     {"trade", kAnything, ""},
 });
 
@@ -96,7 +97,7 @@ unsigned OfStuff(std::string_view setting) {
                                 : kSquares;
 }
 
-bool Reads(const std::vector<TownToken>& tokens, size_t at, size_t n, std::string_view phrase) {
+bool Reads(const std::vector<WordToken>& tokens, size_t at, size_t n, std::string_view phrase) {
   std::string plain, text;
   for (size_t k = at; k < at + n; ++k) {
     if (k > at && tokens[k].breaks) return false;
@@ -107,7 +108,7 @@ bool Reads(const std::vector<TownToken>& tokens, size_t at, size_t n, std::strin
 }
 
 // What the longest known phrase at `at` is, and its words.
-std::pair<unsigned, size_t> KindAt(const std::vector<TownToken>& tokens, size_t at) {
+std::pair<unsigned, size_t> KindAt(const std::vector<WordToken>& tokens, size_t at) {
   for (size_t n = std::min<size_t>(4, tokens.size() - at); n > 0; --n) {
     for (const auto& [noun, kind] : kNouns)
       if (Reads(tokens, at, n, noun)) return {kind, n};
@@ -129,7 +130,7 @@ std::pair<unsigned, size_t> KindAt(const std::vector<TownToken>& tokens, size_t 
 
 }  // namespace
 
-TownNoun NounAfter(const std::vector<TownToken>& tokens, size_t at) {
+TownNoun NounAfter(const std::vector<WordToken>& tokens, size_t at) {
   TownNoun noun;
   for (size_t i = at; i < tokens.size() && !tokens[i].breaks;) {
     const auto [kind, n] = KindAt(tokens, i);

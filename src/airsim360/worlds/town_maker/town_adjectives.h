@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "airsim360/worlds/town_maker/town_lexicon.h"
-#include "airsim360/worlds/town_maker/town_tokens.h"
+#include "airsim360/worlds/words/word_tokens.h"
 
 namespace airsim360::internal {
 
@@ -15,7 +15,7 @@ struct TownNoun {
   unsigned kind = 0;
   size_t end = 0;  ///< token behind it
 };
-TownNoun NounAfter(const std::vector<TownToken>& tokens, size_t at);
+TownNoun NounAfter(const std::vector<WordToken>& tokens, size_t at);
 
 /// Whether a word on `subject` suits the noun; true where there is none. `of`: what it suits, for an error.
 bool Suits(std::string_view subject, const TownNoun& noun, std::string& of);

@@ -17,6 +17,7 @@ std::shared_ptr<const Scene> BuildTownScene(const std::string& name, const TownS
   const bool old = spec.style == TownStyle::kAzulejo || spec.style == TownStyle::kOchre || spec.style == TownStyle::kStone ||
                    spec.style == TownStyle::kWhitewashed;
   if (old) dress.lamp = "lamp_post";
+  if (!spec.lamps) dress.lamp = nullptr;
   dress.town_around = spec.country == TownCountry::kCity;
   dress.paint = [&](SceneBuilder& builder, Surfaces& surfaces, MapDress& own) { PaintTown(spec, builder, surfaces, own); };
   dress.finish = [&](OsmScene& scene, const std::vector<OsmBuilding>&, const Neighbours&) { TownFinisher(spec, map, scene).Run(); };

@@ -16,6 +16,9 @@ namespace airsim360::internal {
 
 using TagList = std::vector<std::pair<const char*, std::string>>;
 
+/// Metres to the nearest shore of water, from land or from the water.
+double DistanceToShore(const Patch& water, Vec2d p);
+
 /// "12.3"
 std::string Metres(double value);
 
@@ -28,6 +31,8 @@ class TownDrawer {
   // town_waters.cc
   void LayWaters();
   void LayCoast();
+  void LayIsland();
+  bool AtSea() const { return spec_.water == TownWater::kSea || spec_.water == TownWater::kIsland; }
   /// Piers, boats, the promenade.
   void FurnishWaters();
   bool IsWet(Vec2d p, double margin) const;
@@ -73,6 +78,8 @@ class TownDrawer {
   void BuildCastle(Vec2d p);
   void BuildTerraceHouse();
   void DressStreets();
+  void SetBusStops();
+  void PlantStreetRows();
   void PlantWoods();
 
   const TownSpec& spec_;

@@ -4,6 +4,7 @@
 
 #include "airsim360/math/angles.h"
 #include "airsim360/worlds/texture/texture_synth.h"
+#include "airsim360/worlds/town_maker/town_drawer.h"
 #include "airsim360/worlds/town_maker/town_finisher.h"
 
 namespace airsim360::internal {
@@ -12,7 +13,7 @@ namespace {}  // namespace
 void TownFinisher::FarWoods() {
   const bool forest = spec_.country == TownCountry::kForest;
   const double reach = forest ? 420 : 900;
-  const int tries = forest ? 5200 : 2600;
+  const int tries = static_cast<int>((forest ? 5200 : 2600) * std::max(1.0, spec_.trees));
   const OsmBox& e = scene_.data.extent;
   for (int i = 0; i < tries; ++i) {
     const Vec2d p{rng_.Uniform(e.x0 - reach, e.x1 + reach), rng_.Uniform(e.y0 - reach, e.y1 + reach)};
@@ -20,9 +21,11 @@ void TownFinisher::FarWoods() {
     const double keep = rng_.Uniform(), turn = rng_.Uniform(0, kTau);
     // In fields only groves and rows stand.
     const double grove = std::sin(p.x / 61) * std::sin(p.y / 47) + 0.5 * std::sin(p.x / 23 + p.y / 31);
-    if (out < 32 || (forest ? keep > 1.1 - out / reach : grove < 0.72)) continue;
+    // Few trees are few all around.
+    const double share = std::min(1.0, spec_.trees);
+    if (out < 32 || (forest ? keep > (1.1 - out / reach) * share : grove < 0.72 || keep > share)) continue;
     bool wet = false;
-    for (const Patch& patch : map_.wet) wet = wet || Inside(patch, p) || DistanceToRing(patch.outer, p) < 6;
+    for (const Patch& patch : map_.wet) wet = wet || Inside(patch, p) || DistanceToShore(patch, p) < 6;
     if (wet) continue;
     const bool needles = forest ? rng_.Chance(0.86) : rng_.Chance(0.2);
     const auto scale = static_cast<float>(rng_.Uniform(0.75, 1.45));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/worlds/osm/osm_streets.h"
 #include "airsim360/worlds/town_maker/town_drawer.h"
 
 namespace airsim360::internal {
@@ -179,17 +180,53 @@ void TownDrawer::DressStreets() {
       for (double s = 6; s < Length(v); s += 12)
         for (int hand : {1, -1}) AddSpot("palm", a + along * s + side * (hand * (street.half + 0.9)), {1, 0}, rng_.Uniform(6, 9));
   }
+  if (spec_.style == TownStyle::kOchre && !spec_.palms && spec_.trees >= 1.2) PlantStreetRows();
+  if (spec_.bus_stops) SetBusStops();
+}
+
+// What the builders of maps do not grow along streets: cypresses and umbrella pines.
+void TownDrawer::PlantStreetRows() {
+  for (const TownStreet& street : map_.streets) {
+    if (street.bridge || street.rank > 1 || street.pavement < 2) continue;
+    const double length = LengthOf(street.line);
+    for (double s = 12; s < length - 12; s += 9) {
+      const LinePoint at = PointAt(street.line, s);
+      for (int hand : {1, -1}) {
+        const Vec2d p = at.p + Vec2d{-at.along.y, at.along.x} * (hand * (street.half + 0.9));
+        if (Inside_(p, 2)) AddTree(p, 6, 8);
+      }
+    }
+  }
+}
+
+// Pairs of stops by the corners of main streets, or of others where no main street has a pavement for one.
+void TownDrawer::SetBusStops() {
+  constexpr double kFromCorner = 20, kApart = 140, kShortest = 44, kPavement = 1.3;  // metres
+  std::vector<Vec2d> stops;
+  for (int rank : {0, 1})
+    for (const TownStreet& street : map_.streets) {
+      if (street.rank != rank || street.bridge || street.pavement < kPavement || (rank == 1 && !stops.empty())) continue;
+      const double length = LengthOf(street.line);
+      if (length < kShortest) continue;
+      const LinePoint at = PointAt(street.line, kFromCorner);
+      const Vec2d p = at.p;
+      if (!Inside_(p, 12) || std::ranges::any_of(stops, [&](Vec2d stop) { return Length(stop - p) < kApart; })) continue;
+      stops.push_back(p);
+      for (int hand : {1, -1}) AddNode(p + Vec2d{at.along.y, -at.along.x} * (hand * (street.half + 0.4)), {{"highway", "bus_stop"}});
+    }
 }
 
 // Conifers and undergrowth wherever neither houses nor tracks nor water are.
 void TownDrawer::PlantWoods() {
   if (spec_.country != TownCountry::kForest) return;
-  const double cell = 5.4;
+  // Dense forests have neither clearings nor wide gaps.
+  const bool dense = spec_.trees > 1.1;
+  const double cell = dense ? 4.4 : 5.4;
   for (double y = y0_ - 26; y < y1_ + 26; y += cell)
     for (double x = x0_ - 26; x < x1_ + 26; x += cell) {
       const Vec2d p{x + rng_.Uniform(0, cell), y + rng_.Uniform(0, cell)};
       const double keep = rng_.Uniform(), clearing = std::sin(p.x / 31) * std::cos(p.y / 27) + 0.4 * std::sin(p.x / 13 + p.y / 17);
-      if (keep > 0.86 * std::min(1.0, spec_.trees) || clearing > 1.12 || IsWet(p, 5)) continue;
+      if (keep > 0.86 * std::min(1.0, spec_.trees) || (!dense && clearing > 1.12) || IsWet(p, 5)) continue;
       bool free = true;
       for (const auto& body : bodies_) free = free && Length(body.first - p) > body.second + 3.2;
       for (const TownStreet& street : map_.streets) free = free && DistanceToLine(street.line, p) > street.half + 2.6;

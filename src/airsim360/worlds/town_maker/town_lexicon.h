@@ -1,6 +1,7 @@
 // The words that describe towns.
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,7 +18,10 @@ struct TownDraft {
   double scale = 1;         ///< of the sides, of "small" and the like
   double people_share = 0;  ///< of what a town of the size usually has; < 0: nobody
   bool hilly = false;
-  std::string weather;
+  std::string time;            ///< of day: a preset of environment:, "dawn" or "sunrise"
+  std::set<std::string> airs;  ///< presets of which clouds, fog, rain and snow are taken
+
+  bool AtSea() const { return spec.water == TownWater::kSea || spec.water == TownWater::kIsland; }
 };
 
 struct TownWord {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "airsim360/base/error.h"
@@ -22,23 +23,23 @@ std::vector<OsmArea> HousesOf(const std::vector<OsmArea>& areas) {
   return houses;
 }
 
-// Every plan with every water, small.
+// Every plan with every water, small; islands at the end.
 std::vector<TownSpec> Variety() {
   std::vector<TownSpec> specs;
-  for (int plan = 0; plan < 5; ++plan)
-    for (int water = 0; water < 5; ++water) {
-      TownSpec spec{.plan = static_cast<TownPlan>(plan),
-                    .style = static_cast<TownStyle>((2 * plan + water) % 10),
-                    .relief = static_cast<TownRelief>((plan + water) % 5),
-                    .water = static_cast<TownWater>(water)};
-      spec.width = 260 + 20 * water;
-      spec.depth = 240;
-      spec.street = 6.0 + 3 * plan;
-      spec.setback = water == 2 ? 4 : 0;
-      spec.church = spec.castle = spec.windmill = spec.ruins = spec.arches = spec.wires = plan % 2 == 0;
-      spec.harbour = water == 1 || water == 3;
-      specs.push_back(spec);
-    }
+  for (int i = 0; i < 30; ++i) {
+    const int plan = i < 25 ? i / 5 : i - 25, water = i < 25 ? i % 5 : 5;
+    TownSpec spec{.plan = static_cast<TownPlan>(plan),
+                  .style = static_cast<TownStyle>((2 * plan + water) % 10),
+                  .relief = static_cast<TownRelief>((plan + water) % 5),
+                  .water = static_cast<TownWater>(water)};
+    spec.width = 260 + 20 * water;
+    spec.depth = 240;
+    spec.street = 6.0 + 3 * plan;
+    spec.setback = water == 2 ? 4 : 0;
+    spec.church = spec.castle = spec.windmill = spec.ruins = spec.arches = spec.wires = plan % 2 == 0;
+    spec.harbour = water == 1 || water == 3 || water == 5;
+    specs.push_back(spec);
+  }
   return specs;
 }
 
@@ -111,6 +112,75 @@ TEST(TownMap, TheGroundIsAsSteepAsAskedAndLevelAtTheWater) {
   EXPECT_LT(high - low, 0.3);
   spec.relief = TownRelief::kFlat;
   EXPECT_TRUE(DrawTown(spec, 0).heights.heights.empty());
+}
+
+bool WetAt(const TownMap& map, Vec2d p) {
+  return std::any_of(map.wet.begin(), map.wet.end(), [&](const Patch& patch) { return Inside(patch, p); });
+}
+
+TEST(TownMap, TheSeaSurroundsAnIsland) {
+  TownSpec spec{.relief = TownRelief::kHill, .water = TownWater::kIsland};
+  for (uint64_t seed : {0u, 1u, 2u}) {
+    const TownMap map = DrawTown(spec, seed);
+    for (int i = 0; i < 72; ++i) {
+      const double a = 6.2831853 * i / 72;
+      EXPECT_TRUE(WetAt(map, {0.78 * spec.width * std::cos(a), 0.78 * spec.depth * std::sin(a)})) << i;
+      EXPECT_FALSE(WetAt(map, {0.4 * spec.width * std::cos(a), 0.4 * spec.depth * std::sin(a)})) << i;
+      EXPECT_TRUE(WetAt(map, {1200 * std::cos(a), 1200 * std::sin(a)})) << i;
+    }
+    for (const TownStreet& street : map.streets)
+      for (Vec2d p : street.line) EXPECT_FALSE(WetAt(map, p));
+    const Relief relief(map.heights, map.data.origin, spec.width * spec.depth);
+    const double shore = relief.At({0, -0.49 * spec.depth});
+    EXPECT_NEAR(relief.At({0.49 * spec.width, 0}), shore, 0.5);
+    EXPECT_GT(relief.At({0, 0.17 * spec.depth}) - shore, 8);
+  }
+}
+
+TEST(TownMap, ARiverThroughTheMiddleIsThere) {
+  for (const TownWater water : {TownWater::kRiver, TownWater::kCanal, TownWater::kLake})
+    for (const bool central : {false, true}) {
+      TownSpec spec{.water = water};
+      spec.central_water = central;
+      const TownMap map = DrawTown(spec, 4);
+      bool middle = false;
+      for (double y = -0.1 * spec.depth; y <= 0.1 * spec.depth; y += 1) middle = middle || WetAt(map, {0, y});
+      EXPECT_EQ(middle, central) << static_cast<int>(water);
+    }
+}
+
+TEST(TownMap, BusStopsStandAtMainStreetsNearCorners) {
+  TownSpec spec;
+  spec.street = 15;
+  spec.bus_stops = true;
+  const TownMap map = DrawTown(spec, 0);
+  int stops = 0;
+  for (const OsmNode& node : map.data.nodes) {
+    if (!node.tags.Is("highway", "bus_stop")) continue;
+    ++stops;
+    double street = 1e9, corner = 1e9;
+    for (const TownStreet& s : map.streets) {
+      street = std::min(street, DistanceToLine(s.line, node.p) - s.half);
+      corner = std::min(corner, std::hypot(s.line[0].x - node.p.x, s.line[0].y - node.p.y));
+    }
+    EXPECT_NEAR(street, 0.4, 0.2);
+    EXPECT_LT(corner, 30);
+  }
+  EXPECT_GE(stops, 2);
+}
+
+TEST(TownMap, ForestsAreAsDenseAsTreesSay) {
+  size_t before = 0;
+  for (double trees : {0.0, 0.4, 1.0, 1.4}) {
+    TownSpec spec{.country = TownCountry::kForest};
+    spec.trees = trees;
+    const TownMap map = DrawTown(spec, 0);
+    const auto count = static_cast<size_t>(
+        std::count_if(map.data.nodes.begin(), map.data.nodes.end(), [](const OsmNode& node) { return node.tags.Is("natural", "tree"); }));
+    EXPECT_GE(static_cast<double>(count), 1.2 * static_cast<double>(before)) << trees;
+    EXPECT_EQ(count == 0, trees == 0);
+    before = count;
+  }
 }
 
 TEST(TownMap, HousesAreAsManyAndAsHighAsSaid) {

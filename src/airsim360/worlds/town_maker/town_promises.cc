@@ -17,6 +17,7 @@ using internal::TownMap;
 constexpr double kTowerHeight = 40;  // metres
 constexpr double kCastleBlock = 84;  // metres between streets that leave room for a castle, mostly
 constexpr double kWidestBlock = 130;
+constexpr double kLampPavement = 1.25;  // metres
 constexpr int kMostGrowths = 6;
 
 uint64_t Ways(const TownMap& map, const char* key, std::string_view value) {
@@ -60,6 +61,13 @@ uint64_t CountOf(const TownMap& map, const std::string& setting) {
   if (setting == "wires")
     return static_cast<uint64_t>(
         std::ranges::count_if(map.streets, [](const internal::TownStreet& street) { return street.rank == 0 && !street.bridge; }));
+  if (setting == "bus_stops")
+    return static_cast<uint64_t>(
+        std::ranges::count_if(map.data.nodes, [](const OsmNode& node) { return node.tags.Is("highway", "bus_stop"); }));
+  if (setting == "lamps")
+    return static_cast<uint64_t>(std::ranges::count_if(map.streets, [](const internal::TownStreet& street) {
+      return street.rank < 2 && street.pavement > kLampPavement && street.half > 2.6;
+    }));
   if (setting == "fountain")
     return static_cast<uint64_t>(
         std::ranges::count_if(map.data.nodes, [](const OsmNode& node) { return node.tags.Is("amenity", "fountain"); }));
@@ -71,6 +79,7 @@ std::string Advice(const std::string& setting) {
   if (setting == "arches") return "arches stand over lanes without cars: say 'old' or 'narrow streets'";
   if (setting == "bridge") return "streets cross rivers, canals and lakes on bridges: say 'river', or take another --seed";
   if (setting == "cycle_lanes" || setting == "cafes") return "tracks of earth have neither pavements nor lanes: say 'town' or 'paved'";
+  if (setting == "lamps" || setting == "bus_stops") return "they need pavements: say 'town', 'paved' or 'wide streets'";
   if (setting == "houses" || setting == "parks" || setting == "squares") return "say fewer, or a larger area";
   return "say a larger area, or take another --seed";
 }

@@ -6,6 +6,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/math/geodesy.h"
 #include "airsim360/worlds/texture/texture_synth.h"
+#include "airsim360/worlds/town_maker/town_drawer.h"
 
 namespace airsim360::internal {
 namespace {
@@ -59,7 +60,7 @@ class Heights {
     double nearest = 1e9;
     for (const Patch& patch : map_.wet) {
       if (Inside(patch, p)) return 0;
-      nearest = std::min(nearest, DistanceToRing(patch.outer, p));
+      nearest = std::min(nearest, DistanceToShore(patch, p));
     }
     return nearest;
   }

@@ -18,10 +18,14 @@ void TownDrawer::LayWaters() {
       return;
     case TownWater::kSea:
       return LayCoast();
+    case TownWater::kIsland:
+      return LayIsland();
     case TownWater::kRiver:
     case TownWater::kCanal: {
       const bool canal = spec_.water == TownWater::kCanal;
-      const double bend = canal ? 0 : 0.06 * spec_.depth, y = canal ? -0.16 * spec_.depth : -0.2 * spec_.depth;
+      const double bend = canal ? 0 : 0.06 * spec_.depth,
+                   // Between the main street and the next one.
+          y = spec_.central_water ? -std::min(0.5 * spec_.block, 0.08 * spec_.depth) : (canal ? -0.16 : -0.2) * spec_.depth;
       for (double x = x0_ - kBeyond; x <= x1_ + kBeyond + 1; x += canal ? 2 * kBeyond : 22)
         river_.push_back({x, y + bend * std::sin(x / 85 + phase)});
       if (canal) river_ = {{x0_ - kBeyond, y}, {x1_ + kBeyond, y}};
@@ -32,7 +36,7 @@ void TownDrawer::LayWaters() {
     }
     case TownWater::kLake: {
       Ring shore;
-      const Vec2d c{-0.24 * spec_.width, -0.24 * spec_.depth};
+      const Vec2d c = spec_.central_water ? Vec2d{0, 0} : Vec2d{-0.24 * spec_.width, -0.24 * spec_.depth};
       const double r = 0.2 * std::min(spec_.width, spec_.depth);
       for (int i = 0; i < 40; ++i) {
         const double a = 6.283185 * i / 40;
@@ -62,9 +66,34 @@ void TownDrawer::LayCoast() {
   map_.wet = Unite(Patches{{sea, {}}});
 }
 
+// The town to its edges, with bays; the sea goes on past the horizon's hills.
+void TownDrawer::LayIsland() {
+  constexpr int kPoints = 96;
+  constexpr double kPower = 0.4, kShare = 0.95;  // of cosine and sine: a rounded rectangle; of the town's half sides
+  const double phase = rng_.Uniform(0, 6.28);
+  // From the south counter-clockwise: water is to the right.
+  for (int i = 0; i < kPoints; ++i) {
+    const double a = 6.283185 * (i - 0.25 * kPoints) / kPoints, c = std::cos(a), s = std::sin(a);
+    const double r = kShare + 0.03 * std::sin(3 * a + phase) + 0.018 * std::sin(7 * a + 2 * phase);
+    coast_.push_back(
+        {x1_ * r * std::copysign(std::pow(std::abs(c), kPower), c), y1_ * r * std::copysign(std::pow(std::abs(s), kPower), s)});
+  }
+  AddArea(coast_, {{"natural", "coastline"}});
+  const double out = kBeyond + 700;
+  map_.wet = Subtract(Patches{{{{x0_ - out, y0_ - out}, {x1_ + out, y0_ - out}, {x1_ + out, y1_ + out}, {x0_ - out, y1_ + out}}, {}}},
+                      Patches{{coast_, {}}});
+  coast_.push_back(Vec2d(coast_.front()));
+}
+
+double DistanceToShore(const Patch& water, Vec2d p) {
+  double nearest = DistanceToRing(water.outer, p);
+  for (const Ring& hole : water.holes) nearest = std::min(nearest, DistanceToRing(hole, p));
+  return nearest;
+}
+
 bool TownDrawer::IsWet(Vec2d p, double margin) const {
   for (const Patch& patch : map_.wet)
-    if (Inside(patch, p) || (margin > 0 && DistanceToRing(patch.outer, p) < margin)) return true;
+    if (Inside(patch, p) || (margin > 0 && DistanceToShore(patch, p) < margin)) return true;
   return false;
 }
 
@@ -76,23 +105,35 @@ void TownDrawer::FurnishWaters() {
     shore = map_.wet[0].outer;
     shore.push_back(shore[0]);
   }
-  const bool sea = spec_.water == TownWater::kSea, wild = spec_.paving == TownPaving::kDirt;
+  const bool sea = AtSea(), island = spec_.water == TownWater::kIsland, wild = spec_.paving == TownPaving::kDirt;
   if (sea) {
-    std::vector<Vec2d> walk;
-    for (Vec2d p : coast_)
-      if (map_.data.extent.Contains(p, 60)) walk.push_back({p.x, p.y + (spec_.harbour ? 5.5 : 12.0)});
+    // Along the coast, and to the land from it: north, or into the island.
+    std::vector<Vec2d> walk, along;
+    for (size_t i = 0; i < coast_.size(); ++i) {
+      if (!map_.data.extent.Contains(coast_[i], 60)) continue;
+      const size_t n = coast_.size() - 1;
+      const Vec2d v = coast_[(i + 1) % n] - coast_[(i + n - 1) % n];
+      along.push_back(island ? v * (1 / Length(v)) : Vec2d{1, 0});
+      walk.push_back(coast_[i] + Vec2d{-along.back().y, along.back().x} * (spec_.harbour ? 5.5 : 12.0));
+    }
     AddLine(walk, {{"highway", "pedestrian"}, {"width", "10"}, {"name", "Promenade"}, {"surface", "sett"}});
     if (!spec_.harbour) {
       std::vector<Vec2d> sand;
       for (Vec2d p : coast_)
         if (map_.data.extent.Contains(p, 60)) sand.push_back(p);
-      const Patches beach = Band(sand, 7.2, 0);
-      for (const Patch& patch : beach) AddArea(patch.outer, {{"natural", "beach"}});
+      // A band that closes would be one area with the island in it.
+      const size_t part = island ? sand.size() / 4 : sand.size();
+      for (size_t from = 0; from + 1 < sand.size(); from += part) {
+        const std::vector<Vec2d> piece(sand.begin() + static_cast<std::ptrdiff_t>(from),
+                                       sand.begin() + static_cast<std::ptrdiff_t>(std::min(from + part + 1, sand.size())));
+        for (const Patch& patch : Band(piece, 7.2, 0)) AddArea(patch.outer, {{"natural", "beach"}});
+      }
     }
     for (size_t i = 0; i + 1 < walk.size(); ++i)
       if (Inside_(walk[i], 2)) {
-        AddNode(walk[i] + Vec2d{6, -2.5}, {{"amenity", "bench"}});
-        if (spec_.palms || spec_.trees > 0.2) AddTree(walk[i] + Vec2d{0, 3.6}, 6, 8);
+        const Vec2d t = along[i], inland{-t.y, t.x};
+        AddNode(walk[i] + t * 6.0 - inland * 2.5, {{"amenity", "bench"}});
+        if (spec_.palms || spec_.trees > 0.2) AddTree(walk[i] + inland * 3.6, 6, 8);
       }
   }
   if (!spec_.harbour) return;
@@ -103,7 +144,7 @@ void TownDrawer::FurnishWaters() {
     const Vec2d a = shore[i], v = shore[i + 1] - a;
     const double length = std::hypot(v.x, v.y);
     left -= length;
-    if (left > 0 || !Inside_(a, 12) || piers >= 8) continue;
+    if (left > 0 || !Inside_(a, island ? 0 : 12) || piers >= 8) continue;
     left = pitch;
     // Towards the water.
     Vec2d out{v.y / length, -v.x / length};
@@ -124,7 +165,8 @@ void TownDrawer::FurnishWaters() {
   }
   if (sea && piers > 0)
     for (int i = 0; i < 5; ++i) {
-      const Vec2d p{rng_.Uniform(x0_, x1_), rng_.Uniform(y0_ - 20, y0_ + 0.1 * spec_.depth)};
+      const double off = island ? 55 : 0;  // metres farther out
+      const Vec2d p{rng_.Uniform(x0_, x1_), rng_.Uniform(y0_ - 20 - off, y0_ + 0.1 * spec_.depth - off)};
       if (IsWet(p, 0) && IsWet(p + Vec2d{0, 30}, 0)) AddSpot("boat", p, {1, 0}, 0);
     }
 }

@@ -6,68 +6,35 @@
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "airsim360/base/config.h"
 #include "airsim360/base/error.h"
+#include "airsim360/scene/environment.h"
 #include "airsim360/worlds/town_maker/town_adjectives.h"
 #include "airsim360/worlds/town_maker/town_lexicon.h"
-#include "airsim360/worlds/town_maker/town_tokens.h"
+#include "airsim360/worlds/town_maker/town_phrases.h"
+#include "airsim360/worlds/words/number_words.h"
+#include "airsim360/worlds/words/word_tokens.h"
 
 namespace airsim360 {
 namespace {
 
 using namespace internal;
+using namespace town_tables;
 
-constexpr size_t kLongest = 1000, kMostWords = 4;       // characters; words of a phrase
+constexpr size_t kLongest = 1000, kMostWords = 5;       // characters; words of a phrase
 constexpr double kPersonEach = 1700;                    // m^2 of a town for one who walks outside, usually
 constexpr double kMostPeople = 400, kPopulation = 200;  // who walk; more than so many people live there rather
 constexpr double kLaneStreet = 8.2;                     // metres; old towns have lanes without cars between streets so narrow
 
-// One word a line would hide them.
-// clang-format off
-constexpr auto kFillers = std::to_array<std::string_view>(
-    {"a", "an", "the", "with", "and", "of", "in", "on", "at", "by", "to", "for", "near", "beside", "along", "through",
-     "between", "over", "above", "under", "below", "behind", "into", "from", "its", "it", "is", "are", "be", "that", "which", "where",
-     "has", "have", "having", "like", "s", "as", "very", "quite", "rather", "also", "all", "any", "some", "other",
-     "each", "every", "house", "home", "building", "block", "apartment", "street", "alley", "lane", "road", "path", "roof", "wall",
-     "pavement", "sidewalk", "district", "quarter", "neighbourhood", "neighborhood", "area", "place", "settlement", "centre", "center",
-     "community", "facade", "front", "plan", "style", "type", "kind", "view", "land", "ground", "side", "surrounded", "lined", "built",
-     "full", "set", "located", "situated", "about", "roughly", "central", "main", "make", "create", "generate", "build", "please",
-     "me", "want", "i", "world", "scene", "storey", "terrain", "architecture", "but", "need", "site",
-     "exactly", "approximately", "around", "there"});
-constexpr auto kNone = std::to_array<std::string_view>({"no", "without", "free of", "hardly any", "not any", "devoid of"});
-// Before a number.
-enum class Limit { kNone, kAtLeast, kMost, kOver, kUnder };
-constexpr auto kLimits = std::to_array<std::pair<std::string_view, Limit>>(
-    {{"at least", Limit::kAtLeast}, {"no fewer than", Limit::kAtLeast}, {"no less than", Limit::kAtLeast}, {"minimum", Limit::kAtLeast},
-     {"a minimum of", Limit::kAtLeast}, {"minimum of", Limit::kAtLeast}, {"at most", Limit::kMost}, {"up to", Limit::kMost},
-     {"maximum", Limit::kMost}, {"a maximum of", Limit::kMost}, {"maximum of", Limit::kMost}, {"no more than", Limit::kMost},
-     {"not more than", Limit::kMost}, {"over", Limit::kOver}, {"above", Limit::kOver}, {"more than", Limit::kOver},
-     {"under", Limit::kUnder}, {"below", Limit::kUnder}, {"less than", Limit::kUnder}, {"fewer than", Limit::kUnder}});
-struct Amount {
-  std::string_view words;
-  double share;
-};
-constexpr auto kAmounts = std::to_array<Amount>(
-    {{"few", 0.4}, {"a few", 0.4}, {"very few", 0.25}, {"little", 0.4}, {"light", 0.4}, {"sparse", 0.4}, {"moderate", 1}, {"some", 1},
-     {"many", 1.5}, {"lots of", 1.5}, {"a lot of", 1.5}, {"plenty of", 1.5}, {"heavy", 1.5}, {"dense", 1.5}, {"big", 1.3},
-     {"large", 1.3}});
-// What else can be denied.
-struct Absent {
-  std::string_view noun, subject, means;
-  void (*apply)(TownDraft&);
-};
-constexpr auto kAbsent = std::to_array<Absent>(
-    {{"hill", "relief", "relief: flat", [](TownDraft& d) { d.spec.relief = TownRelief::kFlat; }},
-     {"slope", "relief", "relief: flat", [](TownDraft& d) { d.spec.relief = TownRelief::kFlat; }},
-     {"sea", "sea", "water: no sea", [](TownDraft& d) { if (d.spec.water == TownWater::kSea) d.spec.water = TownWater::kNone; }},
-     {"river", "no river", "water: no river", [](TownDraft& d) { if (d.spec.water == TownWater::kRiver) d.spec.water = TownWater::kNone; }},
-     {"lake", "no lake", "water: no lake", [](TownDraft& d) { if (d.spec.water == TownWater::kLake) d.spec.water = TownWater::kNone; }},
-     {"harbour", "harbour", "harbour: false", [](TownDraft& d) { d.spec.harbour = false; }},
-     {"boat", "harbour", "harbour: false", [](TownDraft& d) { d.spec.harbour = false; }}});
-// clang-format on
+template <class List>
+bool IsOneOf(const List& list, std::string_view word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
 
 bool IsAny(const std::string& word, std::initializer_list<std::string_view> list) {
   return std::find(list.begin(), list.end(), word) != list.end();
@@ -81,7 +48,7 @@ std::string Number(double value) {
 
 class Reader {
  public:
-  explicit Reader(std::string_view description) : tokens_(TownTokens(description)) {}
+  explicit Reader(std::string_view description) : tokens_(WordTokens(description)) {}
 
   TownRequest Read() {
     if (tokens_.empty()) throw InputError("the description is empty: say what town, as in \"a small coastal town with a church\"");
@@ -104,19 +71,13 @@ class Reader {
     std::string means, words;
   };
 
-  std::string Joined(size_t i, size_t n, bool plain) const {
-    std::string text;
-    for (size_t k = i; k < i + n && k < tokens_.size(); ++k) text += (k > i ? " " : "") + (plain ? tokens_[k].plain : tokens_[k].text);
-    return text;
-  }
+  std::string Joined(size_t i, size_t n, bool plain = false) const { return JoinedTokens(tokens_, i, n, plain); }
   // Do the `n` words from i read as `phrase`?
   bool Reads(size_t i, size_t n, std::string_view phrase) const {
     return i + n <= tokens_.size() && (Joined(i, n, true) == phrase || Joined(i, n, false) == phrase);
   }
 
   void Note(size_t i, size_t n, std::string as) { request_.words.push_back({Joined(i, n, false), std::move(as)}); }
-  // The words of a number, with "at least" and the like before it.
-  std::string Numbered(size_t i, size_t n) const { return Joined(i - lead_, n + lead_, false); }
 
   [[noreturn]] static void Exclude(const std::string& a, const std::string& means_a, const std::string& b, const std::string& means_b) {
     throw InputError("'" + a + "' (" + means_a + ") and '" + b + "' (" + means_b + ") exclude each other");
@@ -137,10 +98,11 @@ class Reader {
   }
 
   size_t Step(size_t i) {
-    if (const size_t n = Limited(i)) return i + n;
-    if (const size_t n = Denied(i)) return i + n;
+    Refuse(i);
     if (const size_t n = Some(i)) return i + n;
+    if (const size_t n = Denied(i)) return i + n;
     if (const size_t n = Measured(i)) return i + n;
+    if (const size_t n = Mostly(i)) return i + n;
     // The longest of all that is known.
     size_t words = 0, things = 0, stuffs = 0;
     const TownWord* word = Longest(TownWords(), i, words, [](const TownWord& row) { return row.phrase; });
@@ -157,19 +119,48 @@ class Reader {
       Note(i, 1, "filler");
       return i + 1;
     }
-    if (std::find(kFillers.begin(), kFillers.end(), tokens_[i].plain) != kFillers.end() ||
-        std::find(kFillers.begin(), kFillers.end(), tokens_[i].text) != kFillers.end()) {
+    if (IsOneOf(kFillers, tokens_[i].plain) || IsOneOf(kFillers, tokens_[i].text)) {
       Note(i, 1, "filler");
       return i + 1;
     }
     Unknown(i);
   }
 
+  void Refuse(size_t i) const {
+    size_t n = 0;
+    const Refused* refused = Longest(kRefused, i, n, [](const Refused& row) { return row.words; });
+    size_t stop = 0;
+    // A bus stop is no bus.
+    if (!refused || (Longest(TownThings(), i, stop, [](const TownThing& row) { return row.noun; }) && stop > n)) return;
+    throw InputError("'" + Joined(i, n) + "': " + std::string(refused->instead));
+  }
+
+  // "mostly brick houses", "mostly of stone": of what a whole town is alike in.
+  size_t Mostly(size_t i) {
+    if (!IsOneOf(kMostly, tokens_[i].text)) return 0;
+    size_t at = i + 1, n = 0;
+    while (IsAny(WordAt(at), {"of", "the", "in", "with"})) ++at;
+    // "most houses have flat roofs"
+    while (IsAny(WordAt(at), {"house", "home", "building", "street", "road", "have", "are", "roof"}) && at + 1 < tokens_.size()) ++at;
+    const TownWord* word = at < tokens_.size() ? Longest(TownWords(), at, n, [](const TownWord& row) { return row.phrase; }) : nullptr;
+    const bool storeys = NumberAt(at) && IsStoreyWord(WordAt(at + 1));
+    if (!storeys && (!word || !IsAny(std::string(word->subject),
+                                     {"style", "colours", "roofs", "heights", "paving", "street", "plan", "setback", "apart"})))
+      throw InputError("'" + Joined(i, at + 1 - i) + "': '" + tokens_[i].text +
+                       "' is said of houses, roofs, storeys and streets, and means all of them; say it without");
+    Note(i, 1, "taken as all of them");
+    return 1;
+  }
+
   [[noreturn]] void Unknown(size_t i) const {
     if (tokens_[i].number)
       throw InputError(
-          "'" + Numbered(i, std::min<size_t>(3, tokens_.size() - i)) +
+          "'" + Joined(i, std::min<size_t>(3, tokens_.size() - i)) +
           "': a number of what? Understood are hectares, metres by metres, storeys, houses, people, squares, parks, and per cent of slope");
+    size_t n = 0;
+    if (i + 1 < tokens_.size() && Longest(kAmounts, i, n, [](const Amount& row) { return row.words; }))
+      throw InputError("'" + Joined(i, n + 1) +
+                       "': amounts are said of trees, cars, traffic, people, parks and squares; of houses and storeys a number is");
     std::vector<std::string> known;
     for (const TownWord& row : TownWords()) known.emplace_back(row.phrase);
     for (const TownThing& row : TownThings()) known.emplace_back(row.noun);
@@ -187,7 +178,7 @@ class Reader {
     // Kinds may be named again, and parts of one beside them.
     Agree(std::string(word.subject), std::string(word.means), Joined(i, n, false));
     // Degrees bend what the others say.
-    const int order = word.subject == "apart" ? -1 : word.subject == "steep" ? 1 : 0;
+    const int order = word.subject == "apart" ? -1 : word.subject == "steep" || word.subject == "island" ? 1 : 0;
     said_.push_back({word.level, Joined(i, n, false), std::string(word.means), word.apply, {}, order});
     if (word.holds) said_.back().holds = word.holds;
     if (IsAny(std::string(word.subject), {"bridge", "harbour", "terrace"}))
@@ -254,13 +245,14 @@ class Reader {
         Affirm(*thing, i, from + things - i, things, false);
         return things;
       }
-      const auto* absent = std::ranges::find_if(kAbsent, [&](const Absent& row) { return Reads(from, 1, row.noun); });
-      if (!stuff && absent != kAbsent.end()) {
-        const std::string words = Joined(i, from + 1 - i, false), means(absent->means);
+      size_t absents = 0;
+      const Absent* absent = Longest(kAbsent, from, absents, [](const Absent& row) { return row.noun; });
+      if (!stuff && absent) {
+        const std::string words = Joined(i, from + absents - i), means(absent->means);
         Agree(std::string(absent->subject), means, words);
         said_.push_back({WordLevel::kSaid, words, means, absent->apply, {}});
-        Note(from, 1, means);
-        return 1;
+        Note(from, absents, means);
+        return absents;
       }
       if (!stuff) return 0;
       Agree(std::string(stuff->setting), std::string(stuff->setting) + " x 0", Joined(i, from + stuffs - i, false));
@@ -268,6 +260,12 @@ class Reader {
       Note(from, stuffs, std::string(stuff->setting) + ": none");
       return stuffs;
     };
+    // no buildings over 3 storeys
+    if (IsAny(WordAt(at), {"building", "house", "home"}) && NumberAt(at + 1) && tokens_[at + 1].limit == NumberLimit::kOver &&
+        IsStoreyWord(WordAt(at + 2))) {
+      const double most = *tokens_[at + 1].number;
+      return Storeys(i, at + 3 - i, std::max(1.0, std::round(0.3 * most)), most);
+    }
     Note(i, at - i, "none of what follows");
     size_t read = deny(at);
     if (read == 0) throw InputError("'" + Joined(i, at - i + 1, false) + "': what can be denied are " + Deniable());
@@ -305,34 +303,12 @@ class Reader {
 
   void Bound(size_t i, size_t n, double value, double low, double high, const char* unit) const {
     if (!(value >= low && value <= high))
-      throw InputError("'" + Numbered(i, n) + "': " + Number(value) + " is not from " + Number(low) + " to " + Number(high) + " " + unit);
-  }
-
-  void NoteNumber(size_t i, size_t n, std::string as) { Note(i - lead_, n + lead_, std::move(as)); }
-
-  // "at least 20 houses", "over 4 storeys": words read, 0 = not this.
-  size_t Limited(size_t i) {
-    size_t n = 0;
-    const auto* limit = Longest(kLimits, i, n, [](const auto& row) { return row.first; });
-    if (!limit || i + n >= tokens_.size()) return 0;
-    size_t at = i + n;
-    if (IsAny(tokens_[at].text, {"a", "about"})) ++at;
-    if (at >= tokens_.size() || !tokens_[at].number) return 0;
-    limit_ = limit->second;
-    lead_ = at - i;
-    const size_t read = Counted(at);
-    if (read == 0) Unknown(at);
-    limit_ = Limit::kNone;
-    return std::exchange(lead_, 0) + read;
+      throw InputError("'" + Joined(i, n) + "': " + Number(value) + " is not from " + Number(low) + " to " + Number(high) + " " + unit);
   }
 
   // Numbers with what they count, and words before them: words read, 0 = not this.
   size_t Measured(size_t i) {
     if (tokens_[i].number) return Counted(i);
-    // between two and four storeys
-    if (IsAny(WordAt(i), {"between", "from"}) && NumberAt(i + 1) && IsAny(WordAt(i + 2), {"and", "to"}) && NumberAt(i + 3) &&
-        IsStorey(WordAt(i + 4)))
-      return Storeys(i, 5, *tokens_[i + 1].number, *tokens_[i + 3].number);
     // streets 8 m wide, a slope of 10 %
     if (IsAny(WordAt(i), {"street", "road", "lane"}) && NumberAt(i + 1) && MetresAt(i + 2) > 0 && WordAt(i + 3) == "wide")
       return Street(i, 4, *tokens_[i + 1].number * MetresAt(i + 2));
@@ -342,25 +318,25 @@ class Reader {
   }
 
   size_t Counted(size_t i) {
-    const double value = *tokens_[i].number;
+    // Of a range of lengths, areas or people the middle.
+    const double least = *tokens_[i].number, value = tokens_[i].upper ? (least + *tokens_[i].upper) / 2 : least;
     const size_t k = i + 1;
+    if (tokens_[i].upper && *tokens_[i].upper < least && !IsStoreyWord(WordAt(k)))
+      throw InputError("'" + Joined(i, 2) + "': " + Number(least) + " is more than " + Number(*tokens_[i].upper));
     if (const size_t read = Extent(i, value)) return read;
-    // 2 to 5 storeys
-    if (IsAny(WordAt(k), {"to", "or"}) && NumberAt(k + 1) && IsStorey(WordAt(k + 2))) return Storeys(i, 4, value, *tokens_[k + 1].number);
-    if (NumberAt(k) && IsStorey(WordAt(k + 1))) return Storeys(i, 3, value, *tokens_[k].number);
-    if (IsStorey(WordAt(k))) {
+    if (IsStoreyWord(WordAt(k))) {
+      const WordToken& token = tokens_[i];
       const size_t n = IsAny(WordAt(k + 1), {"high", "tall"}) ? 3 : 2;
-      const bool more = limit_ == Limit::kAtLeast || limit_ == Limit::kOver, less = limit_ == Limit::kMost || limit_ == Limit::kUnder;
+      if (token.upper) return Storeys(i, n, least, *token.upper);
+      const bool more = token.limit == NumberLimit::kAtLeast || token.limit == NumberLimit::kOver;
       if (more) {
-        const double least = value + (limit_ == Limit::kOver ? 1 : 0);
+        const double low = value + (token.limit == NumberLimit::kOver ? 1 : 0);
         Bound(i, n, value, 0, TownSpec::kMostFloors - 1, "storeys");
-        return Storeys(i, n, least, std::min(TownSpec::kMostFloors, std::round(1.4 * least) + 1));
+        return Storeys(i, n, low, std::min(TownSpec::kMostFloors, std::round(1.4 * low) + 1));
       }
-      if (less) {
-        const double most = value - (limit_ == Limit::kUnder ? 1 : 0);
-        return Storeys(i, n, std::max(1.0, std::round(0.3 * most)), most);
-      }
-      return Storeys(i, n, value, value);
+      if (token.limit == NumberLimit::kNone) return Storeys(i, n, value, value);
+      const double most = value - (token.limit == NumberLimit::kUnder ? 1 : 0);
+      return Storeys(i, n, std::max(1.0, std::round(0.3 * most)), most);
     }
     if (const size_t read = Things(i, value)) return read;
     if (WordAt(k) == "percent" && IsAny(WordAt(k + 1), {"slope", "gradient", "grade"})) return Slope(i, 3, value);
@@ -372,13 +348,7 @@ class Reader {
 
   std::string WordAt(size_t k) const { return k < tokens_.size() ? tokens_[k].plain : std::string(); }
   bool NumberAt(size_t k) const { return k < tokens_.size() && tokens_[k].number.has_value(); }
-  // Metres of a unit, 0 where there is none.
-  double MetresAt(size_t k) const {
-    return IsAny(WordAt(k), {"m", "metre", "meter"})  ? 1
-           : IsAny(WordAt(k), {"ft", "foot", "feet"}) ? 0.3048
-           : IsAny(WordAt(k), {"yd", "yard"})         ? 0.9144
-                                                      : 0;
-  }
+  double MetresAt(size_t k) const { return MetresOf(WordAt(k)); }
   // What is there at most once.
   bool Single(size_t at) const {
     size_t n = 0;
@@ -392,8 +362,8 @@ class Reader {
 
   // Lengths and areas are as said: only these two limits keep to that.
   void Exact(size_t i, size_t n) const {
-    if (limit_ == Limit::kOver || limit_ == Limit::kUnder)
-      throw InputError("'" + Numbered(i, n) + "': a town is made as large, wide or steep as the number says: give the number alone");
+    if (tokens_[i].limit == NumberLimit::kOver || tokens_[i].limit == NumberLimit::kUnder)
+      throw InputError("'" + Joined(i, n) + "': a town is made as large, wide or steep as the number says: give the number alone");
   }
 
   // "300 m by 400 m", "40 ha", "2 square kilometres".
@@ -410,17 +380,11 @@ class Reader {
       Exact(i, n);
       return Size(i, n, sides[0], sides[1]);
     }
-    const double square = IsAny(WordAt(k), {"ha", "hectare"}) ? 1e4
-                          : WordAt(k) == "acre"               ? 4046.9
-                          : IsAny(WordAt(k), {"km2", "sqkm"}) ? 1e6
-                          : IsAny(WordAt(k), {"m2", "sqm"})   ? 1
-                                                              : 0;
-    const bool kilometres = IsAny(WordAt(k + 1), {"kilometre", "kilometer", "km"});
-    const bool two = IsAny(WordAt(k), {"square", "sq"}) && (kilometres || IsAny(WordAt(k + 1), {"metre", "meter", "m"}));
-    if (square == 0 && !two) return 0;
-    const double hectares = value * (square > 0 ? square : kilometres ? 1e6 : 1) / 1e4;
-    const size_t n = square > 0 ? 2 : 3;
-    if (!std::isfinite(hectares)) throw InputError("'" + Numbered(i, n) + "' is not from 1.5 to 144 hectares");
+    const auto [square, words] = SquareMetresAt(tokens_, k);
+    if (words == 0) return 0;
+    const double hectares = value * square / 1e4;
+    const size_t n = 1 + words;
+    if (!std::isfinite(hectares)) throw InputError("'" + Joined(i, n) + "' is not from 1.5 to 144 hectares");
     Bound(i, n, hectares, 1.5, 144, "hectares");
     Exact(i, n);
     const double wide = std::min(std::sqrt(hectares * 1e4 * 1.12), TownSpec::kMostSide);
@@ -430,69 +394,76 @@ class Reader {
   // Houses, people, parks and squares.
   size_t Things(size_t i, double said) {
     const size_t k = i + 1;
-    const double value = said + (limit_ == Limit::kOver ? 1 : limit_ == Limit::kUnder ? -1 : 0);
-    if (IsAny(WordAt(k), {"house", "home", "building", "cabin", "hut", "cottage"})) {
-      const bool cabins = IsAny(WordAt(k), {"cabin", "hut"});
-      Whole(i, value, 1, 4000, "houses");
-      Agree("houses in numbers", "houses: " + Number(value), Numbered(i, 2));
-      houses_ = value;
+    const NumberLimit limit = tokens_[i].limit;
+    const double value = said + (limit == NumberLimit::kOver ? 1 : limit == NumberLimit::kUnder ? -1 : 0);
+    const std::optional<double> upper = tokens_[i].upper;
+    // "12 wooden houses": the adjectives are read on their own.
+    size_t noun = k;
+    for (size_t n = 0; noun < tokens_.size() && !tokens_[noun].breaks && noun < k + 3; noun += n) {
+      const TownWord* word = Longest(TownWords(), noun, n, [](const TownWord& row) { return row.phrase; });
+      if (!word || !IsAny(std::string(word->subject), {"style", "colours", "heights", "setback", "apart", "size", "age", "place"})) break;
+    }
+    if (IsAny(WordAt(noun), {"house", "home", "building", "cabin", "hut", "cottage"})) {
+      const bool alone = noun > k || IsAny(WordAt(k), {"cabin", "hut"});
+      const size_t n = noun + 1 - i;
+      const double most = upper ? *upper : value, least = upper ? *tokens_[i].number : value;
+      Whole(i, most, 1, 4000, "houses", n);
+      Whole(i, least, 1, 4000, "houses", n);
+      Agree("houses in numbers", "houses: " + Number(most), Joined(i, n));
+      houses_ = most;
       // At most so many is what the setting means.
-      if (limit_ != Limit::kMost && limit_ != Limit::kUnder)
-        request_.promises.push_back({Numbered(i, 2), "houses", static_cast<uint64_t>(value)});
-      NoteNumber(i, cabins ? 1 : 2, "houses: " + Number(value));
-      if (cabins) {
-        lead_ = 0;
-        Step(k);
-      }
-      return 2;
+      if (limit != NumberLimit::kMost && limit != NumberLimit::kUnder)
+        request_.promises.push_back({Joined(i, n), "houses", static_cast<uint64_t>(least)});
+      Note(i, alone ? 1 : 2, "houses: " + Number(most));
+      return alone ? 1 : 2;
     }
     if (IsAny(WordAt(k), {"people", "inhabitant", "resident", "pedestrian", "person", "citizen"})) {
       Whole(i, value, 1, 100000, "people");
-      Agree("people", "people: " + Number(value), Numbered(i, 2));
+      Agree("people", "people: " + Number(value), Joined(i, 2));
       people_ = value <= kPopulation ? value : std::min(value / 20, kMostPeople);
       if (value > kPopulation) population_ = value;
-      NoteNumber(i, 2, value <= kPopulation ? "people: " + Number(value) : "people: " + Number(std::round(people_)) + " of them outside");
+      Note(i, 2, value <= kPopulation ? "people: " + Number(value) : "people: " + Number(std::round(people_)) + " of them outside");
       return 2;
     }
     if (IsAny(WordAt(k), {"park", "square", "plaza"}) && !IsAny(WordAt(k + 1), {"kilometre", "kilometer", "km", "metre", "meter", "m"})) {
       const bool park = WordAt(k) == "park";
+      // Of two to three parks two.
+      const double value = upper ? *tokens_[i].number : said + (limit == NumberLimit::kOver ? 1 : limit == NumberLimit::kUnder ? -1 : 0);
       Whole(i, value, 1, park ? 6 : 4, park ? "parks" : "squares");
-      Agree(park ? "parks" : "squares", Number(value), Numbered(i, 2));
+      Agree(park ? "parks" : "squares", Number(value), Joined(i, 2));
       (park ? parks_ : squares_) = value;
-      request_.promises.push_back({Numbered(i, 2), park ? "parks" : "squares", static_cast<uint64_t>(value)});
-      NoteNumber(i, 2, (park ? "parks: " : "squares: ") + Number(value));
+      request_.promises.push_back({Joined(i, 2), park ? "parks" : "squares", static_cast<uint64_t>(value)});
+      Note(i, 2, (park ? "parks: " : "squares: ") + Number(value));
       return 2;
     }
     return 0;
   }
 
-  static bool IsStorey(const std::string& word) { return IsAny(word, {"storey", "story", "floor", "level", "storeyed", "storied"}); }
-
-  void Whole(size_t i, double value, double low, double high, const char* what) const {
-    Bound(i, 2, value, low, high, what);
-    if (value != std::round(value)) throw InputError("'" + Numbered(i, 2) + "': " + Number(value) + " is no whole number");
+  void Whole(size_t i, double value, double low, double high, const char* what, size_t n = 2) const {
+    Bound(i, n, value, low, high, what);
+    if (value != std::round(value)) throw InputError("'" + Joined(i, n) + "': " + Number(value) + " is no whole number");
   }
 
   size_t Size(size_t i, size_t n, double width, double depth) {
     const std::string means = "width: " + Number(std::round(width)) + ", depth: " + Number(std::round(depth));
-    Agree("size in numbers", means, Numbered(i, n));
+    Agree("size in numbers", means, Joined(i, n));
     width_ = std::round(width);
     depth_ = std::round(depth);
-    NoteNumber(i, n, means);
+    Note(i, n, means);
     return n;
   }
 
   size_t Storeys(size_t i, size_t n, double least, double most) {
     for (double floors : {least, most}) {
       Bound(i, n, floors, 1, TownSpec::kMostFloors, "storeys");
-      if (floors != std::round(floors)) throw InputError("'" + Numbered(i, n) + "': " + Number(floors) + " is no whole number");
+      if (floors != std::round(floors)) throw InputError("'" + Joined(i, n) + "': " + Number(floors) + " is no whole number");
     }
-    if (least > most) throw InputError("'" + Numbered(i, n) + "': " + Number(least) + " is more than " + Number(most));
+    if (least > most) throw InputError("'" + Joined(i, n) + "': " + Number(least) + " is more than " + Number(most));
     const std::string means = "floors: " + Number(least) + " to " + Number(most);
-    Agree("floors in numbers", means, Numbered(i, n));
+    Agree("floors in numbers", means, Joined(i, n));
     least_ = least;
     most_ = most;
-    NoteNumber(i, n, means);
+    Note(i, n, means);
     return n;
   }
 
@@ -500,9 +471,9 @@ class Reader {
     Bound(i, n, value, 0, 24, "per cent");
     Exact(i, n);
     const std::string means = value > 0 ? "climb: " + Number(value) + " % of the depth" : "relief: flat";
-    Agree("slope in numbers", means, Numbered(i, n));
+    Agree("slope in numbers", means, Joined(i, n));
     slope_ = value / 100;
-    NoteNumber(i, n, means);
+    Note(i, n, means);
     return n;
   }
 
@@ -510,9 +481,9 @@ class Reader {
     Bound(i, n, value, 4, 40, "m");
     Exact(i, n);
     const std::string means = "street: " + Number(value);
-    Agree("street in numbers", means, Numbered(i, n));
+    Agree("street in numbers", means, Joined(i, n));
     street_ = value;
-    NoteNumber(i, n, means);
+    Note(i, n, means);
     return n;
   }
 
@@ -549,7 +520,7 @@ class Reader {
     if (spec.country == TownCountry::kFields && spec.most_floors > 8) spec.country = TownCountry::kCity;
     spec.Check("");
     request_.spec = spec;
-    request_.weather = draft.weather;
+    Weather(draft);
     request_.sized = width_ > 0;
     request_.people = static_cast<uint64_t>(
         std::round(people_ > 0              ? people_
@@ -558,11 +529,36 @@ class Reader {
     return std::move(request_);
   }
 
+  // A preset, over which clouds, fog, rain and snow of others are laid.
+  void Weather(const TownDraft& draft) {
+    const bool early = draft.time == "dawn" || draft.time == "sunrise";
+    request_.weather = draft.time == "dawn" ? "dusk" : draft.time == "sunrise" ? "sunset" : draft.time;
+    if (request_.weather.empty() && !draft.airs.empty()) request_.weather = *draft.airs.rbegin();
+    if (early) request_.environment.emplace_back("sun_azimuth_deg", 75);
+    if (draft.airs.size() + (draft.time.empty() ? 0 : 1) < 2) return;
+    for (const EnvironmentField& field : EnvironmentFields()) {
+      static constexpr std::string_view kOfAirs[] = {"cloud_cover", "cirrus_cover", "visibility_m", "wetness",
+                                                     "snow_depth",  "rain_mm_h",    "snowfall_mm_h"};
+      if (!IsOneOf(std::span(kOfAirs), field.name)) continue;
+      double most = 0, least = 1e9;
+      for (const std::string& air : draft.airs) {
+        const double value = ParseEnvironmentPreset(air, {}).*field.value;
+        most = std::max(most, value);
+        if (value > 0) least = std::min(least, value);
+      }
+      // The thickest fog is that of the shortest sight.
+      const bool sight = std::string_view(field.name) == "visibility_m" && most > 0;
+      request_.environment.emplace_back(field.name, sight ? least : most);
+    }
+  }
+
   // What needs something else brings it along, unless that was denied.
   void Bring(TownSpec& spec) const {
     if (spec.arches && !claims_.contains("street") && !claims_.contains("boulevard")) spec.street = std::min(spec.street, kLaneStreet);
     if (spec.most_floors > 8)
       spec.street = std::max(spec.street, 15.0), spec.block = std::max(spec.block, 76.0), spec.setback = std::min(spec.setback, 6.0);
+    // Rows of trees stand on pavements of 2.6 m and more.
+    if (claims_.contains("tree lined") && !spec.palms && street_ <= 0) spec.street = std::max(spec.street, 15.0);
     if (street_ > 0) spec.street = street_;
     if (spec.harbour && spec.water == TownWater::kNone && !claims_.contains("water") && !claims_.contains("sea"))
       spec.water = TownWater::kSea;
@@ -574,7 +570,8 @@ class Reader {
 
   static std::string Described(const TownDraft& draft) {
     TownSpec spec = draft.spec;
-    return DescribeConfig([&](ConfigVisitor& v) { spec.Visit(v); }) + draft.weather + Number(draft.people_share);
+    return DescribeConfig([&](ConfigVisitor& v) { spec.Visit(v); }) + draft.time + Number(draft.people_share) +
+           std::accumulate(draft.airs.begin(), draft.airs.end(), std::string());
   }
 
   // Nothing that was said may be undone by what else was said.
@@ -615,6 +612,19 @@ class Reader {
     if (claims_.contains("street") && street_ > 0 && (claims_.at("street").words == "narrow" ? street_ > 10 : street_ < 10))
       exclude("street", "street in numbers");
     if (claims_.contains("boulevard") && street_ > 0 && street_ < 18) exclude("boulevard", "street in numbers");
+    if (claims_.contains("no tall") && most_ > 4) exclude("no tall", "floors in numbers");
+    if (claims_.contains("no tall") && claims_.contains("terrace")) exclude("no tall", "terrace");
+    if (claims_.contains("no tall") && claims_.contains("heights") && !claims_.at("heights").words.starts_with("low"))
+      exclude("no tall", "heights");
+    if (claims_.contains("tree lined") && claims_.contains("street") && claims_.at("street").words == "narrow")
+      exclude("tree lined", "street");
+    if (claims_.contains("tree lined") && street_ > 0 && street_ < 14.5) exclude("tree lined", "street in numbers");
+    if (claims_.contains("tree lined") && draft.spec.paving == TownPaving::kDirt)
+      throw InputError("'" + claims_.at("tree lined").words + "': tracks of earth have no pavements for trees; say 'paved'");
+    if (const TownWater water = draft.spec.water;
+        claims_.contains("middle") && water != TownWater::kRiver && water != TownWater::kCanal && water != TownWater::kLake)
+      throw InputError("'" + claims_.at("middle").words +
+                       "': of what? Understood are a river or a canal through the middle, and a lake in the middle");
     if (claims_.contains("crowd") && people_ > 0 && draft.people_share < 0) exclude("crowd", "people");
     if (claims_.contains("playground") && draft.spec.playground && claims_.contains("parks") && parks_ < 0 && draft.spec.parks == 0)
       exclude("playground", "parks");
@@ -635,13 +645,11 @@ class Reader {
     spec.depth = fit(spec.depth);
   }
 
-  std::vector<TownToken> tokens_;
+  std::vector<WordToken> tokens_;
   TownRequest request_;
   std::map<std::string, Claim> claims_;
   std::vector<Saying> said_, stuffs_, things_;
   std::vector<std::pair<const TownThing*, size_t>> denied_;  // and its place in the report
-  Limit limit_ = Limit::kNone;
-  size_t lead_ = 0;  // words of the limit before a number
   double width_ = 0, depth_ = 0, least_ = 0, most_ = 0, houses_ = 0, people_ = 0, population_ = 0, parks_ = -1, squares_ = -1, street_ = 0,
          slope_ = -1;
 };

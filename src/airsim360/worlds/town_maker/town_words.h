@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "airsim360/worlds/town_spec.h"
@@ -23,9 +24,10 @@ struct TownPromise {
 
 struct TownRequest {
   TownSpec spec;
-  uint64_t people = 0;                 ///< who walk outside
-  std::string weather;                 ///< a preset of environment:, "" = the world's own
-  std::vector<UnderstoodWords> words;  ///< in order; together all of the description
+  uint64_t people = 0;                                      ///< who walk outside
+  std::string weather;                                      ///< a preset of environment:, "" = the world's own
+  std::vector<std::pair<std::string, double>> environment;  ///< keys of environment: over the preset
+  std::vector<UnderstoodWords> words;                       ///< in order; together all of the description
   std::vector<TownPromise> promises;
   bool sized = false;  ///< numbers gave the sides
 };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <cmath>
 #include <string>
 
 #include "airsim360/base/error.h"
@@ -186,10 +187,9 @@ TEST(TownWords, LimitsOfNumbersAreKept) {
 }
 
 TEST(TownWords, AnAdjectiveIsSaidOfWhatItSuits) {
-  for (const char* words :
-       {"tall trees",  "a high hill",  "a wide river", "green roofs",   "old people",    "yellow cars", "tiny cars",
-        "large park",  "small church", "wooden boats", "narrow canal",  "cobbled roofs", "modern cars", "tall and old trees",
-        "steep roofs", "quiet sea",    "round square", "brick streets", "dense forest",  "white boats"})
+  for (const char* words : {"tall trees", "a high hill", "a wide river", "green roofs", "old people", "yellow cars", "tiny cars",
+                            "large park", "small church", "wooden boats", "narrow canal", "cobbled roofs", "modern cars",
+                            "tall and old trees", "steep roofs", "quiet sea", "round square", "brick streets", "white boats"})
     EXPECT_NE(Refusal(words).find("is said of"), std::string::npos) << words << ": " << Refusal(words);
   for (const char* words :
        {"small market town", "tall houses", "narrow cobbled streets", "old harbour town", "wide green boulevards", "town, tall, river",
@@ -211,6 +211,82 @@ TEST(TownWords, NumbersAreReadAsTheyAreWritten) {
   EXPECT_EQ(Refusal("1e308 ha").find("inf"), std::string::npos);
   EXPECT_NE(Refusal("twenty two-storey houses"), "");
   EXPECT_NE(Refusal("of the with"), "");
+}
+
+// The environment of a world file: "night, visibility_m 180 …".
+std::string SkyOf(const char* words) {
+  const TownRequest request = TownFromWords(words);
+  std::string sky = request.weather;
+  for (const auto& [key, value] : request.environment)
+    if (value > 0) sky += ", " + key + " " + std::to_string(std::lround(100 * value));
+  return sky;
+}
+
+TEST(TownWords, WeatherAndTimeOfDayGoTogether) {
+  EXPECT_EQ(SkyOf("foggy village"), "fog");
+  EXPECT_EQ(SkyOf("village at night"), "night");
+  EXPECT_EQ(SkyOf("foggy village at night"), "night, cloud_cover 60, visibility_m 18000, wetness 20");
+  EXPECT_EQ(SkyOf("rainy town at dusk"), "dusk, cloud_cover 100, visibility_m 400000, wetness 100, rain_mm_h 600");
+  EXPECT_EQ(SkyOf("misty hamlet in winter"), "winter, cloud_cover 25, cirrus_cover 40, visibility_m 150000, wetness 10, snow_depth 90");
+  EXPECT_EQ(SkyOf("town under a clear sky at night"), "night");
+  EXPECT_EQ(SkyOf("town at dawn"), "dusk, sun_azimuth_deg 7500");
+  for (const char* words : {"sunny town at night", "sunny foggy town", "foggy misty town", "town at night, at noon",
+                            "summer town with snow", "a foggy town without fog", "snowy town, no snow"})
+    EXPECT_NE(Refusal(words).find("exclude each other"), std::string::npos) << words << ": " << Refusal(words);
+  for (const char* words : {"town in autumn", "a spring town", "a town in the fall"})
+    EXPECT_NE(Refusal(words).find("'summer' and 'winter'"), std::string::npos) << words << ": " << Refusal(words);
+  EXPECT_EQ(SkyOf("a town in summer"), "");
+}
+
+TEST(TownWords, LampsBusStopsAndHeightsCanBeSaidAndDenied) {
+  EXPECT_TRUE(SpecOf("town with street lamps").lamps);
+  EXPECT_FALSE(SpecOf("town without street lights").lamps);
+  EXPECT_TRUE(SpecOf("town with a bus stop at the corner").bus_stops);
+  EXPECT_EQ(SpecOf("city with no tall buildings").most_floors, 4);
+  EXPECT_EQ(SpecOf("no buildings over 3 storeys").most_floors, 3);
+  EXPECT_EQ(SpecOf("city, no houses taller than three floors").most_floors, 3);
+  EXPECT_EQ(NotBuilt("town with a bus stop, 4 ha"), "");
+  for (const char* words : {"city of 6 storeys, no tall buildings", "high rise city, no tall buildings", "skyscrapers, no tall buildings"})
+    EXPECT_NE(Refusal(words).find("exclude each other"), std::string::npos) << words << ": " << Refusal(words);
+  EXPECT_NE(Refusal("town with one-way streets").find("both directions"), std::string::npos);
+  EXPECT_NE(NotBuilt("cabins with street lamps").find("pavements"), std::string::npos);
+}
+
+TEST(TownWords, AmountsAreOrdered) {
+  const auto trees = [](const char* words) { return SpecOf(words).trees; };
+  EXPECT_EQ(trees("town with no trees"), 0);
+  EXPECT_GT(trees("town with hardly any trees"), 0);
+  EXPECT_LT(trees("town with hardly any trees"), trees("town with few trees"));
+  EXPECT_LT(trees("town with few trees"), trees("town"));
+  EXPECT_LT(trees("town"), trees("town with many trees"));
+  EXPECT_GT(trees("cabins, dense forest around"), trees("cabins, forest around"));
+  EXPECT_GT(SpecOf("tree-lined streets").street, 14.4);
+  EXPECT_NE(Refusal("narrow tree-lined streets").find("exclude"), std::string::npos);
+  EXPECT_NE(Refusal("a town of many houses").find("a number is"), std::string::npos);
+  EXPECT_EQ(SpecOf("several squares, a couple of parks").squares, 3u);
+  EXPECT_EQ(SpecOf("a couple of dozen houses").houses, 24u);
+  EXPECT_EQ(SpecOf("20 to 30 wooden houses").houses, 30u);
+  EXPECT_EQ(SpecOf("mostly brick houses").style, TownStyle::kBrick);
+  EXPECT_NE(Refusal("mostly trees"), "");
+}
+
+TEST(TownWords, WatersLieWhereTheyAreSaidToLie) {
+  EXPECT_EQ(SpecOf("an island village with a beach by the sea").water, TownWater::kIsland);
+  EXPECT_TRUE(SpecOf("a fishing village on an island").harbour);
+  EXPECT_TRUE(SpecOf("a town with a river through the middle").central_water);
+  EXPECT_NE(Refusal("a river on an island").find("exclude"), std::string::npos);
+  EXPECT_NE(Refusal("island, no sea").find("exclude"), std::string::npos);
+  EXPECT_NE(Refusal("a market through the middle").find("of what?"), std::string::npos);
+}
+
+TEST(TownWords, AreasInUnitsOfSeveralCountries) {
+  for (const auto& [words, hectares] : {std::pair<const char*, double>{"1/4 square mile", 64.75},
+                                        {"approx. 10 acres", 4.05},
+                                        {"half a square kilometre", 50},
+                                        {"between 3 and 5 ha", 4},
+                                        {"~ 40.000 m2", 4},
+                                        {"0.5 km by 300 m", 15}})
+    EXPECT_NEAR(SpecOf(words).width * SpecOf(words).depth / 1e4, hectares, 0.01 * hectares) << words;
 }
 
 TEST(TownWords, WhatHasNoRoomIsMadeRoomForOrRefused) {
