@@ -1,4 +1,4 @@
-# airsim360_suites(TARGET [ENVIRONMENT NAME=VALUE ...]): each suite of a GoogleTest program becomes one ctest test
+# airsim360_suites(TARGET [ENVIRONMENT NAME=VALUE ...] [PROPERTIES NAME VALUE ...]): each suite of a GoogleTest program becomes one ctest test
 # (flight_test's suite Wind is flight.Wind), so that the cases of a suite share what is dear to make (a city).
 # The list is made when the program is linked. Run as a script (-P), this file makes that list.
 if(CMAKE_SCRIPT_MODE_FILE)
@@ -11,7 +11,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
     if(line MATCHES "^([A-Za-z0-9_/]+)\\.")
       set(suite ${CMAKE_MATCH_1})
       string(APPEND tests "add_test([=[${program}.${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
-             "set_tests_properties([=[${program}.${suite}]=] PROPERTIES WORKING_DIRECTORY [=[${FOLDER}]=] TIMEOUT 900 FIXTURES_REQUIRED test_cache ENVIRONMENT [=[${ENVIRONMENT}]=])\n")
+             "set_tests_properties([=[${program}.${suite}]=] PROPERTIES WORKING_DIRECTORY [=[${FOLDER}]=] TIMEOUT 900 FIXTURES_REQUIRED test_cache ENVIRONMENT [=[${ENVIRONMENT}]=] ${PROPERTIES})\n")
     endif()
   endforeach()
   file(WRITE ${LIST} "${tests}")
@@ -19,14 +19,15 @@ if(CMAKE_SCRIPT_MODE_FILE)
 endif()
 
 function(airsim360_suites target)
-  cmake_parse_arguments(ARG "" "" "ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "ENVIRONMENT;PROPERTIES" ${ARGN})
   # Suites of one program share skies and worlds, in a cache that is empty at first (tests/CMakeLists.txt); tests write nothing
   # into the home of the user.
   set(environment "AIRSIM360_CACHE=${CMAKE_BINARY_DIR}/test_cache" ${ARG_ENVIRONMENT})
+  string(REPLACE ";" " " properties "${ARG_PROPERTIES}")
   set(list ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
   add_custom_command(TARGET ${target} POST_BUILD BYPRODUCTS ${list}
                      COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${target}> -DLIST=${list} -DFOLDER=${CMAKE_SOURCE_DIR}
-                             "-DENVIRONMENT=${environment}" -P ${CMAKE_SOURCE_DIR}/cmake/Suites.cmake VERBATIM)
+                             "-DENVIRONMENT=${environment}" "-DPROPERTIES=${properties}" -P ${CMAKE_SOURCE_DIR}/cmake/Suites.cmake VERBATIM)
   set(include ${CMAKE_CURRENT_BINARY_DIR}/${target}_include.cmake)
   file(WRITE ${include} "if(EXISTS \"${list}\")\n  include(\"${list}\")\nelse()\n  add_test(${target}_NOT_BUILT ${target}_NOT_BUILT)\nendif()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${include})

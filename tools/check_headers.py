@@ -4,7 +4,7 @@
 1. What it takes from the standard library it includes, itself or by headers of this project, and so the types of this project.
    Precompiled headers and sources that are compiled together hide where it does not; this rule needs no compiler.
 2. A header that is the first of this project's which some source includes is compiled alone by a build with
-   -DAIRSIM360_UNITY=OFF.
+   -DAIRSIM360_UNITY=OFF, and so is one before which stands nothing but what it includes itself.
 3. The others are compiled here, after the standard headers.
 
 Usage: check_headers.py BUILD_FOLDER [--all] [--jobs N]. Prints one line for each header that fails and exits 1 if there is any.
@@ -128,14 +128,42 @@ def missing_types(path, home):
             yield f"{path}: {name} without {home[name].removeprefix('src/')}"
 
 
+STANDARD = {name for names in (*NAMES.values(), *BARE.values()) for name in names.split()}
+
+
+def read(path, met, known):
+    """Reads a file as a compiler does after `met`, which grows; adds to `known` each header that comes when nothing has been met but
+    what it includes itself, and standard headers that rule 1 knows: before it stands what would stand before it alone."""
+    for _, name in INCLUDE.findall((ROOT / path).read_text()) if (ROOT / path).exists() else []:
+        name = "src/" + name if name.startswith("airsim360/") else name
+        if name in met:
+            continue
+        if name.startswith("src/"):
+            if met - STANDARD <= closure(name) | project_closure(name):
+                known.add(name)
+            read(name, met, known)
+        met.add(name)
+
+
 def proven():
-    """Headers that a build compiles before any other of the project."""
-    first = set()
+    """Headers that a build compiles as if alone."""
+    known = set()
     for folder in ("src", "tests", "bench", "python"):
         for source in (ROOT / folder).rglob("*.cc"):
             ours = [name for _, name in INCLUDE.findall(source.read_text()) if name.startswith("airsim360/")]
-            first.update("src/" + name for name in ours[:1])
-    return first
+            known.update("src/" + name for name in ours[:1])
+            read(source.relative_to(ROOT), set(), known)
+    return known
+
+
+def to_compile(every):
+    """Headers whose compilations, with the build's, prove all: the one that includes most first."""
+    known, chosen = proven(), []
+    for path in sorted(every, key=lambda path: (-len(project_closure(path)), path)):
+        if path not in known:
+            chosen.append(path)
+            read(path, set(), known)
+    return chosen
 
 
 def commands(build):
@@ -180,8 +208,7 @@ def main():
             names = sorted({name for words in NAMES.values() for name in words.split()} | {"cstddef", "cstdint"})
             pathlib.Path(before).write_text("".join(f"#include <{name}>\n" for name in names))
             subprocess.run([*compiler, "-x", "c++-header", before, "-o", before + ".gch"], check=True)
-        known = set() if options.all else proven()
-        alone = [path for path in every if path not in known]
+        alone = every if options.all else to_compile(every)
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
             failures += filter(None, pool.map(lambda path: compile_alone(compiler, flags, before, path), alone))
     print("\n".join(failures) or f"{len(every)} headers stand alone; {len(alone)} were compiled for it")

@@ -29,6 +29,8 @@ class Traffic(unittest.TestCase):
         assert done.returncode == 0, done.stderr
         cls.frames = [json.loads(line) for line in (cls.data / "frames.jsonl").read_text().splitlines()]
         cls.lines = [json.loads(line) for line in (cls.data / "vehicles.jsonl").read_text().splitlines()]
+        cls.entities = [read_ids(cls.data / "entity" / f"{frame['stem']}.png") for frame in cls.frames]
+        cls.distances = [read_exr(cls.data / "range" / f"{frame['stem']}.exr")["Y"] for frame in cls.frames]
 
     @classmethod
     def tearDownClass(cls):
@@ -36,9 +38,7 @@ class Traffic(unittest.TestCase):
 
     def test_labelled_pixels_lie_in_the_boxes_of_their_vehicles(self):
         seen = 0
-        for frame, line in zip(self.frames, self.lines):
-            entity = read_ids(self.data / "entity" / f"{frame['stem']}.png")
-            distance = read_exr(self.data / "range" / f"{frame['stem']}.exr")["Y"]
+        for frame, line, entity, distance in zip(self.frames, self.lines, self.entities, self.distances):
             points = rays(512, 256) * distance[..., None]
             points = points @ rotation(frame["X_WC"]["q_wxyz"]).T + frame["X_WC"]["p"]
             for vehicle in line["vehicles"]:
@@ -59,8 +59,7 @@ class Traffic(unittest.TestCase):
         done = run("dataset", "export", self.data, "--format", "kitti_object", "--out", out)
         self.assertEqual(done.returncode, 0, done.stderr)
         checked = 0
-        for frame, line in zip(self.frames, self.lines):
-            entity = read_ids(self.data / "entity" / f"{frame['stem']}.png")
+        for frame, line, entity in zip(self.frames, self.lines, self.entities):
             R_CW, p_WC = rotation(frame["X_WC"]["q_wxyz"]).T, np.array(frame["X_WC"]["p"])
             expected = {}
             for vehicle in line["vehicles"]:
@@ -106,11 +105,10 @@ class Traffic(unittest.TestCase):
         of_sample = {sample["token"]: [] for sample in chain}
         for row in tables["sample_annotation"]:
             of_sample[row["sample_token"]].append(row)
-        for sample, frame, line in zip(chain, self.frames, self.lines):
+        for sample, frame, line, entity in zip(chain, self.frames, self.lines, self.entities):
             data = [row for row in tables["sample_data"] if row["sample_token"] == sample["token"]]
             pose = by_token["ego_pose"][data[0]["ego_pose_token"]]
             np.testing.assert_allclose(pose["translation"], frame["X_WC"]["p"], atol=1e-9)
-            entity = read_ids(self.data / "entity" / f"{frame['stem']}.png")
             shown = {tuple(np.round(vehicle["velocity"], 5)) + (vehicle["entity"],): vehicle for vehicle in line["vehicles"] if (entity == vehicle["entity"]).any()}
             rows = of_sample[sample["token"]]
             self.assertEqual(len(rows), len(shown))
@@ -202,9 +200,7 @@ class Traffic(unittest.TestCase):
         self.assertGreater(moving, 20)
 
     def test_nobody_drives_through_what_stands_there(self):
-        for frame, line in zip(self.frames, self.lines):
-            entity = read_ids(self.data / "entity" / f"{frame['stem']}.png")
-            distance = read_exr(self.data / "range" / f"{frame['stem']}.exr")["Y"]
+        for frame, line, entity, distance in zip(self.frames, self.lines, self.entities, self.distances):
             driving = [vehicle["entity"] for vehicle in line["vehicles"]]
             solid = np.isfinite(distance) & ~np.isin(entity, driving)
             points = rays(512, 256)[solid] * distance[solid][:, None] @ rotation(frame["X_WC"]["q_wxyz"]).T + frame["X_WC"]["p"]

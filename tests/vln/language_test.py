@@ -95,7 +95,7 @@ class LanguageTest(unittest.TestCase):
             done = run("language", "make", "--world", MAP, "--out", out, *words, status=2)
             self.assertIn(said, done.stderr)
         # One cube in a room: there is nothing to tell it from.
-        done = run("language", "make", "--world", "box_room", "--kind", "refer", "--count", "9", "--out", out, status=1)
+        done = run("language", "make", "--world", "box_room", "--kind", "refer", "--count", "1", "--out", out, status=1)
         self.assertIn("gives only", done.stderr)
         self.assertFalse(out.exists() or Path(str(out) + ".part").exists())
         for text, said in (("", "holds no item"), ("{", ":1"), ("[" * 5000, ":1"), ('{"id": "a"}', "kind"), ("x" * 2_000_000, "1 MiB")):

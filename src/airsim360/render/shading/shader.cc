@@ -89,7 +89,8 @@ void Shader::Impl::SetLight(const Environment& environment) {
       const auto like = std::ranges::find(last_lights, table_key, &Light::table_key);
       const Sky* table = like == last_lights.end() ? nullptr : like->sky.get();
       const Vec3f place = scene.spawn.value_or(Vec3f{});
-      const float town = internal::TownLight(scene, lights);
+      // By day no lamp lights the sky, so that scenes with other lamps share one.
+      const float town = environment.lamps_on() ? internal::TownLight(scene, lights) : 0;
       const auto make = [&] { return Sky(environment, place, table, town); };
       // People, drones or a model of one's own change no sky. Where the scene is not kept only its first is: weather that
       // changes all day would fill the disk.
