@@ -37,8 +37,8 @@ AIRSIM360_DECLARE_KERNEL(void ShadeAmbient(const ShadeView& view, const SunMapVi
 /// Light of the lamps around every surface with the visibility that the grid knows (fills lamp_*), and the
 /// `count` rays of each that would tell better. `in_room`: for each surface the share of its light that is kept for rooms, which
 /// knows what lamps bring, so that rays go where highlights stand out; nullptr outdoors.
-AIRSIM360_DECLARE_KERNEL(void LightByLamps(const ShadeView& view, const RaySet& rays, int count, const float* in_room,
-                                           SurfaceSet& surfaces, LampRays& wanted))
+AIRSIM360_DECLARE_KERNEL(void LightByLamps(const ShadeView& view, const RaySet& rays, int count, const float* in_room, SurfaceSet& surfaces,
+                                           LampRays& wanted))
 /// Adds the light of ShadeView::moving_lamps in the same way; false: there is none on any of the surfaces.
 AIRSIM360_DECLARE_KERNEL(bool LightByMovingLamps(const ShadeView& view, const RaySet& rays, int count, SurfaceSet& surfaces,
                                                  LampRays& wanted))
