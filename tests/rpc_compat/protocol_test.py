@@ -4,6 +4,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -278,6 +279,127 @@ class SceneManager(unittest.TestCase):
         client = self.rpc.Client(self.rpc.Address(*self.server.address), timeout=20)
         self.addCleanup(client.close)
         self.assertIs(client.call("ping"), True)
+
+
+class Doors(ServerTest):
+    """What was swallowed, cut short or believed once."""
+    NAN = float("nan")
+
+    def pose(self, raw, x, y, z, w=1.0, qx=0.0, qy=0.0, qz=0.0):
+        raw.call("simSetVehiclePose", {"position": {"x_val": x, "y_val": y, "z_val": z},
+                                       "orientation": {"w_val": w, "x_val": qx, "y_val": qy, "z_val": qz}}, True, "")
+
+    def test_nan_leaves_a_part_of_a_pose_as_it_is(self):
+        raw, nan = self.raw(), self.NAN
+        raw.call("simPause", True)
+        self.addCleanup(raw.call, "simPause", False)
+        self.pose(raw, 1, 1, -2, 0.0, 0.0, 0.0, 1.0)
+        self.pose(raw, 2, -1, -3, nan, nan, nan, nan)
+        seen = raw.call("simGetVehiclePose", "")
+        self.assertEqual([seen["position"][k] for k in ("x_val", "y_val", "z_val")], [2, -1, -3])
+        self.assertAlmostEqual(abs(seen["orientation"]["z_val"]), 1, places=5)
+        self.pose(raw, nan, nan, nan)
+        seen = raw.call("simGetVehiclePose", "")
+        self.assertAlmostEqual(seen["orientation"]["w_val"], 1, places=5)
+        self.assertEqual(seen["position"]["x_val"], 2)
+        # All numbers of a part or none.
+        self.assertError(lambda: self.pose(raw, nan, 1, 2), "x_val", "nan is not a number")
+        # Objects likewise.
+        name = raw.call("simListSceneObjects", "box.*")[0]
+        raw.call("simSetObjectPose", name, {"position": {"x_val": 3.0, "y_val": 0.0, "z_val": -1.0}, "orientation": {
+            "w_val": 0.0, "x_val": 0.0, "y_val": 0.0, "z_val": 1.0}}, True)
+        self.assertIs(raw.call("simSetObjectPose", name, {"position": {"x_val": nan, "y_val": nan, "z_val": nan}, "orientation": {
+            "w_val": 1.0, "x_val": 0.0, "y_val": 0.0, "z_val": 0.0}}, True), True)
+        seen = raw.call("simGetObjectPose", name)
+        self.assertAlmostEqual(seen["position"]["x_val"], 3, places=4)
+        self.assertAlmostEqual(seen["orientation"]["w_val"], 1, places=4)
+
+    def test_a_drone_is_not_put_beyond_its_reach(self):
+        raw = self.raw()
+        before = raw.call("simGetVehiclePose", "")["position"]["x_val"]
+        for x in (2000, 1e5, 1e6):
+            self.assertError(lambda: self.pose(raw, x, 0, -1), "is out of drones' reach, 1000 m around the world: (-100", ") to (100")
+        self.assertAlmostEqual(raw.call("simGetVehiclePose", "")["position"]["x_val"], before, delta=5)
+        self.assertError(lambda: raw.call("simAddVehicle", "far", "simpleflight", {"position": {"x_val": 9000.0}}, ""), "out of drones' reach")
+
+    def test_what_has_landed_says_so(self):
+        raw = self.raw()
+        raw.call("reset")
+        raw.call("enableApiControl", True, "")
+        raw.call("armDisarm", True, "")
+        self.assertIs(raw.call("takeoff", 20.0, ""), True)
+        self.assertEqual(raw.call("getMultirotorState", "")["landed_state"], 1)
+        self.assertIs(raw.call("land", 60.0, ""), True)
+        for _ in range(20):
+            self.assertEqual(raw.call("getMultirotorState", "")["landed_state"], 0)
+            time.sleep(0.05)
+        self.assertIs(raw.call("takeoff", 20.0, ""), True)
+        self.assertEqual(raw.call("getMultirotorState", "")["landed_state"], 1)
+        raw.call("reset")
+
+    def test_errors_are_utf8_and_whole(self):
+        raw = self.raw()
+        for name, shown in ((b"\xff", "\ufffd"), (b"a\x00b", "a\\x00b"), ("drohne\u00fc".encode(), "drohne\u00fc")):
+            self.assertError(lambda: raw.call("simGetVehiclePose", name), f"Vehicle API for '{shown}' is not available. This")
+        raw.socket.sendall(b"\x94\x00\x7f\xa2\xff\xfe\x90")
+        self.assertIn("could not find function '\ufffd\ufffd'", raw.receive()[1])
+
+    def test_an_unknown_drivetrain_is_refused(self):
+        raw, yaw = self.raw(), {"is_rate": True, "yaw_or_rate": 0.0}
+        for call in (("moveToPosition", 1.0, 0.0, -1.0, 1.0, 5.0, 7, yaw, -1.0, 1.0, ""), ("moveByVelocity", 1.0, 0.0, 0.0, 1.0, 7, yaw, "")):
+            self.assertError(lambda: raw.call(*call), "drivetrain: 7 is neither 0 (MaxDegreeOfFreedom) nor 1 (ForwardOnly)")
+
+    def test_clients_take_turns_for_pictures(self):
+        many, one = self.raw(), self.raw()
+        request = [{"camera_name": "0", "image_type": 1, "pixels_as_float": True}]
+        for _ in range(40):
+            many.send("simGetImages", request, "", False)
+        many.receive()
+        # All of them stand in the queue by now, and a queue for all would end with this one.
+        finished = []
+
+        def rest():
+            for _ in range(39):
+                many.receive()
+            finished.append("many")
+
+        thread = threading.Thread(target=rest)
+        thread.start()
+        one.call("simGetImages", request, "", False)
+        finished.append("one")
+        thread.join()
+        self.assertEqual(finished, ["one", "many"])
+
+    def test_a_wind_beyond_all_is_refused_with_the_nearest(self):
+        self.assertError(lambda: self.raw().call("simSetWind", {"x_val": 0.0, "y_val": -400.0, "z_val": 0.0}),
+                         "(0, -400, 0) is 400 m/s, more than 200; the nearest is (0, -200, 0)")
+
+
+class Eyes(ServerTest):
+    settings = {"SimMode": "ComputerVision"}
+
+    def test_what_cannot_fly_says_so_at_once(self):
+        raw, yaw = self.raw(), {"is_rate": True, "yaw_or_rate": 0.0}
+        for call in (("takeoff", 2.0, ""), ("land", 2.0, ""), ("hover", ""), ("goHome", 2.0, ""), ("armDisarm", True, ""),
+                     ("moveToPosition", 1.0, 0.0, -1.0, 1.0, 2.0, 0, yaw, -1.0, 1.0, ""),
+                     ("moveByVelocity", 1.0, 0.0, 0.0, 2.0, 0, yaw, ""), ("rotateToYaw", 90.0, 2.0, 5.0, "")):
+            with self.subTest(call[0]):
+                self.assertError(lambda: raw.call(*call), "Vehicle API for '' is not available")
+        # It goes where it is put, however far.
+        raw.call("simSetVehiclePose", {"position": {"x_val": 2000.0}}, True, "")
+        self.assertEqual(raw.call("simGetVehiclePose", "")["position"]["x_val"], 2000)
+
+
+class Starting(unittest.TestCase):
+    def test_a_server_that_still_lights_its_rooms_is_ended_by_a_signal(self):
+        with tempfile.TemporaryDirectory() as cache:
+            process = subprocess.Popen([os.environ["AIRSIM360"], "serve", "--world", "sunlit_room", "--port", "0"],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, "AIRSIM360_CACHE": cache})
+            self.addCleanup(process.kill)
+            # Its light takes minutes; wherever it is by then, it ends.
+            time.sleep(15)
+            process.send_signal(signal.SIGTERM)
+            self.assertIn(process.wait(30), (-signal.SIGTERM, 0))
 
 
 if __name__ == "__main__":

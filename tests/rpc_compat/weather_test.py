@@ -65,6 +65,13 @@ class Weather(ServerTest):
                 self.client.call("simSetWeatherParameter", parameter, goal.get(parameter, 0.0))
             self.assertEqual(self.picture(), expected, goal)
 
+    def test_the_time_of_day_ends_and_the_sun_is_the_worlds_again(self):
+        first = self.picture()
+        self.client.call("simSetTimeOfDay", True, "2021-06-21 06:30:00", False, 1.0, 60.0, True)
+        self.assertNotEqual(self.picture(), first)
+        self.client.call("simSetTimeOfDay", False, "", False, 1.0, 60.0, True)
+        self.assertEqual(self.picture(), first)
+
     def test_leaves_and_the_same_value_change_nothing(self):
         self.client.call("simSetWeatherParameter", FOG, 0.3)
         foggy = self.picture()

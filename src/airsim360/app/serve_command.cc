@@ -75,9 +75,9 @@ void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   const auto stage = std::make_shared<Stage>(world);
   stage->tracer();
 
-  // Not before the world is there: until then Ctrl-C ends the program at once.
-  const StopSignals stop;
   const AirSimServer server(stage, options);
+  // Not before the server is there, which may have rooms to light first: until then Ctrl-C ends the program at once.
+  const StopSignals stop;
   LogInfo(arguments.world + ": ready after " + ClockText(stage->load_seconds()));
   if (globals.json) {
     PrintJson({{"address", options.address}, {"port", server.port()}, {"functions", server.Methods()}});

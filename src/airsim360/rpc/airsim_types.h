@@ -53,6 +53,12 @@ struct Pose {
   }
 };
 
+/// Where to put something. A part (position, orientation) of which every number is NaN stays as it is, as in AirSim.
+struct PoseChange : Pose {
+  bool keeps_position = false, keeps_orientation = false;
+};
+void FromWire(const WireValue& value, PoseChange& out);
+
 struct GeoPoint {
   double latitude = 0, longitude = 0;  ///< degrees
   float altitude = 0;

@@ -59,7 +59,7 @@ class Api {
   template <class F>
   void Picture(const char* name, F function, size_t optional = 0) {
     Add<2>(name, optional, internal::Plain(function), [this](const auto& f, auto arguments, const Reply& reply) {
-      images_.Post([f, arguments, reply, snapshot = session_.snapshot()](ImageService& images) mutable {
+      images_.Post(reply.client(), [f, arguments, reply, snapshot = session_.snapshot()](ImageService& images) mutable {
         if (!reply.wanted()) return;
         std::apply([&](auto&... argument) { Answer(reply, [&] { return f(images, snapshot, argument...); })(); }, arguments);
       });

@@ -19,15 +19,22 @@ using Text = const std::string&;
 constexpr double kTakeoffHeight = 2, kTakeoffSpeed = 0.5, kHomeSpeed = 0.5, kHoverSpeed = 0.5;
 constexpr double kForever = 3e38;
 
+void CheckDrivetrain(DrivetrainType drivetrain) {
+  if (drivetrain == DrivetrainType::kMaxDegreeOfFreedom || drivetrain == DrivetrainType::kForwardOnly) return;
+  throw std::invalid_argument("drivetrain: " + std::to_string(static_cast<int>(drivetrain)) +
+                              " is neither 0 (MaxDegreeOfFreedom) nor 1 (ForwardOnly)");
+}
+
 PathOptions Options(const Session& s, double velocity, DrivetrainType drivetrain, const YawMode& yaw, double lookahead,
                     double adaptive_lookahead) {
+  CheckDrivetrain(drivetrain);
   return {velocity, drivetrain, yaw, lookahead, adaptive_lookahead, s.settings().slow_down};
 }
 
 // Starts what `make` builds of the drone as it is now.
 template <class Make>
 void Begin(Session& s, const Reply& reply, Text name, const Make& make) {
-  VehicleControl& control = s.control(name);
+  VehicleControl& control = s.drone(name);
   const FlightView view = control.ViewOf(s.vehicle(control), s.state().t_ns);
   control.Start(make(view), s.state().t_ns, reply);
 }
@@ -47,7 +54,7 @@ void Takeoff(Session& s, const Reply& reply, Seconds timeout_sec, Text vehicle) 
 void NoticeFarGoal(Session& s, const std::vector<Vec3d>& path_N, Text name) {
   const Box3f& bounds = s.objects().scene().bounds;
   const bool closed = s.objects().scene().sky_entity == kNoEntity;
-  const VehicleStatus& status = s.control(name).status();
+  const VehicleStatus& status = s.drone(name).status();
   const Vec3d low = VecCast<double>(bounds.min) - status.origin_W, high = VecCast<double>(bounds.max) - status.origin_W;
   const auto is_out = [&](Vec3d p_N) {
     const Vec3d p = NedFromWorld(p_N);
@@ -83,12 +90,12 @@ void AddPathCalls(Api& api) {
                DrivetrainType drivetrain, const YawMode& yaw, float lookahead, float adaptive_lookahead, Text vehicle) {
               CheckPlaceOnEarth(latitude, longitude);
               const Vec3d p_W = s.earth().ToWorld({latitude, longitude, altitude});
-              const Vec3d p_N = NedFromWorld(p_W - s.control(vehicle).status().origin_W);
+              const Vec3d p_N = NedFromWorld(p_W - s.drone(vehicle).status().origin_W);
               MoveTo(s, reply, {p_N}, timeout_sec, Options(s, velocity, drivetrain, yaw, lookahead, adaptive_lookahead), vehicle);
             });
   api.Start("moveToZ", [](Session& s, const Reply& reply, float z, float velocity, Seconds timeout_sec, const YawMode& yaw, float lookahead,
                           float adaptive_lookahead, Text vehicle) {
-    const VehicleControl& control = s.control(vehicle);
+    const VehicleControl& control = s.drone(vehicle);
     Vec3d p_N = control.ViewOf(s.vehicle(control), s.state().t_ns).p_N;
     p_N.z = z;
     MoveTo(s, reply, {p_N}, timeout_sec, Options(s, velocity, DrivetrainType::kMaxDegreeOfFreedom, yaw, lookahead, adaptive_lookahead),
@@ -105,7 +112,7 @@ void AddWholeCalls(Api& api) {
     MoveTo(s, reply, {Vec3d{}}, timeout_sec, Options(s, kHomeSpeed, DrivetrainType::kMaxDegreeOfFreedom, {true, 0}, -1, 1), vehicle);
   });
   api.Start("hover", [](Session& s, const Reply& reply, Text vehicle) {
-    const VehicleControl& control = s.control(vehicle);
+    const VehicleControl& control = s.drone(vehicle);
     const Vec3d p_N = control.ViewOf(s.vehicle(control), s.state().t_ns).p_N;
     MoveTo(s, reply, {p_N}, kForever, Options(s, kHoverSpeed, DrivetrainType::kMaxDegreeOfFreedom, {true, 0}, 1, 0), vehicle);
   });
@@ -123,6 +130,7 @@ void AddWholeCalls(Api& api) {
   });
   api.Start("moveByManual", [](Session& s, const Reply& reply, float vx_max, float vy_max, float z_min, Seconds duration,
                                DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
+    CheckDrivetrain(drivetrain);
     Begin(s, reply, vehicle,
           [&](const FlightView& view) { return MakeManualTask(view, vx_max, vy_max, z_min, duration, drivetrain, yaw); });
   });
@@ -137,12 +145,14 @@ Vec3d FromHeading(const FlightView& view, double vx, double vy) {
 void AddVelocityCalls(Api& api) {
   api.Start("moveByVelocity", [](Session& s, const Reply& reply, float vx, float vy, float vz, Seconds duration, DrivetrainType drivetrain,
                                  const YawMode& yaw, Text vehicle) {
+    CheckDrivetrain(drivetrain);
     Begin(s, reply, vehicle, [&](const FlightView&) {
       return MakeTimedTask(NedVelocity({vx, vy, vz}, AdjustYaw({vx, vy, 0}, drivetrain, yaw)), duration);
     });
   });
   api.Start("moveByVelocityZ", [](Session& s, const Reply& reply, float vx, float vy, float z, Seconds duration, DrivetrainType drivetrain,
                                   const YawMode& yaw, Text vehicle) {
+    CheckDrivetrain(drivetrain);
     Begin(s, reply, vehicle, [&](const FlightView& view) {
       TaskPointer task = MakeTimedTask(NedVelocityZ(vx, vy, z, AdjustYaw({vx, vy, 0}, drivetrain, yaw), view.origin_W), duration);
       // The one move whose answer to no time at all is False.
@@ -152,6 +162,7 @@ void AddVelocityCalls(Api& api) {
   });
   api.Start("moveByVelocityBodyFrame", [](Session& s, const Reply& reply, float vx, float vy, float vz, Seconds duration,
                                           DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
+    CheckDrivetrain(drivetrain);
     Begin(s, reply, vehicle, [&](const FlightView& view) {
       const Vec3d v_N = FromHeading(view, vx, vy);
       return MakeTimedTask(NedVelocity({v_N.x, v_N.y, vz}, AdjustYaw(v_N, drivetrain, yaw)), duration);
@@ -159,6 +170,7 @@ void AddVelocityCalls(Api& api) {
   });
   api.Start("moveByVelocityZBodyFrame", [](Session& s, const Reply& reply, float vx, float vy, float z, Seconds duration,
                                            DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
+    CheckDrivetrain(drivetrain);
     Begin(s, reply, vehicle, [&](const FlightView& view) {
       const Vec3d v_N = FromHeading(view, vx, vy);
       return MakeTimedTask(NedVelocityZ(v_N.x, v_N.y, z, AdjustYaw(v_N, drivetrain, yaw), view.origin_W), duration);

@@ -82,10 +82,13 @@ void AddPoseCalls(Api& api) {
         return airsim::Pose{airsim::ToVector(NedFromWorld(place.X_WO.p - origin_W)), airsim::ToQuaternionr(NedAttitude(place))};
       },
       1);
-  api.Change("simSetObjectPose", [](Session& s, Text name, const airsim::Pose& pose, bool /*teleport*/) {
+  api.Change("simSetObjectPose", [](Session& s, Text name, const airsim::PoseChange& pose, bool /*teleport*/) {
     const Vec3d p_W = airsim::FromPose(pose, s.origin_W()).p;
     const Mat3d R = ObjectRotation(airsim::FromQuaternionr(pose.orientation));
-    return MoveObject(s, name, [&](ObjectPlace& place) { place.X_WO = {R, p_W}; });
+    return MoveObject(s, name, [&](ObjectPlace& place) {
+      if (!pose.keeps_position) place.X_WO.p = p_W;
+      if (!pose.keeps_orientation) place.X_WO.R = R;
+    });
   });
   api.Read("simGetObjectScale", [&api](const Snapshot& now, Text name) {
     const EntityId entity = api.session().objects().Find(name, now.world->names);

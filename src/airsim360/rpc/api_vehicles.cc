@@ -26,7 +26,7 @@ void AddControlCalls(Api& api) {
   api.Change("enableApiControl", [](Session& s, bool enabled, const std::string& vehicle) { s.control(vehicle).EnableApi(enabled); });
   api.Read("isApiControlEnabled",
            [](const Snapshot& now, const std::string& vehicle) { return now.vehicles[now.Find(vehicle)].api_control; });
-  api.Change("armDisarm", [](Session& s, bool arm, const std::string& vehicle) { return s.control(vehicle).Arm(arm); });
+  api.Change("armDisarm", [](Session& s, bool arm, const std::string& vehicle) { return s.drone(vehicle).Arm(arm); });
   api.Change("cancelLastTask", [](Session& s, const std::string& vehicle) { s.control(vehicle).Cancel(); });
   api.Change("moveByRC", [](Session& s, const airsim::RCData& rc, const std::string& vehicle) { s.control(vehicle).rc() = rc; });
 }
@@ -54,9 +54,9 @@ void AddVehiclePoseCalls(Api& api) {
     const size_t i = now.Find(vehicle);
     return airsim::ToPose(now.state.vehicles[i].motion.X_WB, now.vehicles[i].origin_W);
   });
-  api.Change("simSetVehiclePose", [](Session& s, const airsim::Pose& pose, bool /*ignore_collision*/, const std::string& vehicle) {
+  api.Change("simSetVehiclePose", [](Session& s, const airsim::PoseChange& pose, bool /*ignore_collision*/, const std::string& vehicle) {
     const VehicleControl& control = s.control(vehicle);
-    s.Teleport(control, airsim::FromPose(pose, control.status().origin_W));
+    s.Teleport(control, airsim::Changed(s.vehicle(control).motion.X_WB, pose, control.status().origin_W));
   });
   api.Change("simSetKinematics", [](Session& s, const airsim::KinematicsState& state, bool /*ignore_collision*/,
                                     const std::string& vehicle) { SetKinematics(s, state, vehicle); });

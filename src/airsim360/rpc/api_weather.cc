@@ -92,7 +92,11 @@ void AddWeatherCalls(Api& api) {
   api.Change("simSetTimeOfDay", [](Session& s, bool is_enabled, const std::string& start, bool /*is_dst*/, float celestial_clock_speed,
                                    float /*update_interval_secs*/, bool /*move_sun*/) {
     Environment& base = s.world().base_environment;
-    if (!is_enabled || start.empty()) return;
+    if (!is_enabled) {
+      base = s.world().first_environment;
+      return ApplyWeather(s);
+    }
+    if (start.empty()) return;
     const airsim::GeoPoint& origin = s.settings().origin;
     char place[64];
     std::snprintf(place, sizeof place, "%.6f,%.6f", origin.latitude, origin.longitude);

@@ -9,6 +9,7 @@
 #include "airsim360/rpc/limits.h"
 #include "airsim360/rpc/ned.h"
 #include "airsim360/rpc/vehicle_state.h"
+#include "airsim360/sim/wind_limit.h"
 
 namespace airsim360 {
 namespace {
@@ -103,9 +104,8 @@ void AddPlot(WorldView& world, size_t things, bool is_persistent) {
 void AddWorldCalls(Api& api) {
   AddSightCalls(api);
   api.Change("simSetWind", [](Session& s, const airsim::Vector3r& wind) {
+    CheckWind(airsim::FromVector(wind));
     const Vec3d wind_W = NedFromWorld(airsim::FromVector(wind));
-    constexpr double kStrongest = 200;  // m/s
-    if (!(Norm(wind_W) <= kStrongest)) throw std::invalid_argument("a wind of more than 200 m/s");
     s.state().wind_W = wind_W;
   });
   api.Picture("simCreateVoxelGrid", [](ImageService& images, const SnapshotPointer& now, const airsim::Vector3r& position, uint32_t x,

@@ -33,7 +33,10 @@ class TimedTask : public FlightTask {
 
 class LandTask : public FlightTask {
  public:
-  explicit LandTask(double seconds) { timeout = seconds; }
+  explicit LandTask(double seconds) {
+    timeout = seconds;
+    lands = true;
+  }
   TaskTurn Turn(const FlightView& view) override {
     still_turns_ = view.touches && view.v_N.z <= kStillSpeed ? still_turns_ + 1 : 0;
     TaskTurn turn{NedVelocity({0, 0, kLandingSpeed}, kNoTurning), {}};

@@ -37,6 +37,7 @@ class FlightTask {
 
   double timeout = 0;  ///< seconds from the start
   bool result_at_timeout = false;
+  bool lands = false;  ///< its result True means that the drone stands
 };
 
 struct PathOptions {

@@ -52,7 +52,7 @@ void ImageService::Stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void ImageService::Post(Job job) { jobs_.Post(std::move(job)); }
+void ImageService::Post(uint64_t client, Job job) { jobs_.Post(client, std::move(job)); }
 
 void ImageService::Trigger(const std::string& vehicle, SnapshotPointer snapshot) {
   const std::lock_guard lock(mutex_);

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <thread>
 
-#include "airsim360/base/work_queue.h"
+#include "airsim360/rpc/fair_queue.h"
 #include "airsim360/rpc/image_products.h"
 #include "airsim360/rpc/session.h"
 #include "airsim360/rpc/shared_memory.h"
@@ -25,8 +25,8 @@ class ImageService {
   ImageService(const ImageService&) = delete;
   ImageService& operator=(const ImageService&) = delete;
 
-  /// Runs `job` after those before it; from any thread. Nothing happens after Stop.
-  void Post(Job job);
+  /// Runs `job` after those of the same client before it, in turn with those of others; from any thread. Nothing happens after Stop.
+  void Post(uint64_t client, Job job);
   /// Ends the present job, drops those that wait, and joins the thread.
   void Stop();
   /// Keeps the present instant of a vehicle for its panoramas; from any thread.
@@ -82,7 +82,7 @@ class ImageService {
 
   std::mutex mutex_;  // of what follows
   std::map<std::string, SnapshotPointer> triggered_;
-  WorkQueue<Job> jobs_;
+  FairQueue<Job> jobs_;
   std::thread thread_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "airsim360/base/printable.h"
+
 namespace airsim360 {
 namespace {
 
@@ -40,7 +42,7 @@ std::string ErrorAnswer(uint32_t id, std::string_view error) {
   writer.ArrayHeader(4);
   writer.Int(kAnswer);
   writer.Uint(id);
-  writer.String(error);
+  writer.String(ValidUtf8(error));
   writer.Nil();
   return std::move(writer.bytes());
 }

@@ -21,6 +21,38 @@ Mat3d ObjectRotation(const Mat3d& R) { return kNedFromWorld * R * kNedFromWorld;
 double SwapHeading(double yaw) { return std::remainder(std::numbers::pi / 2 - yaw, 2 * std::numbers::pi); }
 
 namespace airsim {
+namespace {
+
+// A part of a pose of which every number is NaN keeps its default; whether it is so.
+template <class Part>
+bool ReadPart(const WireValue& pose, const char* key, Part& part) {
+  const WireValue* value = pose.Find(key);
+  if (value == nullptr) return false;
+  if (value->kind == WireValue::Kind::kMap) {
+    bool all = true;
+    auto look = [&](const char* name, float&) {
+      const WireValue* number = value->Find(name);
+      all = all && number != nullptr && IsNanOnWire(*number);
+    };
+    part.Visit(look);
+    if (all) return true;
+  }
+  try {
+    FromWire(*value, part);
+  } catch (BadArgument& error) {
+    error.Within(key);
+    throw;
+  }
+  return false;
+}
+
+}  // namespace
+
+void FromWire(const WireValue& value, PoseChange& out) {
+  if (value.kind != WireValue::Kind::kMap) ThrowWrongKind(value, "a map");
+  out.keeps_position = ReadPart(value, "position", out.position);
+  out.keeps_orientation = ReadPart(value, "orientation", out.orientation);
+}
 
 Vector3r ToVector(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 Vec3d FromVector(const Vector3r& v) { return {v.x_val, v.y_val, v.z_val}; }
@@ -43,6 +75,13 @@ Pose ToPose(const RigidTransform& X_WB, Vec3d origin_W) {
 
 RigidTransform FromPose(const Pose& pose, Vec3d origin_W) {
   return {WorldRotation(FromQuaternionr(pose.orientation)), origin_W + NedFromWorld(FromVector(pose.position))};
+}
+
+RigidTransform Changed(const RigidTransform& now, const PoseChange& change, Vec3d origin_W) {
+  RigidTransform X = FromPose(change, origin_W);
+  if (change.keeps_position) X.p = now.p;
+  if (change.keeps_orientation) X.R = now.R;
+  return X;
 }
 
 Pose ToMount(const RigidTransform& X_BA) { return {ToVector(FrdFromBody(X_BA.p)), ToQuaternionr(FrdRotation(X_BA.R))}; }

@@ -36,6 +36,8 @@ Mat3d FromQuaternionr(const Quaternionr& q);
 
 /// Pose of a body in N whose origin is at `origin_W`, and back.
 Pose ToPose(const RigidTransform& X_WB, Vec3d origin_W);
+/// `now` with what `change` says.
+RigidTransform Changed(const RigidTransform& now, const PoseChange& change, Vec3d origin_W);
 RigidTransform FromPose(const Pose& pose, Vec3d origin_W);
 /// Mount of a body-like frame in a body, and back.
 Pose ToMount(const RigidTransform& X_BA);

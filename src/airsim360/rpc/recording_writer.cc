@@ -78,7 +78,8 @@ void FolderRecording::Record(const SnapshotPointer& snapshot) {
     return;
   }
   ++waiting_;
-  images_.Post([self = shared_from_this(), snapshot](ImageService& images) {
+  constexpr uint64_t kRecorder = 0;  // no connection has this id
+  images_.Post(kRecorder, [self = shared_from_this(), snapshot](ImageService& images) {
     self->Write(images, snapshot);
     --self->waiting_;
   });

@@ -20,6 +20,7 @@ struct Reply::State {
   size_t argument_count;
   AnswerSink sink;
   std::function<bool()> alive;
+  uint64_t client = 0;
   std::atomic<bool> answered{false};
 
   ~State() {
@@ -27,8 +28,9 @@ struct Reply::State {
   }
 };
 
-Reply::Reply(std::optional<uint32_t> id, std::string method, size_t argument_count, AnswerSink sink, std::function<bool()> alive)
-    : state_(new State{id, std::move(method), argument_count, std::move(sink), std::move(alive)}) {}
+Reply::Reply(std::optional<uint32_t> id, std::string method, size_t argument_count, AnswerSink sink, std::function<bool()> alive,
+             uint64_t client)
+    : state_(new State{id, std::move(method), argument_count, std::move(sink), std::move(alive), client}) {}
 
 bool Reply::Begin(WireWriter& writer) const {
   if (state_->answered.exchange(true)) return false;
@@ -61,5 +63,6 @@ void Reply::Exception(std::string_view what) const {
 
 bool Reply::wanted() const { return !state_->answered && state_->alive(); }
 const std::string& Reply::method() const { return state_->method; }
+uint64_t Reply::client() const { return state_->client; }
 
 }  // namespace airsim360

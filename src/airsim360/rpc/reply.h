@@ -17,8 +17,9 @@ using AnswerSink = std::function<void(WireBlocks bytes)>;
 /// Copies share one answer; the first wins. A call whose last copy goes without an answer is told so.
 class Reply {
  public:
-  /// `id` empty: a notification. `alive` says whether somebody still waits.
-  Reply(std::optional<uint32_t> id, std::string method, size_t argument_count, AnswerSink sink, std::function<bool()> alive);
+  /// `id` empty: a notification. `alive` says whether somebody still waits. `client`: who has called, a connection's id.
+  Reply(std::optional<uint32_t> id, std::string method, size_t argument_count, AnswerSink sink, std::function<bool()> alive,
+        uint64_t client = 0);
 
   template <class T>
   void Result(const T& value) const {
@@ -36,6 +37,7 @@ class Reply {
   /// False when the client has gone: then work for it can be left undone.
   bool wanted() const;
   const std::string& method() const;
+  uint64_t client() const;
 
  private:
   struct State;

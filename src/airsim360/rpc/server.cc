@@ -52,7 +52,7 @@ struct AirSimServer::Impl {
         [this, id, size = message.size()](WireBlocks answer) {
           answer.empty() ? tcp->Done(id, size) : tcp->Answer(id, size, std::move(answer));
         },
-        [this, id] { return connections.IsOpen(id); });
+        [this, id] { return connections.IsOpen(id); }, id);
     api->table().Call(call, reply);
   }
 };

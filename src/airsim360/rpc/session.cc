@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "airsim360/base/log.h"
+#include "airsim360/base/printable.h"
 #include "airsim360/rpc/ned.h"
 #include "airsim360/sim/living_world.h"
 #include "airsim360/sim/people/people.h"
@@ -31,7 +32,7 @@ uint64_t WallClockNs() {
 }  // namespace
 
 std::string NoVehicleText(const std::string& name) {
-  return "Vehicle API for '" + name +
+  return "Vehicle API for '" + Printable(name.substr(0, 256)) +
          "' is not available. This could either because this is simulation-only API or this vehicle does not "
          "exist";
 }
@@ -59,7 +60,7 @@ Session::Session(Stage& stage, SceneExtras extras, const SessionOptions& options
   // What is held ready is not there yet.
   for (const DroneBodyRef& body : stage.bodies()) world->places[body.entity] = {objects_.PlaceOf(body.entity).X_WO, {1, 1, 1}, true};
   world->external_cameras = MakeExternalCameras(options_.settings);
-  world->environment = world->base_environment = stage.environment();
+  world->environment = world->base_environment = world->first_environment = stage.environment();
   world_ = std::move(world);
   BuildVehicles(stage);
   // Lockstep runs are the same every time: their clock starts at zero.
@@ -252,6 +253,12 @@ VehicleControl& Session::control(const std::string& name) {
     if (control->status().name == name) return *control;
   }
   throw std::runtime_error(NoVehicleText(name));
+}
+
+VehicleControl& Session::drone(const std::string& name) {
+  VehicleControl& found = control(name);
+  if (!found.status().is_drone) throw std::runtime_error(NoVehicleText(name));
+  return found;
 }
 
 }  // namespace airsim360

@@ -57,6 +57,8 @@ class Session {
   SimState& state() { return loop_->Edit(); }
   const SimModel& model() const { return loop_->model(); }
   VehicleControl& control(const std::string& name);
+  /// The same; AirSim's error for a vehicle of type ComputerVision, too, which has nothing that could be steered.
+  VehicleControl& drone(const std::string& name);
   bool HasVehicle(const std::string& name) const;
   Vehicle& vehicle(const VehicleControl& control) { return state().vehicles[control.index()]; }
   /// The world, to be changed.
@@ -72,7 +74,7 @@ class Session {
   /// Brings an object of an asset into the world; its name, which is another one if `name` is taken.
   /// std::runtime_error with AirSim's text for an asset that there is not, or when all copies are in use.
   std::string Spawn(const std::string& name, const std::string& asset, const ObjectPlace& place);
-  /// Puts a vehicle somewhere else, at the speed it has.
+  /// Puts a vehicle somewhere else, at the speed it has. std::invalid_argument for a drone beyond where drones are kept.
   void Teleport(const VehicleControl& control, const RigidTransform& X_WB);
   void Reset();
   /// Has a drone fly a mission from the next step on, instead of what it does.
@@ -97,6 +99,8 @@ class Session {
   void RebuildModel();
   void AddToModel(const std::string& name, const VehicleSettings& settings, const RigidTransform& X_WB);
   void MakeRoomAt(size_t index);
+  /// std::invalid_argument naming what drones' reach is, in the frame that begins at `origin_W`.
+  void CheckReach(Vec3d p_W, Vec3d origin_W) const;
   /// Says in the log that a drone cannot stay where it starts, and the nearest place where it can.
   void NoticeBadStart(const std::string& name, const RigidTransform& X_WB) const;
   RigidTransform StartPose(const VehicleSettings& settings) const;

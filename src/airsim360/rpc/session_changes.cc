@@ -4,12 +4,14 @@
 #include <set>
 
 #include "airsim360/base/file_name.h"
+#include "airsim360/base/printable.h"
 #include "airsim360/rpc/ned.h"
 #include "airsim360/rpc/notice.h"
 #include "airsim360/rpc/session.h"
 #include "airsim360/rpc/start_place.h"
 #include "airsim360/sim/en_route.h"
 #include "airsim360/sim/people/people.h"
+#include "airsim360/sim/step_drone.h"
 #include "airsim360/sim/traffic/traffic.h"
 
 namespace airsim360 {
@@ -69,6 +71,7 @@ bool Session::AddVehicle(const std::string& name, const std::string& type, const
     return false;
   }
   CheckFileName("vehicle_name", name);  // recordings name pictures after it
+  CheckReach(X_WB.p, origin_W_);
   AddToModel(name, VehicleSettings{}, X_WB);
   NoticeBadStart(name, X_WB);
   return true;
@@ -100,7 +103,8 @@ std::string Session::Spawn(const std::string& name, const std::string& asset, co
   constexpr size_t kLongestName = 200;
   const std::string& known = IsEngineCube(asset) ? "Cube" : asset;
   const auto stock = std::ranges::find(extras_.stock, known, &SpawnStock::asset);
-  if (stock == extras_.stock.end()) throw std::runtime_error("There were no assets with name " + asset + " found in the Registry");
+  if (stock == extras_.stock.end())
+    throw std::runtime_error("There were no assets with name " + Printable(asset) + " found in the Registry");
   if (name.empty() || name.size() > kLongestName) throw std::invalid_argument("object_name has 1 ... 200 bytes");
   const auto free = std::ranges::find_if(stock->copies, [&](const DroneBodyRef& copy) {
     const auto at = world().places.find(copy.entity);
@@ -125,7 +129,24 @@ std::string Session::Spawn(const std::string& name, const std::string& asset, co
   return given;
 }
 
+void Session::CheckReach(Vec3d p_W, Vec3d origin_W) const {
+  const Box3f& bounds = objects_.scene().bounds;
+  const Vec3d margin{kWorldMargin, kWorldMargin, kWorldMargin};
+  const Vec3d low = VecCast<double>(bounds.min) - margin, high = VecCast<double>(bounds.max) + margin;
+  bool inside = true;
+  for (int i = 0; i < 3; ++i) inside = inside && p_W[i] >= low[i] && p_W[i] <= high[i];
+  if (inside) return;
+  const Vec3d p_N = NedFromWorld(p_W - origin_W), a = NedFromWorld(low - origin_W), b = NedFromWorld(high - origin_W);
+  char text[300];
+  // North and east grow with the world's axes; down is turned round.
+  std::snprintf(text, sizeof text,
+                "position: (%.10g, %.10g, %.10g) is out of drones' reach, %g m around the world: (%.1f, %.1f, %.1f) to (%.1f, %.1f, %.1f)",
+                p_N.x, p_N.y, p_N.z, kWorldMargin, a.x, a.y, b.z, b.x, b.y, a.z);
+  throw std::invalid_argument(text);
+}
+
 void Session::Teleport(const VehicleControl& control, const RigidTransform& X_WB) {
+  if (control.status().is_drone) CheckReach(X_WB.p, control.status().origin_W);
   Vehicle& moved = vehicle(control);
   moved.motion.X_WB = X_WB;
   moved.clearance = loop_->model().tracer->Clearance(VecCast<float>(X_WB.p), loop_->model().contact_range);

@@ -41,6 +41,7 @@ struct WorldView {
   CameraMap external_cameras;
   std::vector<RaySensors> ray_sensors;                                  ///< by vehicle
   std::map<std::pair<size_t, std::string>, DetectionFilter> detection;  ///< by vehicle and camera
+  Environment first_environment;                                        ///< the world's own
   Environment base_environment;                                         ///< without the weather of calls
   bool weather_enabled = false;                                         ///< simEnableWeather
   std::array<float, 8> weather{};                                       ///< simSetWeatherParameter, 0 ... 1, by WeatherParameter

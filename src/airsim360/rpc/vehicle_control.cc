@@ -40,6 +40,7 @@ void VehicleControl::Reset(bool armed) {
   hold_at_ns_.reset();
   collisions_seen_ = 0;
   status_.api_control = status_.has_collided = false;
+  landed_at_W_.reset();
   status_.landed = airsim::LandedState::kLanded;
   status_.armed = armed && status_.is_drone;
   if (status_.armed) urgent_.push_back(ArmCommand{});
@@ -76,6 +77,7 @@ void VehicleControl::Cancel() {
 
 void VehicleControl::LetGo() {
   Cancel();
+  landed_at_W_.reset();
   hold_at_ns_.reset();
 }
 
@@ -85,6 +87,7 @@ void VehicleControl::Start(TaskPointer task, int64_t t_ns, const Reply& reply) {
     reply.Result(task->result_at_timeout);
     return;
   }
+  landed_at_W_.reset();
   running_ = Running{std::move(task), t_ns, t_ns, reply};
 }
 
@@ -110,7 +113,13 @@ std::optional<FlightCommand> VehicleControl::TurnTask(const Vehicle& vehicle, in
   }
   running_->next_ns += kTaskPeriodNs;
   const TaskTurn turn = running_->task->Turn(ViewOf(vehicle, t_ns));
-  if (turn.result) Finish(*turn.result);
+  if (turn.result && *turn.result && running_->task->lands && !landed_at_W_) {
+    // A turn before the answer, so that it is in the state that is asked for after it.
+    landed_at_W_ = vehicle.motion.X_WB.p;
+    status_.landed = airsim::LandedState::kLanded;
+  } else if (turn.result) {
+    Finish(*turn.result);
+  }
   // Without API control a move runs and steers nothing.
   if (!turn.command || !status_.api_control) return {};
   hold_at_ns_ = t_ns + kGoalTimeoutNs;
@@ -140,6 +149,9 @@ void VehicleControl::Observe(const DroneModel& model, const Vehicle& vehicle) {
   }
   const double output = MotorOutput(model, vehicle);
   const Vec3d v = vehicle.motion.v_WB;
+  // Set down by `land` it stands, though its rotors turn to hold it there, until it is sent away or carried off.
+  if (landed_at_W_ && Norm(vehicle.motion.X_WB.p - *landed_at_W_) > kDistanceAccuracy) landed_at_W_.reset();
+  if (landed_at_W_) return;
   if (status_.landed == airsim::LandedState::kLanded) {
     if (output > kFlyingOutput && std::abs(v.z) > kFlyingSpeed) status_.landed = airsim::LandedState::kFlying;
   } else if (output <= kFlyingOutput && Norm(v) < kLandedSpeed) {

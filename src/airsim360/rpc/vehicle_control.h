@@ -61,6 +61,7 @@ class VehicleControl {
   std::deque<Command> urgent_;         // each is given for a whole control step
   std::optional<int64_t> hold_at_ns_;  // when the drone begins to hold its place
   uint64_t collisions_seen_ = 0;
+  std::optional<Vec3d> landed_at_W_;  // where `land` has set it down, as long as it is there
 };
 
 }  // namespace airsim360

@@ -62,6 +62,8 @@ void ThrowOutOfRange(const WireValue& value, int64_t low, uint64_t high) {
   throw BadArgument(BadArgument::Reason::kKind, Shown(value) + " is not in " + std::to_string(low) + " … " + std::to_string(high));
 }
 
+bool IsNanOnWire(const WireValue& value) { return value.kind == Kind::kFloat && std::isnan(value.real); }
+
 double RealFromWire(const WireValue& value, double limit) {
   double real = value.real;
   if (value.kind == Kind::kInt) {

@@ -40,6 +40,9 @@ class BadArgument : public std::exception {
 /// A real number. BadArgument for another kind, for one that is not a number, and beyond ±`limit`.
 double RealFromWire(const WireValue& value, double limit);
 
+/// A number that is NaN.
+bool IsNanOnWire(const WireValue& value);
+
 /// Raw bytes of a picture, sent as a binary.
 struct WireBytes {
   WireBlock bytes;

@@ -25,9 +25,6 @@ constexpr int64_t kContactGapNs = 100'000'000;
 constexpr double kMeetingRange = 2;
 // Wakes of drones farther away than this are not felt, metres.
 constexpr double kWakeReach = 20;
-// Vehicles are kept within this distance of the scene's box, metres.
-constexpr double kWorldMargin = 1000;
-
 // Flags of the autopilot that are told once, when they rise.
 constexpr std::pair<uint64_t, Kind> kToldFlags[] = {{kCommandRefused, Kind::kCommandRefused}, {kCommandLost, Kind::kCommandLost},
                                                     {kCommandDone, Kind::kCommandDone},       {kFenceHeld, Kind::kFence},

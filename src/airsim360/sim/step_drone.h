@@ -4,6 +4,13 @@
 #include "airsim360/sim/step.h"
 #include "airsim360/sim/world_contacts.h"
 
+namespace airsim360 {
+
+/// Drones are kept within this distance of the scene's box, metres.
+inline constexpr double kWorldMargin = 1000;
+
+}  // namespace airsim360
+
 namespace airsim360::internal {
 
 /// What all drones share during one step.
