@@ -144,6 +144,34 @@ class AgentTest(unittest.TestCase):
         status, answer = self.agent.call("POST", "/v1/episodes", {"limits": {"max_step": 3}})
         self.assertEqual((status, answer["error"]["field"], answer["error"]["nearest"]), (422, "limits.max_step", "max_steps"))
 
+    def test_starts_within_things_or_without_the_world_are_refused(self):
+        for place in ([3, 0, 0.5], [50, 0, 1], [0, 0, -3]):
+            status, answer = self.agent.call("POST", "/v1/episodes", {"start": {"p": place}})
+            self.assertEqual(status, 422, place)
+            self.assertIn("start.p", answer["error"]["message"])
+
+    def ask(self, method, path):
+        """Status, headers and body as they come, over a connection that goes on."""
+        connection = http.client.HTTPConnection("127.0.0.1", self.agent.port, timeout=60)
+        self.addCleanup(connection.close)
+        connection.request(method, path)
+        response = connection.getresponse()
+        first = response.status, dict(response.getheaders()), response.read()
+        connection.request("GET", "/openapi.json")
+        self.assertEqual(connection.getresponse().status, 200)
+        return first
+
+    def test_a_wrong_method_is_told_the_right_ones(self):
+        for method, path, allowed in (("PUT", "/v1/episodes", "GET, HEAD, POST"), ("POST", "/openapi.json", "GET, HEAD"),
+                                      ("DELETE", "/openapi.json", "GET, HEAD")):
+            status, headers, _ = self.ask(method, path)
+            self.assertEqual((status, headers.get("Allow")), (405, allowed), (method, path))
+
+    def test_head_is_get_without_the_body(self):
+        _, asked, body = self.ask("GET", "/openapi.json")
+        status, headers, nothing = self.ask("HEAD", "/openapi.json")
+        self.assertEqual((status, headers["Content-Length"], nothing), (200, str(len(body)), b""))
+
     def test_web_pages_and_other_bodies_are_refused(self):
         self.assertEqual(self.agent.call("GET", "/", headers={"Origin": "http://example.org"})[0], 403)
         self.assertEqual(self.agent.call("GET", "/", headers={"Host": "example.org"})[0], 403)

@@ -175,6 +175,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
 
  private:
   void Read() {
+    request_ = {};
     parser_.emplace();
     parser_->body_limit(shared().options.body_bytes);
     parser_->header_limit(kHeaderBytes);
@@ -215,16 +216,15 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
     shared().workers.Post([self = shared_from_this()] {
       const http::request<http::string_body>& request = self->request_;
       HttpResponse response = self->shared().handlers.request(
-          {std::string(View(request.method_string())), std::string(View(request.target())), request.body()});
+          {self->AsksForHead() ? "GET" : std::string(View(request.method_string())), std::string(View(request.target())), request.body()});
       asio::post(self->stream_.get_executor(),
                  [self, response = std::move(response)]() mutable { self->Write(std::move(response), self->request_.keep_alive()); });
     });
   }
 
-  void Refuse(int status, const std::string& message) {
-    request_ = {};
-    Write({status, "application/json", ErrorText(message)}, false);
-  }
+  bool AsksForHead() const { return request_.method() == http::verb::head; }
+
+  void Refuse(int status, const std::string& message) { Write({status, "application/json", ErrorText(message)}, false); }
 
   // What both kinds of answers begin with.
   template <class Response>
@@ -235,11 +235,22 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
     response.set(http::field::content_type, answer.content_type);
     response.set(http::field::cache_control, "no-store");
     for (const auto& [name, value] : shared().options.headers) response.set(name, value);
+    if (!answer.allow.empty()) response.set(http::field::allow, answer.allow);
     response.keep_alive(keep_alive);
+  }
+
+  // The length that a body would have, and no body.
+  void WriteHead(const HttpResponse& answer, uint64_t length, bool keep_alive) {
+    head_ = {};
+    Head(head_, answer, keep_alive);
+    head_.content_length(length);
+    stream_.expires_after(std::chrono::seconds(shared().options.seconds));
+    http::async_write(stream_, head_, [self = shared_from_this(), keep_alive](Code error, size_t) { self->Written(error, keep_alive); });
   }
 
   void Write(HttpResponse answer, bool keep_alive) {
     if (answer.file >= 0) return WriteFile(answer, keep_alive);
+    if (AsksForHead()) return WriteHead(answer, answer.body.size(), keep_alive);
     response_ = {};
     Head(response_, answer, keep_alive);
     response_.body() = std::move(answer.body);
@@ -258,6 +269,11 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
     Code error;
     file_.body().reset(std::move(file), error);
     if (error) return Refuse(404, "the file cannot be read");
+    if (AsksForHead()) {
+      const uint64_t length = file_.body().size();
+      file_.body().close();
+      return WriteHead(answer, length, keep_alive);
+    }
     file_.prepare_payload();
     stream_.expires_after(std::chrono::seconds(shared().options.seconds));
     const auto written = [self = shared_from_this(), keep_alive](Code failed, size_t) {
@@ -293,6 +309,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
   http::request<http::string_body> request_;
   http::response<http::string_body> response_;
   http::response<http::file_body> file_;
+  http::response<http::empty_body> head_;
   std::array<char, 4096> dropped_;
   size_t dropped_bytes_ = 0;
   bool has_called_ = false;

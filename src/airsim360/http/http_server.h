@@ -10,7 +10,7 @@
 namespace airsim360 {
 
 struct HttpRequest {
-  std::string method, target;  ///< "POST", "/v1/episodes/e1/step?…"
+  std::string method, target;  ///< "POST", "/v1/episodes/e1/step?…"; HEAD comes as GET, and its answer goes without the body
   std::string body = {};
 };
 
@@ -18,7 +18,8 @@ struct HttpResponse {
   int status = 200;
   std::string content_type = "application/json";
   std::string body = {};
-  int file = -1;  ///< open descriptor of a regular file that is sent instead of `body`; the server closes it
+  std::string allow = {};  ///< of status 405: the methods that are answered
+  int file = -1;           ///< open descriptor of a regular file that is sent instead of `body`; the server closes it
 };
 
 /// Answer to one message of a WebSocket.

@@ -1,6 +1,7 @@
 // Where a survey may look from.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <optional>
 
@@ -8,6 +9,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/routes/roadmap.h"
 #include "airsim360/trace/surface_entity.h"
+#include "airsim360/trace/whereabouts.h"
 
 namespace airsim360 {
 namespace {
@@ -183,6 +185,25 @@ Box2d InhabitedGround(const Scene& scene) {
     box.max = {std::max(box.max.x, corner.x + kFreeCell), std::max(box.max.y, corner.y + kFreeCell)};
   }
   return box;
+}
+
+std::string PlaceFault(const RayTracer& tracer, Vec3d p_W, double clearance) {
+  constexpr double kSky = 1e4;  // metres
+  const Box3f box = FindSurveyedGround(tracer.scene()).box;
+  for (int i = 0; i < 3; ++i) {
+    if (!(p_W[i] >= box.min[i] && p_W[i] <= (i == 2 ? kSky : box.max[i]))) return "is outside the world";
+  }
+  // A model with holes, or turned inside out, looks so from where it is entered too.
+  const Scene& scene = tracer.scene();
+  const Vec3d entrance = VecCast<double>(scene.spawn.value_or(scene.bounds.center()));
+  const Whereabouts::Kind kind = FindWhereabouts(tracer, p_W).kind;
+  if (kind != Whereabouts::Kind::kOpen && kind != FindWhereabouts(tracer, entrance).kind)
+    return kind == Whereabouts::Kind::kOutside ? "is outside the world" : "is inside of something solid, or below the ground";
+  const double free = tracer.Clearance(VecCast<float>(p_W), static_cast<float>(2 * clearance));
+  if (free >= clearance) return {};
+  char text[80];
+  std::snprintf(text, sizeof text, "is %.3g m from a surface, less than %.3g m", free, clearance);
+  return text;
 }
 
 std::vector<Vec3d> FindFreePlaces(const RayTracer& tracer, const PlaceOptions& options) {

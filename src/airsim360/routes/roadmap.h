@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,10 @@ struct PlaceOptions {
 /// horizon is left out) and have something below them; in a building below its ceilings, heights counted from
 /// each floor; around a single model in the open, or in a closed room, over its box. A pure function of scene and options.
 std::vector<Vec3d> FindFreePlaces(const RayTracer& tracer, const PlaceOptions& options);
+
+/// Why a place cannot be flown from or to: "is outside the world", "is inside of something solid, or below the ground", "is 0.1 m
+/// from a surface, less than 0.3 m"; "" if it can. Above everything is still in the world.
+std::string PlaceFault(const RayTracer& tracer, Vec3d p_W, double clearance);
 
 /// True if a ball of `radius` can move along the segment. Its free distance is measured at most 0.1 m apart
 /// where it is tight.

@@ -49,7 +49,8 @@ ViewSite::ViewSite(std::vector<std::shared_ptr<ViewedDataset>> datasets, std::sh
     : datasets_(std::move(datasets)), live_(std::move(live)), token_(std::move(token)) {}
 
 HttpResponse ViewSite::Answer(const HttpRequest& request) const {
-  if (request.method != "GET") return {.status = 405, .body = R"({"error":{"message":"this page is read with GET"}})"};
+  if (request.method != "GET")
+    return {.status = 405, .body = R"({"error":{"message":"this page is read with GET"}})", .allow = "GET, HEAD"};
   const std::string path = PercentDecoded(std::string_view(request.target).substr(0, request.target.find('?')));
   if (!path.starts_with('/')) return NotFound();
   try {

@@ -169,7 +169,7 @@ AgentResponse AgentApi::Route(const AgentRequest& request) {
   constexpr std::string_view kEpisodes = "/v1/episodes";
   if (path == kEpisodes) {
     if (request.method == "GET") return List();
-    RequireMethod(request, "POST");
+    RequireMethod(request, "POST", "GET, HEAD, POST");
     return Create(request.body);
   }
   if (path.starts_with(kEpisodes) && path.size() > kEpisodes.size() && path[kEpisodes.size()] == '/') {
@@ -190,7 +190,7 @@ AgentResponse AgentApi::Handle(const AgentRequest& request) {
   } catch (const RequestError& error) {
     return {422, "application/json", internal::ErrorBody(error.field(), error.what(), error.nearest())};
   } catch (const StatusError& error) {
-    return {error.status(), "application/json", internal::ErrorBody("", error.what(), "")};
+    return {error.status(), "application/json", internal::ErrorBody("", error.what(), ""), error.allow()};
   } catch (const InputError& error) {
     return Refusal(error.what());
   } catch (const std::exception& error) {

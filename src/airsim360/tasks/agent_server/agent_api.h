@@ -24,6 +24,7 @@ struct AgentResponse {
   int status = 200;
   std::string content_type = "application/json";
   std::string body;
+  std::string allow = {};  ///< of status 405: the methods that are answered
 };
 
 /// A world as an episode wants it.

@@ -172,7 +172,7 @@ AgentResponse AgentApi::OnEpisode(const std::string& id, const std::string& call
   if (!call.empty() && std::ranges::find(kCalls, call) == kCalls.end())
     throw StatusError(404, UnknownChoiceMessage("resource of an episode", call.substr(0, 64), kCalls));
   const bool changes = call == "reset" || call == "step" || call == "observe";
-  internal::RequireMethod(request, changes ? "POST" : "GET");
+  internal::RequireMethod(request, changes ? "POST" : "GET", call.empty() ? "GET, HEAD, DELETE" : "");
   const std::shared_ptr<Slot> slot = Find(id);
   if (call == "reset") return Reset(*slot, request.body);
   if (call == "step") return Step(*slot, request.body);

@@ -7,7 +7,10 @@ namespace {
 
 HttpResponse Respond(AgentApi& api, const HttpRequest& request) {
   AgentResponse response = api.Handle({request.method, request.target, request.body});
-  return {.status = response.status, .content_type = std::move(response.content_type), .body = std::move(response.body)};
+  return {.status = response.status,
+          .content_type = std::move(response.content_type),
+          .body = std::move(response.body),
+          .allow = std::move(response.allow)};
 }
 
 }  // namespace

@@ -17,18 +17,25 @@ namespace internal {
 /// An answer other than 200 that is no mistake in a field.
 class StatusError : public std::runtime_error {
  public:
-  StatusError(int status, const std::string& what) : std::runtime_error(what), status_(status) {}
+  StatusError(int status, const std::string& what, std::string allow = {})
+      : std::runtime_error(what), status_(status), allow_(std::move(allow)) {}
   int status() const { return status_; }
+  const std::string& allow() const { return allow_; }
 
  private:
   int status_;
+  std::string allow_;
 };
 
 inline AgentResponse JsonResponse(const Answer& answer, int status = 200) { return {status, "application/json", TextOf(answer)}; }
 
-/// Status 405 for other methods.
-inline void RequireMethod(const AgentRequest& request, const char* method) {
-  if (request.method != method) throw StatusError(405, request.method.substr(0, 16) + " is not answered here; use " + method);
+/// Status 405 for other methods. `allow`: what is answered at that path where it is not `method` alone.
+inline void RequireMethod(const AgentRequest& request, const std::string& method, const std::string& allow = {}) {
+  if (request.method != method)
+    throw StatusError(405, request.method.substr(0, 16) + " is not answered here; use " + method,
+                      !allow.empty()    ? allow
+                      : method == "GET" ? "GET, HEAD"
+                                        : method);
 }
 
 /// One instant of an episode for those who look on.

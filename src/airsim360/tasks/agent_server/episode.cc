@@ -7,6 +7,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/eval/navigation/path_metrics.h"
 #include "airsim360/flight/drones/catalog.h"
+#include "airsim360/routes/roadmap.h"
 
 namespace airsim360 {
 namespace {
@@ -99,13 +100,13 @@ void Episode::BuildModel() {
   setup.X_WB = BodyPose(start_W_, spec_.start_yaw, 0, 0);
   setup.airborne = true;
   const SimDrone drone(setup, model.dt_ns);
-  const auto needed = static_cast<float>(drone.radius());
-  if (model.tracer->Clearance(VecCast<float>(start_W_), needed) < needed) {
+  const std::string fault = PlaceFault(*model.tracer, start_W_, drone.radius());
+  if (!fault.empty()) {
     const auto& places = world_->places();
     const Vec3d free = *std::ranges::min_element(places, {}, [&](Vec3d p) { return Norm(p - start_W_); });
-    char text[160];
-    std::snprintf(text, sizeof(text), "start.p: (%.2f, %.2f, %.2f) is not free; the nearest free place known is (%.2f, %.2f, %.2f)",
-                  start_W_.x, start_W_.y, start_W_.z, free.x, free.y, free.z);
+    char text[240];
+    std::snprintf(text, sizeof(text), "start.p: (%.2f, %.2f, %.2f) is not free: it %s; the nearest free place known is (%.2f, %.2f, %.2f)",
+                  start_W_.x, start_W_.y, start_W_.z, fault.c_str(), free.x, free.y, free.z);
     throw InputError(text);
   }
   model.drones.push_back(std::make_shared<const SimDrone>(drone));

@@ -186,14 +186,23 @@ TEST(Episode, WaitingFliesOnWithTheLastAction) {
 }
 
 TEST(Episode, AStartInsideAThingNamesAFreePlace) {
-  EpisodeSpec spec = InTheRoom({3, 0, 0.9});
-  try {
-    Episode episode(Room(), spec);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("start.p: (3.00, 0.00, 0.90) is not free"), std::string::npos);
+  const std::pair<Vec3d, const char*> faults[] = {{{3, 0, 0.9}, "is inside of something solid"},
+                                                  {{3, 0, 0.5}, "is inside of something solid"},
+                                                  {{3, 0, 1.05}, "is 0.05 m from a surface"},
+                                                  {{50, 0, 1}, "is outside the world"},
+                                                  {{0, 0, -3}, "is outside the world"}};
+  for (const auto& [start, fault] : faults) {
+    try {
+      Episode episode(Room(), InTheRoom(start));
+      ADD_FAILURE() << start.x << " " << start.z;
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      EXPECT_TRUE(text.starts_with("start.p: (")) << text;
+      EXPECT_NE(text.find(std::string("is not free: it ") + fault), std::string::npos) << text;
+      EXPECT_NE(text.find("the nearest free place known is ("), std::string::npos) << text;
+    }
   }
-  spec = InTheRoom();
+  EpisodeSpec spec = InTheRoom();
   spec.drone = "humingbird";
   EXPECT_THROW(Episode(Room(), spec), InputError);
 }

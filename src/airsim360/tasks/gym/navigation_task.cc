@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -144,18 +145,11 @@ NavigationEpisode NavigationWorld::Sample(uint64_t seed, uint64_t environment, u
 }
 
 void NavigationWorld::CheckPlace(const char* what, Vec3d p) const {
-  const auto refuse = [&](const std::string& why) {
-    throw InputError(std::string(what) + ": (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ") " +
-                     why);
-  };
-  const Box3f& bounds = tracer_->scene().bounds;
-  for (int i = 0; i < 3; ++i) {
-    // Above everything is still in the world.
-    if (!(p[i] >= bounds.min[i] && (i == 2 ? p[i] <= 1e4 : p[i] <= bounds.max[i]))) refuse("is outside the world");
-  }
-  const double least = 0.5 * task_.clearance;
-  const double free = tracer_->Clearance(VecCast<float>(p), static_cast<float>(task_.clearance));
-  if (free < least) refuse("is " + std::to_string(free) + " m from a surface; at least " + std::to_string(least) + " m");
+  const std::string fault = PlaceFault(*tracer_, p, 0.5 * task_.clearance);
+  if (fault.empty()) return;
+  char place[100];
+  std::snprintf(place, sizeof place, ": (%g, %g, %g) ", p.x, p.y, p.z);
+  throw InputError(what + (place + fault));
 }
 
 NavigationEpisode NavigationWorld::Wished(NavigationEpisode episode, const EpisodeWish& wish) const {

@@ -29,6 +29,8 @@ void CheckOptions(const VectorEnvironmentOptions& o) {
   const auto positive = [&](const char* name, double value) {
     if (!(value > 0 && value <= 1000)) refuse(std::string(name) + ": " + std::to_string(value) + " is not in 0 ... 1000");
   };
+  if (o.rgb && o.picture.tier == Tier::kLabels)
+    throw InputError("observations: 'rgb' needs light, which tier 'labels' has none of; did you mean tier 'fast'?");
   CheckPictureSettings(o.picture, Equirectangular{o.width, o.height});
   positive("max_speed", o.max_speed);
   positive("max_turn", o.max_turn);
@@ -55,7 +57,6 @@ VectorEnvironment::VectorEnvironment(std::shared_ptr<Stage> stage, const Navigat
       model_(MakeModel(*stage_, options.drone)) {
   const auto count = static_cast<size_t>(options_.count);
   const size_t pixels = count * static_cast<size_t>(options_.width) * static_cast<size_t>(options_.height);
-  options_.rgb = options_.rgb && options_.picture.tier != Tier::kLabels;
   if (options_.rgb) rgb_.resize(pixels);
   if (options_.range) range_.resize(pixels);
   if (options_.semantic) semantic_.resize(pixels);

@@ -36,7 +36,7 @@ struct VectorEnvironmentOptions {
   double period = 0.1;                                              ///< seconds of a step, a whole number of milliseconds, even
   int width = 128, height = 64;                                     ///< of the panoramas; width = 2 height
   PictureSettings picture = {};                                     ///< how they are made
-  bool rgb = true, range = true, semantic = false, entity = false;  ///< panoramas that are made
+  bool rgb = true, range = true, semantic = false, entity = false;  ///< panoramas that are made; rgb needs light
   bool auto_reset = true;  ///< an environment that has ended begins anew in the next step, which does nothing
                            ///< else there (reward 0); off: such a step is an InputError
   uint64_t seed = 0;

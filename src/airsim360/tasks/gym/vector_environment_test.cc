@@ -22,6 +22,7 @@ std::shared_ptr<Stage> Room() {
 VectorEnvironmentOptions Options(int count, Tier tier = Tier::kLabels) {
   VectorEnvironmentOptions options;
   options.picture.tier = tier;
+  options.rgb = tier != Tier::kLabels;
   options.count = count;
   options.drone = CatalogModel("hummingbird");
   options.width = 64;
