@@ -73,7 +73,7 @@ class Rig:
                  tone: Literal["filmic", "agx", "linear"] = "filmic", exposure: float | Literal["auto"] = 0.0,
                  pano_frame: Literal["body", "level"] = "body", lens: Literal["ideal", "real360"] = "ideal",
                  look: Literal["clean", "photo"] = "clean", camera_look: dict[str, float | bool] = {},
-                 products: Sequence[_Product] = ["rgb", "range", "semantic", "entity"],
+                 products: Sequence[_Product] | None = None,
                  projection: Literal["erp", "pinhole", "fisheye"] = "erp", fov: float = 1.5707963267948966,
                  position: _Vector = (0.0, 0.0, 0.0), yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0,
                  level: bool = False, seed: int = 0, flow_dt: float = 0.1) -> None:
@@ -82,7 +82,7 @@ class Rig:
         tiers high and reference, None = the tier's own. denoise: noise filter of tier high. edge_samples: colour samples
         of a pixel on an edge, 1 to 64; 1 is the fastest (None: 2 in tier fast, 8 in high). tone: tone curve. exposure:
         stops added to the fixed daylight exposure, or "auto". pano_frame: "level" keeps the horizon level. lens: real360
-        distorts and fades as a real camera of two fisheyes. look: photo is what a consumer camera makes of the light, by camera_look (metering, glare, … : docs/guide/pictures.md). products: pictures that are made. projection: erp, pinhole or fisheye (fov:
+        distorts and fades as a real camera of two fisheyes. look: photo is what a consumer camera makes of the light, by camera_look (metering, glare, … : docs/guide/pictures.md). products: pictures that are made, None: rgb (but in tier labels), range, semantic, entity. projection: erp, pinhole or fisheye (fov:
         radians, across the width or the shorter side). position (3,) metres, yaw, pitch, roll radians: the mount in B.
         level: the same as pano_frame="level". seed: of samples and noise. flow_dt: seconds that optical flow leads on by,
         above 0, at most 10. ValueError names the nearest choice."""
@@ -340,13 +340,13 @@ class World:
         """Categories by patterns of entity names ({'node/22*': 'furniture/misc'}; * any characters, ? one; the first
         that matches counts; paths that the tree lacks are added), from the next capture or scan on, in this world and
         its simulations. Returns how many entities match; a pattern that matches none gives a UserWarning."""
-    def raycast(self, origins: _Points, directions: _Points) -> tuple[_F32, _U32]:
-        """Nearest surfaces along rays: origins and directions (N, 3) in W -> range (N,) float32 metres (0 = nothing),
-        entity (N,) uint32."""
-    def clearance(self, points: _Points, most: float = 100.0) -> _F32:
-        """Distance (N,) float32 from points (N, 3) of W to the nearest surface, at most `most` metres."""
+    def raycast(self, origins: _Points | _Vector, directions: _Points | _Vector) -> tuple[_F32, _U32]:
+        """Nearest surfaces along rays: origins and directions in W, (3,) or (N, 3), one for all or one each -> range (N,)
+        float32 metres (0 = nothing), entity (N,) uint32; arrays of no dimension for one ray."""
+    def clearance(self, points: _Points | _Vector, most: float = 100.0) -> _F32:
+        """Distance (N,) float32 from points (N, 3) of W to the nearest surface, at most `most` metres; of no dimension for (3,)."""
     def export(self, path: str) -> None:
-        """Writes the world as binary glTF (.glb)."""
+        """Writes the world as binary glTF (.glb); ValueError for a path of another ending."""
     def capture(self, position: _Vector, rig: Rig = ..., yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0) -> Capture:
         """A capture by a body that stands still at `position` (3,) of W. Radians; yaw 0 faces east and grows
         counter-clockwise, pitch is positive nose up, roll right side down."""
@@ -427,8 +427,8 @@ class Plan:
     @property
     def certificate(self) -> Certificate | None:
         """With a world: whether the clearance is proved everywhere; else None."""
-    def at(self, times: Sequence[float] | npt.NDArray[Any]) -> TrajectorySamples:
-        """t (N,), p, v, a, jerk, snap (N, 3) at given times, clamped to the flight."""
+    def at(self, times: float | Sequence[float] | npt.NDArray[Any]) -> TrajectorySamples:
+        """t (N,), p, v, a, jerk, snap (N, 3) at given times, clamped to the flight; for one time a number and (3,)."""
     def sample(self, dt: float = 0.1) -> TrajectorySamples:
         """As at(), every dt seconds and at the end."""
 
@@ -670,7 +670,7 @@ class VectorEnvironment:
                  tone: Literal["filmic", "agx", "linear"] = "filmic", exposure: float | Literal["auto"] = 0.0,
                  pano_frame: Literal["body", "level"] = "body", lens: Literal["ideal", "real360"] = "ideal",
                  look: Literal["clean", "photo"] = "clean", camera_look: dict[str, float | bool] = {},
-                 observations: Sequence[Literal["rgb", "range", "semantic", "entity"]] = ["rgb", "range"],
+                 observations: Sequence[Literal["rgb", "range", "semantic", "entity"]] | None = None,
                  period: float = 0.1, max_speed: float = 3.0, max_turn: float = 1.5, max_rate: float = 6.0,
                  level: bool = False, auto_reset: bool = True, seed: int = 0) -> None:
         """count: environments. action: what a step commands (docs/reference/python.md). width, height: pixels of the

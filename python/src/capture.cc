@@ -6,6 +6,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/scene/parts.h"
 #include "handles.h"
+#include "interrupts.h"
 #include "keywords.h"
 #include "simulation.h"
 #include "tensor.h"
@@ -13,21 +14,53 @@
 namespace airsim360::python {
 namespace {
 
-Rig MakeRig(uint64_t width, uint64_t height, const std::vector<std::string>& products, const std::string& projection, double fov,
-            const py::object& position, double yaw, double pitch, double roll, bool level, uint64_t seed, double flow_dt,
-            const py::kwargs& picture) {
+// Names of arguments of Rig that are no settings of pictures.
+const std::vector<std::string> kRigArguments = {"width", "height", "products", "projection", "fov",  "position",
+                                                "yaw",   "pitch",  "roll",     "level",      "seed", "flow_dt"};
+
+// Radians, of pictures that have a field of view to choose.
+void CheckFieldOfView(const std::string& projection, double fov) {
+  const double most_deg = projection == "pinhole" ? 179 : projection == "fisheye" ? 360 : 0;
+  const double fov_deg = fov * 180 / M_PI;
+  if (most_deg == 0 || (fov_deg >= 1 - 1e-9 && fov_deg <= most_deg + 1e-9)) return;
+  std::string text = Text("fov: %g is not in %.4f … %.4f radians (1 … %g degrees)", fov, M_PI / 180, most_deg * M_PI / 180, most_deg);
+  // Told in degrees, it seems.
+  if (fov > M_PI && fov <= most_deg) {
+    text += Text("; did you mean %.4g (%g degrees)?", fov * M_PI / 180, fov);
+  } else if (std::isfinite(fov)) {
+    text += Text("; the nearest is %.4f", (fov_deg < 1 ? 1 : most_deg) * M_PI / 180);
+  }
+  throw InputError(text);
+}
+
+Products ShownBy(const std::optional<std::vector<std::string>>& products, Tier tier) {
+  std::vector<std::string> names = {"rgb", "range", "semantic", "entity"};
+  if (tier == Tier::kLabels) names.erase(names.begin());
+  if (products) names = *products;
+  const Products shown = WithProducts(kNoProducts, names);
+  if (shown.rgb && tier == Tier::kLabels)
+    throw InputError("products: 'rgb' needs light, which tier 'labels' has none of; did you mean tier 'fast'?");
+  return shown;
+}
+
+Rig MakeRig(const py::object& width, const py::object& height, const std::optional<std::vector<std::string>>& products,
+            const std::string& projection, double fov, const py::object& position, double yaw, double pitch, double roll, bool level,
+            const py::object& seed, double flow_dt, const py::kwargs& picture) {
+  constexpr int64_t kLargest = 16384;
   CameraSpec spec;
   spec.projection = projection;
-  spec.width = width;
-  spec.height = height == 0 ? (projection == "erp" ? width / 2 : width) : height;
+  spec.width = static_cast<uint64_t>(ToWhole(width, "width", 1, kLargest));
+  spec.height = static_cast<uint64_t>(ToWhole(height, "height", 0, kLargest));
+  if (spec.height == 0) spec.height = projection == "erp" ? spec.width / 2 : spec.width;
+  CheckFieldOfView(projection, fov);
   spec.fov_deg = fov * 180 / M_PI;
   if (level) spec.pano_frame = PanoFrame::kLevel;
-  ReadKeywords(picture, [&](ConfigVisitor& v) { spec.PictureSettings::Visit(v); });
-  spec.seed = seed;
-  Rig rig{spec.Rig(), Finite(flow_dt, "flow_dt"), WithProducts(kNoProducts, products)};
+  ReadKeywords(
+      picture, [&](ConfigVisitor& v) { spec.PictureSettings::Visit(v); }, kRigArguments);
+  spec.seed = ToSeed(seed);
+  Rig rig{spec.Rig(), Finite(flow_dt, "flow_dt"), ShownBy(products, spec.tier)};
   if (!(flow_dt > 0 && flow_dt <= 10)) throw InputError("flow_dt: " + std::to_string(flow_dt) + " s is not above 0 and at most 10");
   rig.rig.X_BC = BodyPose(ToVec3(position, "position"), Finite(yaw, "yaw"), Finite(pitch, "pitch"), Finite(roll, "roll")) * CameraInBody();
-  if (rig.rig.tier == Tier::kLabels) rig.shown.rgb = false;
   rig.rig.products = Rendered(rig.shown);
   return rig;
 }
@@ -36,7 +69,7 @@ Rig MakeRig(uint64_t width, uint64_t height, const std::vector<std::string>& pro
 std::string RigDocumentation() {
   const ConfigFields picture = [](ConfigVisitor& v) { PictureSettings().Visit(v); };
   return "__init__(self: airsim360.Rig, width: int = 1024, height: int = 0, *, " + KeywordSignature(picture) +
-         ", products: list[str] = ['rgb', 'range', 'semantic', 'entity'], projection: str = 'erp', "
+         ", products: list[str] | None = None, projection: str = 'erp', "
          "fov: float = 1.5707963267948966, position: object = (0.0, 0.0, 0.0), yaw: float = 0.0, pitch: "
          "float = 0.0, "
          "roll: float = 0.0, level: bool = False, seed: int = 0, flow_dt: float = 0.1) -> None\n\n" +
@@ -169,17 +202,18 @@ void BindRig(py::module_& m) {
   py::class_<Rig> rig(m, "Rig", R"(A camera on a drone, panoramic unless told otherwise, and what it captures.
 
 width, height: pixels (height 0: half the width for panoramas, else the width). products: any of rgb, range, semantic,
-entity, normal, position, albedo, material, part, sky, flow, coverage, radiance. projection: erp, pinhole or fisheye
+entity, normal, position, albedo, material, part, sky, flow, coverage, radiance (None: rgb, unless the tier is labels, range, semantic,
+entity). projection: erp, pinhole or fisheye
 (fov: radians, across the width or the shorter side). position (3,), yaw, pitch, roll: the mount in B. level: the same as
 pano_frame="level". seed: of samples and noise. flow_dt: seconds that optical flow leads on by. All others say how
 pictures are made, as the flags of `airsim360 render` do.)");
   {
     py::options options;
     options.disable_function_signatures();
-    rig.def(py::init(&MakeRig), py::arg("width") = 1024, py::arg("height") = 0, py::kw_only(),
-            py::arg("products") = std::vector<std::string>{"rgb", "range", "semantic", "entity"}, py::arg("projection") = "erp",
-            py::arg("fov") = M_PI / 2, py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
-            py::arg("roll") = 0.0, py::arg("level") = false, py::arg("seed") = 0, py::arg("flow_dt") = 0.1, RigDocumentation().c_str());
+    rig.def(py::init(&MakeRig), py::arg("width") = 1024, py::arg("height") = 0, py::kw_only(), py::arg("products") = py::none(),
+            py::arg("projection") = "erp", py::arg("fov") = M_PI / 2, py::arg("position") = py::make_tuple(0.0, 0.0, 0.0),
+            py::arg("yaw") = 0.0, py::arg("pitch") = 0.0, py::arg("roll") = 0.0, py::arg("level") = false, py::arg("seed") = 0,
+            py::arg("flow_dt") = 0.1, RigDocumentation().c_str());
   }
   rig.def("__repr__",
           [](const Rig& r) {
@@ -314,7 +348,7 @@ void BindCapturing(py::class_<Simulation>& sim) {
           if (memory == "cuda") {
             on_gpu = s.TakeCuda(rig, i);
           } else {
-            on_cpu = s.Take(rig, i);
+            on_cpu = TakeWatched(PixelsOf(rig), [&] { return s.Take(rig, i); });
           }
         }
         return on_gpu ? py::cast(on_gpu) : py::cast(on_cpu);

@@ -59,7 +59,8 @@ class World {
   std::mutex render_mutex_;  // of the stage's renderers; never waited for with the GIL held
 };
 
-/// So many people; InputError outside 0 to 10000.
+inline constexpr int64_t kMostPeople = 10000;
+/// So many people; InputError outside 0 to kMostPeople.
 PeopleRequest PeopleOf(int64_t count, uint64_t seed);
 
 /// Entities of a scene by id, as dictionaries.
@@ -86,6 +87,7 @@ PanoramicRig Rendered(const Rig& rig, const EntityLabels* labels);
 void FinishScan(const EntityLabels* labels, LidarScan& scan);
 
 /// Rig() of Python: a panorama of 1024 x 512.
+inline int64_t PixelsOf(const Rig& rig) { return int64_t{Width(rig.rig.camera)} * Height(rig.rig.camera); }
 inline Rig DefaultRig() {
   Rig rig;
   rig.rig.camera = Equirectangular{1024, 512};

@@ -54,10 +54,12 @@ class KeywordReader : public ConfigVisitor {
     if (!py::isinstance<py::dict>(given)) Refuse(name, "a dictionary");
     ReadKeywords(given.cast<py::dict>(), visit);
   }
-  void RefuseUnknown() const {
+  void RefuseUnknown(const std::vector<std::string>& others) const {
+    std::vector<std::string> choices = others;
+    choices.insert(choices.end(), known_.begin(), known_.end());
     for (const auto& [key, value] : keywords_) {
       const auto name = key.cast<std::string>();
-      if (std::ranges::count(known_, name) == 0) throw InputError(UnknownChoiceMessage("keyword", name, known_));
+      if (std::ranges::count(known_, name) == 0) throw InputError(UnknownChoiceMessage("keyword", name, choices));
     }
   }
 
@@ -116,10 +118,10 @@ class KeywordLister : public ConfigVisitor {
 
 }  // namespace
 
-void ReadKeywords(const py::dict& keywords, const ConfigFields& fields) {
+void ReadKeywords(const py::dict& keywords, const ConfigFields& fields, const std::vector<std::string>& others) {
   KeywordReader reader(keywords);
   fields(reader);
-  reader.RefuseUnknown();
+  reader.RefuseUnknown(others);
 }
 
 std::vector<std::string> KeywordNames(const ConfigFields& fields) {

@@ -9,8 +9,8 @@
 namespace airsim360::python {
 
 /// Takes the fields from keywords. ValueError naming the keyword, the value and the nearest valid one, also for a
-/// keyword that no field has.
-void ReadKeywords(const py::dict& keywords, const ConfigFields& fields);
+/// keyword that no field has: the choices are the fields and `others`, keywords that were read already.
+void ReadKeywords(const py::dict& keywords, const ConfigFields& fields, const std::vector<std::string>& others = {});
 
 /// Names of the fields.
 std::vector<std::string> KeywordNames(const ConfigFields& fields);

@@ -164,8 +164,18 @@ Plan PlanMinimumSnap(const py::object& waypoints, const std::optional<std::vecto
   if (avoid && times) throw InputError("avoid: times cannot be given, waypoints are added");
   if (!(clearance > 0 && std::isfinite(clearance))) throw InputError("clearance: " + std::to_string(clearance) + " is not positive");
   if (a.points.size() < 2) throw InputError("waypoints: at least two are needed");
-  const py::gil_scoped_release release;
-  return Solve(a);
+  Plan plan;
+  {
+    const py::gil_scoped_release release;
+    plan = Solve(a);
+  }
+  if (plan.certificate && !plan.certificate->certified) {
+    const std::string text =
+        Text("plan_minimum_snap: the flight comes within %.3g m of a surface at %.3g s, less than the clearance of %g m%s",
+             plan.certificate->least_clearance, plan.certificate->violation_time, clearance, avoid ? "" : "; avoid=True leads it around");
+    if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) < 0) throw py::error_already_set();
+  }
+  return plan;
 }
 
 py::array_t<double> Times(const Plan& p) {
@@ -238,7 +248,19 @@ void BindPlanning(py::module_& m) {
       .def_property_readonly("certificate", &CertificateOf,
                              "With a world: whether the clearance is proved everywhere (certified, "
                              "least_clearance, violation_time); else None.")
-      .def("at", &At, py::arg("times"), "t (N,), p, v, a, jerk, snap (N, 3) at given times, clamped to the flight.")
+      .def(
+          "at",
+          [](const Plan& p, const py::object& times) {
+            const Doubles given = ToNumbers(times, "times");
+            if (given.ndim() > 1)
+              throw InputError("times: an array of " + std::to_string(given.ndim()) + " dimensions, not one time or (N,)");
+            const py::dict points = At(p, {given.data(), given.data() + given.size()});
+            if (given.ndim() == 1) return points;
+            py::dict point;
+            for (const auto& [name, values] : points) point[name] = values[py::int_(0)];
+            return point;
+          },
+          py::arg("times"), "t (N,), p, v, a, jerk, snap (N, 3) at given times, clamped to the flight; for one time a number and (3,).")
       .def(
           "sample",
           [](const Plan& p, double dt) {
@@ -254,7 +276,7 @@ void BindPlanning(py::module_& m) {
 
 times: (N,) seconds; None: the fastest that were found within vmax (m/s) and amax (m/s^2). order: 7 (minimum snap) or 5
 (the paper's quintic; with minimise="jerk" least jerk). world: the flight is checked against its surfaces with `clearance`
-metres; avoid: it is led around them. limits: more of them, axis_vmax and axis_amax (3,), climb, descent (m/s), thrust
+metres, and a UserWarning says where it comes nearer; avoid: it is led around them. limits: more of them, axis_vmax and axis_amax (3,), climb, descent (m/s), thrust
 (m/s^2, of a drone: |a + g|), body_rate (rad/s, roll and pitch). start, end: (1 to 3, 3), velocity, acceleration and jerk
 there.)");
 }

@@ -9,6 +9,7 @@
 #include "airsim360/sim/living_world.h"
 #include "airsim360/sim/traffic/traffic.h"
 #include "airsim360/sim/trajectory_reference.h"
+#include "airsim360/sim/wind_limit.h"
 
 namespace airsim360::python {
 namespace {
@@ -40,13 +41,15 @@ RigidTransform StartOf(const Drone& drone, size_t i, size_t count, const Scene& 
 
 }  // namespace
 
-Simulation::Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed, double dt,
-                       const py::object& wind)
+Simulation::Simulation(std::shared_ptr<World> world, const py::object& drones, const py::object& people, const py::object& given_seed,
+                       double dt, const py::object& wind)
     : world_(std::move(world)) {
-  const PeopleRequest crowd = PeopleOf(people, seed);
+  const uint64_t seed = ToSeed(given_seed);
+  const PeopleRequest crowd = PeopleOf(ToWhole(people, "people", 0, kMostPeople), seed);
   if (!(dt >= 1e-5 && dt <= 0.1)) throw InputError("dt: " + std::to_string(dt) + " s is not in 0.00001 ... 0.1");
   const std::vector<Drone> list = ToDrones(drones);
   const std::optional<Vec3d> mean_wind = wind.is_none() ? std::nullopt : std::optional(ToVec3(wind, "wind"));
+  CheckWind(mean_wind.value_or(Vec3d{}));
   std::vector<DroneSetup> setups;
   for (size_t i = 0; i < list.size(); ++i) {
     const Drone& drone = list[i];

@@ -8,7 +8,8 @@ namespace airsim360::python {
 
 class Simulation {
  public:
-  Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed, double dt, const py::object& wind);
+  Simulation(std::shared_ptr<World> world, const py::object& drones, const py::object& people, const py::object& seed, double dt,
+             const py::object& wind);
 
   SimLoop& loop() { return *loop_; }
   const std::shared_ptr<const SimModel>& model() const { return model_; }

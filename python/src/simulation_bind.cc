@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "interrupts.h"
 #include "simulation.h"
 
 namespace airsim360::python {
@@ -23,8 +24,10 @@ bool Wait(Simulation& sim, const py::object& drone, double timeout) {
   const int64_t steps = std::max<int64_t>(1, kLook / sim.model()->dt_ns);
   const int64_t end_ns = sim.loop().t_ns() + std::llround(timeout * 1e9);
   const py::gil_scoped_release release;
+  SignalWatch watch;
   while (sim.loop().t_ns() < end_ns) {
     sim.loop().Advance(steps);
+    watch.Look();
     const uint64_t flags = sim.loop().Snapshot()->vehicles[i].autopilot.flags;
     if (flags & kCommandDone) return true;
     if (flags & (kCommandRefused | kCommandLost)) return false;
@@ -94,10 +97,10 @@ void BindRecording(py::module_& m) {
 void BindTime(py::class_<Simulation>& sim) {
   sim.def(
          "step",
-         [](Simulation& s, int64_t n) {
-           if (n < 0) throw InputError("step: " + std::to_string(n) + " is negative");
+         [](Simulation& s, const py::object& count) {
+           const int64_t n = ToWhole(count, "n", 0, int64_t{1} << 53);
            const py::gil_scoped_release release;
-           s.loop().Advance(n);
+           AdvanceWatched(s.loop(), n);
          },
          py::arg("n") = 1, "Takes n steps of dt.")
       .def(
@@ -105,7 +108,7 @@ void BindTime(py::class_<Simulation>& sim) {
           [](Simulation& s, double seconds) {
             const int64_t n = StepsOf(s, seconds);
             const py::gil_scoped_release release;
-            s.loop().Advance(n);
+            AdvanceWatched(s.loop(), n);
           },
           py::arg("seconds"), "Takes the steps of so many simulated seconds.")
       .def("wait", &Wait, py::arg("drone") = 0, py::arg("timeout") = 60.0,
@@ -191,8 +194,9 @@ void BindSimulation(py::module_& m) {
 drones: a number of hummingbirds, a Drone (or a name, words, a .yaml file), or a list of them. The same seed and the same
 commands give the same bytes with any number of threads. people: how many
 walk about. wind: (3,) m/s in W, None: that of the world. The world says what draws the pictures.)");
-  sim.def(py::init<std::shared_ptr<World>, const py::object&, int64_t, uint64_t, double, const py::object&>(), py::arg("world"),
-          py::arg("drones") = 1, py::arg("people") = 0, py::arg("seed") = 0, py::arg("dt") = 0.001, py::arg("wind") = py::none());
+  sim.def(py::init<std::shared_ptr<World>, const py::object&, const py::object&, const py::object&, double, const py::object&>(),
+          py::arg("world"), py::arg("drones") = 1, py::arg("people") = 0, py::arg("seed") = 0, py::arg("dt") = 0.001,
+          py::arg("wind") = py::none());
   BindTime(sim);
   BindSensing(sim);
   BindHistory(sim);

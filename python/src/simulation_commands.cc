@@ -1,6 +1,7 @@
 // What drones can be told. Commands hold from the next step on, until the next command or their timeout.
 #include "airsim360/base/error.h"
 #include "airsim360/sim/trajectory_reference.h"
+#include "airsim360/sim/wind_limit.h"
 #include "simulation.h"
 
 namespace airsim360::python {
@@ -82,9 +83,11 @@ void BindHandCommands(py::class_<Simulation>& sim) {
       .def(
           "set_wind",
           [](Simulation& s, O wind) {
-            s.loop().Post({0, WindCommand{ToVec3(wind, "wind")}});
+            const Vec3d wind_W = ToVec3(wind, "wind");
+            CheckWind(wind_W);
+            s.loop().Post({0, WindCommand{wind_W}});
           },
-          py::arg("wind"), "(3,) mean velocity of the air, m/s in W.");
+          py::arg("wind"), "(3,) mean velocity of the air, m/s in W, at most 200.");
 }
 
 void BindManoeuvres(py::class_<Simulation>& sim) {

@@ -4,6 +4,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/mission/mission.h"
+#include "interrupts.h"
 #include "simulation.h"
 
 namespace airsim360::python {
@@ -25,9 +26,11 @@ struct Outcome {
 Outcome Run(Simulation& sim, MissionPilot& pilot, size_t drone, const std::optional<Rig>& rig, int64_t end_ns) {
   Outcome outcome;
   size_t seen = 0;
+  SignalWatch watch;
   while (!pilot.done() && sim.loop().t_ns() < end_ns) {
     const std::shared_ptr<const SimState> before = rig ? sim.loop().Snapshot() : nullptr;
     sim.loop().Advance(1);
+    watch.Look();
     for (MissionCapture& capture : pilot.CapturesFrom(seen)) {
       ++seen;
       std::shared_ptr<Capture> picture = rig ? sim.TakeAt(*rig, drone, before) : nullptr;

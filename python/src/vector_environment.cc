@@ -57,6 +57,8 @@ NavigationTask ToTask(const std::string& kind, const py::dict& options) {
     }
     if (!known) throw InputError(UnknownChoiceMessage("task option", name, TaskOptions()));
   }
+  if (!task.target.empty() && task.kind != NavigationKind::kSearch)
+    throw InputError("target: the task '" + kind + "' looks for no thing; did you mean task 'search'?");
   return task;
 }
 
@@ -105,23 +107,34 @@ void SetObservations(const std::vector<std::string>& names, VectorEnvironmentOpt
   }
 }
 
+// Names of arguments that are no settings of pictures.
+const std::vector<std::string> kEnvironmentArguments = {"world",    "task",   "task_options", "count",  "drone",     "action",
+                                                        "width",    "height", "observations", "period", "max_speed", "max_turn",
+                                                        "max_rate", "level",  "auto_reset",   "seed"};
+
 std::unique_ptr<VectorEnvironment> Make(const std::shared_ptr<World>& world, const std::string& task, const py::dict& task_options,
-                                        int count, const py::object& drone, const std::string& action, int width, int height,
-                                        const std::vector<std::string>& observations, double period, double max_speed, double max_turn,
-                                        double max_rate, bool level, bool auto_reset, uint64_t seed, const py::kwargs& picture) {
+                                        const py::object& count, const py::object& drone, const std::string& action,
+                                        const py::object& width, const py::object& height,
+                                        const std::optional<std::vector<std::string>>& observations, double period, double max_speed,
+                                        double max_turn, double max_rate, bool level, bool auto_reset, const py::object& given_seed,
+                                        const py::kwargs& picture) {
+  const uint64_t seed = ToSeed(given_seed);
   VectorEnvironmentOptions options;
-  options.count = count;
+  options.count = static_cast<int>(ToWhole(count, "count", 1, 65536));
   options.drone = ToDrone(drone).model;
   options.action = ParseActionLevel(action);
   options.max_speed = max_speed;
   options.max_turn = max_turn;
   options.max_rate = max_rate;
   options.period = period;
-  options.width = width;
-  options.height = height == 0 ? width / 2 : height;
-  SetObservations(observations, options);
+  options.width = static_cast<int>(ToWhole(width, "width", 2, 4096));
+  options.height = static_cast<int>(ToWhole(height, "height", 0, 2048));
+  if (options.height == 0) options.height = options.width / 2;
   if (level) options.picture.pano_frame = PanoFrame::kLevel;
-  ReadKeywords(picture, [&](ConfigVisitor& v) { options.picture.Visit(v); });
+  ReadKeywords(
+      picture, [&](ConfigVisitor& v) { options.picture.Visit(v); }, kEnvironmentArguments);
+  const bool lit = options.picture.tier != Tier::kLabels;
+  SetObservations(observations.value_or(lit ? std::vector<std::string>{"rgb", "range"} : std::vector<std::string>{"range"}), options);
   options.picture.seed = seed;
   options.auto_reset = auto_reset;
   options.seed = seed;
@@ -137,7 +150,7 @@ std::string Documentation() {
          "task_options: dict = {}, count: int = 1, drone: object = 'hummingbird', action: str = 'velocity', "
          "width: int = 128, height: int = 0, *, " +
          KeywordSignature(picture) +
-         ", observations: list[str] = ['rgb', 'range'], period: float = 0.1, max_speed: float = 3.0, "
+         ", observations: list[str] | None = None, period: float = 0.1, max_speed: float = 3.0, "
          "max_turn: float = 1.5, max_rate: float = 6.0, level: bool = False, auto_reset: bool = True, "
          "seed: int = 0) -> None\n\n" +
          KeywordHelp(picture);
@@ -264,9 +277,9 @@ void BindVectorEnvironment(py::module_& m) {
     options.disable_function_signatures();
     environment.def(py::init(&Make), py::arg("world"), py::arg("task") = "reach", py::arg("task_options") = py::dict(),
                     py::arg("count") = 1, py::arg("drone") = "hummingbird", py::arg("action") = "velocity", py::arg("width") = 128,
-                    py::arg("height") = 0, py::kw_only(), py::arg("observations") = std::vector<std::string>{"rgb", "range"},
-                    py::arg("period") = 0.1, py::arg("max_speed") = 3.0, py::arg("max_turn") = 1.5, py::arg("max_rate") = 6.0,
-                    py::arg("level") = false, py::arg("auto_reset") = true, py::arg("seed") = 0, Documentation().c_str());
+                    py::arg("height") = 0, py::kw_only(), py::arg("observations") = py::none(), py::arg("period") = 0.1,
+                    py::arg("max_speed") = 3.0, py::arg("max_turn") = 1.5, py::arg("max_rate") = 6.0, py::arg("level") = false,
+                    py::arg("auto_reset") = true, py::arg("seed") = 0, Documentation().c_str());
   }
   BindActions(environment);
   BindArrays(environment);

@@ -1,5 +1,6 @@
 // Worlds: what they hold, rays into them, pictures of them.
 #include <algorithm>
+#include <filesystem>
 
 #include "airsim360/assets/export.h"
 #include "airsim360/base/error.h"
@@ -10,6 +11,7 @@
 #include "airsim360/sensors/surface_label.h"
 #include "airsim360/worlds/worlds.h"
 #include "handles.h"
+#include "interrupts.h"
 
 namespace airsim360::python {
 
@@ -55,7 +57,8 @@ py::array_t<double> BoundsOf(const Box3f& box) { return FromPoints({VecCast<doub
 }  // namespace
 
 PeopleRequest PeopleOf(int64_t count, uint64_t seed) {
-  if (count < 0 || count > 10000) throw InputError("people: " + std::to_string(count) + " is not in 0 ... 10000");
+  if (count < 0 || count > kMostPeople)
+    throw InputError("people: " + std::to_string(count) + " is not in 0 ... " + std::to_string(kMostPeople));
   PeopleRequest request{.seed = seed};
   if (count > 0) request.count = static_cast<size_t>(count);
   return request;
@@ -80,25 +83,33 @@ py::list EntitiesOf(const Scene& scene, const EntityLabels* labels) {
 
 namespace {
 
+// One number for one point, else one for each.
+template <class T>
+py::array_t<T> OneOrMany(size_t count, bool one) {
+  return one ? py::array_t<T>(std::vector<py::ssize_t>{}) : py::array_t<T>(static_cast<py::ssize_t>(count));
+}
+
 py::tuple Raycast(World& world, const py::object& origins, const py::object& directions) {
-  const std::vector<Vec3d> from = ToPoints(origins, "origins"), along = ToPoints(directions, "directions");
-  if (from.size() != along.size())
-    throw InputError("raycast: " + std::to_string(from.size()) + " origins and " + std::to_string(along.size()) + " directions");
-  const auto n = static_cast<py::ssize_t>(from.size());
-  py::array_t<float> range(n);
-  py::array_t<EntityId> entity(n);
+  const PointOrPoints from = ToPointOrPoints(origins, "origins"), along = ToPointOrPoints(directions, "directions");
+  const size_t many = from.points.size(), ways = along.points.size();
+  if (many != ways && many != 1 && ways != 1)
+    throw InputError("raycast: " + std::to_string(many) + " origins and " + std::to_string(ways) + " directions");
+  const size_t n = many == 1 ? ways : many;
+  py::array_t<float> range = OneOrMany<float>(n, from.one && along.one);
+  py::array_t<EntityId> entity = OneOrMany<EntityId>(n, from.one && along.one);
   float* ranges = range.mutable_data();
   EntityId* entities = entity.mutable_data();
   {
     const py::gil_scoped_release release;
     const auto tracer = world.stage()->solid();
     const Scene& scene = world.scene();
-    constexpr int64_t kRaysPerTask = 256;
-    ParallelFor((n + kRaysPerTask - 1) / kRaysPerTask, [&](int64_t task) {
-      for (auto i = static_cast<size_t>(task * kRaysPerTask); i < std::min(from.size(), static_cast<size_t>((task + 1) * kRaysPerTask));
-           ++i) {
-        const double length = Norm(along[i]);
-        const auto hit = length > 0 ? tracer->Intersect(VecCast<float>(from[i]), VecCast<float>(along[i] / length)) : std::nullopt;
+    constexpr size_t kRaysPerTask = 256;
+    ParallelFor(static_cast<int64_t>((n + kRaysPerTask - 1) / kRaysPerTask), [&](int64_t task) {
+      const size_t first = static_cast<size_t>(task) * kRaysPerTask;
+      for (size_t i = first; i < std::min(n, first + kRaysPerTask); ++i) {
+        const Vec3d p = from.points[many == 1 ? 0 : i], way = along.points[ways == 1 ? 0 : i];
+        const double length = Norm(way);
+        const auto hit = length > 0 ? tracer->Intersect(VecCast<float>(p), VecCast<float>(way / length)) : std::nullopt;
         ranges[i] = hit ? hit->distance : 0;
         entities[i] = scene.sky_entity;
         if (hit) entities[i] = LabelOf(*tracer, hit->surface).entity;
@@ -109,14 +120,22 @@ py::tuple Raycast(World& world, const py::object& origins, const py::object& dir
 }
 
 py::array_t<float> Clearance(World& world, const py::object& points, float most) {
-  const std::vector<Vec3d> places = ToPoints(points, "points");
-  py::array_t<float> distance(static_cast<py::ssize_t>(places.size()));
+  const PointOrPoints places = ToPointOrPoints(points, "points");
+  py::array_t<float> distance = OneOrMany<float>(places.points.size(), places.one);
   float* out = distance.mutable_data();
   const py::gil_scoped_release release;
   const auto tracer = world.stage()->solid();
-  ParallelFor(static_cast<int64_t>(places.size()),
-              [&](int64_t i) { out[i] = tracer->Clearance(VecCast<float>(places[static_cast<size_t>(i)]), most); });
+  ParallelFor(static_cast<int64_t>(places.points.size()),
+              [&](int64_t i) { out[i] = tracer->Clearance(VecCast<float>(places.points[static_cast<size_t>(i)]), most); });
   return distance;
+}
+
+void ExportWorld(const World& world, const std::string& path) {
+  const std::filesystem::path file(path);
+  if (file.extension() != ".glb")
+    throw InputError("path: '" + path + "': worlds are written as .glb (binary glTF); did you mean '" +
+                     std::filesystem::path(file).replace_extension(".glb").string() + "'?");
+  WriteFileAtomically(path, EncodeGlb(world.scene()));
 }
 
 py::list ListOfWorlds() {
@@ -150,7 +169,7 @@ py::list Gpus() {
 
 // A number of people, or the file that describes them.
 PeopleRequest ToPeople(const py::object& people, uint64_t seed) {
-  if (py::isinstance<py::int_>(people)) return PeopleOf(people.cast<int64_t>(), seed);
+  if (py::isinstance<py::int_>(people)) return PeopleOf(ToWhole(people, "people", 0, kMostPeople), seed);
   PeopleRequest request{.seed = seed};
   request.file = py::str(people).cast<std::string>();
   return request;
@@ -171,11 +190,12 @@ TrafficRequest ToTraffic(int64_t count, uint64_t seed) {
   return {.count = static_cast<size_t>(count), .seed = seed};
 }
 
-std::shared_ptr<World> OpenWorld(const std::string& name, uint64_t seed, bool models, const std::string& labels, const std::string& device,
-                                 int gpu, const std::string& weather, const std::string& sun, const std::string& time,
-                                 const std::string& place, const std::string& hdri, const std::string& environment,
+std::shared_ptr<World> OpenWorld(const std::string& name, const py::object& given_seed, bool models, const std::string& labels,
+                                 const std::string& device, int gpu, const std::string& weather, const std::string& sun,
+                                 const std::string& time, const std::string& place, const std::string& hdri, const std::string& environment,
                                  const std::string& clouds, const std::string& sky_seed, const std::string& bbox, const std::string& centre,
                                  double radius, const py::object& people, const std::string& wind, int64_t traffic) {
+  const uint64_t seed = ToSeed(given_seed);
   StageOptions options{.world = {.world = name, .seed = seed, .labels = labels, .use_models = models},
                        .environment = {weather, sun, time, place, hdri, environment, clouds, sky_seed},
                        .people = ToPeople(people, seed),
@@ -248,20 +268,18 @@ void BindContent(WorldClass& world) {
 void BindSensing(WorldClass& world) {
   world
       .def("raycast", &Raycast, py::arg("origins"), py::arg("directions"),
-           "Nearest surfaces along rays: origins and directions (N, 3) in W -> range (N,) float32 metres (0 "
-           "= nothing), "
-           "entity (N,) uint32.")
+           "Nearest surfaces along rays: origins and directions in W, (3,) or (N, 3), one for all or one each -> range (N,) "
+           "float32 metres (0 = nothing), entity (N,) uint32; arrays of no dimension for one ray.")
       .def("clearance", &Clearance, py::arg("points"), py::arg("most") = 100.0f,
-           "Distance (N,) float32 from points (N, 3) of W to the nearest surface, at most `most` metres.")
-      .def(
-          "export", [](const World& w, const std::string& path) { WriteFileAtomically(path, EncodeGlb(w.scene())); }, py::arg("path"),
-          py::call_guard<py::gil_scoped_release>(), "Writes the world as binary glTF (.glb).")
+           "Distance (N,) float32 from points (N, 3) of W to the nearest surface, at most `most` metres; of no dimension for (3,).")
+      .def("export", &ExportWorld, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+           "Writes the world as binary glTF (.glb); ValueError for a path of another ending.")
       .def(
           "capture",
           [](World& w, const py::object& position, const Rig& rig, double yaw, double pitch, double roll) {
             const Kinematics body = Standing(position, yaw, pitch, roll);
             const py::gil_scoped_release release;
-            return w.Render(rig, body);
+            return TakeWatched(PixelsOf(rig), [&] { return w.Render(rig, body); });
           },
           py::arg("position"), py::arg_v("rig", DefaultRig(), "Rig()"), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0, py::arg("roll") = 0.0,
           "A capture by a body that stands still at `position` (3,) of W. Radians; yaw 0 faces east and "

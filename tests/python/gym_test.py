@@ -157,6 +157,33 @@ class ResetOptions(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "target"):
             search.reset(options={"goal": [0, 0, 2]})
 
+    def test_places_within_things_or_without_the_world_are_refused(self):
+        env = gym.make("reach", **SMALL)
+        for place, said in (([3, 0, .5], "inside of something"), ([50, 0, 1], "outside"), ([0, 0, -3], "outside")):
+            for name in ("goal", "start"):
+                with self.subTest(name, place=place), self.assertRaisesRegex(ValueError, f"{name}.*{said}"):
+                    env.reset(options={name: place})
+
+    def test_steps_belong_to_an_episode_and_closed_is_closed(self):
+        for make, zeros in ((gym.make, np.zeros(4)), (lambda *a, **o: gym.make_vec(*a, num_envs=1, **o), np.zeros((1, 4)))):
+            env = make("reach", **SMALL)
+            with self.assertRaisesRegex(ValueError, "reset first"):
+                env.step(zeros)
+            env.reset()
+            env.step(zeros)
+            env.close()
+            for call in (env.reset, lambda: env.step(zeros)):
+                with self.assertRaisesRegex(ValueError, "closed"):
+                    call()
+
+    def test_what_would_be_ignored_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "target.*did you mean task 'search'"):
+            gym.make("reach", target="furniture", **SMALL)
+        with self.assertRaisesRegex(ValueError, "'rgb' needs light"):
+            gym.make("reach", **{**SMALL, "observations": ["rgb"], "tier": "labels"})
+        dark = gym.make("reach", **{**SMALL, "observations": None, "tier": "labels"})
+        self.assertEqual(set(dark.observation_space.spaces), {"range", "state"})
+
     def test_a_typing_error_in_an_option_names_it(self):
         with self.assertRaisesRegex(ValueError, "did you mean 'width'"):
             gym.make("reach", world=ROOM, wdith=64)

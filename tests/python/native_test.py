@@ -3,10 +3,12 @@ import gc
 import math
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 
 import numpy as np
@@ -735,6 +737,109 @@ class Missions(unittest.TestCase):
             with self.assertRaises(ValueError):
                 sim.fly_mission(self.TREE, timeout=timeout)
         self.assertEqual(sim.fly_mission(self.TREE, timeout=1)["result"], "stopped")
+
+
+class Arguments(unittest.TestCase):
+    def test_a_field_of_view_in_degrees_is_told_apart(self):
+        for projection, fov, said in (("pinhole", 90, "did you mean 1.571"), ("pinhole", 3.2, "the nearest is 3.1241|did you mean"),
+                                      ("pinhole", 0, "the nearest is 0.0175"), ("pinhole", -1, "the nearest is 0.0175"),
+                                      ("fisheye", 180, "did you mean 3.142"), ("pinhole", math.nan, "fov: nan")):
+            with self.subTest(projection, fov=fov), self.assertRaisesRegex(ValueError, said):
+                Rig(64, projection=projection, fov=fov)
+        self.assertEqual(Rig(64, projection="pinhole", fov=math.radians(179)).width, 64)
+
+    def test_colour_is_not_left_out_in_silence(self):
+        with self.assertRaisesRegex(ValueError, "products: 'rgb' needs light"):
+            Rig(tier="labels", products=["rgb", "range"])
+        self.assertNotIn("rgb", ROOM.capture([0, 0, 3], Rig(64, tier="labels")).products)
+        self.assertIn("rgb", ROOM.capture([0, 0, 3], Rig(64)).products)
+
+    def test_unknown_keywords_are_told_all_that_there_are(self):
+        for wrong, right in (("product", "products"), ("heigth", "height")):
+            with self.assertRaisesRegex(ValueError, f"unknown keyword '{wrong}'; did you mean '{right}'"):
+                Rig(**{wrong: 5})
+
+    def test_numbers_that_are_no_whole_ones_name_the_nearest(self):
+        sim = Simulation(ROOM)
+        for call, said in ((lambda: World("box_room", seed=-1), "seed: -1 is not in 0 … 18446744073709551615; the nearest is 0"),
+                           (lambda: World("box_room", seed=2**64), "the nearest is 18446744073709551615"),
+                           (lambda: Rig(width=-1), "width: -1 is not in 1 … 16384; the nearest is 1"),
+                           (lambda: Rig(width=256.0), "width: 256.0 is not a whole number; did you mean 256"),
+                           (lambda: sim.step(1.5), "n: 1.5 is not a whole number; did you mean 2"),
+                           (lambda: sim.step(-1), "n: -1 is not in 0"),
+                           (lambda: Simulation(ROOM, people=-1), "people: -1 is not in 0 … 10000"),
+                           (lambda: Simulation(ROOM, seed="a"), "seed: 'a' is not a whole number")):
+            with self.subTest(said), self.assertRaisesRegex(ValueError, said):
+                call()
+        self.assertEqual(Rig(np.int64(64), np.uint8(32)).height, 32)
+
+    def test_one_point_one_direction_and_one_time_will_do(self):
+        distance, entity = ROOM.raycast([0, 0, 3], [0, 0, -1])
+        self.assertEqual((distance.shape, float(distance)), ((), 3))
+        many, entities = ROOM.raycast([[0, 0, 3], [1, 0, 2]], [0, 0, -1])
+        np.testing.assert_allclose(many, [3, 2], atol=1e-5)
+        self.assertEqual(entities[0], entity)
+        np.testing.assert_allclose(ROOM.raycast([0, 0, 3], [[0, 0, -1], [0, 0, 1]])[0], [3, 3], atol=1e-5)
+        self.assertAlmostEqual(float(ROOM.clearance([0, 0, 3])), 3, places=5)
+        with self.assertRaisesRegex(ValueError, "2 origins and 3 directions"):
+            ROOM.raycast(np.zeros((2, 3)), np.ones((3, 3)))
+        plan = airsim360.plan_minimum_snap([[0, 0, 1], [2, 0, 1]])
+        one, row = plan.at(0.5), plan.at([0.5])
+        self.assertEqual((one["p"].shape, float(one["t"])), ((3,), 0.5))
+        np.testing.assert_array_equal(one["p"], row["p"][0])
+
+    def test_worlds_are_exported_as_what_they_are_called(self):
+        with tempfile.TemporaryDirectory() as place:
+            for name in ("e.obj", "e.xyz", "e"):
+                with self.assertRaisesRegex(ValueError, "did you mean '.*e.glb'"):
+                    ROOM.export(os.path.join(place, name))
+            self.assertEqual(os.listdir(place), [])
+
+    def test_a_plan_through_a_wall_warns(self):
+        with self.assertWarnsRegex(UserWarning, "plan_minimum_snap: .*avoid=True"):
+            plan = airsim360.plan_minimum_snap([[0, 0, 1], [20, 0, 1]], world=ROOM)
+        self.assertFalse(plan.certificate["certified"])
+
+    def test_winds_have_the_bound_of_the_server(self):
+        for call in (lambda: Simulation(ROOM).set_wind([1e6, 0, 0]), lambda: Simulation(ROOM, wind=[1e6, 0, 0])):
+            with self.assertRaisesRegex(ValueError, "more than 200; the nearest is \\(200, 0, 0\\)"):
+                call()
+
+
+class Interrupts(unittest.TestCase):
+    """Each call begins in a process of its own; Ctrl-C comes while it lasts."""
+
+    def check(self, call):
+        code = ("import airsim360 as a\nw = a.World('box_room')\nsim = a.Simulation(w)\nprint('ready', flush=True)\n"
+                f"try:\n    {call}\nexcept KeyboardInterrupt:\n    print('interrupted', sim.t > 0, sim.step(1))")
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:
+            try:
+                self.assertEqual(process.stdout.readline(), "ready\n")
+                time.sleep(1)
+                process.send_signal(signal.SIGINT)
+                out, _ = process.communicate(timeout=60)
+            finally:
+                process.kill()
+        return out.split()
+
+    def test_runs_steps_and_waits_end_between_two_steps(self):
+        for call in ("sim.run(1e6)", "sim.step(10**12)", "sim.takeoff(1000); sim.wait(timeout=1e6)"):
+            with self.subTest(call):
+                self.assertEqual(self.check(call), ["interrupted", "True", "None"])
+
+    def test_large_pictures_are_given_up(self):
+        # Long enough to be in the middle of one when the signal comes.
+        many = "[w.capture([0, 0, 1], a.Rig(width=16384)) for _ in range(100)]"
+        self.assertEqual(self.check(many)[0], "interrupted")
+
+    def test_slices_change_no_byte(self):
+        whole, parts = Simulation(ROOM, seed=3), Simulation(ROOM, seed=3)
+        whole.takeoff(1)
+        parts.takeoff(1)
+        whole.run(0.5)
+        for _ in range(100):
+            parts.step(5)
+        self.assertEqual(whole.hash(), parts.hash())
 
 
 class Package(unittest.TestCase):

@@ -95,10 +95,12 @@ class _Base:
     """Where it takes place."""
     task: str
     """reach, avoid or search."""
+    _begun = False
+    _closed = False
     _np_random: Optional[np.random.Generator]
 
     def _open(self, task: Any, world: Union[str, airsim360.World], count: int, seed: Optional[int], copy: bool,
-              observations: Iterable[Any], options: Dict[str, Any], auto_reset: bool) -> None:
+              observations: Optional[Iterable[Any]], options: Dict[str, Any], auto_reset: bool) -> None:
         world = airsim360.World(world) if isinstance(world, str) else world
         of_native = (*_NATIVE_OPTIONS, *airsim360.PICTURE_SETTINGS)
         known = (*of_native, *airsim360.VectorEnvironment.TASK_OPTIONS)
@@ -108,7 +110,7 @@ class _Base:
         native = {name: options.pop(name) for name in of_native if name in options}
         task_options: Any = options  # their names are checked above, their values there
         self.native = airsim360.VectorEnvironment(world, task, task_options, count=count, seed=seed or 0,
-                                                  observations=list(observations), auto_reset=auto_reset, **native)
+                                                  observations=None if observations is None else list(observations), auto_reset=auto_reset, **native)
         self.world, self.task, self._copy = world, task, copy
         # Views stay valid: each step writes into the same memory.
         pictures = {"rgb": self.native.rgb, "range": self.native.range, "semantic": self.native.semantic,
@@ -122,9 +124,19 @@ class _Base:
         self._one_action = spaces.Box(-1.0, 1.0, (self.native.action_size,), np.float32)
 
     def _begin(self, seed: Optional[int], options: Optional[ResetOptions]) -> None:
+        if self._closed:
+            raise ValueError("reset: the environment is closed; make another one")
         if seed is not None:
             self._np_random = np.random.default_rng(seed)
         self.native.reset(seed, options)
+        self._begun = True
+
+    def _step(self, actions: npt.NDArray[np.float32]) -> None:
+        if self._closed:
+            raise ValueError("step: the environment is closed; make another one")
+        if not self._begun:
+            raise ValueError("step: no episode has begun; call reset first")
+        self.native.step(actions)
 
     def _observe(self, row: Optional[int] = None) -> Observation:
         views = self._views if row is None else {name: view[row] for name, view in self._views.items()}
@@ -138,14 +150,15 @@ class _Base:
         return self
 
     def close(self, **kwargs: Any) -> None:
-        """Nothing to be closed: memory goes with the object and its views."""
+        """From now on reset and step are refused; memory goes with the object and its views."""
+        self._closed = True
 
 
 class VectorEnv(_Base, _VectorBase):
     """`num_envs` copies of a task, all in one call. Where one has ended the next step begins its next episode.
 
     task: reach, avoid or search. world: a World, or what World() takes. observations: pictures besides "state", of rgb,
-    range, semantic, entity. copy: observations are copies; without it views that the next step writes over. options:
+    range, semantic, entity; None: rgb, unless the tier is labels, and range. copy: observations are copies; without it views that the next step writes over. options:
     drone, action ("velocity", "rates", "rotors"), width, height, period, max_speed, max_turn, max_rate, level, tier and
     the other airsim360.PICTURE_SETTINGS (VectorEnvironment), and those of the task (records.TaskOptions); ValueError names the nearest for an unknown one.
     """
@@ -153,10 +166,14 @@ class VectorEnv(_Base, _VectorBase):
     metadata = _metadata()
     render_mode = "rgb_array"
     spec = None
-    closed = False
+
+    @property
+    def closed(self) -> bool:
+        """Whether close was called."""
+        return self._closed
 
     def __init__(self, task: str = "reach", world: Union[str, airsim360.World] = "box_room", num_envs: int = 8, seed: Optional[int] = None,
-                 observations: Sequence[str] = ("rgb", "range"), copy: bool = False, **options: Any) -> None:
+                 observations: Optional[Sequence[str]] = None, copy: bool = False, **options: Any) -> None:
         self._open(task, world, num_envs, seed, copy, observations, options, auto_reset=True)
         self.num_envs = num_envs
         self.single_observation_space, self.single_action_space = self._one_observation, self._one_action
@@ -177,7 +194,7 @@ class VectorEnv(_Base, _VectorBase):
                                                      npt.NDArray[np.bool_], VectorInfo]:
         """actions: (num_envs, n) in -1 … 1. Returns observations, rewards, terminated, truncated, info."""
         native = self.native
-        native.step(np.asarray(actions, np.float32))
+        self._step(np.asarray(actions, np.float32))
         return (self._observe(), np.array(native.reward), np.array(native.terminated), np.array(native.truncated),
                 self._info())
 
@@ -192,14 +209,14 @@ class VectorEnv(_Base, _VectorBase):
 
 
 class Env(_Base, _EnvBase):
-    """One drone with one task; arguments as VectorEnv, but that observations are copies. A step after the end is a ValueError: reset first."""
+    """One drone with one task; arguments as VectorEnv, but that observations are copies. A step after the end, or before the first reset, is a ValueError: reset first."""
 
     metadata = _metadata()
     render_mode = "rgb_array"
     spec = None
 
     def __init__(self, task: str = "reach", world: Union[str, airsim360.World] = "box_room", seed: Optional[int] = None,
-                 observations: Sequence[str] = ("rgb", "range"), copy: bool = True, **options: Any) -> None:
+                 observations: Optional[Sequence[str]] = None, copy: bool = True, **options: Any) -> None:
         self._open(task, world, 1, seed, copy, observations, options, auto_reset=False)
         self.observation_space, self.action_space = self._one_observation, self._one_action
 
@@ -214,7 +231,7 @@ class Env(_Base, _EnvBase):
     def step(self, action: npt.ArrayLike) -> Tuple[Observation, float, bool, bool, EpisodeInfo]:
         """Returns observation, reward, terminated, truncated, info."""
         native = self.native
-        native.step(np.asarray(action, np.float32).reshape(1, -1))
+        self._step(np.asarray(action, np.float32).reshape(1, -1))
         return (self._observe(0), float(native.reward[0]), bool(native.terminated[0]), bool(native.truncated[0]),
                 self._info())
 
