@@ -158,9 +158,11 @@ class RecordedTest(unittest.TestCase):
         mine = [address for address in listening if int(address.split(":")[1], 16) == self.viewer.port]
         self.assertEqual([address.split(":")[0] for address in mine], ["0100007F"])
 
-    def test_methods_other_than_get_and_malformed_requests_change_nothing(self):
-        for method in ["POST", "PUT", "DELETE", "HEAD", "OPTIONS"]:
+    def test_methods_other_than_get_and_head_and_malformed_requests_change_nothing(self):
+        for method in ["POST", "PUT", "DELETE", "OPTIONS"]:
             self.assertEqual(self.viewer.get("/session.json", method=method)[0], 405, method)
+        status, headers, body = self.viewer.get("/session.json", method="HEAD")
+        self.assertEqual((status, int(headers["Content-Length"]), body), (200, len(self.viewer.get("/session.json")[2]), b""))
         for text in [b"\x00" * 100, b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"GET / HTTP/1.1\r\n\r\n", b"GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n",
                      b"GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 99999999999999999999\r\n\r\n", b"GET /" + b"a" * 100000 + b" HTTP/1.1\r\nHost: localhost\r\n\r\n",
                      b"POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000000000\r\n\r\n" + b"x" * 100]:
