@@ -3,28 +3,11 @@
 #include <utility>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/printable.h"
 
 namespace airsim360::internal {
 namespace fs = std::filesystem;
 namespace {
-
-// Length of the valid UTF-8 sequence at the front of `text`; 0 if there is none (RFC 3629: no surrogates, no
-// overlong).
-size_t Utf8Length(std::string_view text) {
-  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  const auto follows = [&](size_t i) { return (byte(i) & 0xc0u) == 0x80u; };
-  const unsigned a = byte(0);
-  const unsigned b = byte(1);
-  if (a < 0x80) return 1;
-  if (a >= 0xc2 && a <= 0xdf && follows(1)) return 2;
-  if (a >= 0xe0 && a <= 0xef && follows(1) && follows(2)) {
-    return (a == 0xe0 && b < 0xa0) || (a == 0xed && b > 0x9f) ? 0 : 3;
-  }
-  if (a >= 0xf0 && a <= 0xf4 && follows(1) && follows(2) && follows(3)) {
-    return (a == 0xf0 && b < 0x90) || (a == 0xf4 && b > 0x8f) ? 0 : 4;
-  }
-  return 0;
-}
 
 bool StaysInside(const fs::path& folder, const fs::path& file) {
   std::error_code error;
