@@ -80,11 +80,12 @@ struct alignas(64) Effects {
   bool leaf, shiny;  // else back and shine are not filled
 };
 
-KERNEL float Brightness(const float (&rgb)[3][kSlots], int k) { return 0.2126f * rgb[0][k] + 0.7152f * rgb[1][k] + 0.0722f * rgb[2][k]; }
+KERNEL float Brightness(float r, float g, float b) { return 0.2126f * r + 0.7152f * g + 0.0722f * b; }
 
 KERNEL real3 Same(float x, float y, float z) { return make3(real(x), real(y), real(z)); }
 
-KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellLanes& c, const float* weight, Effects& e) {
+/// `highlights`: lamps rank by what they bring to these alone.
+KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellLanes& c, const float* weight, bool highlights, Effects& e) {
   const real3 p = Same(s.px[i], s.py[i], s.pz[i]), n = Same(s.nx[i], s.ny[i], s.nz[i]);
   const real3 g = Same(s.gx[i], s.gy[i], s.gz[i]), d = Same(rays.dx[i], rays.dy[i], rays.dz[i]);
   const bool leaf = e.leaf = s.kind[i] == kFoliage;
@@ -110,11 +111,11 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
     const real n_dot_l = dot3(n, w), above = dot3(g, w);
     const real lit = leaf ? rmax(n_dot_l, zero) : sel(above > 0.0f, rmax(n_dot_l, zero), zero);
     const real3 front = color * lit;
-    real brought = luminance(front);
+    real brought = highlights ? zero : luminance(front);
     store3(e.front[0] + k, e.front[1] + k, e.front[2] + k, front);
     if (leaf) {
       const real3 back = color * rmax(zero - n_dot_l, zero);
-      brought = brought + luminance(back);
+      if (!highlights) brought = brought + luminance(back);
       store3(e.back[0] + k, e.back[1] + k, e.back[2] + k, back);
     }
     if (shiny) {
@@ -136,16 +137,6 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
     store(e.guess + k, guess);
     store(e.rank + k, brought * (kUnseenLamp + (1.0f - kUnseenLamp) * guess));
   }
-}
-
-/// Ranks lamps by their highlights alone; the least rank that is worth a ray.
-KERNEL float RankHighlights(const CellLanes& c, Effects& e) {
-  float brought = 0;
-  for (int k = 0; k < c.count; ++k) {
-    brought += Brightness(e.front, k) * e.guess[k];
-    e.rank[k] = e.shiny ? Brightness(e.shine, k) * (kUnseenLamp + (1 - kUnseenLamp) * e.guess[k]) : 0;
-  }
-  return kFaintHighlight * brought;
 }
 
 /// Takes the strongest lamps out for rays. The less a lamp stands out from the first one left behind, the
@@ -194,9 +185,10 @@ KERNEL void LightBy(const LampView& lamps, const RaySet& rays, int count, const 
       float weight[8];
       CornerWeights(lamps.cells[at.cell].header, at, weight);
       Effects e;
-      Evaluate(s, rays, i, cell, weight, e);
+      const bool highlights = in_room != nullptr && in_room[i] > 0.5f;
+      Evaluate(s, rays, i, cell, weight, highlights, e);
       // A moving lamp that is nothing beside those that stand needs no ray.
-      float total = moving ? kBesideStill * (0.2126f * s.lamp_r[i] + 0.7152f * s.lamp_g[i] + 0.0722f * s.lamp_b[i]) : 0.0f;
+      float total = moving ? kBesideStill * Brightness(s.lamp_r[i], s.lamp_g[i], s.lamp_b[i]) : 0.0f;
       for (int k = 0; k < cell.count; ++k) {
         for (int q = 0; q < 3; ++q) front[q] += e.front[q][k] * e.guess[k];
         for (int q = 0; q < 3 && e.leaf; ++q) back[q] += e.back[q][k] * e.guess[k];
@@ -204,7 +196,7 @@ KERNEL void LightBy(const LampView& lamps, const RaySet& rays, int count, const 
         total += e.rank[k];
       }
       float least = kFaintLamp * total;
-      if (in_room != nullptr && in_room[i] > 0.5f) least = RankHighlights(cell, e);
+      if (highlights) least = kFaintHighlight * Brightness(front[0], front[1], front[2]);
       if (count > 0) ChooseRays(cell, e, least, count, i, wanted);
     }
     if (moving) {
