@@ -25,6 +25,14 @@ if(AIRSIM360_PCH)
   target_precompile_headers(airsim360_test_headers PRIVATE ${standard_headers} <gtest/gtest.h>)
 endif()
 
+# airsim360_test_options(TARGET): how tests are compiled. The code under test is optimised; that of the tests need not be.
+function(airsim360_test_options target)
+  target_compile_options(${target} PRIVATE -O1)
+  if(AIRSIM360_PCH)
+    target_precompile_headers(${target} REUSE_FROM airsim360_test_headers)
+  endif()
+endfunction()
+
 # airsim360_parse_once(TARGET): the standard headers for a program of our own.
 function(airsim360_parse_once target)
   if(NOT AIRSIM360_PCH)

@@ -37,7 +37,7 @@ class GpuDiscrete : public testing::Test {
 };
 
 // The room's mesh breathes.
-std::shared_ptr<const SceneState> StateAt(const Scene& scene, int step) {
+std::shared_ptr<const SceneState> BreathingState(const Scene& scene, int step) {
   auto state = std::make_shared<SceneState>();
   const MeshId mesh = scene.instances[0].mesh;
   auto positions = std::make_shared<std::vector<Vec3f>>(scene.meshes[mesh].positions);
@@ -54,7 +54,7 @@ TEST_F(GpuDiscrete, EveryTierIsTheSameByteForByte) {
     request.tier = tier, request.samples = 2;
     request.products.flow = request.products.coverage = tier == Tier::kFast;
     request.X_WC_next = request.X_WC;
-    request.state = StateAt(*gpus.scene, 1), request.next_state = StateAt(*gpus.scene, 2);
+    request.state = BreathingState(*gpus.scene, 1), request.next_state = BreathingState(*gpus.scene, 2);
     Frame a, b;
     gpus.shared->Render(request, a);
     gpus.discrete->Render(request, b);
@@ -73,11 +73,11 @@ TEST_F(GpuDiscrete, FramesInFlightDoNotTouchEachOther) {
   RenderRequest request = ColorRequest(*gpus.scene, 32);
   std::vector<uint64_t> tickets;
   for (int i = 0; i < 9; ++i) {
-    request.state = StateAt(*gpus.scene, i);
+    request.state = BreathingState(*gpus.scene, i);
     tickets.push_back(gpus.discrete->Submit({&request, 1}));
     if (i < 2) continue;
     const int oldest = i - 2;
-    request.state = StateAt(*gpus.scene, oldest);
+    request.state = BreathingState(*gpus.scene, oldest);
     Frame alone;
     gpus.shared->Render(request, alone);
     const auto ticket = tickets[static_cast<size_t>(oldest)];

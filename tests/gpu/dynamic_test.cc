@@ -17,7 +17,7 @@ RenderRequest SquareRequest(int width, double x, double yaw) {
   return request;
 }
 
-struct Pair {
+struct MovingPair {
   std::shared_ptr<const Scene> scene = test::MakeOpenSquare();
   std::shared_ptr<const RayTracer> tracer = std::make_shared<const RayTracer>(scene, RayTracerOptions{.isa = "avx2"});
   std::unique_ptr<Renderer> cpu = MakeCpuRenderer(tracer);
@@ -43,7 +43,7 @@ std::shared_ptr<const SceneState> StateAt(const Scene& scene, int step) {
 
 TEST(GpuDynamic, WhatMovesHidesAndBendsIsSeenAsByTheCpu) {
   AIRSIM360_NEEDS_GPU();
-  Pair pair;
+  MovingPair pair;
   RenderRequest request = SquareRequest(128, 0.5, 0.3);
   // There and back to the scene as built; refits after the first build.
   for (const int step : {0, 1, 2, 3, 1, -1}) {
@@ -61,7 +61,7 @@ TEST(GpuDynamic, WhatMovesHidesAndBendsIsSeenAsByTheCpu) {
 
 TEST(GpuDynamic, FlowIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
-  Pair pair;
+  MovingPair pair;
   std::vector<Camera> cameras{Equirectangular{128, 64}, CubeFace{CubeFaceName::kPosX, 64}, Pinhole{96, 64, 60, 60, 48, 32},
                               Fisheye::Equidistant(64, 64, 3)};
   for (const Camera& lens : test::CalibratedLenses()) cameras.push_back(lens);
@@ -96,7 +96,7 @@ TEST(GpuDynamic, FlowIsTheCpus) {
 
 TEST(GpuDynamic, ManyCamerasInOneDispatchAreWhatEachIsAlone) {
   AIRSIM360_NEEDS_GPU();
-  Pair pair;
+  MovingPair pair;
   std::vector<RenderRequest> requests;
   for (int i = 0; i < 20; ++i) requests.push_back(SquareRequest(i % 3 == 0 ? 32 : 64, 0.1 * i, 0.2 * i));
   const uint64_t ticket = pair.gpu->Submit(requests);
@@ -115,7 +115,7 @@ TEST(GpuDynamic, ManyCamerasInOneDispatchAreWhatEachIsAlone) {
 
 TEST(GpuDynamic, FramesInFlightDoNotTouchEachOther) {
   AIRSIM360_NEEDS_GPU();
-  Pair pair;
+  MovingPair pair;
   const auto alone = MakeVulkanRenderer(pair.tracer, {}, {.frames_in_flight = 1});
   std::vector<uint64_t> tickets;
   const auto request_of = [&](int i) {
@@ -137,7 +137,7 @@ TEST(GpuDynamic, FramesInFlightDoNotTouchEachOther) {
 
 TEST(GpuDynamic, WrongRequestsAreNamed) {
   AIRSIM360_NEEDS_GPU();
-  Pair pair;
+  MovingPair pair;
   auto state = std::make_shared<SceneState>();
   state->moved.push_back({1000, {}, false});
   RenderRequest request = SquareRequest(32, 0, 0);

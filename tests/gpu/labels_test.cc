@@ -21,12 +21,12 @@ RenderRequest LabelRequest(const Camera& camera, const RigidTransform& X_WC) {
   return request;
 }
 
-struct Pair {
+struct LabelPair {
   std::shared_ptr<const RayTracer> tracer;
   std::unique_ptr<Renderer> cpu;
   std::unique_ptr<GpuRenderer> gpu;
 
-  explicit Pair(std::shared_ptr<const Scene> scene)
+  explicit LabelPair(std::shared_ptr<const Scene> scene)
       : tracer(std::make_shared<const RayTracer>(std::move(scene), RayTracerOptions{.isa = "avx2"})),
         cpu(MakeCpuRenderer(tracer)),
         gpu(MakeVulkanRenderer(tracer, {}, {.validate = test::ValidationInstalled()})) {}
@@ -45,7 +45,7 @@ void ExpectSameLabels(const LabelDifference& d, const std::string& what) {
 
 TEST(GpuLabels, AreTheCpusThroughEveryCamera) {
   AIRSIM360_NEEDS_GPU();
-  Pair pair(test::MakeRoom());
+  LabelPair pair(test::MakeRoom());
   RngStream rng(3, "gpu");
   std::vector<Camera> cameras{Equirectangular{128, 64},
                               CubeFace{CubeFaceName::kNegX, 64},
@@ -72,7 +72,7 @@ TEST(GpuLabels, AreTheCpusThroughEveryCamera) {
 
 TEST(GpuLabels, AreTheClosedFormOfTheRoom) {
   AIRSIM360_NEEDS_GPU();
-  Pair pair(test::MakeRoom());
+  LabelPair pair(test::MakeRoom());
   RngStream rng(4, "gpu");
   const Equirectangular camera{128, 64};
   const RenderRequest request = LabelRequest(camera, test::RandomPose(rng));
@@ -93,7 +93,7 @@ TEST(GpuLabels, AreTheClosedFormOfTheRoom) {
 // The same rays through pixels on silhouettes; one that hits an edge may fall to either side.
 TEST(GpuLabels, SharesOfEntitiesInAPixelAreTheCpusThroughEveryCamera) {
   AIRSIM360_NEEDS_GPU();
-  Pair pair(test::MakeRoom());
+  LabelPair pair(test::MakeRoom());
   RngStream rng(5, "gpu");
   std::vector<Camera> cameras{Equirectangular{128, 64}, CubeFace{CubeFaceName::kNegY, 64}, Pinhole{100, 60, 70, 65, 51, 29},
                               Fisheye{80, 64, 20, 20, 40, 32, {0.01, -0.002, 0, 0}, 1.5}};
@@ -131,7 +131,7 @@ RenderRequest FromSpawn(const Scene& scene) {
 }
 
 void ExpectTheCpus(const std::shared_ptr<const Scene>& scene, const RenderRequest& request) {
-  Pair pair(scene);
+  LabelPair pair(scene);
   Frame cpu, gpu;
   pair.cpu->Render(request, cpu);
   pair.gpu->Render(request, gpu);
@@ -206,7 +206,7 @@ TEST(GpuLabels, OfLeavesWithHolesAreTheCpus) {
 
 TEST(GpuLabels, RollWithACameraTurnedByColumns) {
   AIRSIM360_NEEDS_GPU();
-  Pair pair(test::MakeOpenSquare());
+  LabelPair pair(test::MakeOpenSquare());
   const RigidTransform level = BodyPose({0.5, 0.25, 2}, 0.3, 0.2, -0.1) * CameraInBody();
   RenderRequest request = LabelRequest(Equirectangular{64, 32}, level);
   Frame still, turned;
