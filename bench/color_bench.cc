@@ -223,4 +223,5 @@ int main(int argc, char** argv) {
     else
       MeasureRatios(options, world, *renderer);
   }
+  return 0;
 }

@@ -138,4 +138,5 @@ int main(int argc, char** argv) {
       WriteFileAtomically(folder + "/" + kCubeFaceNames[static_cast<int>(kFaces[f])] + ".png", EncodePng(faces[f].rgb));
     WriteFileAtomically(folder + "/direct.png", EncodePng(direct.rgb));
   }
+  return 0;
 }

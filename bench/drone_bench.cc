@@ -117,4 +117,5 @@ int main() {
   Rate();
   Turbulence();
   Prompts();
+  return 0;
 }

@@ -112,4 +112,5 @@ int main(int argc, char** argv) {
     const double ms = Median(row.times);
     std::printf("%-22s %8s %10.1f %14.1f\n", row.what, row.threads == 1 ? "1" : "all", ms, ms / Median(row.copies));
   }
+  return 0;
 }

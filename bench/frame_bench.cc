@@ -128,4 +128,5 @@ int main(int argc, char** argv) {
                   rays[i] / frames / 1e6);
     }
   }
+  return 0;
 }

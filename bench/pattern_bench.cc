@@ -109,4 +109,5 @@ int main(int argc, char** argv) {
   std::printf("%d expressions (%d refused) on %zu names: mean %.2f ms, median %.2f, 99 %% %.2f, worst %.2f: %s\n", count, refused,
               names.size(), sum / count, taken[taken.size() / 2].first, taken[taken.size() * 99 / 100].first, taken.back().first,
               taken.back().second.c_str());
+  return 0;
 }

@@ -23,7 +23,7 @@ struct Largest {
 
 /// Of one segment at `samples` even times, both ends with it. Eight times at once.
 [[gnu::target_clones("avx512f", "avx2", "default")]] Largest Sample(const double (*c)[8], double duration, long samples) {
-  typedef double V8 __attribute__((vector_size(64)));
+  using V8 = double __attribute__((vector_size(64)));
   V8 t = {}, speed2 = {}, acceleration2 = {};
   const double step = duration / static_cast<double>(samples - 1);
   for (int lane = 0; lane < 8; ++lane) t[lane] = lane;

@@ -122,4 +122,5 @@ int main(int argc, char** argv) {
     std::printf("30 people, level %d: skinning %.2f ms, tracer %.2f ms a frame\n", level, skin / (kRounds - 5) * 1e3,
                 refit / (kRounds - 5) * 1e3);
   }
+  return 0;
 }

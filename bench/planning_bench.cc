@@ -124,4 +124,5 @@ int main(int argc, char** argv) {
   if (argc > 1 && std::string(argv[1]) == "--long") Solves(100000);
   Batch();
   for (const size_t segments : {2, 10, 50}) Allocation(segments);
+  return 0;
 }

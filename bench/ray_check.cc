@@ -4,6 +4,7 @@
 // a ray: the entity, the distance along the direction made a unit vector, and that as Embree has it; 0, 0, 0 where the
 // ray meets nothing. Embree only names the triangle: the distance is that of the triangle's plane, from its corners
 // and place as the scene holds them, all in double.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>

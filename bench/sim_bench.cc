@@ -105,4 +105,5 @@ int main(int argc, char** argv) {
   std::printf("one thread:\n");
   Report("with standard sensors", MakeModel(tracer, p, 1000, true), budget);
   ReportLidar(*tracer, p, budget);
+  return 0;
 }

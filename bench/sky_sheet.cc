@@ -52,4 +52,5 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   }
   WriteFileAtomically(Argument(argc, argv, "--out", "sky_sheet.png"), EncodePng(sheet));
+  return 0;
 }

@@ -155,4 +155,5 @@ int main(int argc, char** argv) {
   Print("fast", fast_sums);
   Print("high", high_sums);
   Print("reference of half the paths and another seed: noise", noise_sums);
+  return 0;
 }
