@@ -49,12 +49,16 @@ struct Points {
                static_cast<float>(h >> 20) / 4096.0f};
     }
   }
-  // Distance from p in the cube, in cells.
+  // Distance from p in the cube, in cells. Rows of cells that are farther off than a point found already are left out.
   float Nearest(Vec3f p) const {
+    constexpr int8_t kRows[9][2] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+    constexpr float kRounding = 1e-4f;
     const int x = FloorToInt(p.x), y = FloorToInt(p.y), z = FloorToInt(p.z);
+    const float v = p.y - static_cast<float>(y), w = p.z - static_cast<float>(z);
+    const float off_y[] = {v * v, 0, (1 - v) * (1 - v)}, off_z[] = {w * w, 0, (1 - w) * (1 - w)};
     float best = 9;
-    for (int k = 0; k < 9; ++k) {
-      const int j = k % 3 - 1, l = k / 3 - 1;
+    for (const auto& [j, l] : kRows) {
+      if (off_y[j + 1] + off_z[l + 1] > best + kRounding) continue;
       const Vec3f* const q = &of[(static_cast<size_t>(z + l + 1) * row + y + j + 1) * row + x + 1];
       const auto fy = static_cast<float>(y + j), fz = static_cast<float>(z + l);
       for (int i = -1; i <= 1; ++i) {
