@@ -56,6 +56,56 @@ bool OffEdge(const Image<EntityId>& entity, int x, int y) {
   return true;
 }
 
+// Level ground of slabs of 1.6 m with joints of 10 cm, 200 m to every side.
+std::shared_ptr<const Scene> MakePaving() {
+  SceneBuilder builder("paving");
+  builder.AddSky();
+  Image<Rgba8> picture(128, 128);
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 128; ++x) picture(x, y) = x < 8 || y < 8 ? Rgba8{60, 60, 60, 255} : Rgba8{190, 190, 190, 255};
+  Material slabs;
+  slabs.base_color_texture = builder.AddTexture(Texture::FromImage("slabs", std::move(picture), true));
+  Mesh mesh;
+  mesh.positions = {{-200, -200, 0}, {200, -200, 0}, {200, 200, 0}, {-200, 200, 0}};
+  mesh.uvs = {{0, 250}, {250, 250}, {250, 0}, {0, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.parts = {{0, 2, builder.AddMaterial(slabs), kNoEntity}};
+  builder.AddInstance({builder.AddMesh(std::move(mesh)), AffineTransform(), builder.AddEntity("ground", builder.tree().At("ground"))});
+  return builder.Build();
+}
+
+// Standard deviation along a row over its mean, of means of blocks of `block` x `block` pixels.
+double ContrastOfRow(const Image<Rgb32f>& albedo, int row, int block) {
+  const int count = albedo.width() / block;
+  double sum = 0, square = 0;
+  for (int i = 0; i < count; ++i) {
+    double mean = 0;
+    for (int y = 0; y < block; ++y)
+      for (int x = 0; x < block; ++x) mean += static_cast<double>(albedo(i * block + x, row * block + y).g) / (block * block);
+    sum += mean / count, square += mean * mean / count;
+  }
+  return std::sqrt(std::max(0.0, square - sum * sum)) / sum;
+}
+
+// From a person's eyes: what a pixel shows of joints 10 and 30 m away, beside the mean of 16 smaller ones.
+TEST(Products, JointsOfPavingKeepTheirContrastInTierHigh) {
+  const auto renderer = CpuRendererOf(MakePaving());
+  const RigidTransform X_WC = Pose({0.3, 0.2, 1.6}, 0.4);
+  constexpr Products kAlbedo{.rgb = false, .albedo = true};
+  constexpr int kHeight = 512, kFiner = 4;
+  const auto albedo = [&](Tier tier, int finer) {
+    return Rendered(*renderer, MakeRequest(Equirectangular{2 * kHeight * finer, kHeight * finer}, X_WC, tier, kAlbedo)).albedo;
+  };
+  const Image<Rgb32f> high = albedo(Tier::kHigh, 1), once = albedo(Tier::kLabels, 1), truth = albedo(Tier::kLabels, kFiner);
+  for (double distance : {10.0, 30.0}) {
+    const int row = kHeight / 2 + static_cast<int>(std::atan(1.6 / distance) / std::numbers::pi * kHeight);
+    const double should = ContrastOfRow(truth, row, kFiner), now = ContrastOfRow(high, row, 1), before = ContrastOfRow(once, row, 1);
+    EXPECT_LT(std::abs(now / should - 1), 0.5 * std::abs(before / should - 1))
+        << distance << " m: " << should << ", high " << now << ", other tiers " << before;
+    EXPECT_GT(now, (distance < 20 ? 0.85 : 0.5) * should) << distance << " m: " << should << ", other tiers " << before;
+  }
+}
+
 TEST(Products, PositionIsTheEndOfTheRayAndLiesOnTheSurface) {
   const auto renderer = CpuRendererOf(MakeRoom());
   RngStream rng(1, "products");

@@ -5,6 +5,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shading/shader_impl.h"
+#include "airsim360/render/shading/stretched_surfaces.h"
 #include "airsim360/render/shared/shading_kernels.h"
 
 namespace airsim360::internal {
@@ -42,6 +43,7 @@ void SurfaceProducts::Update(const RenderRequest& request, const CameraRays& ray
     }
     if (tables_ != nullptr) tables_->Apply(*scene_, now->moved(), now->deformed());
     view_ = shader != nullptr ? &shader->impl().view : &own_view_;
+    stretches_ = request.tier == Tier::kHigh;
   }
   if (request.products.flow) flow_.Update(request, rays, std::move(now), std::move(next));
 }
@@ -54,7 +56,7 @@ void SurfaceProducts::Fill(const HitBatch& hits, const LabelTile& labels, const 
 }
 
 void SurfaceProducts::FillAlbedo(const HitBatch& hits, const TileTarget& target, Image<Rgb32f>& out) const {
-  static const auto prepare = AIRSIM360_SELECT_KERNEL(PrepareSurfaces);
+  static const auto prepare = AIRSIM360_SELECT_KERNEL(PrepareSurfaces), stretched = AIRSIM360_SELECT_KERNEL(PrepareStretched);
   RaySet rays;
   rays.count = 0;
   for (int i = 0; i < kTilePixels; ++i) {
@@ -72,7 +74,7 @@ void SurfaceProducts::FillAlbedo(const HitBatch& hits, const TileTarget& target,
   if (rays.count > 0) {
     SurfaceSet surfaces;
     Pad(rays);
-    prepare(*view_, rays, surfaces);
+    (stretches_ ? stretched : prepare)(*view_, rays, surfaces);
     for (int k = 0; k < rays.count; ++k) colors[rays.slot[k]] = {surfaces.ar[k], surfaces.ag[k], surfaces.ab[k]};
   }
   ForEachPixel(target, [&](int i, size_t index) { out.pixels()[index] = colors[i]; });

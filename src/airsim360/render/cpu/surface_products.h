@@ -31,6 +31,7 @@ class SurfaceProducts {
   std::unique_ptr<SurfaceTables> tables_;  // where there is no shader
   ShadeView own_view_{};
   const ShadeView* view_ = nullptr;
+  bool stretches_ = false;  // base colours are those of tier high
   FlowTracer flow_;
 };
 

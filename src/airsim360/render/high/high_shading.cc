@@ -9,6 +9,7 @@
 #include "airsim360/render/shading/sampling.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shading/shader_impl.h"
+#include "airsim360/render/shading/stretched_surfaces.h"
 
 namespace airsim360::internal {
 namespace {
@@ -114,7 +115,8 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
 
   SurfaceSet surfaces;
   const bool all = sky.count == 0;
-  impl.kernels.prepare(impl.view, rays, surfaces);
+  static const auto prepare = AIRSIM360_SELECT_KERNEL(PrepareStretched);
+  prepare(impl.view, rays, surfaces);
   Put(rays, all, kZeroBytes, tile.penumbra);
   if (impl.sky) {
     if (sampling != nullptr)

@@ -1,4 +1,5 @@
 // Kernel: from hits to surfaces (geometry, material, textures), all lanes at once.
+#include "airsim360/render/shading/stretched_surfaces.h"
 #include "airsim360/render/shading/surface_detail.h"
 #include "airsim360/render/shared/shading_kernels.h"
 
@@ -74,14 +75,39 @@ KERNEL Meeting Meet(const RaySet& rays, int i, const Fetched& f) {
   return at;
 }
 
+/// What the base colour's picture shows of a slanted pixel, with the tone of every slab or brick.
+SEPARATE real3 SampleStretched(const ShadeView& view, const Fetched& f, const TileCorners& corners, const Meeting& at) {
+  const real3 g = load3(f.facet[0], f.facet[1], f.facet[2]), t = ToWorld(f, UnpackDirection(f.tangent));
+  const real3 b = make3(g.y * t.z - g.z * t.y, g.z * t.x - g.x * t.z, g.x * t.y - g.y * t.x) * load(f.mirrored);
+  const Stretch s = stretched_pixel(dot3(at.d, t), real(0.0f) - dot3(at.d, b), at.width, at.slant, load(f.texels_log2), at.footprint,
+                                    load(f.blend) > 0.5f, SURFACE_MOST_TAPS);
+  const real3 mean = load3(f.mean[0], f.mean[1], f.mean[2]);
+  real3 sum = make3(real(0.0f), real(0.0f), real(0.0f));
+  for (int k = 0;; ++k) {
+    const mask_t has = s.taps > static_cast<float>(k);
+    if (!stdx::any_of(has)) break;
+    const real at_tap = tap_at(real(static_cast<float>(k)), s.taps), u = s.u * at_tap, v = s.v * at_tap;
+    TileCorners moved = corners;
+    moved.u[0] = corners.u[0] + u;
+    moved.v[0] = corners.v[0] + v;
+    real3 c = SampleTiles(view, f, f.base_id, moved, s.footprint, true, mean, corners.gain);
+    if (f.any_unit) c = c * unit_tint(load(f.columns), load(f.rows), at.tu + u, at.tv + v, s.footprint);
+    sum = sum + sel3(has, c, c * real(0.0f));
+  }
+  return sum * (1.0f / s.taps);
+}
+
 /// Colour, roughness and light of the material: its textures and what makes places differ. Normals are still those of the mesh.
-KERNEL Skin PaintSkin(const ShadeView& view, const RaySet& rays, int i, const Fetched& f, const Meeting& at, const TileCorners& corners,
-                      Noises& noises) {
+KERNEL Skin PaintSkin(const ShadeView& view, const RaySet& rays, int i, bool stretches, const Fetched& f, const Meeting& at,
+                      const TileCorners& corners, Noises& noises) {
   real3 color = load3(f.color[0], f.color[1], f.color[2]);
   if (f.any_colored) color = color * VertexColors(f, at.u, at.v);
   real metallic = load(f.metallic), roughness = load(f.roughness);
   real3 emission = load3(f.emission[0], f.emission[1], f.emission[2]);
-  if (f.any_base) {
+  const bool stretched = f.any_base && stretches;
+  if (stretched) {
+    color = color * SampleStretched(view, f, corners, at);
+  } else if (f.any_base) {
     color = color * SampleTiles(view, f, f.base_id, corners, at.footprint, true, load3(f.mean[0], f.mean[1], f.mean[2]), corners.gain);
   }
   if (f.any_roughness) {
@@ -96,7 +122,7 @@ KERNEL Skin PaintSkin(const ShadeView& view, const RaySet& rays, int i, const Fe
   if (f.any_macro) {
     color = color * macro_tint(load(f.macro), noises, at.width) * wall_wear(noises.wide, noises.mid, noises.fine, at.width, noises.wall);
   }
-  if (f.any_unit) color = color * unit_tint(load(f.columns), load(f.rows), at.tu, at.tv, at.footprint);
+  if (f.any_unit && !stretched) color = color * unit_tint(load(f.columns), load(f.rows), at.tu, at.tv, at.footprint);
   if (f.any_ground) WearGround(f, noises, at.p, at.tu, at.width, color, roughness);
   if (f.any_leaf) color = leaf_tint(load(f.kind) == kFoliage, load(f.transmission), load(f.pane), color);
   return {lawful_color(color),
@@ -147,7 +173,7 @@ KERNEL void StoreSun(const ShadeView& view, const Meeting& at, const Skin& s, re
 }
 
 /// `f` is that of the vector before, or new; `sun` the direction of the sun's centre.
-KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real3 sun, Fetched& f, SurfaceSet& out) {
+KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, bool stretches, real3 sun, Fetched& f, SurfaceSet& out) {
   Fetch(view, rays, i, f);
   Prefetch(view, rays, i + kLanes);
   Meeting at = Meet(rays, i, f);
@@ -163,7 +189,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real
 
   const TileCorners corners = ChooseCorners(f, at.tu, at.tv, at.footprint);
   Noises noises;
-  Skin s = PaintSkin(view, rays, i, f, at, corners, noises);
+  Skin s = PaintSkin(view, rays, i, stretches, f, at, corners, noises);
   if (f.any_normal) s.n = MapNormal(view, f, corners, s.n, at.footprint, s.roughness);
   if (f.any_glass) glaze(window, load(f.pane), load(f.area), at.p, at.facing, s);
   if (f.any_window) FurnishPane(view, f, room, window, s);
@@ -180,13 +206,17 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real
   StoreSun(view, at, s, TowardsSun(view, rays, i, sun), i, out);
 }
 
-}  // namespace
-
-void PrepareSurfaces(const ShadeView& view, const RaySet& rays, SurfaceSet& surfaces) {
+/// One copy of it all: whether it stretches is asked for every vector.
+SEPARATE void PrepareAll(const ShadeView& view, const RaySet& rays, bool stretches, SurfaceSet& surfaces) {
   const real3 sun = normalize3(make3(real(view.to_sun[0]), real(view.to_sun[1]), real(view.to_sun[2])));
   Fetched f;
-  for (int i = 0; i < rays.count; i += kLanes) PrepareVector(view, rays, i, sun, f, surfaces);
+  for (int i = 0; i < rays.count; i += kLanes) PrepareVector(view, rays, i, stretches, sun, f, surfaces);
 }
+
+}  // namespace
+
+void PrepareSurfaces(const ShadeView& view, const RaySet& rays, SurfaceSet& surfaces) { PrepareAll(view, rays, false, surfaces); }
+void PrepareStretched(const ShadeView& view, const RaySet& rays, SurfaceSet& surfaces) { PrepareAll(view, rays, true, surfaces); }
 
 void LiftRays(const RaySet& rays, const SurfaceSet& s, int first, const float* x, const float* y, const float* z, RayHit16& out) {
   const auto three = [](const float* a, const float* b, const float* c) __attribute__((always_inline)) {

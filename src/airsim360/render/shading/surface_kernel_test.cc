@@ -8,6 +8,7 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/render/shading/shade_view.h"
+#include "airsim360/render/shading/stretched_surfaces.h"
 #include "airsim360/render/shared/shading_kernels.h"
 #include "airsim360/render/shared/shading_scalar.h"
 
@@ -55,7 +56,7 @@ struct Sample {
     uint32_t triangle;
     float u, v;
   };
-  std::unique_ptr<internal::SurfaceSet> See(const std::vector<Point>& points, Vec3f d, float width = 0.003f) const {
+  std::unique_ptr<internal::SurfaceSet> See(const std::vector<Point>& points, Vec3f d, float width = 0.003f, bool stretched = false) const {
     auto rays = std::make_unique<internal::RaySet>();
     rays->count = internal::kBatch;
     const Mesh& mesh = scene->meshes[0];
@@ -71,7 +72,7 @@ struct Sample {
       rays->triangle[i] = at.triangle;
     }
     auto surfaces = std::make_unique<internal::SurfaceSet>();
-    AIRSIM360_SELECT_KERNEL(PrepareSurfaces)(view, *rays, *surfaces);
+    (stretched ? AIRSIM360_SELECT_KERNEL(PrepareStretched) : AIRSIM360_SELECT_KERNEL(PrepareSurfaces))(view, *rays, *surfaces);
     return surfaces;
   }
 };
@@ -91,6 +92,95 @@ Material Window() {
 }
 
 constexpr Vec3f kCorner{3, 7, 2}, kAcross{1.4f, 0, 0}, kUp{0, 0, 1.8f};
+
+// Paving of 16 x 16 m in slabs of a quarter metre with dark joints of 3 cm, as a picture of one metre.
+Image<Rgba8> Paving() {
+  Image<Rgba8> picture(128, 128);
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 128; ++x) {
+      const bool joint = x % 32 < 4 || y % 32 < 4;
+      picture(x, y) = joint ? Rgba8{40, 40, 40, 255} : Rgba8{200, 200, 200, 255};
+    }
+  return picture;
+}
+constexpr float kPaved = 16;
+Sample::Point PavedAt(float x, float y) {
+  const float u = x / kPaved, v = y / kPaved;
+  return u >= v ? Sample::Point{0, u - v, v} : Sample::Point{1, u, v - u};
+}
+
+// Means of base colours over the pixel's true footprint: 4 places across by 64 along it, each filtered over next to nothing.
+float TrueMean(const Sample& paving, Vec2f at, Vec2f along, Vec3f d, float across, float length) {
+  std::vector<Sample::Point> places;
+  for (int i = 0; i < 64; ++i)
+    for (int k = 0; k < 4; ++k) {
+      const Vec2f p = at + along * (length * ((static_cast<float>(i) + 0.5f) / 64 - 0.5f)) +
+                      Vec2f{-along.y, along.x} * (across * ((static_cast<float>(k) + 0.5f) / 4 - 0.5f));
+      places.push_back(PavedAt(p.x, p.y));
+    }
+  const auto seen = paving.See(places, d, 1e-4f);
+  float sum = 0;
+  for (int i = 0; i < internal::kBatch; ++i) sum += seen->ag[i];
+  return sum / internal::kBatch;
+}
+
+// From every side, with u and v either way round: the joints seen in slanted pixels are those of their footprints, where one wide
+// look-up sees half of them or less.
+TEST(Stretched, SlantedPavingKeepsTheJointsOfItsPixels) {
+  constexpr float kWidth = 0.035f;
+  for (const bool mirrored : {false, true}) {
+    Mesh ground = Rectangle({0, 0, 0}, {kPaved, 0, 0}, {0, kPaved, 0});
+    if (mirrored)
+      for (Vec2f& uv : ground.uvs) uv.x = 0.13f - uv.x;
+    const Sample paving(std::move(ground), Plain(1), {}, Paving());
+    for (float slant : {0.45f, 0.16f}) {
+      for (float azimuth : {0.0f, 0.5f, 1.1f, 1.5708f, 2.3f, 4.0f}) {
+        const Vec2f along{std::cos(azimuth), std::sin(azimuth)};
+        const float flat = std::sqrt(1 - slant * slant);
+        const Vec3f d{along.x * flat, along.y * flat, -slant};
+        std::vector<Sample::Point> pixels;
+        std::vector<float> truth;
+        RngStream random(4, "paving");
+        for (int i = 0; i < 60; ++i) {
+          const Vec2f at{static_cast<float>(random.Uniform(5, 11)), static_cast<float>(random.Uniform(5, 11))};
+          pixels.push_back(PavedAt(at.x, at.y));
+          truth.push_back(TrueMean(paving, at, along, d, kWidth, kWidth / slant));
+        }
+        const auto once = paving.See(pixels, d, kWidth), well = paving.See(pixels, d, kWidth, true);
+        double mean = 0, spread = 0, error_once = 0, error_well = 0, mean_well = 0;
+        for (size_t i = 0; i < 60; ++i) mean += truth[i] / 60.0, mean_well += well->ag[i] / 60.0;
+        for (size_t i = 0; i < 60; ++i) {
+          const double t = truth[i];
+          spread += (t - mean) * (t - mean);
+          error_once += (once->ag[i] - t) * (once->ag[i] - t);
+          error_well += (well->ag[i] - t) * (well->ag[i] - t);
+        }
+        const double left = std::sqrt(error_well / spread), before = std::sqrt(error_once / spread);
+        EXPECT_LT(left, 0.35) << "slant " << slant << ", azimuth " << azimuth << (mirrored ? ", mirrored" : "") << "; once " << before;
+        EXPECT_NEAR(mean_well, mean, 0.03);
+      }
+    }
+  }
+}
+
+// Where nothing is slanted, or patches are mixed, or there is no picture, both are the same to the bit.
+TEST(Stretched, IsThePlainLookUpWhereThatIsEnough) {
+  Material mixed = Plain(1);
+  mixed.blend_tiles = true;
+  const Mesh ground = Rectangle({0, 0, 0}, {kPaved, 0, 0}, {0, kPaved, 0});
+  const Sample paving(ground, Plain(1), {}, Paving()), patches(ground, mixed, {}, Paving()), bare(ground, Plain(0.4f));
+  std::vector<Sample::Point> points;
+  RngStream random(9, "plain");
+  for (int i = 0; i < internal::kBatch; ++i)
+    points.push_back(PavedAt(static_cast<float>(random.Uniform(1, 15)), static_cast<float>(random.Uniform(1, 15))));
+  const Vec3f down{0, 0, -1}, low = Normalized(Vec3f{1, 0.4f, -0.2f});
+  for (const auto& [sample, d] : {std::pair{&paving, down}, {&patches, low}, {&bare, low}}) {
+    const auto a = sample->See(points, d, 0.03f), b = sample->See(points, d, 0.03f, true);
+    EXPECT_EQ(std::memcmp(a.get(), b.get(), sizeof(internal::SurfaceSet)), 0);
+  }
+  const auto a = paving.See(points, low, 0.03f), b = paving.See(points, low, 0.03f, true);
+  EXPECT_NE(std::memcmp(a.get(), b.get(), sizeof(internal::SurfaceSet)), 0);
+}
 
 // Tints that vary over a pale surface would take it above 1 in places.
 TEST(Tints, NeverMakeASurfaceGiveBackMoreThanItGets) {
@@ -442,13 +532,16 @@ TEST(SurfaceKernel, AllInstructionSetsAgreeOnRoomsWeatherAndMixedTiles) {
     shade(view, *rays, result->surfaces, result->light);
     return result;
   };
-  const auto base = run(isa_sse42::PrepareSurfaces, isa_sse42::LightSurfaces);
-  for (int i = 0; i < kBatch; ++i) ASSERT_TRUE(std::isfinite(base->light.g[i]));
+  const auto base = run(isa_sse42::PrepareSurfaces, isa_sse42::LightSurfaces),
+             long_look = run(isa_sse42::PrepareStretched, isa_sse42::LightSurfaces);
+  for (int i = 0; i < kBatch; ++i) ASSERT_TRUE(std::isfinite(base->light.g[i]) && std::isfinite(long_look->light.g[i]));
   if (CurrentKernelIsa() >= KernelIsa::kAvx2) {
     EXPECT_EQ(std::memcmp(base.get(), run(isa_avx2::PrepareSurfaces, isa_avx2::LightSurfaces).get(), sizeof(Result)), 0);
+    EXPECT_EQ(std::memcmp(long_look.get(), run(isa_avx2::PrepareStretched, isa_avx2::LightSurfaces).get(), sizeof(Result)), 0);
   }
   if (CurrentKernelIsa() >= KernelIsa::kAvx512) {
     EXPECT_EQ(std::memcmp(base.get(), run(isa_avx512::PrepareSurfaces, isa_avx512::LightSurfaces).get(), sizeof(Result)), 0);
+    EXPECT_EQ(std::memcmp(long_look.get(), run(isa_avx512::PrepareStretched, isa_avx512::LightSurfaces).get(), sizeof(Result)), 0);
   }
 }
 

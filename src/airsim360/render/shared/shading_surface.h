@@ -3,6 +3,8 @@
 // argument that is only read. Fetching records, textures and noise is the back ends' own.
 
 #define SURFACE_MIRROR_ROUGHNESS 0.12f
+#define LAWN_LIFE 0.5f          // share of lawn_life that mown lawns show
+#define SURFACE_MOST_TAPS 8.0f  // places at which tier `high` looks up a slanted pixel
 #define SURFACE_LOW_BEAM 10.0f  // kLowBeam of scene/material.h (shading_shared_test.cc compares)
 
 // GroundWear
@@ -24,6 +26,35 @@ SHARED real slant_of(real3 facing, real3 d) { return rmax(rabs(dot3(facing, d)),
 SHARED real texture_footprint(real width, real slant, real texels_log2) {
   return log2_approx(rmax(width, real(1e-9f))) - 0.75f * log2_approx(slant) + texels_log2;
 }
+
+// A pixel on a slanted surface is long and narrow. Its picture is the mean of several places along its axis, each filtered over no
+// more than its part of the length, so that joints keep the contrast that they have in a photograph.
+struct Stretch {
+  real u, v;       // the axis from end to end, in texture coordinates
+  real taps;       // how many places
+  real footprint;  // of each, log2 of texture tiles
+};
+
+// `along_u`, `along_v`: the ray's direction in the surface's plane along growing u and v, of any length. Where `most` is 1, or
+// the place is `mixed` from patches (which have no joints), the one place and footprint of before.
+SHARED Stretch stretched_pixel(real along_u, real along_v, real width, real slant, real texels_log2, real footprint, mask_t mixed,
+                               ufloat most) {
+  real one = real(1.0f);
+  Stretch s;
+  s.taps = rmin(rmax(rfloor(1.0f / slant + 0.5f), one), real(most));
+  s.taps = sel(mixed, one, s.taps);
+  mask_t single = s.taps < 1.5f;
+  real across = rmax(width, real(1e-9f)) * exp2_approx(texels_log2);
+  real extent = across / slant;
+  real scale = extent / rmax(rroot(along_u * along_u + along_v * along_v), real(1e-6f));
+  s.u = sel(single, real(0.0f), along_u * scale);
+  s.v = sel(single, real(0.0f), along_v * scale);
+  s.footprint = sel(single, footprint, log2_approx(rmax(across, extent / s.taps)));
+  return s;
+}
+
+// Where along the axis the k-th place lies.
+SHARED real tap_at(real k, real taps) { return (k + 0.5f) / taps - 0.5f; }
 
 // ---- Tiles mixed from patches (after Heitz & Neyret 2018 and Mikkelsen 2022)
 
@@ -217,7 +248,9 @@ SHARED void wear_ground(real ground, IN(Noises) s, real3 p, real across, real wi
     color = sel3(paving, paving_marks(worn, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width), color);
   }
   mask_t lawn = (ground == GROUND_LAWN);
-  if (any_lane(lawn)) color = sel3(lawn, lawn_life(color, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width), color);
+  // Lawns are of one seed and one mower: they differ less from place to place than what grows by itself.
+  if (any_lane(lawn))
+    color = sel3(lawn, lerp3(color, lawn_life(color, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width), real(LAWN_LIFE)), color);
   mask_t gravel = (ground == GROUND_GRAVEL);
   mask_t loose = gravel || (ground == GROUND_SOIL);
   if (any_lane(loose)) color = sel3(loose, loose_ground(color, s.wide, s.mid, s.fine, s.detail, sel(gravel, real(0.35f), one)), color);

@@ -7,6 +7,7 @@
 #include "airsim360/worlds/building/doors.h"
 #include "airsim360/worlds/building/facade_bays.h"
 #include "airsim360/worlds/building/shopfront.h"
+#include "airsim360/worlds/building/wall_wear.h"
 
 namespace airsim360 {
 namespace {
@@ -14,12 +15,19 @@ namespace {
 using internal::Bay;
 using internal::Dress;
 using internal::DressOf;
+using internal::Kept;
+
+// Frames, sills, hoods and open shutters reach beyond an opening.
+constexpr float kFrameX = 0.22f, kFrameZ = 0.3f;
+Kept Around(float x0, float x1, float z0, float z1) { return {x0 - kFrameX, x1 + kFrameX, z0 - kFrameZ, z1 + kFrameZ}; }
 
 // Bays of equal width along a wall: at least one.
 int CountBays(float length, float bay) { return std::max(1, static_cast<int>(std::lround(length / bay))); }
 
 // A window of the ground floor in its frame over a sill, where there is room for one.
-void BuildRearWindow(FacadePen& pen, const Dress& dress, const Bay& bay, RngStream& rng) {
+void BuildRearWindow(FacadePen& pen, const Dress& dress, const Bay& bay, float ground, float damp, RngStream& rng, RngStream& wear) {
+  constexpr float kBelowSill = 0.97f;
+  internal::DampFoot(pen, dress, bay.x0, bay.x1, ground, std::min(ground + damp, kBelowSill), wear);
   if (bay.x1 - bay.x0 < 1 || bay.z1 < 2.8f) {
     pen.Use(dress.wall);
     pen.Front(bay.x0, bay.x1, bay.z0, bay.z1, 0);
@@ -38,7 +46,7 @@ void BuildRearWindow(FacadePen& pen, const Dress& dress, const Bay& bay, RngStre
 }
 
 void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan& plan, const Dress& dress, EntityId entity, EdgeKind kind,
-                      RngStream& rng) {
+                      RngStream& rng, RngStream& wear) {
   const float height = MetricsOf(plan.style).ground_height, length = pen.length();
   pen.UseEntity(entity);
   if (kind == EdgeKind::kStreet && plan.style == FacadeStyle::kBrownstone) {
@@ -62,7 +70,8 @@ void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan
     }
     return;
   }
-  // Rear: windows, and a door here and there.
+  // Rear: windows, and a door here and there. Most walls are damp at the foot, each to its own height below the sills.
+  const float damp = wear.Chance(0.8) ? static_cast<float>(wear.Uniform(0.3, 0.95)) : 0.0f;
   const int bays = CountBays(length, 3.4f);
   for (int i = 0; i < bays; ++i) {
     const float w = length / static_cast<float>(bays), x0 = w * static_cast<float>(i), middle = x0 + w / 2;
@@ -72,7 +81,7 @@ void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan
     if ((i == bays / 2 || (i % 3 == 1 && rng.Chance(0.5))) && internal::TakesDoor(pen, bay, fall)) {
       internal::BuildBackDoor(pen, plan, dress, bay, fall, rng);
     } else {
-      BuildRearWindow(pen, dress, bay, rng);
+      BuildRearWindow(pen, dress, bay, std::max(0.0f, -fall), damp, rng, wear);
     }
   }
   pen.Use(dress.trim);
@@ -106,7 +115,7 @@ void BuildBands(FacadePen& pen, const BuildingPlan& plan, const Dress& dress, Ed
 }
 
 void BuildStoreys(FacadeContext& context, FacadePen& pen, const BuildingPlan& plan, const Dress& dress, EdgeKind kind, FacadeDetail detail,
-                  RngStream& rng) {
+                  RngStream& rng, RngStream& wear, std::vector<Kept>& kept) {
   const StyleMetrics& metrics = MetricsOf(plan.style);
   const int bays = CountBays(pen.length(), metrics.bay);
   const float w = pen.length() / static_cast<float>(bays);
@@ -116,8 +125,13 @@ void BuildStoreys(FacadeContext& context, FacadePen& pen, const BuildingPlan& pl
       const float x0 = w * static_cast<float>(i);
       const Bay bay{x0, x0 + w, z0, z0 + metrics.floor_height, f, plan.floors};
       if (f == plan.curtain_floor) internal::HangRedCurtains(context, pen, plan.style, bay);
+      const internal::Opening o = internal::OpeningOf(plan.style, bay);
+      kept.push_back(Around(o.x0, o.x1, o.z0, o.z1));
       if (detail == FacadeDetail::kSimple || kind != EdgeKind::kStreet) {
         internal::BuildSimpleBay(pen, plan.style, dress, bay, rng);
+        // Windows of homes towards yards.
+        if (kind == EdgeKind::kRear && (plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kStuccoShutters))
+          internal::HangCooler(context, pen, o, 0.1, wear);
       } else {
         internal::BuildBay(context, pen, plan.style, dress, bay, rng);
       }
@@ -160,7 +174,8 @@ void WearPartyWall(FacadePen& pen, const std::vector<float>& closed, float w, fl
 }
 
 // The wall above a lower neighbour: bare, with a few columns of small windows where it is high.
-void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress, float from, bool windows, bool wear, RngStream& rng) {
+void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress, float from, bool windows, bool chimneys, bool near,
+                    RngStream& rng, RngStream& wear) {
   const StyleMetrics& metrics = MetricsOf(plan.style);
   const float top = plan.height() + ParapetHeight(plan), L = pen.length();
   if (from >= top) return;
@@ -173,6 +188,7 @@ void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress
   const int bays = CountBays(L, 4.1f);
   const float w = L / static_cast<float>(bays);
   std::vector<float> closed;  // middles of bays without windows
+  std::vector<Kept> kept;
   for (int i = 0; i < bays; ++i) {
     const float x0 = w * static_cast<float>(i), m = x0 + w / 2;
     const bool open = rng.Chance(0.55) && windows;
@@ -180,6 +196,7 @@ void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress
     for (int f = first; f < plan.floors; ++f) {
       const float z0 = plan.first_storey() + metrics.floor_height * static_cast<float>(f), z1 = z0 + metrics.floor_height;
       if (open) {
+        kept.push_back(Around(m - 0.5f, m + 0.5f, z0 + 1.0f, z0 + 2.4f));
         internal::SimpleOpening(pen, bare, x0, x0 + w, z0, z1, m - 0.5f, m + 0.5f, z0 + 1.0f, z0 + 2.4f, 0.15f, rng);
       } else if (f == first) {
         pen.Use(bare.wall);
@@ -189,7 +206,14 @@ void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress
   }
   pen.Use(bare.wall);
   pen.Front(0, L, plan.height(), top, 0);
-  if (windows && wear) WearPartyWall(pen, closed, w, from, top, rng);
+  if (!windows) return;  // a painted picture
+  // Pipes and chimneys stand out farther than maps allow.
+  if (chimneys) {
+    WearPartyWall(pen, closed, w, from, top, rng);
+    for (float m : closed)
+      if (m >= 0) kept.push_back({m - w / 2, m + w / 2, from, top});
+  }
+  if (near) internal::WearWall(pen, bare, from + 0.45f, top - 0.3f, kept, 1, wear);
 }
 
 }  // namespace
@@ -200,21 +224,26 @@ void BuildFacades(FacadeContext& context, const BuildingPlan& plan, EntityId ent
   const Dress dress = DressOf(plan);
   context.building = entity;
   for (size_t e = 0; e < plan.edges.size(); ++e) {
-    RngStream rng(plan.seed, "facade", e);
+    RngStream rng(plan.seed, "facade", e), wear(plan.seed, "wear", e);
     pen.SetWall(plan.outline[e], plan.outline[(e + 1) % plan.outline.size()]);
     pen.UseEntity(entity);
     if (plan.edges[e] == EdgeKind::kParty) {
       BuildPartyWall(pen, plan, dress, std::max(plan.base, plan.party_height[e]), static_cast<int>(e) != plan.mural_edge,
-                     context.reach >= 1, rng);
+                     context.reach >= 1, detail[e] != FacadeDetail::kFlat, rng, wear);
     } else if (detail[e] == FacadeDetail::kFlat) {
       pen.Use(dress.far);
       pen.Front(0, pen.length(), plan.base, plan.height() + ParapetHeight(plan), 0);
     } else {
-      if (plan.base == 0) BuildGroundFloor(context, pen, plan, dress, entity, plan.edges[e], rng);
+      std::vector<Kept> kept;
+      if (plan.base == 0) BuildGroundFloor(context, pen, plan, dress, entity, plan.edges[e], rng, wear);
       pen.UseEntity(entity);
-      BuildStoreys(context, pen, plan, dress, plan.edges[e], detail[e], rng);
+      BuildStoreys(context, pen, plan, dress, plan.edges[e], detail[e], rng, wear, kept);
       pen.UseEntity(entity);
       BuildBands(pen, plan, dress, plan.edges[e]);
+      // Fronts with pilasters and braces have no room for marks; those towards streets are better kept.
+      if (plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kStuccoShutters || plan.edges[e] == EdgeKind::kRear)
+        internal::WearWall(pen, dress, plan.first_storey() + 0.3f, plan.height() - dress.cornice, kept,
+                           plan.edges[e] == EdgeKind::kRear ? 1.0f : 0.35f, wear);
       if (plan.edges[e] == EdgeKind::kStreet && detail[e] == FacadeDetail::kFull) internal::BuildWallExtras(context, pen, plan, rng);
     }
   }

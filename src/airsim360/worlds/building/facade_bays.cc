@@ -1,6 +1,8 @@
 #include "airsim360/worlds/building/facade_bays.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 namespace airsim360::internal {
 namespace {
@@ -50,9 +52,14 @@ constexpr Palette kPalettes[] = {
     {FacadeStyle::kGlazedDeco, S::kBrickYellow, S::kStuccoOchre, S::kFrameGreen, S::kShutterGreen},
 };
 
-bool IsBrick(Surface s) { return s >= S::kBrickRed && s <= S::kBrickWhite; }
+// Shutters and frames of rendered houses, which their owners paint as they like: dark greens, browns and greys above all.
+constexpr S kOwnShutters[] = {S::kShutterGreen, S::kDoorBrown, S::kDoorGrey,   S::kFrameGreen, S::kFrameWood,    S::kShutterBlue,
+                              S::kTrimDark,     S::kDoorBrown, S::kFrameWhite, S::kFrameWood,  S::kConcreteWarm, S::kDoorGrey};
+constexpr S kOwnFrames[] = {S::kFrameWhite, S::kFrameWood, S::kFrameWhite, S::kDoorBrown, S::kFrameWhite, S::kFrameGreen, S::kFrameDark};
 
 }  // namespace
+
+bool IsBrick(Surface s) { return s >= S::kBrickRed && s <= S::kBrickWhite; }
 
 void Furnish(FacadePen::Sash& sash, RngStream& rng) {
   const double pick = rng.Uniform();
@@ -100,15 +107,14 @@ Opening OpeningOf(FacadeStyle style, const Bay& b) {
   }
 }
 
-namespace {
-
-// An air conditioner on the sill of some windows, a little off the middle.
 void HangCooler(FacadeContext& context, FacadePen& pen, const Opening& o, double share, RngStream& rng) {
   if (!rng.Chance(share)) return;
   const float slack = (o.x1 - o.x0) / 2 - 0.42f, x = (o.x0 + o.x1) / 2 + (slack > 0 ? slack * static_cast<float>(rng.Uniform(-1, 1)) : 0);
   context.builder.AddInstance(
       {context.window_box, context.Place(pen.X_WF() * AffineTransform{{}, {x, 0.42f * (1 - context.reach), o.z0}}), context.building});
 }
+
+namespace {
 
 void Wall(FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o) {
   pen.Use(dress.wall);
@@ -163,9 +169,14 @@ void StuccoBay(FacadeContext& context, FacadePen& pen, const Dress& dress, const
   pen.Use(dress.trim);
   pen.Bar(o.x0 - 0.12f, o.x1 + 0.12f, o.z1, o.z1 + 0.16f, -0.05f, 0);
   pen.Bar(o.x0 - 0.12f, o.x1 + 0.12f, o.z0 - 0.10f, o.z0, -0.09f, 0.1f);
-  // Open shutters with a few slats.
+  // Shutters with a few slats, most of them open; some leaves are closed.
+  const Vec3f at = pen.X_WF() * Vec3f{b.x0, 0, b.z0};
+  RngStream own(MixBits(static_cast<uint64_t>(std::llround(100 * at.x))) ^ static_cast<uint64_t>(std::llround(100 * at.y)), "leaves",
+                static_cast<uint64_t>(b.floor));
+  const double pick = own.Uniform();
+  const bool left = pick<0.22, right = pick> 0.1 && pick < 0.3;
   pen.Use(dress.shutter);
-  for (float x : {o.x0 - 0.68f, o.x1 + 0.06f}) {
+  for (float x : {left ? o.x0 : o.x0 - 0.68f, right ? o.x1 - 0.61f : o.x1 + 0.06f}) {
     pen.Bar(x, x + 0.62f, o.z0, o.z1, -0.05f, -0.01f);
     for (int i = 1; i < 9; ++i) {
       const float z = o.z0 + (o.z1 - o.z0) * static_cast<float>(i) / 9;
@@ -245,7 +256,12 @@ Dress DressOf(const BuildingPlan& plan) {
     dress.cornice = 0.9f;
   if (plan.style == FacadeStyle::kDeco) dress.cornice = plan.palette < 2 ? 1.2f : 0.7f;
   if (plan.style == FacadeStyle::kBracedGlass) dress.glass = S::kGlassBlack;
-  if (plan.style == FacadeStyle::kStuccoShutters) dress.cornice = 0.75f;
+  if (plan.style == FacadeStyle::kStuccoShutters) {
+    dress.cornice = 0.75f;
+    RngStream own(plan.seed, "shutters");
+    dress.shutter = kOwnShutters[own.Index(std::size(kOwnShutters))];
+    dress.frame = kOwnFrames[own.Index(std::size(kOwnFrames))];
+  }
   if (plan.style == FacadeStyle::kTerracotta) {
     dress.cornice = 1.3f;
     dress.crown = row->shutter;

@@ -13,6 +13,7 @@ struct Dress {
   Surface crown = trim, base = wall;  ///< of the cornice, and of the lowest storeys where they are of another stone
 };
 Dress DressOf(const BuildingPlan& plan);
+bool IsBrick(Surface surface);
 
 /// A cell of the wall: x and z range, storey number above the ground floor.
 struct Bay {
@@ -26,6 +27,8 @@ struct Opening {
   float x0, x1, z0, z1, depth;
 };
 Opening OpeningOf(FacadeStyle style, const Bay& bay);
+/// An air conditioner on the sill of a `share` of windows, a little off the middle.
+void HangCooler(FacadeContext& context, FacadePen& pen, const Opening& opening, double share, RngStream& rng);
 /// What hangs behind a pane: blind, curtain, light, nothing.
 void Furnish(FacadePen::Sash& sash, RngStream& rng);
 

@@ -7,7 +7,7 @@
 namespace airsim360::internal::park {
 namespace {
 
-constexpr float kLift = 0.005f;  // of paint over asphalt
+constexpr float kLift = 0.0025f;  // of paint over asphalt
 
 class Painter {
  public:

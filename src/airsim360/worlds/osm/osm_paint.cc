@@ -10,7 +10,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kLift = 0.006, kCrossing = 3.2;
+constexpr double kLift = 0.003, kCrossing = 3.2;
 
 class Brush {
  public:

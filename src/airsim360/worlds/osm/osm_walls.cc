@@ -30,6 +30,14 @@ bool IsAny(std::string_view value, std::initializer_list<std::string_view> choic
 
 }  // namespace
 
+Vec3f WeatheredPaint(Vec3f colour, uint64_t seed) {
+  RngStream rng(seed, "weathered");
+  const float grey = 0.2126f * colour.x + 0.7152f * colour.y + 0.0722f * colour.z, fade = static_cast<float>(rng.Uniform(0.0, 0.5)),
+              light = static_cast<float>(rng.Uniform(0.78, 1.1)), warm = static_cast<float>(rng.Uniform(-0.05, 0.05));
+  const auto mix = [&](float c, float tint) { return std::clamp((c + (grey - c) * fade) * light * tint, 0.02f, 0.85f); };
+  return {mix(colour.x, 1 + warm), mix(colour.y, 1), mix(colour.z, 1 - warm)};
+}
+
 FacadeStyle PickFacadeStyle(const OsmTags& tags, std::string_view material, int floors, bool europe, RngStream& rng) {
   using Style = FacadeStyle;
   const auto one = [&](std::initializer_list<Style> list) { return *(list.begin() + rng.Index(static_cast<uint32_t>(list.size()))); };
@@ -122,14 +130,16 @@ Look LookOf(OsmScene& scene, const OsmBuilding& building, const OsmVolume& volum
   if (const auto colour = ParseOsmColour(tag("building:colour"))) {
     const bool gold = look.plain && colour->x > 0.7f && colour->z < 0.1f;
     const MaterialId own = gold ? scene.tints.Get(scene.surfaces[Surface::kMetal], *colour, 0.42f, 0.9f, 0.35f)
-                                : Coloured(scene, look.wall, *colour, material);
+                                : Coloured(scene, look.wall, scene.dress ? WeatheredPaint(*colour, look.plan.seed) : *colour, material);
     look.surfaces = look.surfaces.With(look.wall, own)
                         .With(dress.party, own)
                         .With(dress.far, scene.tints.Get(scene.surfaces[Surface::kFarWalls1], *colour, 0.4f));
   }
   if (own_wall) {
     const auto colour = ParseOsmColour(tag("building:colour"));
-    const MaterialId own = colour ? scene.tints.Get(own_wall->material, *colour, own_wall->mean) : own_wall->material;
+    const MaterialId own =
+        colour ? scene.tints.Get(own_wall->material, scene.dress ? WeatheredPaint(*colour, look.plan.seed) : *colour, own_wall->mean)
+               : own_wall->material;
     look.surfaces = look.surfaces.With(look.wall, own).With(dress.party, own);
   }
   return look;

@@ -114,10 +114,12 @@ Model MakeTaxi(uint32_t variant, uint64_t) {
   return model;
 }
 
-Model MakeVan(uint32_t variant, uint64_t) {
-  constexpr Vec3f colors[3] = {{0.68f, 0.68f, 0.67f}, {0.30f, 0.31f, 0.32f}, {0.04f, 0.09f, 0.20f}};
-  return Assemble("van", PanelVan(), colors[variant]);
-}
+// Most are white, and no two whites are as old.
+constexpr int kVans = 8;
+constexpr Vec3f kVanColors[kVans] = {{0.68f, 0.68f, 0.67f},  {0.30f, 0.31f, 0.32f}, {0.04f, 0.08f, 0.15f}, {0.60f, 0.59f, 0.56f},
+                                     {0.11f, 0.115f, 0.12f}, {0.72f, 0.72f, 0.71f}, {0.42f, 0.42f, 0.41f}, {0.05f, 0.075f, 0.06f}};
+
+Model MakeVan(uint32_t variant, uint64_t) { return Assemble("van", PanelVan(), kVanColors[variant]); }
 
 }  // namespace
 
@@ -139,11 +141,12 @@ std::vector<PropKind> CarKinds() {
   constexpr Vec3f kCab{0.80f, 0.43f, 0.012f};
   const std::vector<LibraryModel> taxis = {
       {""}, {"suv", 0, 0, "firstcolor", kCab}, {""}, {"renault-scenic", 0, 0, "color-beige-green", kCab}};
-  const std::vector<LibraryModel> vans = {{"van"}, {"van", 0, 0, "firstcolor", {0.05f, 0.10f, 0.20f}}, {""}};
+  std::vector<LibraryModel> vans{{"van"}};
+  for (int i = 1; i < kVans; ++i) vans.push_back({"van", 0, 0, "firstcolor", kVanColors[i]});
   return {
       {"car", "vehicle/car", 12, MakeCar, 2.5f, 1.2f, 2.0f, 8000, cars},
       {"taxi", "vehicle/car", 4, MakeTaxi, 2.5f, 1.2f, 2.3f, 8500, taxis},
-      {"van", "vehicle/van", 3, MakeVan, 3.1f, 2.2f, 2.8f, 8000, vans},
+      {"van", "vehicle/van", kVans, MakeVan, 3.1f, 2.2f, 2.8f, 8000, vans},
   };
 }
 

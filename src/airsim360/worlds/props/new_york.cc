@@ -196,7 +196,7 @@ Model MakeHotdogCart(uint32_t variant, uint64_t) {
 // Water-filled road barrier of blue plastic, 1.5 m along X.
 Model MakeBlueBarrier(uint32_t, uint64_t) {
   PropBuilder b("blue_barrier");
-  b.Use(Plastic({0.02f, 0.10f, 0.55f}, 0.45f));
+  b.Use(Plastic({0.045f, 0.105f, 0.27f}, 0.5f), ScratchedTexture());
   b.BevelBox({-0.75f, -0.22f, 0}, {0.75f, 0.22f, 0.25f}, 0.04f);
   b.BevelBox({-0.73f, -0.14f, 0.24f}, {0.73f, 0.14f, 0.95f}, 0.05f);
   for (float x : {-0.4f, 0.4f}) b.BevelBox({x - 0.2f, -0.17f, 0.40f}, {x + 0.2f, 0.17f, 0.80f}, 0.03f);

@@ -116,6 +116,26 @@ Vec3f PlantTint(const PropKind& kind, Vec3f p) {
   return Vec3f{0.97f + 0.22f * share, 1 + 0.05f * share, 1 - 0.10f * share} * light;
 }
 
+bool IsPlanter(const PropKind& kind) { return kind.category.starts_with("furniture/planter/"); }
+bool DiffersFromNeighbours(const PropKind& kind) { return IsPlanter(kind) || kind.category.starts_with("vehicle/"); }
+
+// What is no one's own: pots come in sizes, are turned as they were put down, faded and dirty each in its way. Long planters stay
+// nearly as they were laid out, and all within the ground that their kind needs.
+struct Own {
+  AffineTransform X;
+  Vec3f tint{1, 1, 1};
+};
+Own OwnLook(const PropKind& kind, Vec3f p) {
+  if (!IsPlanter(kind)) return {};
+  const auto centimetres = [](float v) { return static_cast<uint64_t>(static_cast<int64_t>(std::lround(100 * v))); };
+  RngStream random(MixBits(centimetres(p.x)) ^ centimetres(p.y), "own look");
+  const bool box = kind.name == "planter";
+  const auto turn = static_cast<float>(random.Uniform(-1, 1)) * (box ? 0.025f : std::numbers::pi_v<float>),
+             scale = static_cast<float>(random.Uniform(box ? 0.88 : 0.76, 1.0)), light = static_cast<float>(random.Uniform(0.78, 1.1)),
+             warm = static_cast<float>(random.Uniform(-0.06, 0.06));
+  return {PlaceUpright({}, turn, scale), Vec3f{1 + warm, 1, 1 - warm} * light};
+}
+
 }  // namespace
 
 PropShelf::PropShelf(SceneBuilder& builder, const ModelSource* models, uint64_t seed) : builder_(builder), models_(models), seed_(seed) {}
@@ -124,16 +144,35 @@ EntityId PropShelf::Place(std::string_view kind, Vec3f p_W, float yaw, uint32_t 
   const PropKind &asked = FindPropKind(kind), &found = StandInFor(asked);
   const std::string_view name = asked.category == found.category ? asked.name : found.name;
   const EntityId entity = builder_.AddEntity(std::string(name), builder_.tree().At(found.category));
-  const AffineTransform placed = PlaceUpright(p_W, yaw, scale);
-  builder_.AddInstance({Get(found, variant), lay_ ? lay_(found.name, placed) : placed, entity, tint * PlantTint(found, p_W),
-                        internal::EveningGlow(found.name, found.category, p_W, engine)});
+  Stand(found, PlaceUpright(p_W, yaw, scale), variant, entity, tint, engine);
   return entity;
 }
 
 void PropShelf::PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant, Vec3f tint) {
-  const PropKind& found = StandInFor(FindPropKind(kind));
-  builder_.AddInstance({Get(found, variant), lay_ ? lay_(found.name, X_WM) : X_WM, entity, tint * PlantTint(found, X_WM.p),
-                        internal::EveningGlow(found.name, found.category, X_WM.p, Engine::kOff)});
+  Stand(StandInFor(FindPropKind(kind)), X_WM, variant, entity, tint, Engine::kOff);
+}
+
+void PropShelf::Stand(const PropKind& kind, const AffineTransform& placed, uint32_t variant, EntityId entity, Vec3f tint, Engine engine) {
+  const Vec3f p = placed.p;
+  const Own own = OwnLook(kind, p);
+  const AffineTransform stands = IsPlanter(kind) ? placed * own.X : placed;
+  builder_.AddInstance({Get(kind, Differing(kind, p, variant)), lay_ ? lay_(kind.name, stands) : stands, entity,
+                        tint * PlantTint(kind, p) * own.tint, internal::EveningGlow(kind.name, kind.category, p, engine)});
+}
+
+// The individual `variant`, or the next that no neighbour of the kind is.
+uint32_t PropShelf::Differing(const PropKind& kind, Vec3f p, uint32_t variant) {
+  const auto count = static_cast<uint32_t>(kind.variants);
+  variant %= count;
+  if (!DiffersFromNeighbours(kind)) return variant;
+  std::vector<Look>& looks = looks_[kind.name];
+  const auto taken = [&](uint32_t v) {
+    return std::ranges::any_of(looks, [&](const Look& look) { return look.variant == v && Norm(look.p_W - p) < kOwnLook; });
+  };
+  uint32_t own = variant;
+  for (uint32_t k = 0; k < count && taken(own); ++k) own = (variant + k + 1) % count;
+  looks.push_back({p, own});
+  return own;
 }
 
 const PropKind& PropShelf::StandInFor(const PropKind& asked) const {

@@ -47,12 +47,15 @@ const PropKind& FindPropKind(std::string_view name);
 Model MakeProp(const PropKind& kind, uint32_t variant, uint64_t seed, const ModelSource* models);
 
 /// Adds props to a scene: all variants of a kind are made at its first use (in parallel), once, and
-/// instanced. Materials and textures that are equal are shared between props.
+/// instanced. Materials and textures that are equal are shared between props. No two vehicles, pots or planters within
+/// kOwnLook metres of each other are the same individual while the kind has others; pots and planters have each their own size,
+/// turn and tone as well.
 class PropShelf {
  public:
   PropShelf(SceneBuilder& builder, const ModelSource* models, uint64_t seed);
+  static constexpr float kOwnLook = 8;
   /// Places one prop as an entity of its own, named after the kind, and returns it. `variant` is taken modulo
-  /// the kind's variants. `engine` matters to vehicles alone.
+  /// the kind's variants; where a neighbour looks like that, the next one is taken. `engine` matters to vehicles alone.
   EntityId Place(std::string_view kind, Vec3f p_W, float yaw = 0, uint32_t variant = 0, float scale = 1, Vec3f tint = {1, 1, 1},
                  Engine engine = Engine::kOff);
   /// Adds an instance of a kind to an existing entity (grass tufts of one lawn, say).
@@ -67,7 +70,13 @@ class PropShelf {
   MeshId Add(Model model);
 
  private:
+  struct Look {
+    Vec3f p_W;
+    uint32_t variant;
+  };
   const PropKind& StandInFor(const PropKind& asked) const;
+  uint32_t Differing(const PropKind& kind, Vec3f p_W, uint32_t variant);
+  void Stand(const PropKind& kind, const AffineTransform& placed, uint32_t variant, EntityId entity, Vec3f tint, Engine engine);
   MeshId Get(const PropKind& kind, uint32_t variant);
   TextureId AddTexture(Texture texture);
   MaterialId AddMaterial(const Material& material);
@@ -78,6 +87,7 @@ class PropShelf {
   Lay lay_;
   std::map<std::string_view, const PropKind*> stand_ins_;   // by the name of the kind that is asked for
   std::map<std::string_view, std::vector<MeshId>> meshes_;  // kind -> one mesh a variant
+  std::map<std::string_view, std::vector<Look>> looks_;     // kind -> who stands where, of kinds that differ from neighbours
   std::map<std::string, TextureId> textures_;               // by name and content
   std::multimap<std::string, MaterialId> materials_;        // by name, to find equal ones
 };

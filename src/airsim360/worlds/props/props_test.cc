@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "airsim360/base/error.h"
@@ -219,7 +220,7 @@ TEST(PropKinds, UnknownNameIsAnInputErrorWithTheNearest) {
 TEST(PropKinds, TogetherStayWithinTheTrianglesOfAWorld) {
   size_t sum = 0;
   for (const PropKind& kind : PropKinds()) sum += static_cast<size_t>(kind.variants) * kind.max_triangles;
-  EXPECT_LE(sum, 5'100'000u);
+  EXPECT_LE(sum, 5'300'000u);
 }
 
 TEST(PropShelf, InstancesOneMeshForManyPlaces) {
@@ -234,6 +235,48 @@ TEST(PropShelf, InstancesOneMeshForManyPlaces) {
   EXPECT_EQ(scene->instances[2].entity, a);
   EXPECT_EQ(scene->entities.size(), 2u);
   EXPECT_EQ(scene->entity(b).name, "fire_hydrant 2");
+}
+
+// Pots by shop doors, vans at a kerb: neighbours are other individuals, whoever asks for the same one.
+TEST(PropShelf, NeighboursAreOtherIndividuals) {
+  for (const auto& [kind, pitch, least] :
+       {std::tuple{"pot", 3.1f, 10u}, {"green_pot", 2.9f, 8u}, {"planter", 4.9f, 8u}, {"van", 6.2f, 2u}}) {
+    for (const bool by_chance : {false, true}) {
+      SceneBuilder builder("shelf");
+      PropShelf shelf(builder, nullptr, 3);
+      RngStream random(8, kind);
+      for (int i = 0; i < 60; ++i) shelf.Place(kind, {pitch * static_cast<float>(i), 2, 0}, 0, by_chance ? random.Index(36) : 0);
+      const auto scene = builder.Build();
+      std::set<MeshId> individuals;
+      for (size_t i = 0; i < 60; ++i) {
+        individuals.insert(scene->instances[i].mesh);
+        for (size_t k = i + 1; k < 60 && pitch * static_cast<float>(k - i) < PropShelf::kOwnLook; ++k)
+          EXPECT_NE(scene->instances[i].mesh, scene->instances[k].mesh) << kind << " " << i << " and " << k;
+      }
+      if (by_chance) {
+        EXPECT_GE(individuals.size(), least) << kind;
+      }
+    }
+  }
+}
+
+TEST(PropShelf, PotsAreOfTheirOwnSizeTurnAndToneWithinTheirGround) {
+  SceneBuilder builder("shelf");
+  PropShelf shelf(builder, nullptr, 3);
+  for (int i = 0; i < 80; ++i) shelf.Place("pot", {3.1f * static_cast<float>(i), 0, 0});
+  const auto scene = builder.Build();
+  std::set<int> sizes, turns, tones;
+  for (const Instance& pot : scene->instances) {
+    const Vec3f along = pot.X_WM.A.column(0);
+    EXPECT_LE(Norm(along), 1.0001f);
+    EXPECT_GE(Norm(along), 0.75f);
+    sizes.insert(static_cast<int>(100 * Norm(along)));
+    turns.insert(static_cast<int>(10 * std::atan2(along.y, along.x)));
+    tones.insert(static_cast<int>(100 * pot.tint.y));
+  }
+  EXPECT_GE(sizes.size(), 18u);
+  EXPECT_GE(turns.size(), 30u);
+  EXPECT_GE(tones.size(), 20u);
 }
 
 // Tints that plants get where they are placed.

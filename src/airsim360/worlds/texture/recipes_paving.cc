@@ -44,7 +44,7 @@ void PavingBrick(SurfaceMaps& m) {
     const float tone = HashUnit(brick.id, 5), d = brick.edge + 0.0009f * chip[i];
     const float joint = Step(0.0048f, 0.0022f, d), bevel = Step(0.012f, 0.003f, d);
     Vec3f color = Mix(Vec3f{0.40f, 0.165f, 0.098f}, Vec3f{0.29f, 0.120f, 0.082f}, tone) * (0.88f + 0.24f * HashUnit(brick.id, 6));
-    if (HashUnit(brick.id, 9) < 0.07f) color = color * 0.66f;
+    if (HashUnit(brick.id, 9) < 0.07f) color = color * 0.82f;  // darker ones would show the tile
     color = color * (1 + 0.07f * grain[i] + 0.05f * soft[i]);
     m.SetColor(i, Mix(color, Vec3f{0.155f, 0.13f, 0.10f} * (1 + 0.15f * grain[i]), 0.9f * joint));
     m.height[i] = 0.0018f * (tone - 0.5f) - 0.0040f * joint - 0.0016f * bevel + 0.00022f * grain[i];

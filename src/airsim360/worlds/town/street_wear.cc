@@ -7,7 +7,7 @@ namespace airsim360::internal {
 namespace {
 
 // Heights over the asphalt, each layer above those that it may cover; markings lie two millimetres above all of them.
-constexpr float kStainLift = 0.002f, kPatchLift = 0.003f, kSealLift = 0.004f;
+constexpr float kStainLift = 0.0008f, kPatchLift = 0.0012f, kSealLift = 0.0018f;
 
 // Less would be a sliver at the edge that a stain is cut to: twice its area, square metres.
 constexpr float kLeastArea = 2e-5f;
@@ -91,7 +91,7 @@ void LayRepair(Ground& ground, const StreetStretch& street, float s, float lengt
   ground.Use(Surface::kTar);
   StreetRect(ground, street, s - 0.03f, s + length + 0.03f, d0 - 0.03f, d1 + 0.03f, kPatchLift);
   ground.Use(kFills[rng.Index(5)]);
-  StreetRect(ground, street, s, s + length, d0, d1, kPatchLift + 0.001f);
+  StreetRect(ground, street, s, s + length, d0, d1, kPatchLift + 0.0006f);
 }
 
 void LayRepairs(Ground& ground, const StreetStretch& street, float hw, RngStream& rng) {

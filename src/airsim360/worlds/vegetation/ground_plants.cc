@@ -124,7 +124,7 @@ Model MakeFern(uint32_t variant, uint64_t seed) {
 Model MakeFlowerBed(uint32_t variant, uint64_t seed) {
   static const Vec3f leaf_tones[] = {{0.060f, 0.105f, 0.028f}, {0.080f, 0.120f, 0.034f}};
   static const Texture leaves = LeafAtlas("leaves bedding", leaf_tones);
-  constexpr Vec3f petals[4] = {{0.62f, 0.05f, 0.07f}, {0.70f, 0.48f, 0.03f}, {0.66f, 0.62f, 0.60f}, {0.30f, 0.09f, 0.45f}};
+  constexpr Vec3f petals[4] = {{0.44f, 0.07f, 0.08f}, {0.60f, 0.43f, 0.08f}, {0.64f, 0.61f, 0.58f}, {0.25f, 0.12f, 0.34f}};
   RngStream random(seed, "flower_bed");
   std::array<PlantLayer, 3> layers = {LeafLayer(leaves), PlantLayer{}, PlantLayer{}};
   layers[0].material.base_color = {0.8f, 0.8f, 0.8f};

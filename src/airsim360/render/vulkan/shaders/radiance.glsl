@@ -154,6 +154,11 @@ void TakeSurface(int step, Query q, uint key, inout Look look) {
   ray.instance = hit.instance, ray.primitive = hit.primitive;
   ray.width = step == kCamera ? hit.t * look.cone_angle : look.first.width * (1.0 + hit.t / max(look.first.distance_, kLeastRange));
   ray.key = step == kCamera ? key : 0u;
+#ifdef HIGH
+  ray.most_taps = step == kCamera ? SURFACE_MOST_TAPS : 1.0;
+#else
+  ray.most_taps = 1.0;
+#endif
   look.ray = ray;
   look.s = Prepare(ray);
   // What is seen in a mirror does without rays to lamps.

@@ -5,6 +5,7 @@ struct Ray {
   float distance_, width;
   vec2 bary;
   uint instance, primitive, key;
+  float most_taps;  // 1, or SURFACE_MOST_TAPS
 };
 
 struct Shaded {
@@ -106,6 +107,14 @@ Meeting Meet(Ray ray, Fetched f) {
   return at;
 }
 
+/// Where the picture of a slanted pixel is looked up.
+Stretch StretchOf(Fetched f, Meeting at, float most_taps) {
+  const vec3 g = at.facing * at.front, t = Row3(f.matrix, UnpackDirection(f.t.tangent));
+  const vec3 b = cross(g, t) * ((f.t.material & kMirroredUv) != 0 ? -1.0 : 1.0);
+  return stretched_pixel(dot(at.d, t), -dot(at.d, b), at.width, at.slant, f.t.texels_log2 + f.own.texels_log2, at.footprint,
+                         f.m.blend > 0.5, most_taps);
+}
+
 /// Base colour of the material as the instance tints it.
 vec3 Tint(Fetched f) { return vec3(f.m.base[0] * f.own.tint[0], f.m.base[1] * f.own.tint[1], f.m.base[2] * f.own.tint[2]); }
 
@@ -136,7 +145,6 @@ Skin PaintSkin(Fetched f, uint instance, Meeting at, Sampled sampled, out Noises
   if (m.macro_variation != 0.0)
     color *= macro_tint(m.macro_variation, noises, at.width) *
              wall_wear(noises.wide, noises.mid, noises.fine, at.width, noises.wall);
-  if (m.unit_columns > 0.5) color *= unit_tint(m.unit_columns, m.unit_rows, at.tu, at.tv, at.footprint);
   if (wear) wear_ground(m.ground, noises, at.p, at.tu * m.tile, at.width, color, roughness);
   if (m.kind == kFoliage) color = leaf_tint(true, m.transmission, f.pane, color);
   return Skin(lawful_color(color), metallic, lawful_roughness(roughness), m.clear_coat, m.clear_coat_roughness, m.transmission, m.kind,
@@ -196,7 +204,8 @@ Shaded Prepare(Ray ray) {
     room = LookInside(f, at);
     at.tu += room.du, at.tv += room.dv;
   }
-  const Sampled sampled = SampleAll(f.m, ChooseCorners(f.m, at.tu, at.tv, at.footprint), at.tu, at.tv, at.footprint);
+  const Sampled sampled = SampleAll(f.m, ChooseCorners(f.m, at.tu, at.tv, at.footprint), at.tu, at.tv, at.footprint,
+                                    StretchOf(f, at, ray.most_taps));
   Noises noises;
   Skin skin = PaintSkin(f, ray.instance, at, sampled, noises);
   if (f.m.normal_texture != 0) MapNormal(f, sampled.texel[2], skin);

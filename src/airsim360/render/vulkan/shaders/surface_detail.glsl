@@ -20,20 +20,29 @@ vec3 SampleTiles(bool mixes, uint id, TileCorners c, float footprint, bool trili
   return vec3(clamp01(mixed.x), clamp01(mixed.y), clamp01(mixed.z));
 }
 
-/// The textures of a material: base colour, roughness and metal, normal, emission.
+/// The textures of a material: base colour with the tone of every slab or brick, roughness and metal, normal, emission.
 struct Sampled {
   vec3 texel[4];
 };
-Sampled SampleAll(GpuMaterial m, TileCorners corners, float tu, float tv, float footprint) {
+Sampled SampleAll(GpuMaterial m, TileCorners corners, float tu, float tv, float footprint, Stretch stretch) {
   const uint ids[4] = uint[4](m.base_texture, m.roughness_texture, m.normal_texture, m.emission_texture);
   const vec3 means[4] = vec3[4](Vec(m.mean), mean_roughness(), mean_normal(), vec3(0.0));
+  const vec2 middle = vec2(corners.u[0], corners.v[0]);
   Sampled out_texels;
   [[dont_unroll]] for (int k = 0; k < 4; ++k) {
-    if (k == 3) corners.u[0] = tu, corners.v[0] = tv;
-    vec3 c = vec3(1.0);
-    if (ids[k] != 0) c = SampleTiles(m.blend > 0.5 && k < 3, ids[k], corners, footprint, k == 0 || k == 3, means[k],
-                                     k == 1 ? 1.0 : corners.gain);
-    out_texels.texel[k] = c;
+    // Base colours of slanted pixels are means of several places.
+    const float taps = k == 0 ? stretch.taps : 1.0;
+    vec3 sum = vec3(0.0);
+    [[dont_unroll]] for (float i = 0.0; i < taps; i += 1.0) {
+      const vec2 away = k == 0 ? vec2(stretch.u, stretch.v) * tap_at(i, taps) : vec2(0.0), at = k == 3 ? vec2(tu, tv) : middle + away;
+      corners.u[0] = at.x, corners.v[0] = at.y;
+      vec3 c = vec3(1.0);
+      if (ids[k] != 0) c = SampleTiles(m.blend > 0.5 && k < 3, ids[k], corners, k == 0 ? stretch.footprint : footprint,
+                                       k == 0 || k == 3, means[k], k == 1 ? 1.0 : corners.gain);
+      if (k == 0) c *= unit_tint(m.unit_columns, m.unit_rows, tu + away.x, tv + away.y, stretch.footprint);
+      sum += c;
+    }
+    out_texels.texel[k] = sum * (1.0 / taps);
   }
   return out_texels;
 }
