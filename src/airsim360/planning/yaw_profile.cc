@@ -49,6 +49,27 @@ double Interpolate(const GivenYaw& given, double t) {
   return Wrapped(given.yaws[i - 1] + share * Wrapped(given.yaws[i] - given.yaws[i - 1]));
 }
 
+double Evaluate(const YawPowers& powers, const PolynomialTrajectory& path, double t) {
+  t = std::clamp(t, 0.0, path.duration());
+  size_t i = 0;
+  while (i + 1 < path.segments() && t >= path.start(i + 1)) ++i;
+  double yaw = 0;
+  for (size_t k = powers.segments[i].size(); k-- > 0;) yaw = yaw * (t - path.start(i)) + powers.segments[i][k];
+  return Wrapped(yaw);
+}
+
+void Check(const YawPowers& powers, const PolynomialTrajectory& path) {
+  if (powers.segments.size() != path.segments()) {
+    throw InputError("yaw: " + std::to_string(powers.segments.size()) + " polynomials for " + std::to_string(path.segments()) +
+                     " segments");
+  }
+  for (size_t i = 0; i < powers.segments.size(); ++i) {
+    for (const double c : powers.segments[i]) {
+      if (!std::isfinite(c)) throw InputError("yaw: polynomial " + std::to_string(i) + " is not finite");
+    }
+  }
+}
+
 void Check(const GivenYaw& given) {
   if (given.times.empty() || given.times.size() != given.yaws.size()) {
     throw InputError("yaw: " + std::to_string(given.times.size()) + " times and " + std::to_string(given.yaws.size()) + " headings");
@@ -73,11 +94,13 @@ YawProfile::YawProfile(const PolynomialTrajectory& trajectory, YawRule rule) : t
     throw InputError("yaw: the point to look at is not finite");
   }
   if (const auto* given = std::get_if<GivenYaw>(&rule_)) Check(*given);
+  if (const auto* powers = std::get_if<YawPowers>(&rule_)) Check(*powers, trajectory_);
 }
 
 double YawProfile::At(double t) const {
   if (const auto* constant = std::get_if<ConstantYaw>(&rule_)) return Wrapped(constant->yaw);
   if (const auto* given = std::get_if<GivenYaw>(&rule_)) return Interpolate(*given, t);
+  if (const auto* powers = std::get_if<YawPowers>(&rule_)) return Evaluate(*powers, trajectory_, t);
   const auto* towards = std::get_if<YawTowards>(&rule_);
   return NearestHeading(t, trajectory_.duration(), [&](double time) {
     const TrajectoryPoint point = trajectory_.At(time);
