@@ -14,6 +14,8 @@ namespace {
 constexpr double kShortest = 1e-3;
 /// Steps by which the nearest moment with a heading is looked for.
 constexpr int kSteps = 4096;
+/// By which that moment is found between two steps.
+constexpr int kHalvings = 40;
 
 double Wrapped(double yaw) {
   const double wrapped = std::remainder(yaw, 2 * kPi);
@@ -31,10 +33,17 @@ double NearestHeading(double t, double duration, F heading) {
   t = std::clamp(t, 0.0, duration);
   if (const std::optional<double> yaw = heading(t)) return *yaw;
   for (int i = 1; i <= kSteps; ++i) {
-    const double away = duration * i / kSteps;
-    for (const double near : {t - away, t + away}) {
-      if (near < 0 || near > duration) continue;
-      if (const std::optional<double> yaw = heading(near)) return *yaw;
+    const double step = duration / kSteps, away = step * i;
+    for (const double sign : {-1.0, 1.0}) {
+      const double near = t + sign * away;
+      if (near < 0 || near > duration || !heading(near)) continue;
+      // The moment itself, the same for every t around it: a vehicle at rest does not turn.
+      double without = near - sign * step, with = near;
+      for (int k = 0; k < kHalvings; ++k) {
+        const double middle = 0.5 * (without + with);
+        (heading(middle) ? with : without) = middle;
+      }
+      return *heading(with);
     }
   }
   return 0;
