@@ -51,6 +51,16 @@ class BadFlags(ProgramTest):
             self.run_bad(2, "render", "--world", "box_room", "--projection", "pinhole", "--fov", value, "--out", out, says=["--fov"])
         self.run_bad(2, "render", "--world", "box_room", "--projection", "cube", "--size", "64x32", "--out", out, says=["did you mean '64x64'"])
 
+    def test_not_a_number_is_no_number_of_any_flag(self):
+        mission, out = self.folder / "m.xml", self.folder / "out"
+        mission.write_text('<root BTCPP_format="4"><BehaviorTree ID="m"><Wait seconds="1"/></BehaviorTree></root>')
+        for arguments in [["fly", "--world", "box_room", "--speed"], ["fly", "--world", "box_room", "--mission", mission, "--longest"],
+                          ["collect", *ROOM, "--fps"], ["collect", *ROOM, "--frames", "2", "--fps", "5", "--start"],
+                          ["plan", "--route", "coverage", "--area", "0,0,9,9", "--spacing", "2", "--vmax", "3", "--amax", "2", "--height"]]:
+            for value in ("nan", "NaN"):
+                self.run_bad(2, *arguments, value, "--out", out, says=[f"{arguments[-1]}: '{value}' is not a number"])
+            self.assertFalse(out.exists())
+
     def test_missing_flags_are_named(self):
         self.run_bad(2, "collect", "--world", "box_room", says=["--out"])
         self.run_bad(2, "collect", "--recipe", "omni360-human", "--world", "downtown_west", "--out", self.folder / "crowd",

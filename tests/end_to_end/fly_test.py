@@ -48,6 +48,43 @@ class FlyTest(ProgramTest):
             imu = list(csv.DictReader(file))
         self.assertAlmostEqual(len(imu), 200 * report["flight_s"], delta=2)
 
+    def test_lands_against_the_wind_without_turning_over(self):
+        wind = self.folder / "wind.yaml"
+        for east, north in [(6, 0), (-4, 5)]:
+            wind.write_text(f"east: {east}\nnorth: {north}\n")
+            out, report = self.fly(f"wind {east}", "--script", "takeoff 1; hover 3; land", "--wind", wind)
+            self.assertEqual([event["event"] for event in report["events"] if event["event"] == "crash"], [])
+            rows = self.table(out / "trajectory.csv")
+            landing = [row for row in rows if row["t_s"] > 5]
+            # Upright and where it came down: within 1.5 s of touching, less than 0.3 m downwind.
+            self.assertGreater(min(1 - 2 * (row["qx"] ** 2 + row["qy"] ** 2) for row in landing), math.cos(math.radians(25)))
+            touched = next(row for row in landing if row["pz"] < 0.12)
+            self.assertLess(rows[-1]["t_s"] - touched["t_s"], 1.5)
+            self.assertLess(math.hypot(rows[-1]["px"], rows[-1]["py"]), 0.3)
+
+    def test_where_it_cannot_begin_is_refused(self):
+        points = self.folder / "points.csv"
+        points.write_text("x,y,z\n9,0,1\n0,0,1\n")
+        for arguments, words in [(["--pose", "100,0,0.5"], ["--pose", "outside of 'box_room'"]), (["--pose", "0,0,-3"], ["--pose", "outside"]),
+                                 (["--pose", "3,0,0.5"], ["--pose", "inside 'box'"]), (["--pose", "0,0,1,0,30"], ["--pose", "level"]),
+                                 (["--waypoints", points], ["--waypoints", "outside"])]:
+            self.run_bad(2, "fly", "--world", "box_room", *arguments, "--out", self.folder / "bad", says=words)
+            self.assertFalse((self.folder / "bad").exists())
+        self.fly("floor", "--pose", "1,1,0", "--script", "takeoff 1; land")
+
+    def test_flags_of_another_way_to_fly_are_refused(self):
+        points = self.folder / "points.csv"
+        points.write_text("x,y,z\n0,0,1\n1,0,1\n")
+        for arguments, word in [(["--vmax", 3], "--waypoints"), (["--amax", 3], "--waypoints"), (["--longest", 3], "--mission"),
+                                (["--fps", 3], "--video"), (["--quality", 3], "--video"), (["--people-level", 1], "--people"),
+                                (["--sockets", "none.yaml"], "--people"), (["--waypoints", points, "--pose", "0,0,1"], "--pose")]:
+            self.run_bad(2, "fly", "--world", "box_room", *arguments, "--out", self.folder / "bad", says=[arguments[0], word])
+
+    def test_a_sensor_is_not_read_more_often_than_the_simulation_steps(self):
+        sensors = self.folder / "sensors.yaml"
+        sensors.write_text("imus: [{name: fast, rate_hz: 3000}]")
+        self.run_bad(2, "fly", "--world", "box_room", "--sensors", sensors, "--out", self.folder / "bad", says=["imu 'fast'", "3000", "1000"])
+
     def table(self, file):
         with open(file, newline="") as rows:
             return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(rows)]

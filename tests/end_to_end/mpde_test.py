@@ -62,6 +62,25 @@ class MpdeTest(unittest.TestCase):
             self.assertFalse((self.folder / "never").exists())
         done = run("mpde", "eval", self.people, "--views", "kitti", "--networks", self.people / "people.jsonl")
         self.assertEqual(done.returncode, 2)
+        views = self.folder / "near.yaml"
+        for text, word in [("nearest: 50\nfarthest: 5\n", "farthest"), ("like: kity\n", "kitti")]:
+            views.write_text(text)
+            done = run("mpde", "train", self.people, "--views", views, "--out", self.folder / "never")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(str(views), done.stderr)
+            self.assertIn(word, done.stderr)
+        self.assertEqual(run("mpde", "train", f"{self.people}#0", "--views", "kitti", "--out", self.folder / "never").returncode, 2)
+
+    def test_a_place_for_the_network_is_found_before_it_is_trained(self):
+        small = ("--views", "kitti", "--hidden", 4, "--steps", 2, "--batch", 8)
+        (self.folder / "file").write_text("")
+        for out, status in [(self.folder, 2), (self.folder / "file" / "net", 1)]:
+            done = run("mpde", "train", self.people, *small, "--out", out)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertNotIn("step", done.stderr)
+        new = self.folder / "new" / "folder" / "net.safetensors"
+        self.assertEqual(run("mpde", "train", self.people, *small, "--out", new).returncode, 0)
+        self.assertTrue(new.exists())
 
 
 if __name__ == "__main__":

@@ -369,6 +369,41 @@ class FreeFlights(ProgramTest):
 
 
 class WaypointSet(ProgramTest):
+    def headings(self, plan, out):
+        self.run_ok("collect", "--world", "box_room", "--frames", "7", "--size", "16x8", "--tier", "labels", "--plan", plan, "--out", out)
+        frames = [json.loads(line) for line in (out / "frames.jsonl").read_text().splitlines()]
+        found = []
+        for frame in frames:
+            w, x, y, z = frame["X_WC"]["q_wxyz"]  # the camera looks along +Z of its frame
+            found.append((frame["t_ns"] * 1e-9, frame["X_WC"]["p"], math.atan2(2 * (y * z - w * x), 2 * (x * z + w * y))))
+        return found
+
+    def test_collect_turns_as_the_plan_says(self):
+        route = self.folder / "turn.csv"
+        route.write_text("x,y,z\n-4,-4,1\n0,-3,2\n4,4,3\n")
+        for kind in ("json", "yaml"):
+            for yaw, wanted in [("0,0,2", lambda p: math.atan2(-p[1], -p[0])), ("90", lambda p: math.pi / 2)]:
+                plan = self.folder / f"turn.{kind}"
+                self.run_ok("plan", "--waypoints", route, *LIMITS, "--yaw", yaw, "--out", plan)
+                out = self.folder / f"{kind} {yaw}"
+                for t, p, heading in self.headings(plan, out):
+                    # The plan holds polynomials that interpolate the heading.
+                    self.assertLess(abs(math.remainder(heading - wanted(p), 2 * math.pi)), 0.15, (kind, yaw, t))
+                self.assertEqual("yaw_coefficients" in read_json(out / "trajectory.json"), yaw == "0,0,2")
+
+    def test_a_plan_that_jumps_is_refused(self):
+        route = self.folder / "jump.csv"
+        route.write_text("x,y,z\n-4,-4,1\n0,-3,2\n4,4,3\n")
+        self.run_ok("plan", "--waypoints", route, *LIMITS, "--out", self.folder / "jump.json")
+        plan = read_json(self.folder / "jump.json")
+        plan["coefficients"][0][1][4] += 0.01
+        (self.folder / "jump.json").write_text(json.dumps(plan))
+        del plan["coefficients"]
+        (self.folder / "lacks.json").write_text(json.dumps(plan))
+        for name, words in [("jump.json", ["segment 2 begins", "segment 1 ends"]), ("lacks.json", ["'coefficients' is missing"])]:
+            self.run_bad(2, "collect", "--world", "box_room", "--plan", self.folder / name, "--out", self.folder / "no", says=[name, *words])
+            self.assertFalse((self.folder / "no").exists())
+
     def test_missing_worlds_are_told_and_unknown_ones_refused(self):
         out = self.folder / "set"
         result = self.run_ok("plan", "--dataset", "waypoint", "--worlds", "downtown_west", "--routes", "1", "--out", out, "--json")

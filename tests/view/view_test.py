@@ -222,11 +222,20 @@ class ExportTest(unittest.TestCase):
         self.assertIn(str(full), done.stderr)
         self.assertEqual([path.name for path in full.iterdir()], ["mine"])
         self.assertEqual(list(ROOM.glob("*.partial")), [])
+        lacking = ROOM / "lacking"
+        shutil.copytree(ROOM / "data", lacking)
+        next((lacking / "rgb").iterdir()).unlink()
+        done = run("view", lacking, "--export", ROOM / "site of it")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("missing; 'airsim360 verify'", done.stderr)
+        self.assertFalse((ROOM / "site of it").exists())
+        self.assertEqual(list(ROOM.glob("*.partial")), [])
+        shutil.rmtree(lacking)
 
 
 class InputTest(unittest.TestCase):
     def test_what_cannot_be_viewed_is_refused_by_name(self):
-        for arguments, said in {(): "--world", (ROOM,): "not a dataset", ("plan.json",): "plan.json", (ROOM / "nothing",): "nothing", (ROOM / "data", "--world", "box_room"): "--world",
+        for arguments, said in {(): "--world", (ROOM,): "not a dataset", ("plan.json",): "plan.json", (ROOM / "nothing",): "nothing", (ROOM / "nothing", "--export", ROOM / "e"): "nothing' is no folder", (ROOM / "data", "--world", "box_room"): "--world",
                                 ("--world", "box_rom"): "box_room", ("--world", "box_room", "--compare", ROOM / "data"): "--compare",
                                 (ROOM / "data", "--port", "99999"): "99999", (ROOM / "data", "--compare", ROOM): "not a dataset", (ROOM / "data", "--record", ROOM / "r"): "--record",
                                 ("plan.json", "--export", ROOM / "e"): "dataset run", ("plan.json", "--compare", ROOM / "data"): "--compare", ("--connect", "here"): "HOST:PORT",

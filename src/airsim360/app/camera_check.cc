@@ -33,7 +33,20 @@ std::string CameraText(const Flight& flight, size_t frame, Vec3d p) {
   return flight.shots.size() > 1 ? "frame " + std::to_string(frame) + ": " + place : place;
 }
 
+std::string OutsideText(const Scene& scene) {
+  return " is outside of '" + scene.name + "', which has no sky and reaches from " + Text(VecCast<double>(scene.bounds.min)) + " to " +
+         Text(VecCast<double>(scene.bounds.max));
+}
+
 }  // namespace
+
+void CheckStart(const RayTracer& tracer, Vec3d p_W, const std::string& what) {
+  const Whereabouts found = FindWhereabouts(tracer, p_W);
+  const std::string place = what + ": " + Text(p_W);
+  if (found.kind == Whereabouts::Kind::kOutside) throw InputError(place + OutsideText(tracer.scene()));
+  if (found.kind == Whereabouts::Kind::kInside)
+    throw InputError(place + " is inside " + NameOf(tracer.scene(), LabelOf(tracer, found.surface).entity));
+}
 
 void CheckCameraPlaces(const RayTracer& tracer, const DatasetSpec& spec, const Flight& flight) {
   const std::vector<View> views = Views(spec);
@@ -49,9 +62,7 @@ void CheckCameraPlaces(const RayTracer& tracer, const DatasetSpec& spec, const F
   for (size_t i = 0; i < found.size(); ++i) {
     const Scene& scene = tracer.scene();
     if (found[i].kind == Whereabouts::Kind::kOutside) {
-      throw InputError(CameraText(flight, i / views.size(), place(i)) + " is outside of '" + scene.name +
-                       "', which has no sky and reaches from " + Text(VecCast<double>(scene.bounds.min)) + " to " +
-                       Text(VecCast<double>(scene.bounds.max)));
+      throw InputError(CameraText(flight, i / views.size(), place(i)) + OutsideText(scene));
     }
     if (found[i].kind == Whereabouts::Kind::kInside && inside++ == 0) first = i;
   }

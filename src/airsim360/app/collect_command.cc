@@ -202,7 +202,7 @@ Flight Fly(const CollectArguments& arguments, const GlobalOptions& globals, cons
       trajectory_json = TrajectoryJson({.trajectory = *path,
                                         .peaks = CertifiedPeaks(*path),
                                         .cost_snap = IntegralOfSquaredDerivative(*path, 4),
-                                        .yaw = ConstantYaw{ReadPlanFile(arguments.plan).yaw.value_or(0)}});
+                                        .yaw = ReadPlanFile(arguments.plan).yaw.value_or(ConstantYaw{})});
     }
   }
   spec.frames = static_cast<int64_t>(flight.shots.size());

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/app/out_file.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/dataset/plan/find_plan.h"
@@ -97,6 +98,7 @@ void RunPlanCommand(const PlanArguments& arguments, const GlobalOptions& globals
     return;
   }
   if (arguments.out.empty() && arguments.show.empty()) throw InputError("--out is required, or --show");
+  CheckOutFile(arguments.out);
   const DatasetPlan plan = PlanOf(arguments, globals);
   if (!arguments.out.empty()) WriteFileAtomically(arguments.out, PlanJson(plan));
   if (!arguments.show.empty()) return ShowFrames(plan, arguments.show, globals);

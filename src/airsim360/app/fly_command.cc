@@ -4,8 +4,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/app/camera_check.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/fly_run.h"
@@ -77,13 +79,17 @@ std::vector<FlyTask> TasksOf(const FlyArguments& arguments, const std::shared_pt
 }
 
 // Where the drone begins: hovering at the first waypoint, or standing under the pose.
-void SetStart(const FlyArguments& arguments, const Scene& scene, const PolynomialTrajectory* trajectory, DroneSetup& setup) {
+void SetStart(const FlyArguments& arguments, const RayTracer& tracer, const PolynomialTrajectory* trajectory, DroneSetup& setup) {
+  const Scene& scene = tracer.scene();
+  constexpr Vec3d kLift{0, 0, 0.05};  // metres: a place on the ground is none below it
   if (trajectory != nullptr) {
+    CheckStart(tracer, trajectory->At(0).p + kLift, "--waypoints: the first");
     const Vec3d way = trajectory->At(std::min(1.0, trajectory->duration())).p - trajectory->At(0).p;
     setup.X_WB = BodyPose(trajectory->At(0).p, std::atan2(way.y, way.x), 0, 0);
     setup.airborne = true;
   } else if (!arguments.pose.empty()) {
     const PoseArgument pose = ParsePose(arguments.pose);
+    CheckStart(tracer, pose.p + kLift, "--pose");
     setup.X_WB = BodyPose(pose.p, pose.yaw_deg * kDegree, 0, 0);
   } else {
     setup.X_WB = BodyPose(VecCast<double>(FirstViewpoint(scene)), scene.spawn_yaw_deg * kDegree, 0, 0);
@@ -158,7 +164,7 @@ std::string DescribeFlight(const FlyArguments& arguments, const GlobalOptions& g
   nlohmann::ordered_json json = {{"format", "airsim360-flight-1"},
                                  {"generator", std::string("airsim360 ") + kVersion},
                                  {"parameters",
-                                  {{"world", arguments.world},
+                                  {{"world", DescribeWorld(arguments.world, globals)},
                                    {"seed", globals.seed},
                                    {"labels", DescribeLabels(globals)},
                                    {"drone", is_file ? FileSum(arguments.drone) : arguments.drone},
@@ -310,7 +316,9 @@ FlyPlan PlanFlight(FlyArguments& arguments, const GlobalOptions& globals) {
   plan.stage.wind = ReadWindFile(arguments.wind);
   if (!arguments.pose.empty()) {
     arguments.pose = WithPlace("--pose", arguments.pose, RequestOf(arguments.world, globals));
-    ParsePose(arguments.pose);
+    const PoseArgument pose = ParsePose(arguments.pose);
+    if (pose.pitch_deg != 0 || pose.roll_deg != 0)
+      throw InputError("--pose: '" + arguments.pose + "': a drone that begins on the ground stands level; give x,y,z[,yaw_deg]");
   }
   job.longest = arguments.longest;
   job.speed = arguments.speed;
@@ -325,7 +333,7 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
   FlyPlan plan = PlanFlight(arguments, globals);
   FlyJob& job = plan.job;
   Stage stage(plan.stage);
-  SetStart(arguments, stage.scene(), plan.trajectory.get(), plan.setup);
+  SetStart(arguments, *stage.solid(), plan.trajectory.get(), plan.setup);
   SimModel model = stage.Model();
   model.drones.push_back(std::make_shared<const SimDrone>(plan.setup, model.dt_ns));
   job.model = std::make_shared<const SimModel>(std::move(model));
@@ -353,6 +361,19 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
     PrintFlight(arguments, result, video);
   }
   CheckMissionResult(arguments, result);
+}
+
+// Flags that count for one way to fly alone are not accepted and ignored elsewhere.
+void CheckBelonging(const CLI::App& command) {
+  constexpr std::pair<const char*, const char*> kBelongs[] = {{"--vmax", "--waypoints"},  {"--amax", "--waypoints"},
+                                                              {"--longest", "--mission"}, {"--fps", "--video"},
+                                                              {"--encoder", "--video"},   {"--quality", "--video"}};
+  for (const auto& [flag, owner] : kBelongs) {
+    if (command.count(flag) > 0 && command.count(owner) == 0)
+      throw InputError(std::string(flag) + ": it is of " + owner + ", which is not given");
+  }
+  if (command.count("--waypoints") > 0 && command.count("--pose") > 0)
+    throw InputError("--pose: with --waypoints the flight begins at the first of them");
 }
 
 }  // namespace
@@ -396,6 +417,7 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
   AddWorldFlags(*command, globals);
   command->add_flag("--record", arguments->record, "write run.a360: commands and state hashes, for replay");
   command->callback([arguments, command, &globals] {
+    CheckBelonging(*command);
     arguments->pano_frame_given = command->count("--pano-frame") > 0;
     RunFly(*arguments, globals);
   });

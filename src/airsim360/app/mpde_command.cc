@@ -9,6 +9,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/config_flags.h"
+#include "airsim360/app/out_file.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
@@ -52,6 +53,7 @@ void RunTrain(TrainArguments arguments, const GlobalOptions& globals) {
     for (MpdeSet& set : ReadTrainingSets(ParseMpdeData(text), views, globals.seed)) sets.push_back(std::move(set));
     list.push_back(text);
   }
+  CheckOutFile(arguments.out);
   const uint64_t every = std::max<uint64_t>(arguments.training.steps / 10, 1);
   double sum = 0, last = 0;
   MpdeModel model = TrainMpde(sets, arguments.training, [&](uint64_t step, double loss) {
@@ -196,6 +198,7 @@ void RunTable(TableArguments arguments, const GlobalOptions& globals) {
     if (at == std::string::npos) throw InputError("--real: '" + text + "' is not NAME=FILE");
     arguments.options.real[text.substr(0, at)] = text.substr(at + 1);
   }
+  CheckOutFile(arguments.out);
   const MpdeTable table = MakeMpdeTable(arguments.options, [](const std::string& line) { LogInfo(line); });
   const Json json = TableJson(table);
   if (!arguments.out.empty()) WriteFileAtomically(arguments.out, json.dump(1) + "\n");

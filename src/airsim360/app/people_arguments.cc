@@ -35,7 +35,12 @@ void PeopleArguments::AddTo(CLI::App& command) {
 PeopleRequest PeopleArguments::Request(uint64_t seed) const {
   PeopleRequest request{.sockets = sockets, .warm_up = warm_up, .level = level, .seed = seed};
   request.reserve = static_cast<size_t>(reserve);
-  if (people.empty()) return request;
+  if (people.empty()) {
+    // Not accepted and ignored.
+    const char* flag = !sockets.empty() ? "--sockets" : level >= 0 ? "--people-level" : nullptr;
+    if (flag != nullptr && !request.any()) throw InputError(std::string(flag) + ": there is nobody; add people, for example --people 30");
+    return request;
+  }
   if (const auto count = ParseCount(people)) {
     if (*count > kMostPeople) {
       throw InputError("--people: " + people + " is not in 0 … " + std::to_string(kMostPeople) + "; did you mean " +

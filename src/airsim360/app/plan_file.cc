@@ -1,6 +1,8 @@
 #include "airsim360/app/plan_file.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -14,9 +16,58 @@ namespace {
 
 constexpr uint64_t kMaxFileSize = uint64_t{64} << 20;
 
+// Where segments do not join the vehicle would jump: rounding of files is far below this.
+constexpr double kMostGap = 1e-3, kMostStep = 1e-2;  // metres, m/s
+
+void CheckJoints(const PolynomialTrajectory& path) {
+  const auto at = [&](size_t segment, double t, int derivative) {
+    Vec3d sum;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto c = path.coefficients(segment, axis);
+      for (size_t k = c.size(); k-- > static_cast<size_t>(derivative);)
+        sum[axis] = sum[axis] * t + c[k] * (derivative ? static_cast<double>(k) : 1.0);
+    }
+    return sum;
+  };
+  for (size_t i = 0; i + 1 < path.segments(); ++i) {
+    for (const int derivative : {0, 1}) {
+      const double gap = Norm(at(i + 1, 0, derivative) - at(i, path.durations()[i], derivative));
+      if (gap <= (derivative ? kMostStep : kMostGap)) continue;
+      char text[128];
+      std::snprintf(text, sizeof(text), "segment %zu begins %.4g %s from where segment %zu ends", i + 2, gap, derivative ? "m/s" : "m",
+                    i + 1);
+      throw InputError(text);
+    }
+  }
+}
+
+// A heading that never changes is a constant one.
+YawRule RuleOf(std::vector<std::vector<double>> segments) {
+  bool constant = true;
+  for (const auto& powers : segments) {
+    constant &= powers[0] == segments[0][0];
+    for (size_t k = 1; k < powers.size(); ++k) constant &= powers[k] == 0;
+  }
+  if (constant) return ConstantYaw{segments[0][0]};
+  return YawPowers{std::move(segments)};
+}
+
+std::optional<YawRule> YawOf(const nlohmann::json& json, const std::string& name) {
+  if (json.contains("yaw")) return ConstantYaw{json["yaw"].get<double>()};
+  if (!json.contains("yaw_coefficients")) return {};
+  auto segments = json["yaw_coefficients"].get<std::vector<std::vector<double>>>();
+  const auto is_empty = [](const std::vector<double>& powers) { return powers.empty(); };
+  if (segments.empty() || std::any_of(segments.begin(), segments.end(), is_empty))
+    throw InputError(name + ": yaw_coefficients: a segment needs one number or more");
+  return RuleOf(std::move(segments));
+}
+
 PlannedPath FromJson(const std::string& text, const std::string& name) {
   try {
     const auto json = nlohmann::json::parse(text);
+    for (const char* key : {"order", "durations", "coefficients"}) {
+      if (!json.contains(key)) throw InputError(name + ": '" + key + "' is missing; `airsim360 plan --format json` writes it");
+    }
     std::vector<double> coefficients;
     for (const auto& segment : json.at("coefficients")) {
       if (segment.size() != 3) throw InputError(name + ": coefficients: a segment has three axes");
@@ -24,10 +75,10 @@ PlannedPath FromJson(const std::string& text, const std::string& name) {
         for (const auto& c : axis) coefficients.push_back(c.get<double>());
       }
     }
-    std::optional<double> yaw;
-    if (json.contains("yaw")) yaw = json["yaw"].get<double>();
     return {PolynomialTrajectory(json.at("order").get<int>(), json.at("durations").get<std::vector<double>>(), std::move(coefficients)),
-            yaw};
+            YawOf(json, name)};
+  } catch (const nlohmann::json::parse_error& error) {
+    throw InputError(name + ": not JSON, or cut off, at byte " + std::to_string(error.byte));
   } catch (const nlohmann::json::exception& error) {
     throw InputError(name + ": " + error.what());
   }
@@ -81,8 +132,16 @@ PlannedPath FromYaml(const std::string& text, const std::string& name) {
     }
   }
   const int degree = static_cast<int>(segments[0].x.size()) - 1;
-  std::optional<double> yaw;
-  if (!segments[0].yaw.empty()) yaw = Number(segments[0].yaw[0], name + ": segment 1: yaw");
+  std::vector<std::vector<double>> yaws;
+  for (size_t i = 0; i < segments.size(); ++i) {
+    const std::string where = name + ": segment " + std::to_string(i + 1) + ": yaw";
+    if (segments[i].yaw.empty() != segments[0].yaw.empty()) throw InputError(where + ": some segments have one and others do not");
+    std::vector<double> powers;
+    for (const std::string& c : segments[i].yaw) powers.push_back(Number(c, where));
+    if (!powers.empty()) yaws.push_back(std::move(powers));
+  }
+  std::optional<YawRule> yaw;
+  if (!yaws.empty()) yaw = RuleOf(std::move(yaws));
   return {PolynomialTrajectory(degree, std::move(durations), std::move(coefficients)), yaw};
 }
 
@@ -91,8 +150,14 @@ PlannedPath FromYaml(const std::string& text, const std::string& name) {
 PlannedPath ReadPlanFile(const std::filesystem::path& path) {
   const std::string text = ReadTextFile(path, kMaxFileSize), name = path.string();
   try {
-    if (path.extension() == ".json") return FromJson(text, name);
-    if (path.extension() == ".yaml" || path.extension() == ".yml") return FromYaml(text, name);
+    std::optional<PlannedPath> plan;
+    if (path.extension() == ".json") plan = FromJson(text, name);
+    if (path.extension() == ".yaml" || path.extension() == ".yml") plan = FromYaml(text, name);
+    if (plan) {
+      CheckJoints(plan->trajectory);
+      if (plan->yaw) YawProfile(plan->trajectory, *plan->yaw);
+      return *plan;
+    }
   } catch (const InputError& error) {
     const std::string what = error.what();
     throw InputError(what.starts_with(name) ? what : name + ": " + what);

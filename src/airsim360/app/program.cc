@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -140,6 +141,21 @@ std::string UnknownArgumentMessage(const CLI::App& app, const CLI::ParseError& e
   return of + error.what() + (path.empty() ? "; 'airsim360 help' lists them" : "");
 }
 
+// No range holds NaN, and none refuses it: no comparison with it is true.
+void RefuseNan(CLI::App& command) {
+  const CLI::Validator is_number(
+      [](std::string& text) {
+        double value = 0;
+        std::from_chars(text.data(), text.data() + text.size(), value);
+        return std::isnan(value) ? "'" + text + "' is not a number" : std::string();
+      },
+      "");
+  for (CLI::Option* option : command.get_options()) {
+    if (option->get_type_name().starts_with("FLOAT")) option->check(is_number);
+  }
+  for (CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; })) RefuseNan(*inner);
+}
+
 // `airsim360 help [COMMAND]`.
 void AddHelpCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("help", "what the program or one of its commands does, with its flags");
@@ -166,6 +182,7 @@ Program::Program(const CommandSet& commands) : app_("Panoramic (360 degree) simu
   for (const auto add : commands.own) add(app_);
   AddHelpCommand(app_);
   ArrangeHelp(app_);
+  RefuseNan(app_);
 }
 
 void Program::Run(int argc, const char* const* argv) {

@@ -47,6 +47,18 @@ void CheckKind(const char* kind, const std::vector<Named<Spec>>& sensors) {
   for (size_t i = 1; i < sensors.size(); ++i) CheckFileName(std::string("--sensors: ") + kind, sensors[i].name);
 }
 
+// What has state is read by the step, at most once in each.
+template <class Spec>
+void CheckRates(const char* kind, int64_t dt_ns, const std::vector<Named<Spec>>& sensors) {
+  const double most = 1e9 / static_cast<double>(dt_ns);
+  for (const auto& sensor : sensors) {
+    if (sensor.spec.rate_hz <= most) continue;
+    char text[120];
+    std::snprintf(text, sizeof text, "': rate_hz %g is more than the %g steps a second of the simulation", sensor.spec.rate_hz, most);
+    throw InputError(std::string("--sensors: ") + kind + " '" + sensor.name.substr(0, 80) + text);
+  }
+}
+
 template <class Spec>
 void CheckFiles(const char* kind, double seconds, const std::vector<Named<Spec>>& sensors) {
   for (const auto& sensor : sensors) {
@@ -64,6 +76,11 @@ void CheckFiles(const char* kind, double seconds, const std::vector<Named<Spec>>
 }  // namespace
 
 void CheckSensorLog(const SensorSet& set, double seconds) {
+  const int64_t dt_ns = SimModel{}.dt_ns;
+  CheckRates("imu", dt_ns, set.imus);
+  CheckRates("gnss", dt_ns, set.gnss);
+  CheckRates("barometer", dt_ns, set.barometers);
+  CheckRates("magnetometer", dt_ns, set.magnetometers);
   CheckKind("imus", set.imus);
   CheckKind("gnss", set.gnss);
   CheckKind("barometers", set.barometers);

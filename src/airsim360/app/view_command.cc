@@ -138,7 +138,8 @@ void Understand(ViewArguments& arguments) {
   if (arguments.what.empty() && arguments.world.empty())
     throw InputError("view: what? Give the folder of a dataset, a file of a world, or --world W");
   if (arguments.what.empty() && !arguments.compare.empty()) throw InputError("--compare: needs a dataset to compare with");
-  if (arguments.what.empty() && !arguments.out.empty()) throw InputError("--export: writes datasets; a live world needs the server");
+  if (arguments.what.empty() && !arguments.out.empty())
+    throw InputError("--export: '" + arguments.world + "' is no folder of a dataset; worlds need the server");
   if (arguments.world.empty() && !arguments.record.empty()) throw InputError("--record: records a live world; give --world W");
 }
 

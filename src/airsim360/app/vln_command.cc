@@ -7,6 +7,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/config_flags.h"
+#include "airsim360/app/out_file.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
@@ -112,6 +113,7 @@ void Make(VlnMakeArguments& arguments, const GlobalOptions& globals) {
   if (options.world.empty() && arguments.recipe.empty()) throw InputError("--world: give a world or a --recipe");
   if (!options.weather.empty() && options.weather != "mix") ApplyFlags({.weather = options.weather}, {});
   options.open = [&](uint64_t seed) { return Open(globals, options.world, seed, 0); };
+  CheckOutFile(arguments.out);
   const VlnMade made = arguments.recipe.empty() ? MakeEpisodes(options) : MakeRecipe(arguments, globals);
   if (made.episodes.empty()) throw RuntimeError("no instruction could be bound to " + options.world + ": " + made.unbound.front().why);
   std::string text;
@@ -363,6 +365,7 @@ struct ReportArguments {
 };
 
 void Report(ReportArguments& a, const GlobalOptions& globals) {
+  CheckOutFile(a.out);
   std::vector<VlnRun> runs;
   for (const std::string& file : a.files) runs.push_back({std::filesystem::path(file).stem().string(), ReadResults(file)});
   FailurePictures pictures;

@@ -51,7 +51,10 @@ MpdeDataName ParseMpdeData(const std::string& text) {
     return tail;
   };
   if (const std::string share = cut('@'); !share.empty()) name.share = NumberOf<double>(share, text);
-  if (const std::string persons = cut('#'); !persons.empty()) name.persons = NumberOf<uint64_t>(persons, text);
+  if (const std::string persons = cut('#'); !persons.empty()) {
+    name.persons = NumberOf<uint64_t>(persons, text);
+    if (name.persons == 0) throw InputError("'" + text + "': nobody to train on; leave '#0' out to take everybody");
+  }
   name.split = cut(':');
   name.path = rest;
   if (!(name.share > 0 && std::isfinite(name.share))) throw InputError("'" + text + "': a share must be above 0");
@@ -74,7 +77,14 @@ std::vector<ViewDraw> ParseViews(const std::string& text, const std::string& con
         });
       };
       read();
-      if (!like.empty()) draw = NamedViews(like), read();
+      try {
+        if (!like.empty()) draw = NamedViews(like), read();
+        if (draw.highest < draw.lowest || draw.farthest < draw.nearest)
+          throw InputError("views need highest >= lowest and farthest >= nearest");
+      } catch (const InputError& error) {
+        const std::string what = error.what();
+        throw InputError(what.starts_with(entry) ? what : entry + ": " + what);
+      }
     } else {
       draw = NamedViews(entry);
     }

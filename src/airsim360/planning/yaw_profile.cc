@@ -14,6 +14,8 @@ namespace {
 constexpr double kShortest = 1e-3;
 /// Steps by which the nearest moment with a heading is looked for.
 constexpr int kSteps = 4096;
+/// By which that moment is found between two steps.
+constexpr int kHalvings = 40;
 
 double Wrapped(double yaw) {
   const double wrapped = std::remainder(yaw, 2 * kPi);
@@ -31,10 +33,17 @@ double NearestHeading(double t, double duration, F heading) {
   t = std::clamp(t, 0.0, duration);
   if (const std::optional<double> yaw = heading(t)) return *yaw;
   for (int i = 1; i <= kSteps; ++i) {
-    const double away = duration * i / kSteps;
-    for (const double near : {t - away, t + away}) {
-      if (near < 0 || near > duration) continue;
-      if (const std::optional<double> yaw = heading(near)) return *yaw;
+    const double step = duration / kSteps, away = step * i;
+    for (const double sign : {-1.0, 1.0}) {
+      const double near = t + sign * away;
+      if (near < 0 || near > duration || !heading(near)) continue;
+      // The moment itself, the same for every t around it: a vehicle at rest does not turn.
+      double without = near - sign * step, with = near;
+      for (int k = 0; k < kHalvings; ++k) {
+        const double middle = 0.5 * (without + with);
+        (heading(middle) ? with : without) = middle;
+      }
+      return *heading(with);
     }
   }
   return 0;
@@ -47,6 +56,27 @@ double Interpolate(const GivenYaw& given, double t) {
   const size_t i = static_cast<size_t>(after - given.times.begin());
   const double share = (t - given.times[i - 1]) / (given.times[i] - given.times[i - 1]);
   return Wrapped(given.yaws[i - 1] + share * Wrapped(given.yaws[i] - given.yaws[i - 1]));
+}
+
+double Evaluate(const YawPowers& powers, const PolynomialTrajectory& path, double t) {
+  t = std::clamp(t, 0.0, path.duration());
+  size_t i = 0;
+  while (i + 1 < path.segments() && t >= path.start(i + 1)) ++i;
+  double yaw = 0;
+  for (size_t k = powers.segments[i].size(); k-- > 0;) yaw = yaw * (t - path.start(i)) + powers.segments[i][k];
+  return Wrapped(yaw);
+}
+
+void Check(const YawPowers& powers, const PolynomialTrajectory& path) {
+  if (powers.segments.size() != path.segments()) {
+    throw InputError("yaw: " + std::to_string(powers.segments.size()) + " polynomials for " + std::to_string(path.segments()) +
+                     " segments");
+  }
+  for (size_t i = 0; i < powers.segments.size(); ++i) {
+    for (const double c : powers.segments[i]) {
+      if (!std::isfinite(c)) throw InputError("yaw: polynomial " + std::to_string(i) + " is not finite");
+    }
+  }
 }
 
 void Check(const GivenYaw& given) {
@@ -73,11 +103,13 @@ YawProfile::YawProfile(const PolynomialTrajectory& trajectory, YawRule rule) : t
     throw InputError("yaw: the point to look at is not finite");
   }
   if (const auto* given = std::get_if<GivenYaw>(&rule_)) Check(*given);
+  if (const auto* powers = std::get_if<YawPowers>(&rule_)) Check(*powers, trajectory_);
 }
 
 double YawProfile::At(double t) const {
   if (const auto* constant = std::get_if<ConstantYaw>(&rule_)) return Wrapped(constant->yaw);
   if (const auto* given = std::get_if<GivenYaw>(&rule_)) return Interpolate(*given, t);
+  if (const auto* powers = std::get_if<YawPowers>(&rule_)) return Evaluate(*powers, trajectory_, t);
   const auto* towards = std::get_if<YawTowards>(&rule_);
   return NearestHeading(t, trajectory_.duration(), [&](double time) {
     const TrajectoryPoint point = trajectory_.At(time);

@@ -28,12 +28,19 @@ struct GivenYaw {
   std::vector<double> times, yaws;
 };
 
-using YawRule = std::variant<ConstantYaw, YawAlongVelocity, YawTowards, GivenYaw>;
+/// A polynomial for each segment of the path: ascending powers of the segment's local time, radians, as
+/// YawProfile::Powers gives them.
+struct YawPowers {
+  std::vector<std::vector<double>> segments;
+};
+
+using YawRule = std::variant<ConstantYaw, YawAlongVelocity, YawTowards, GivenYaw, YawPowers>;
 
 /// A rule bound to a path, which must outlive it.
 class YawProfile {
  public:
-  /// InputError for numbers that are not finite and for times that do not increase or agree in number.
+  /// InputError for numbers that are not finite, for times that do not increase or agree in number, and for polynomials
+  /// that are not one for each segment of the path.
   YawProfile(const PolynomialTrajectory& trajectory, YawRule rule);
   /// Radians in (-pi, pi] at time t, clamped to the path.
   double At(double t) const;

@@ -60,5 +60,17 @@ TEST(YawProfile, BadRulesAreRefused) {
   EXPECT_THROW(YawProfile(trajectory, GivenYaw{{0}, {}}), InputError);
 }
 
+TEST(YawProfile, AVehicleAtRestDoesNotTurn) {
+  const Vec3d points[] = {{-4, -4, 1}, {0, -3, 2}, {4, 4, 3}};
+  const double durations[] = {2.3, 3.2};
+  const PolynomialTrajectory trajectory = SolveMinimumSnap({.waypoints = points, .durations = durations});
+  const YawProfile yaw(trajectory, YawAlongVelocity{});
+  // Below 1e-3 m/s for about the first and last twentieth of a second: the heading is that of the moment where that ends.
+  for (const double end : {0.0, trajectory.duration()}) {
+    for (const double inwards : {1e-4, 0.01, 0.02})
+      EXPECT_NEAR(yaw.At(end), yaw.At(std::abs(end - inwards)), 1e-9) << end << " " << inwards;
+  }
+}
+
 }  // namespace
 }  // namespace airsim360

@@ -54,23 +54,37 @@ Route::Route(std::vector<RouteNode> nodes) : nodes_(std::move(nodes)) {
   }
 }
 
-Route Route::Along(const PolynomialTrajectory& path, std::optional<double> yaw) {
+Route Route::Along(const PolynomialTrajectory& planned, const std::optional<YawRule>& yaw) {
   // Close enough that the heading, a smooth step from node to node, follows the way.
   constexpr double kNodeInterval = 0.5;  // seconds
+  const auto path_of_route = std::make_shared<const PolynomialTrajectory>(planned);
+  const PolynomialTrajectory& path = *path_of_route;
+  const auto given = yaw ? std::make_shared<const YawProfile>(path, *yaw) : nullptr;
   std::vector<RouteNode> nodes;
-  double heading = yaw.value_or(0);
+  double heading = 0;
   const int count = std::max(1, static_cast<int>(std::ceil(path.duration() / kNodeInterval)));
   for (int i = 0; i <= count; ++i) {
     const double t = path.duration() * i / count;
     const TrajectoryPoint point = path.At(t);
     // At rest the heading is that of the way just after or before.
     const Vec3d travel = path.At(t + 0.25 * kNodeInterval).p - path.At(t - 0.25 * kNodeInterval).p;
-    if (!yaw && std::hypot(travel.x, travel.y) > 1e-3) heading = std::atan2(travel.y, travel.x);
+    if (given) {
+      heading = given->At(t);
+    } else if (std::hypot(travel.x, travel.y) > 1e-3) {
+      heading = std::atan2(travel.y, travel.x);
+    }
     nodes.push_back({.t = t, .p = point.p, .v = point.v, .yaw = heading});
   }
   Route route(std::move(nodes));
-  route.path_ = std::make_shared<const PolynomialTrajectory>(path);
+  route.path_ = path_of_route;
+  route.heading_ = given;
   return route;
+}
+
+double Route::YawRate(double t) const {
+  constexpr double kStep = 1e-4;  // seconds
+  const double before = std::max(t - kStep, 0.0), after = std::min(t + kStep, duration());
+  return std::remainder(heading_->At(after) - heading_->At(before), 2 * kPi) / (after - before);
 }
 
 RoutePoint Route::At(double t) const {
@@ -84,6 +98,7 @@ RoutePoint Route::At(double t) const {
   const double turn = b.yaw - a.yaw;
   if (path_) {
     const TrajectoryPoint point = path_->At(t);
+    if (heading_) return {point.p, point.v, point.a, heading_->At(t), YawRate(t)};
     return {point.p, point.v, point.a, a.yaw + turn * s * s * (3 - 2 * s), turn * 6 * s * (1 - s) / T};
   }
   return {Blend(Position(s), a, b, T), Blend(Velocity(s), a, b, T) / T, Blend(Acceleration(s), a, b, T) / (T * T),

@@ -8,6 +8,7 @@
 
 #include "airsim360/math/vector.h"
 #include "airsim360/planning/polynomial_trajectory.h"
+#include "airsim360/planning/yaw_profile.h"
 
 namespace airsim360 {
 
@@ -33,9 +34,9 @@ class Route {
   /// At least one node, times strictly increasing from 0; InputError otherwise. Headings turn the shorter
   /// way.
   explicit Route(std::vector<RouteNode> nodes);
-  /// A planned flight, its positions exactly; the heading is `yaw`, or along the way from node to node where
-  /// none is given.
-  static Route Along(const PolynomialTrajectory& path, std::optional<double> yaw);
+  /// A planned flight, its positions exactly; the heading is exactly that of `yaw`, or along the way from node to node
+  /// where none is given.
+  static Route Along(const PolynomialTrajectory& path, const std::optional<YawRule>& yaw);
 
   /// The planned flight; nullptr if the route is not one.
   const PolynomialTrajectory* path() const { return path_.get(); }
@@ -46,8 +47,11 @@ class Route {
   RoutePoint At(double t) const;
 
  private:
+  double YawRate(double t) const;  // of heading_
+
   std::vector<RouteNode> nodes_;
   std::shared_ptr<const PolynomialTrajectory> path_;
+  std::shared_ptr<const YawProfile> heading_;  // of path_; null: that of the nodes
 };
 
 /// A place to pass, from a route file.

@@ -48,7 +48,7 @@ TEST(RouteXml, GpxIsEastNorthUpAroundTheFirstPoint) {
       "<?xml version=\"1.0\"?>\n<!-- a <trkpt> in a comment -->\n<gpx><trk><trkseg>\n"
       "<trkpt lat=\"47.0\" lon='8.0'><ele>400</ele><time>2026-01-01T00:00:00Z</time></trkpt>\n"
       "<trkpt lat=\"47.001\" lon=\"8.0\"><ele>410.5</ele></trkpt>\n"
-      "<trkpt lat=\"47.0\" lon=\"8.001\"/>\n</trkseg></trk></gpx>\n";
+      "<trkpt lat=\"47.0\" lon=\"8.001\"><ele>400</ele></trkpt>\n</trkseg></trk></gpx>\n";
   const auto route = ParseRouteXml(gpx, "r.gpx");
   ASSERT_EQ(route.size(), 3u);
   EXPECT_LT(Norm(route[0].p - Vec3d{0, 0, 400}), 1e-6);
@@ -86,22 +86,53 @@ TEST(RouteXml, ErrorsNameThePlace) {
   EXPECT_NE(message("<kml><coordinates>1</coordinates></kml>").find("is needed"), std::string::npos);
 }
 
+TEST(RouteXml, AFileThatIsCutOffIsRefusedWithoutLosingPoints) {
+  const auto message = [](const char* text) { return MessageOf([&] { ParseRouteXml(text, "r.gpx"); }); };
+  EXPECT_NE(message("<gpx>\n<wpt lat=\"1\" lon=\"1\"/>\n<wpt lat=\"2\" lon=\"1\">").find("r.gpx:3:1: 'wpt' is not closed"),
+            std::string::npos);
+  EXPECT_NE(message("<gpx><rte><rtept lat=\"1\" lon=\"1\"/></gpx>").find("'gpx' is closed, but not open"), std::string::npos);
+  EXPECT_EQ(ParseRouteXml("<gpx><wpt lat=\"1\" name=\"a>b\" lon=\"1\"/></gpx>", "r.gpx").size(), 1u);
+}
+
+TEST(RouteXml, AHeightThatIsMissingIsNotTheSeaLevel) {
+  EXPECT_NE(MessageOf([] {
+              ParseRouteXml("<gpx><wpt lat=\"1\" lon=\"1\"><ele>9</ele></wpt>\n<wpt lat=\"2\" lon=\"1\"/></gpx>", "r.gpx");
+            }).find("r.gpx:2:2: no height"),
+            std::string::npos);
+  EXPECT_EQ(ParseRouteXml("<gpx><wpt lat=\"1\" lon=\"1\"/></gpx>", "r.gpx")[0].p.z, 0);
+}
+
 TEST(RouteAlong, IsThePlannedFlightExactlyAndLooksWhereItGoes) {
   const Vec3d points[] = {{0, 0, 2}, {10, 0, 2}, {10, 10, 4}};
   const double durations[] = {4, 5};
   const PolynomialTrajectory path = SolveMinimumSnap({.waypoints = points, .durations = durations});
-  const Route route = Route::Along(path, std::nullopt), fixed = Route::Along(path, 1.25);
+  const Route route = Route::Along(path, std::nullopt), fixed = Route::Along(path, ConstantYaw{1.25});
   EXPECT_EQ(route.duration(), path.duration());
   for (int i = 1; i < 900; ++i) {
     const double t = path.duration() * i / 900;
     EXPECT_EQ(route.At(t).p, path.At(t).p);
     EXPECT_EQ(route.At(t).v, path.At(t).v);
     EXPECT_EQ(fixed.At(t).yaw, 1.25);
+    EXPECT_EQ(fixed.At(t).yaw_rate, 0);
     const Vec3d v = path.At(t).v;
     if (std::hypot(v.x, v.y) > 1) {
       EXPECT_LT(std::fabs(std::remainder(route.At(t).yaw - std::atan2(v.y, v.x), 2 * std::numbers::pi)), 0.15);
     }
   }
+}
+
+TEST(RouteAlong, TurnsAsThePolynomialsOfThePlanSay) {
+  const Vec3d points[] = {{0, 0, 2}, {10, 0, 2}, {10, 10, 4}};
+  const double durations[] = {4, 5};
+  const PolynomialTrajectory path = SolveMinimumSnap({.waypoints = points, .durations = durations});
+  // 0.1 + 0.4 t - 0.05 t^2 over 4 s, then on from there with the rate that it has.
+  const Route route = Route::Along(path, YawPowers{{{0.1, 0.4, -0.05}, {0.9, 0, 0.02}}});
+  for (int i = 1; i < 90; ++i) {
+    const double t = 0.1 * i, u = t - 4;
+    EXPECT_NEAR(route.At(t).yaw, t < 4 ? 0.1 + 0.4 * t - 0.05 * t * t : 0.9 + 0.02 * u * u, 1e-12) << t;
+    EXPECT_NEAR(route.At(t).yaw_rate, t < 4 ? 0.4 - 0.1 * t : 0.04 * u, 1e-5) << t;
+  }
+  EXPECT_NE(MessageOf([&] { Route::Along(path, YawPowers{{{0.1}}}); }).find("1 polynomials for 2 segments"), std::string::npos);
 }
 
 }  // namespace

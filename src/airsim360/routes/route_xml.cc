@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "airsim360/base/error.h"
 #include "airsim360/routes/route_file.h"
@@ -39,13 +41,21 @@ class Reader {
       if (open == std::string_view::npos) return false;
       before = text_.substr(at_, open - at_);
       const char* end_mark = text_.substr(open).starts_with("<!--") ? "-->" : text_.substr(open).starts_with("<?") ? "?>" : ">";
-      const size_t close = text_.find(end_mark, open);
+      const size_t close = end_mark[0] == '>' ? EndOfTag(open) : text_.find(end_mark, open);
       if (close == std::string_view::npos) Fail(open, "this tag does not end");
       if (text_.substr(open).starts_with("<!") && end_mark[0] == '>') Fail(open, "a DOCTYPE or CDATA section is not read");
       at_ = close + std::string_view(end_mark).size();
       tag = text_.substr(open + 1, close - open - 1);
-      if (end_mark[0] == '>') return true;
+      if (end_mark[0] == '>') {
+        Nest(open, tag);
+        return true;
+      }
     }
+  }
+  // A file that is cut off, or whose elements do not fit into each other, would lose points.
+  void CheckEnd() const {
+    if (!open_.empty())
+      Fail(open_.back().first, "'" + std::string(open_.back().second.substr(0, 64)) + "' is not closed: the file is cut off");
   }
   size_t Offset(std::string_view part) const { return static_cast<size_t>(part.data() - text_.data()); }
 
@@ -71,13 +81,43 @@ class Reader {
   }
 
  private:
+  // The > that ends a tag: one in quotes belongs to an attribute.
+  size_t EndOfTag(size_t open) const {
+    char quote = 0;
+    for (size_t i = open; i < text_.size(); ++i) {
+      const char c = text_[i];
+      if (quote != 0) {
+        if (c == quote) quote = 0;
+      } else if (c == '"' || c == '\'') {
+        quote = c;
+      } else if (c == '>') {
+        return i;
+      }
+    }
+    return std::string_view::npos;
+  }
+  void Nest(size_t at, std::string_view tag) {
+    const bool closes = tag.starts_with("/");
+    if (closes) tag.remove_prefix(1);
+    const std::string_view element = tag.substr(0, tag.find_first_of(" \t\r\n/"));
+    if (!closes) {
+      if (!tag.ends_with("/")) open_.emplace_back(at, element);
+      return;
+    }
+    if (open_.empty() || open_.back().second != element) Fail(at, "'" + std::string(element.substr(0, 64)) + "' is closed, but not open");
+    open_.pop_back();
+  }
+
   std::string_view text_, name_;
   size_t at_ = 0, counted_ = 0, line_ = 1;
+  std::vector<std::pair<size_t, std::string_view>> open_;  // elements and where they begin
 };
 
 struct Found {
   GeoPoint point;
   size_t line;
+  size_t at;
+  bool has_altitude = false;
 };
 
 // Name of a tag without prefix: "gpx:wpt lat=…" is wpt.
@@ -115,7 +155,7 @@ void ReadCoordinates(Reader& reader, std::string_view text, std::vector<Found>& 
     if (count < 2) reader.Fail(place, "lon,lat[,alt] is needed");
     const GeoPoint p{values[1], values[0], values[2]};
     CheckPlace(reader, place, p);
-    points.push_back({p, reader.Line(place)});
+    points.push_back({p, reader.Line(place), place, true});  // KML's altitude is 0 unless given
     if (points.size() > kMaxPoints) reader.Fail(place, "more than 1,000,000 points");
     at = end;
   }
@@ -127,17 +167,25 @@ std::vector<Found> FindPoints(Reader& reader) {
   bool in_elevation = false, in_coordinates = false, in_point = false;
   while (reader.Next(before, tag)) {
     const std::string_view name = NameOf(tag);
-    if (in_elevation && in_point) points.back().point.altitude = reader.Number(before);
+    if (in_elevation && in_point) {
+      points.back().point.altitude = reader.Number(before);
+      points.back().has_altitude = true;
+    }
     if (in_coordinates) ReadCoordinates(reader, before, points);
     in_elevation = name == "ele";
     in_coordinates = name == "coordinates" && !tag.ends_with("/");
     if (name == "wpt" || name == "rtept" || name == "trkpt") {
       const GeoPoint p{reader.Attribute(tag, "lat"), reader.Attribute(tag, "lon"), 0};
       CheckPlace(reader, reader.Offset(tag), p);
-      points.push_back({p, reader.Line(reader.Offset(tag))});
+      points.push_back({p, reader.Line(reader.Offset(tag)), reader.Offset(tag)});
       if (points.size() > kMaxPoints) reader.Fail(reader.Offset(tag), "more than 1,000,000 points");
       in_point = true;
     }
+  }
+  reader.CheckEnd();
+  for (const Found& found : points) {
+    if (found.has_altitude != points.front().has_altitude)
+      reader.Fail((found.has_altitude ? points.front() : found).at, "no height (ele), which other points have");
   }
   return points;
 }

@@ -38,6 +38,8 @@ void WriteDataset(const ViewedDataset& data, const fs::path& folder) {
   const std::vector<std::string> files = data.Files();
   for (size_t i = 0; i < files.size(); ++i) {
     fs::create_directories((folder / files[i]).parent_path());
+    if (!fs::is_regular_file(data.folder() / files[i]))
+      throw RuntimeError((data.folder() / files[i]).string() + ": missing; 'airsim360 verify' tells what else is");
     fs::copy_file(data.folder() / files[i], folder / files[i], fs::copy_options::overwrite_existing);
     if ((i + 1) % kProgressEvery == 0) LogInfo("view: " + std::to_string(i + 1) + " of " + std::to_string(files.size()) + " files copied");
   }
@@ -106,12 +108,22 @@ void ViewSite::Write(const fs::path& folder) const {
   CheckNew(folder);
   // Whole, or not at all.
   const fs::path partial = folder.lexically_normal().string() + ".partial";
+  try {
+    WriteSite(partial);
+  } catch (...) {
+    std::error_code unimportant;
+    fs::remove_all(partial, unimportant);
+    throw;
+  }
+  if (fs::exists(folder)) fs::remove(folder);
+  fs::rename(partial, folder);
+}
+
+void ViewSite::WriteSite(const fs::path& partial) const {
   CreateWritableFolder(partial);
   for (const PageFile& file : PageFiles()) WriteFileAtomically(partial / file.name, file.text);
   WriteFileAtomically(partial / "session.json", Session());
   for (size_t i = 0; i < datasets_.size(); ++i) WriteDataset(*datasets_[i], partial / kData / std::to_string(i));
-  if (fs::exists(folder)) fs::remove(folder);
-  fs::rename(partial, folder);
 }
 
 HttpServerOptions ViewServerOptions(int port) {

@@ -35,6 +35,7 @@ class ViewSite {
   HttpResponse Find(std::string_view path) const;
   HttpResponse Data(std::string_view path) const;
   std::string Session() const;
+  void WriteSite(const std::filesystem::path& partial) const;
 
   std::vector<std::shared_ptr<ViewedDataset>> datasets_;
   std::shared_ptr<LiveSource> live_;

@@ -45,6 +45,7 @@ struct AutopilotState {
   double start_yaw = 0;  ///< its heading then
   int64_t phase = 0;     ///< of a return; segment of a path
   double settled = 0;    ///< seconds without motion while landing
+  double touched = 0;    ///< seconds for which something has kept it from sinking as it should while landing
 
   Vec3d home_W;  ///< where it was armed
 

@@ -13,6 +13,10 @@ namespace {
 constexpr double kReachedDistance = 0.2, kReachedSpeed = 0.3;
 // The ground carries the drone when its rotors give less than this share of its weight and it does not move.
 constexpr double kCarriedShare = 0.8, kStillSpeed = 0.15, kSettleTime = 0.3;
+// A landing drone has touched something when it has sunk at less than half of the speed asked for, for so long, or at once when
+// it loses this share of the speed to a push of more than its weight. Its thrust then fades out within this time, from this share
+// of its weight.
+constexpr double kTouchTime = 0.1, kStruckShare = 0.3, kFadeTime = 0.4, kFadeFrom = 0.7;
 // Carrot chasing as AirSim: at least this far ahead, and this many seconds of flight.
 constexpr double kLeastLookahead = 0.75, kLookaheadTime = 0.6;
 constexpr double kForwardSpeed = 0.3;  // slower than this, "forward" is no direction
@@ -133,7 +137,7 @@ class Guider {
     state_.start_p_W = now_.p_WB;
     state_.start_yaw = HeadingOf(ToMatrix(now_.q_WB));
     state_.phase = 0;
-    state_.settled = 0;
+    state_.settled = state_.touched = 0;
     state_.flags &= ~uint64_t{kCommandRefused | kCommandLost | kCommandDone | kFenceHeld};
     if (!pilot_.Problem(active_.command, state_).empty()) {
       state_.flags |= kCommandRefused;
@@ -208,10 +212,36 @@ class Guider {
     const bool carried = thrust < kCarriedShare * pilot_.model().mass * kGravity;
     const bool still = Norm(now_.v_WB) < kStillSpeed;
     state_.settled = carried && still ? state_.settled + pilot_.options().control_dt : 0;
-    if (state_.settled < kSettleTime) return goal;
-    state_.mode = FlightMode::kDisarmed;
-    state_.flags |= kCommandDone;
-    return {};
+    if (state_.settled >= kSettleTime) {
+      state_.mode = FlightMode::kDisarmed;
+      state_.flags |= kCommandDone;
+      return {};
+    }
+    if (HasTouched(speed)) SetDown(goal);
+    return goal;
+  }
+
+  /// Notices that something is below a drone that sinks at `speed`. What then falls faster is in the air after all.
+  bool HasTouched(double speed) {
+    const double wanted = state_.reference_v.z, sinking = -now_.v_WB.z;
+    const bool touched = state_.touched > kTouchTime;
+    const bool sinks = wanted < -0.5 * speed;
+    const bool kept = touched ? sinking < 1.5 * speed : sinks && sinking < -0.5 * wanted;
+    const bool struck = sinks && state_.disturbance_a.z > kGravity && sinking < -(1 - kStruckShare) * wanted;
+    state_.touched = kept && state_.has_reference ? state_.touched + pilot_.options().control_dt : 0;
+    if (struck) state_.touched = std::max(state_.touched, kTouchTime + pilot_.options().control_dt);
+    return state_.touched > kTouchTime;
+  }
+
+  /// Level, with less and less thrust, and without flying against what the ground does: who goes on leaning into the wind turns
+  /// over its edge, and who fights the torque of a leg that touches first jumps off again.
+  void SetDown(Goal& goal) {
+    state_.disturbance_a = state_.disturbance_alpha = {};
+    state_.has_history = 0;
+    const double left = kFadeFrom * std::max(1 - (state_.touched - kTouchTime) / kFadeTime, 0.0);
+    goal.level = GoalLevel::kAttitude;
+    goal.throttle_given = true;
+    goal.throttle = left * pilot_.model().mass * kGravity / gains_.max_thrust;
   }
 
   /// Flies at a point of the path ahead of the reference.

@@ -115,6 +115,8 @@ class Checker {
       const std::string which = "place " + std::to_string(i + 1) + " of the goal ";
       if (const double off = brute_.Distance(e.entities, e.places[i]); off > kBeside)
         return which + "is " + std::to_string(off) + " m from " + NameOf(stage_->scene(), e.entities);
+      if (const double off = brute_.HeightApart(e.entities, e.places[i]); off > kBeside)
+        return which + "is " + std::to_string(off) + " m above or below " + NameOf(stage_->scene(), e.entities);
       if (!IsFree(*stage_->solid(), e.places[i], e.places[i], free_)) return which + "is not free";
     }
     return "";

@@ -192,6 +192,12 @@ TEST(MakeEpisodes, InRoomsAnyFreePlaceBesideAThingIsItsGoal) {
   const auto complaints = CheckEpisodes(moved, [&](const std::string&, uint64_t) { return stage; });
   ASSERT_EQ(complaints.size(), 1u);
   EXPECT_NE(complaints[0].what.find("place"), std::string::npos) << complaints[0].what;
+  // So is what is on another storey, right above it.
+  moved = made.episodes;
+  moved[0].places.push_back({0, 0, 5});
+  const auto above = CheckEpisodes(moved, [&](const std::string&, uint64_t) { return stage; });
+  ASSERT_EQ(above.size(), 1u);
+  EXPECT_NE(above[0].what.find("above or below"), std::string::npos) << above[0].what;
 }
 
 }  // namespace

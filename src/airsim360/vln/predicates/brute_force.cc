@@ -238,6 +238,11 @@ std::vector<const BruteForce::Shape*> BruteForce::All(const Noun& noun) {
 
 double BruteForce::Distance(const std::vector<EntityId>& entities, Vec3d p_W) { return ShapeOf(entities).Distance(OnPlan(p_W)); }
 
+double BruteForce::HeightApart(const std::vector<EntityId>& entities, Vec3d p_W) {
+  const Shape& shape = ShapeOf(entities);
+  return std::max({shape.low - p_W.z, p_W.z - shape.high, 0.0});
+}
+
 bool BruteForce::Passes(const std::vector<EntityId>& entities, Vec3d from_W, Vec3d to_W) {
   const Shape& shape = ShapeOf(entities);
   const Plan a = OnPlan(from_W), b = OnPlan(to_W);

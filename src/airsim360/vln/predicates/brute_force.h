@@ -26,6 +26,8 @@ class BruteForce {
 
   /// Metres seen from above from a place to what the entities are made of.
   double Distance(const std::vector<EntityId>& entities, Vec3d p_W);
+  /// Metres by which a place is above all of them, or below; 0 between.
+  double HeightApart(const std::vector<EntityId>& entities, Vec3d p_W);
   /// Whether the straight line between two places passes within a metre of them, seen from above.
   bool Passes(const std::vector<EntityId>& entities, Vec3d from_W, Vec3d to_W);
 
