@@ -192,6 +192,22 @@ class Datasets(ProgramTest):
         (self.folder / "half/SHA256SUMS").unlink()
         self.run_bad(2, "dataset", "merge", self.folder / "half", "--out", self.folder / "m", says=["is not finished"])
 
+    def test_a_damaged_shard_is_named_and_once_it_is_whole_the_same_merge_ends(self):
+        shards = self.shards(2)
+        out = self.folder / "merged"
+        for product in ("entity", "normal", "rgb", "range"):
+            pictures = sorted((shards[1] / product).glob("*")) if (shards[1] / product).exists() else []
+            for picture in pictures[1:2]:
+                good = picture.read_bytes()
+                for bad in (good[:-9] + bytes([good[-9] ^ 1]) + good[-8:], good[:-20]):
+                    picture.unlink()
+                    picture.write_bytes(bad)
+                    self.run_bad(2, "dataset", "merge", *shards, "--out", out, says=[str(picture), "damaged or cut off", "run its shard again"])
+                    self.assertFalse((out / "SHA256SUMS").exists())
+                picture.write_bytes(good)
+        self.run_ok("dataset", "merge", *shards, "--out", out)
+        self.assertEqual(tree(out), tree(self.whole))
+
     def test_two_runs_in_one_folder_are_refused(self):
         process = subprocess.Popen([PROGRAM, "dataset", "run", str(self.plan), "--size", "2048x1024", "--out", str(self.folder / "a")],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
