@@ -53,8 +53,9 @@ CollectResult CollectSubset(const HumanRun& run, const HumanRecipe& recipe, cons
   const fs::path people_file = folder.string() + ".people.yaml";
   CreateWritableFolder(folder);
   WriteFileAtomically(people_file, PeopleFileOf(area, subset.people));
-  PeopleRequest request = run.people.Request(PeopleSeedOf(subset, seed));
-  request.file = people_file;
+  PeopleArguments people = run.people;
+  people.people = people_file.string();
+  PeopleRequest request = people.Request(PeopleSeedOf(subset, seed));
   request.navmesh = world.mesh;
   Stage stage(world.stage, request);
 

@@ -35,7 +35,14 @@ void PeopleArguments::AddTo(CLI::App& command) {
 PeopleRequest PeopleArguments::Request(uint64_t seed) const {
   PeopleRequest request{.sockets = sockets, .warm_up = warm_up, .level = level, .seed = seed};
   request.reserve = static_cast<size_t>(reserve);
-  if (people.empty()) return request;
+  if (people.empty()) {
+    const std::string flag = !sockets.empty()                       ? "--sockets"
+                             : level >= 0                           ? "--people-level"
+                             : warm_up != PeopleArguments().warm_up ? "--people-warmup"
+                                                                    : "";
+    if (!flag.empty() && reserve == 0) throw InputError(flag + ": it is about people; add --people N");
+    return request;
+  }
   if (const auto count = ParseCount(people)) {
     if (*count > kMostPeople) {
       throw InputError("--people: " + people + " is not in 0 … " + std::to_string(kMostPeople) + "; did you mean " +

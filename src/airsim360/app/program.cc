@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -117,6 +118,16 @@ const CLI::App& FindCommand(const CLI::App& program, const std::vector<std::stri
   return *command;
 }
 
+// Ranges of flags let NaN pass.
+void RefuseNan(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) {
+    if (!option->get_type_name().starts_with("FLOAT")) continue;
+    option->check([](const std::string& text) {
+      return std::isnan(std::strtod(text.c_str(), nullptr)) ? "'" + text + "' is no number" : std::string();
+    });
+  }
+}
+
 // The text for flags or words that the command does not take, naming the nearest flag; else that of `error`.
 std::string UnknownArgumentMessage(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* command = &app;
@@ -162,6 +173,8 @@ Program::Program(const CommandSet& commands) : app_("Panoramic (360 degree) simu
     const auto nested = command->get_subcommands(Any);
     if (nested.empty()) AddGlobalFlags(*command, globals_, limit_);
     for (CLI::App* inner : nested) AddGlobalFlags(*inner, globals_, limit_);
+    RefuseNan(*command);
+    for (CLI::App* inner : nested) RefuseNan(*inner);
   }
   for (const auto add : commands.own) add(app_);
   AddHelpCommand(app_);
