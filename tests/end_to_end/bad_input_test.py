@@ -47,7 +47,14 @@ class BadFlags(ProgramTest):
             self.assertEqual(result.returncode, 2 if value else 0, (value, result.stderr))
         for flag, value in [("--pose", "1,2,1e30"), ("--pose", "-1.1e7,2,3")]:
             self.run_bad(2, "render", *ROOM, flag, value, "--out", out, says=[flag, value, "is not in -1e+07 … 1e+07"])
-        for value in ["0.5", "180", "nan", "-90"]:
+        for flag in ["--fps", "--start", "--people-warmup"]:
+            self.run_bad(2, "collect", "--world", "box_room", "--size", "64x32", flag, "nan", "--out", out, says=[flag, "nan"])
+        # Nothing is accepted and ignored.
+        for flag, value in [("--people-warmup", "5"), ("--people-level", "1"), ("--sockets", "sockets.yaml")]:
+            self.run_bad(2, "render", *ROOM, flag, value, "--out", out, says=[flag, "--people N"])
+        self.run_bad(2, "collect", "--world", "box_room", "--size", "64x32", "--format", "native,omni360", "--out", out,
+                     says=["--format: 'omni360'", "airsim360 dataset export"])
+        for value in ["0", "0.0", "0.5", "180", "nan", "-90"]:
             self.run_bad(2, "render", "--world", "box_room", "--projection", "pinhole", "--fov", value, "--out", out, says=["--fov"])
         self.run_bad(2, "render", "--world", "box_room", "--projection", "cube", "--size", "64x32", "--out", out, says=["did you mean '64x64'"])
 

@@ -192,6 +192,22 @@ class Datasets(ProgramTest):
         (self.folder / "half/SHA256SUMS").unlink()
         self.run_bad(2, "dataset", "merge", self.folder / "half", "--out", self.folder / "m", says=["is not finished"])
 
+    def test_a_damaged_shard_is_named_and_once_it_is_whole_the_same_merge_ends(self):
+        shards = self.shards(2)
+        out = self.folder / "merged"
+        for product in ("entity", "normal", "rgb", "range"):
+            pictures = sorted((shards[1] / product).glob("*")) if (shards[1] / product).exists() else []
+            for picture in pictures[1:2]:
+                good = picture.read_bytes()
+                for bad in (good[:-9] + bytes([good[-9] ^ 1]) + good[-8:], good[:-20]):
+                    picture.unlink()
+                    picture.write_bytes(bad)
+                    self.run_bad(2, "dataset", "merge", *shards, "--out", out, says=[str(picture), "damaged or cut off", "run its shard again"])
+                    self.assertFalse((out / "SHA256SUMS").exists())
+                picture.write_bytes(good)
+        self.run_ok("dataset", "merge", *shards, "--out", out)
+        self.assertEqual(tree(out), tree(self.whole))
+
     def test_two_runs_in_one_folder_are_refused(self):
         process = subprocess.Popen([PROGRAM, "dataset", "run", str(self.plan), "--size", "2048x1024", "--out", str(self.folder / "a")],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -227,6 +243,11 @@ class Datasets(ProgramTest):
         plan_of(RECIPE.replace("exposure: auto", "exposure: 0").replace("setting: cloud_cover, low: 0", "setting: exposure, low: -21"), "-20 … 20 stops")
         plan_of(RECIPE.replace("frames: 7", "frames: -7"), "r.yaml:11", "frames")
         plan_of(RECIPE.replace("name: sunny", "name: boxes"), "two rows are called 'boxes'")
+        plan_of(RECIPE.replace("size: 128x64", "size: 128x128"), "r.yaml: picture: --size", "did you mean '128x64'")
+        plan_of(RECIPE.replace("tier: fast", "tier: fast, products: [norml]"), "r.yaml: picture: --products", "did you mean 'normal'")
+        (self.folder / "r.yaml").write_text(RECIPE.replace("no_such_city", "box_rom"))
+        planned = self.run_ok("dataset", "plan", self.folder / "r.yaml", "--out", self.folder / "typo.json")
+        self.assertIn("world 'box_rom' does not exist yet; did you mean 'box_room'?", planned.stderr)
         plan_of(RECIPE.replace("skies: two, clearance: 0.5", "skies: tow, clearance: 0.5"), "did you mean 'two'")
         plan_of(RECIPE.replace("clearance: 0.3", "clearance: 90"), "no free place")
         self.run_bad(2, "dataset", "plan", "omni360-waypoint", "--out", self.folder / "p.json", says=["flights", "airsim360 plan --dataset waypoint --out", "omni360-waypoint-frames"])

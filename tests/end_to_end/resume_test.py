@@ -93,6 +93,17 @@ class Verify(ProgramTest):
             path.write_bytes(good)
         self.run_ok("verify", self.out)
 
+    def test_what_verify_names_is_restored_by_deleting_it_and_collecting_again(self):
+        good = tree(self.out)
+        for path in sorted(p for p in self.out.rglob("*") if p.is_file()):
+            path.unlink()
+            self.run_ok("collect", "--world", "box_room", "--frames", "2", "--size", "64x32", "--out", self.out)
+            self.assertEqual(tree(self.out), good, path)
+        # Other parameters are no reason to write meta.json.
+        (self.out / "meta.json").unlink()
+        self.run_bad(2, "collect", "--world", "box_room", "--frames", "3", "--size", "64x32", "--out", self.out, says=["not empty and not a dataset"])
+        self.assertFalse((self.out / "meta.json").exists())
+
     def test_missing_and_extra_files_are_named(self):
         (self.out / "range/000001.exr").unlink()
         (self.out / "notes.txt").write_text("x")

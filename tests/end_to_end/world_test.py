@@ -89,6 +89,18 @@ class WorldTest(ProgramTest):
         world.write_text("world: box_room\nscale: 2\n")
         self.run_bad(2, "world", "entities", world, says=["model files"])
 
+    def test_files_of_a_model_are_found_whatever_the_case_of_their_names(self):
+        (self.folder / "Parts").mkdir()
+        (self.folder / "quad.obj").write_text("mtllib COLOURS.MTL\nv -1 3 -1\nv 1 3 -1\nv 1 3 1\nv -1 3 1\nusemtl a\nf 1 2 3 4\n")
+        (self.folder / "Parts" / "colours.mtl").write_text("newmtl a\nKd 0.2 0.5 0.05\n")
+
+        def warnings(reference):
+            (self.folder / "quad.obj").write_text((self.folder / "quad.obj").read_text().replace("COLOURS.MTL", reference))
+            return self.run_ok("render", "--world", self.folder / "quad.obj", "--no-cache", "--tier", "labels", "--size", "64x32", "--pose", "0,0,0", "--out",
+                               self.folder / reference.replace("/", "_")).stderr
+        self.assertIn("missing", warnings("COLOURS.MTL"))
+        self.assertNotIn("missing", warnings("PARTS/Colours.MTL"))
+
     def test_formats_that_are_not_read_say_so(self):
         for name, says in (("a.las", "point cloud"), ("a.skp", "SketchUp"), ("a.geojson", "CityJSON"), ("a.qqq", "'.qqq'")):
             (self.folder / name).write_text("x")

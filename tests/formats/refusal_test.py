@@ -71,9 +71,27 @@ class Refusals(FormatTest):
         self.bad("--format", "webdataset", data=data, says=["entity/000003.png", "cut off"])
         lines = (data / "frames.jsonl").read_text().splitlines()
         (data / "frames.jsonl").write_text("\n".join(lines[:5] + [lines[5][:100]]))
-        self.bad("--format", "parquet", data=data, says=["frames.jsonl:6", "not a frame"])
+        self.bad("--format", "parquet", data=data, says=["frames.jsonl", "cut off"])
         (data / "SHA256SUMS").unlink()
         self.bad("--format", "parquet", data=data, says=["not complete"])
+
+    def test_damage_of_what_describes_the_pictures_is_named(self):
+        def broken(name, change, *says):
+            data = self.folder / "data"
+            shutil.rmtree(data, ignore_errors=True)
+            shutil.copytree(self.data, data)
+            change(data / name)
+            self.bad("--format", "tum", data=data, says=[*says, "airsim360 verify"])
+        def flip(path):
+            content = bytearray(path.read_bytes())
+            content[len(content) // 2] ^= 1
+            path.write_bytes(content)
+        for name in ("frames.jsonl", "index.sqlite", "entities.json"):
+            broken(name, flip, name, "cut off")
+        broken("entities.json", lambda path: path.unlink(), "entities.json: missing")
+        # A pose that was edited is still JSON.
+        broken("frames.jsonl", lambda path: path.write_text(path.read_text().replace('"p"', '"p" ', 1)), "frames.jsonl", "SHA256SUMS")
+        broken("SHA256SUMS", lambda path: path.write_text(""), "SHA256SUMS", "meta.json")
 
     def test_a_read_only_place_is_named(self):
         self.run_bad(1, "dataset", "export", self.data, "--format", "parquet", "--out", "/proc/sys/airsim360_out", says=["/proc/sys: cannot write"])

@@ -20,6 +20,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
 #include "airsim360/base/log.h"
+#include "airsim360/dataset/export/export.h"
 #include "airsim360/dataset/video.h"
 #include "airsim360/planning/export_text.h"
 #include "airsim360/routes/route_file.h"
@@ -50,8 +51,14 @@ struct CollectArguments {
 
 // The video, people, and what is written of them. The native layout holds panoptic.json and people.jsonl in any case.
 void SetFormats(const CollectArguments& arguments, DatasetSpec& spec) {
-  const std::vector<std::string> formats = ParseList(
-      "--format", arguments.format, {"native", "coco", "video", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops", "overlay"});
+  const std::vector<std::string> known = {"native", "coco", "video", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops", "overlay"};
+  for (const ExportFormatInfo& other : ExportFormats()) {
+    const std::string name = other.name;
+    if (std::ranges::count(known, name) == 0 && ("," + arguments.format + ",").find("," + name + ",") != std::string::npos)
+      throw InputError("--format: '" + name + "' is made of a finished dataset: airsim360 dataset export " + arguments.out + " --format " +
+                       name + " --out " + arguments.out + "_" + name);
+  }
+  const std::vector<std::string> formats = ParseList("--format", arguments.format, known);
   spec.people = arguments.people.Describe();
   spec.traffic = arguments.traffic.Describe();
   const auto wanted = [&](const std::string& name) { return std::ranges::count(formats, name) > 0; };

@@ -36,9 +36,12 @@ PeopleRequest PeopleArguments::Request(uint64_t seed) const {
   PeopleRequest request{.sockets = sockets, .warm_up = warm_up, .level = level, .seed = seed};
   request.reserve = static_cast<size_t>(reserve);
   if (people.empty()) {
+    const std::string flag = !sockets.empty()                       ? "--sockets"
+                             : level >= 0                           ? "--people-level"
+                             : warm_up != PeopleArguments().warm_up ? "--people-warmup"
+                                                                    : "";
     // Not accepted and ignored.
-    const char* flag = !sockets.empty() ? "--sockets" : level >= 0 ? "--people-level" : nullptr;
-    if (flag != nullptr && !request.any()) throw InputError(std::string(flag) + ": there is nobody; add people, for example --people 30");
+    if (!flag.empty() && !request.any()) throw InputError(flag + ": there is nobody; add people, for example --people 30");
     return request;
   }
   if (const auto count = ParseCount(people)) {

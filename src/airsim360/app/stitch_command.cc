@@ -129,7 +129,7 @@ void CheckFlags(const StitchOptions& options) {
     ParseChoice("value", value, choices, flag);
   };
   check("--axes", options.axes, {"camera", "body", "opengl"});
-  check("--filter", options.filter, {"", "linear", "nearest"});
+  if (!options.filter.empty()) check("--filter", options.filter, {"linear", "nearest"});
 }
 
 /// The extension of --out must be able to hold what the faces hold.

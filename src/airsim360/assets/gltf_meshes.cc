@@ -136,12 +136,12 @@ void GltfMeshes::AppendPrimitive(const JsonRef& json, const std::vector<double>&
   if (vertices_ > limits_.max_vertices || triangles_ > limits_.max_triangles) json.Fail("the file has too many vertices or triangles");
 }
 
-int32_t GltfMeshes::ReadMesh(const JsonRef& json, const std::vector<TransformG>* joints) {
+int32_t GltfMeshes::ReadMesh(const JsonRef& json, const std::optional<JsonRef>& node_weights, const std::vector<TransformG>* joints) {
   Mesh mesh;
   mesh.name = CleanName(json.TextOr("name", ""));
   const JsonRef primitives = json.At("primitives");
   std::vector<double> weights;
-  if (const auto list = json.Find("weights")) weights = list->Numbers(list->size());
+  if (const auto list = node_weights ? node_weights : json.Find("weights")) weights = list->Numbers(list->size());
   for (size_t i = 0; i < primitives.size(); ++i) AppendPrimitive(primitives[i], weights, joints, mesh);
   if (mesh.triangles.empty()) return -1;
   const auto extras = json.Find("extras");
@@ -157,13 +157,16 @@ int32_t GltfMeshes::MeshOf(const JsonRef& node) {
   const auto index = node.Find("mesh");
   if (!index) return -1;
   const JsonRef json = buffers_.Element("meshes", *index);
+  const std::optional<JsonRef> weights = node.Find("weights");
   if (const auto skin = node.Find("skin")) {
     const std::vector<TransformG> joints = JointTransforms(buffers_.Element("skins", *skin));
-    return ReadMesh(json, &joints);
+    return ReadMesh(json, weights, &joints);
   }
+  // Weights of its own make the node's mesh another one than that of the nodes beside it.
+  if (weights) return ReadMesh(json, weights, nullptr);
   const auto known = mesh_ids_.find(index->Uint());
   if (known != mesh_ids_.end()) return known->second;
-  return mesh_ids_[index->Uint()] = ReadMesh(json, nullptr);
+  return mesh_ids_[index->Uint()] = ReadMesh(json, weights, nullptr);
 }
 
 }  // namespace airsim360::internal

@@ -102,7 +102,7 @@ class GltfMeshes {
   std::vector<MaterialId> unlit;
 
  private:
-  int32_t ReadMesh(const JsonRef& json, const std::vector<TransformG>* joints);
+  int32_t ReadMesh(const JsonRef& json, const std::optional<JsonRef>& node_weights, const std::vector<TransformG>* joints);
   void AppendPrimitive(const JsonRef& json, const std::vector<double>& weights, const std::vector<TransformG>* joints, Mesh& mesh);
   std::vector<TransformG> JointTransforms(const JsonRef& skin);
   void ApplySkin(const std::vector<TransformG>& joints, const JsonRef& where, GltfPrimitive& primitive);

@@ -280,6 +280,30 @@ TEST(Gltf, MorphTargetsApplyAtTheirRestWeights) {
   ExpectNear(ReadText(doc.Text()).meshes[0].positions[2], {0, 0, 3});
 }
 
+TEST(Gltf, WeightsOfANodeCountBeforeThoseOfItsMesh) {
+  GltfDocument doc = GltfDocument::Triangle();
+  const size_t delta = doc.AddAccessor<float>({0, 0, 0, 0, 0, 0, 0, 4, 0}, 5126, "VEC3");
+  doc.json["meshes"][0]["primitives"][0]["targets"] = json::array({{{"POSITION", delta}}});
+  doc.json["meshes"][0]["weights"] = {0.5};
+  doc.json["nodes"].push_back({{"mesh", 0}, {"name", "own"}, {"weights", {1.0}}});
+  doc.json["nodes"].push_back({{"mesh", 0}, {"name", "again"}});
+  const ImportedFile file = ReadText(doc.Text());
+  ASSERT_EQ(file.nodes.size(), 3u);
+  const auto top = [&](size_t node) { return file.meshes[static_cast<size_t>(file.nodes[node].mesh)].positions[2]; };
+  ExpectNear(top(0), {0, 0, 3});
+  ExpectNear(top(1), {0, 0, 5});
+  EXPECT_EQ(file.nodes[2].mesh, file.nodes[0].mesh);
+}
+
+TEST(Gltf, EscapedBase64IsRead) {
+  GltfDocument doc = GltfDocument::Triangle();
+  std::string text = EncodeBase64(doc.bytes()), escaped;
+  for (const char c : text) escaped += c == 'A' ? "%41" : c == '=' ? "%3d" : std::string(1, c);
+  ASSERT_NE(escaped, text);
+  doc.json["buffers"][0] = {{"byteLength", doc.bytes().size()}, {"uri", "data:application/gltf-buffer;base64," + escaped}};
+  EXPECT_EQ(ReadText(doc.Text()).meshes[0].positions, ReadText(GltfDocument::Triangle().Text()).meshes[0].positions);
+}
+
 TEST(Gltf, UnusedVerticesAreDropped) {
   GltfDocument doc;
   const size_t positions = doc.AddAccessor<float>({9, 9, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0}, 5126, "VEC3");

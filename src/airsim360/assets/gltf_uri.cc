@@ -67,9 +67,12 @@ std::optional<Bytes> DecodeDataUri(std::string_view uri) {
   const size_t comma = uri.find(',');
   if (!IsDataUri(uri) || comma == std::string_view::npos) return std::nullopt;
   const std::string_view data = uri.substr(comma + 1);
-  if (uri.substr(0, comma).ends_with(";base64")) return DecodeBase64(data);
+  const bool base64 = uri.substr(0, comma).ends_with(";base64");
+  if (base64 && data.find('%') == std::string_view::npos) return DecodeBase64(data);
+  // '+', '/' and '=' may be escaped in a URI.
   const std::optional<std::string> plain = DecodePercent(data);
   if (!plain) return std::nullopt;
+  if (base64) return DecodeBase64(*plain);
   const auto bytes = AsBytes(*plain);
   return Bytes(bytes.begin(), bytes.end());
 }

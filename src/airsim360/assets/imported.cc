@@ -1,6 +1,9 @@
 #include "airsim360/assets/imported.h"
 
+#include <strings.h>
+
 #include <utility>
+#include <vector>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/printable.h"
@@ -15,6 +18,26 @@ bool StaysInside(const fs::path& folder, const fs::path& file) {
   const fs::path target = fs::weakly_canonical(file, error);
   const fs::path relative = target.lexically_relative(root);
   return !error && !relative.empty() && *relative.begin() != "..";
+}
+
+// `folder`/`relative`; where there is no such file, the only one whose name differs in case alone: models are made on
+// systems that do not tell case apart.
+fs::path FileBeside(const fs::path& folder, const fs::path& relative) {
+  std::error_code error;
+  fs::path found = folder;
+  for (const fs::path& step : relative) {
+    if (fs::exists(found / step, error)) {
+      found /= step;
+      continue;
+    }
+    std::vector<fs::path> alike;
+    for (const auto& entry : fs::directory_iterator(found.empty() ? fs::path(".") : found, error)) {
+      if (::strcasecmp(entry.path().filename().c_str(), step.c_str()) == 0) alike.push_back(entry.path());
+    }
+    if (alike.size() != 1) return folder / relative;
+    found = alike.front();
+  }
+  return found;
 }
 
 }  // namespace
@@ -68,7 +91,7 @@ ResourceLoader FolderLoader(const std::string& model_name, const fs::path& folde
     }
 
     // So must the file that it really is.
-    const fs::path file = folder / relative;
+    const fs::path file = FileBeside(folder, relative);
     std::error_code error;
     if (!fs::is_regular_file(file, error)) return std::nullopt;
     if (!StaysInside(folder, file)) refuse("leads out of the model's folder by a link");

@@ -11,6 +11,7 @@
 #include "airsim360/assets/ply_parts.h"
 #include "airsim360/assets/texture_store.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/text.h"
 #include "airsim360/image/color.h"
 
 namespace airsim360::internal {
@@ -74,6 +75,7 @@ class PlyReader {
   void ReadFaces(const PlyElement& element);
   void ReadStrips(const PlyElement& element);
   void Skip(const PlyElement& element);
+  void ReadVerticesAhead();
   void AddFace(const std::vector<double>& indices, const std::vector<double>& uvs, int texture, std::optional<Rgb> color);
   MaterialId MaterialFor(int texture, Rgb color);
   void CountTriangles(uint64_t count) {
@@ -92,6 +94,7 @@ class PlyReader {
   bool vertex_uvs_ = false, vertex_normals_ = false;
   std::vector<ObjCorner> face_;
   uint64_t triangles_ = 0;
+  const PlyElement* ahead_ = nullptr;  // vertices that were read before their turn
   std::map<std::pair<int, Rgb>, MaterialId> material_ids_;
   std::vector<Material> materials_;
 };
@@ -111,7 +114,7 @@ std::vector<double> PlyReader::ReadList(const PlyProperty& property) {
   const double length = values_.Next(*property.count);
   const double least = values_.ascii() ? 2 : static_cast<double>(kPlyTypeBytes[static_cast<int>(property.type)]);
   if (!(length >= 0) || length != std::floor(length) || length * least > static_cast<double>(values_.left() + 1))
-    values_.Fail("a list of " + std::to_string(length) + " in " + std::to_string(values_.left()) + " bytes");
+    values_.Fail("a list of " + ShortestText(length) + " in " + std::to_string(values_.left()) + " bytes");
   std::vector<double> list(static_cast<size_t>(length));
   for (double& value : list) value = values_.Next(property.type);
   return list;
@@ -176,8 +179,7 @@ void PlyReader::AddFace(const std::vector<double>& indices, const std::vector<do
   face_.clear();
   for (size_t k = 0; k < indices.size(); ++k) {
     if (!(indices[k] >= 0 && indices[k] < static_cast<double>(geometry_.positions.size())))
-      values_.Fail("there are only " + std::to_string(geometry_.positions.size()) + " vertices, not a number " +
-                   std::to_string(indices[k]));
+      values_.Fail("there are only " + std::to_string(geometry_.positions.size()) + " vertices, not a number " + ShortestText(indices[k]));
     const auto i = static_cast<uint32_t>(indices[k]);
     ObjCorner corner{.position = i};
     if (vertex_normals_) corner.normal = i;
@@ -260,14 +262,34 @@ void PlyReader::Skip(const PlyElement& element) {
   }
 }
 
+// The vertices of a file in which faces stand before them; reading is then where it was.
+void PlyReader::ReadVerticesAhead() {
+  const auto vertices = std::ranges::find(header_.elements, "vertex", &PlyElement::name);
+  const auto surface = [](const PlyElement& element) { return element.name == "face" || element.name == "tristrips"; };
+  if (vertices == header_.elements.end() || std::none_of(header_.elements.begin(), vertices, surface)) return;
+  const PlyValues::Mark begin = values_.mark();
+  for (auto element = header_.elements.begin(); element != vertices; ++element) {
+    CheckCount(*element);
+    Skip(*element);
+  }
+  CheckCount(*vertices);
+  values_.Enter(vertices->name, 0);
+  ReadVertices(*vertices);
+  values_.Return(begin);
+  ahead_ = &*vertices;
+}
+
 ImportedFile PlyReader::Read() {
   static const std::string kHeader = "element";
   values_.Enter(kHeader, 0);
   geometry_.StartGroup({});
+  ReadVerticesAhead();
   for (const PlyElement& element : header_.elements) {
     CheckCount(element);
     values_.Enter(element.name, 0);
-    if (element.name == "vertex") {
+    if (&element == ahead_) {
+      Skip(element);
+    } else if (element.name == "vertex") {
       if (!geometry_.positions.empty()) values_.Fail("a second list of vertices");
       ReadVertices(element);
     } else if (element.name == "face") {

@@ -53,6 +53,14 @@ class PlyValues {
   size_t left() const { return rest_.size(); }
   bool ascii() const { return format_ == PlyFormat::kAscii; }
 
+  /// Where reading is, to go back to.
+  struct Mark {
+    std::span<const std::byte> rest;
+    int64_t line = 0;
+  };
+  Mark mark() const { return {rest_, line_}; }
+  void Return(const Mark& mark) { rest_ = mark.rest, line_ = mark.line; }
+
   /// The next number; a type counts in binary data alone.
   double Next(PlyType type);
 

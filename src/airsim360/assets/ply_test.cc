@@ -121,6 +121,27 @@ TEST(Ply, NormalsTextureCoordinatesColoursAndPicturesAreRead) {
   EXPECT_EQ(file.textures.size(), 1u);
 }
 
+TEST(Ply, FacesMayStandBeforeTheirVertices) {
+  for (const char* format : kFormats) {
+    PlyText ply(
+        format,
+        "element note 1\nproperty list uchar short words\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 3\n"
+        "property float x\nproperty float y\nproperty float z\nelement tristrips 1\nproperty list uchar int vertex_indices\n");
+    ply.Add(uint8_t{2}).Add(int16_t{7}).Add(int16_t{8});
+    ply.Add(uint8_t{3});
+    for (int32_t i : {0, 1, 2}) ply.Add(i);
+    for (float c : {0.f, 0.f, 5.f, 2.f, 0.f, 5.f, 0.f, 2.f, 5.f}) ply.Add(c);
+    ply.Add(uint8_t{3});
+    for (int32_t i : {0, 1, 2}) ply.Add(i);
+    const ImportedFile file = ReadPlyText(ply.text());
+    ASSERT_EQ(file.meshes[0].triangles.size(), 2u) << format;
+    EXPECT_DOUBLE_EQ(Area(file.meshes[0]), 4) << format;
+  }
+  EXPECT_TRUE(Contains(PlyError("ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 3\nproperty "
+                                "float x\nproperty float y\nproperty float z\nend_header\n3 0 1 3\n0 0 0\n1 0 0\n0 1 0\n"),
+                       {"a.ply:10", "face 0", "only 3 vertices, not a number 3"}));
+}
+
 TEST(Ply, TriangleStripsBeginAnewAtMinusOne) {
   const std::string text =
       "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"

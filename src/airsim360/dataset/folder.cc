@@ -12,6 +12,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/hash.h"
 #include "airsim360/dataset/record/spec.h"
 
 namespace airsim360 {
@@ -21,6 +22,13 @@ namespace fs = std::filesystem;
 namespace {
 
 bool IsTemporary(const fs::path& path) { return path.extension() == ".tmp"; }
+
+// Is it a finished dataset that has lost the file `name`, which held `text`? Its checksums tell.
+bool HasLost(const fs::path& folder, const char* name, const std::string& text) {
+  if (!fs::is_regular_file(folder / kChecksumsName)) return false;
+  const std::string line = Sha256Hex(AsBytes(text)) + "  " + name + "\n";
+  return ("\n" + ReadTextFile(folder / kChecksumsName)).find("\n" + line) != std::string::npos;
+}
 
 }  // namespace
 
@@ -46,6 +54,7 @@ void CheckFolder(const fs::path& folder, const std::string& meta, const std::str
   CreateWritableFolder(folder);
   const fs::path on_disk = folder / name;
   if (!fs::exists(on_disk)) {
+    if (HasLost(folder, name, meta)) return;
     for (const auto& entry : fs::directory_iterator(folder)) {
       if (IsTemporary(entry.path())) continue;
       throw InputError("--out: '" + folder.string() + "' is not empty and not a " + what + " (it holds '" +

@@ -25,7 +25,7 @@ class FolderLock {
 };
 
 /// Creates the folder if needed. InputError if it holds something that is not this dataset (naming the first
-/// difference of the parameters). `meta` is the meta.json wanted; `what` and `name` are for what is described in
+/// difference of the parameters); a finished dataset that has lost its meta.json is known by SHA256SUMS. `meta` is the meta.json wanted; `what` and `name` are for what is described in
 /// another file of that form.
 void CheckFolder(const std::filesystem::path& folder, const std::string& meta, const std::string& what = "dataset",
                  const char* name = kMetaName);

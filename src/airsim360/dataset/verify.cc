@@ -1,7 +1,6 @@
 #include "airsim360/dataset/verify.h"
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -19,26 +18,6 @@ namespace fs = std::filesystem;
 using ParsedJson = nlohmann::json;
 
 namespace {
-
-// Path -> SHA-256, from SHA256SUMS or, before the dataset is complete, from the journal.
-using Checksums = std::map<std::string, std::string>;
-
-Checksums ReadChecksums(const fs::path& folder, std::vector<Finding>& findings) {
-  Checksums checksums;
-  const std::string text = ReadTextFile(folder / kChecksumsName);
-  size_t begin = 0;
-  while (begin < text.size()) {
-    const size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string line = text.substr(begin, end - begin);
-    begin = end + 1;
-    if (line.size() > 66 && line.substr(64, 2) == "  ") {
-      checksums[line.substr(66)] = line.substr(0, 64);
-    } else {
-      findings.push_back({Finding::Kind::kDamaged, kChecksumsName, "unreadable line '" + line.substr(0, 80) + "'"});
-    }
-  }
-  return checksums;
-}
 
 Checksums ChecksumsOfJournal(const fs::path& folder) {
   Checksums checksums;
@@ -100,6 +79,23 @@ void FindExtraFiles(const fs::path& folder, const Checksums& checksums, bool com
 }
 
 }  // namespace
+
+Checksums ReadChecksums(const fs::path& folder, std::vector<Finding>& findings) {
+  Checksums checksums;
+  const std::string text = ReadTextFile(folder / kChecksumsName);
+  size_t begin = 0;
+  while (begin < text.size()) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (line.size() > 66 && line.substr(64, 2) == "  ") {
+      checksums[line.substr(66)] = line.substr(0, 64);
+    } else {
+      findings.push_back({Finding::Kind::kDamaged, kChecksumsName, "unreadable line '" + line.substr(0, 80) + "'"});
+    }
+  }
+  return checksums;
+}
 
 int64_t VerifyResult::Damages() const {
   return std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.kind != Finding::Kind::kExtra; });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,11 @@ struct VerifyResult {
   /// Number of findings that make the dataset unfit: all but extra files.
   int64_t Damages() const;
 };
+
+/// Path -> SHA-256.
+using Checksums = std::map<std::string, std::string>;
+/// What SHA256SUMS of a finished dataset names; a line that cannot be read is a finding.
+Checksums ReadChecksums(const std::filesystem::path& folder, std::vector<Finding>& findings);
 
 /// Re-hashes every file, compares the entity ids of the pictures with panoptic.json both ways, and lists
 /// files that do not belong. InputError if `folder` is not a dataset.

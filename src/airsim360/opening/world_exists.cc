@@ -7,10 +7,16 @@
 
 namespace airsim360 {
 
+std::vector<std::string> WorldNames() {
+  std::vector<std::string> names;
+  for (const WorldInfo& info : ListWorlds()) names.push_back(info.name);
+  return names;
+}
+
 bool WorldExists(const std::string& name_or_file) {
   std::error_code error;
   if (std::filesystem::exists(name_or_file, error)) return true;
-  return std::ranges::any_of(ListWorlds(), [&](const WorldInfo& info) { return info.name == name_or_file; });
+  return std::ranges::count(WorldNames(), name_or_file) > 0;
 }
 
 }  // namespace airsim360

@@ -123,7 +123,10 @@ TEST(RouteCsv, ReadsColumnsInAnyOrder) {
 }
 
 TEST(RouteCsv, WithoutAHeaderTheColumnsAreXyz) {
-  const auto waypoints = ParseRouteCsv("1,2,3\n4,5,6", "route.csv");
+  const auto waypoints = ParseRouteCsv(
+      "\xef\xbb\xbf"
+      "1,2,3\n4,5,6",
+      "route.csv");  // with a byte order mark, as of spreadsheets
   ASSERT_EQ(waypoints.size(), 2u);
   EXPECT_EQ(waypoints[1].p, (Vec3d{4, 5, 6}));
 }

@@ -206,6 +206,8 @@ class PoseLines {
 std::vector<TimedPose> ParsePoses(std::string_view text, std::string_view name) {
   PoseLines lines;
   size_t number = 0;
+  // Spreadsheets begin a CSV file with a byte order mark.
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   while (!text.empty()) {
     const size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = Trimmed(text.substr(0, end));

@@ -57,6 +57,14 @@ TEST(PoseFile, FramesOfADatasetKeepTheirTimesVelocitiesAndBody) {
   EXPECT_EQ(poses[1].t_ns, 1'000'000'000);
 }
 
+TEST(PoseFile, AByteOrderMarkIsLeftOut) {
+  for (const char* text : {"x,y,z\n1,2,3\n", "1,2,3\n", "0 1 2 3 0 0 0 1\n", "{\"x\": 1, \"y\": 2, \"z\": 3}\n"}) {
+    const auto poses = ParsePoses("\xef\xbb\xbf" + std::string(text), "x");
+    ASSERT_EQ(poses.size(), 1u);
+    EXPECT_EQ(poses[0].body.X_WB.p, ParsePoses(text, "x")[0].body.X_WB.p);
+  }
+}
+
 TEST(PoseFile, WithoutTimesPosesAreASecondApart) {
   const auto poses = ParsePoses("1,2,3\n4,5,6\n7,8,9\n", "x");
   ASSERT_EQ(poses.size(), 3u);

@@ -81,6 +81,7 @@ ExportResult ExportDataset(const fs::path& dataset, const std::string& format, c
   const Format& found = FindFormat(format);
   const NativeDataset data(dataset);
   CheckApart(dataset, out);
+  data.CheckDescription();
   ExportFolder folder(out);
   internal::ExportJob job{data, folder, options, format};
   found.write(job);

@@ -14,6 +14,7 @@
 #include "airsim360/base/hash.h"
 #include "airsim360/dataset/folder.h"
 #include "airsim360/dataset/record/intrinsics.h"
+#include "airsim360/dataset/verify.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/image/palette_png.h"
 #include "airsim360/math/angles.h"
@@ -179,6 +180,24 @@ NativeFrame NativeDataset::Frame(size_t position) const {
 }
 
 std::string NativeDataset::Hash() const { return Sha256HexOfFile(folder_ / kChecksumsName); }
+
+void NativeDataset::CheckDescription() const {
+  constexpr const char* kHint = "; 'airsim360 verify' lists all such files";
+  std::vector<Finding> unreadable;
+  const Checksums checksums = ReadChecksums(folder_, unreadable);
+  for (const char* name : {kMetaName, "frames.jsonl", kIndexName, "entities.json", "vehicles.jsonl"}) {
+    const auto sum = checksums.find(name);
+    if (sum == checksums.end()) {
+      // Only datasets with traffic have vehicles.
+      if (std::string_view(name) == "vehicles.jsonl" && spec_.traffic.empty()) continue;
+      throw InputError((folder_ / kChecksumsName).string() + ": damaged or cut off: it does not name " + name + kHint);
+    }
+    const fs::path path = folder_ / name;
+    if (!fs::is_regular_file(path)) throw InputError(path.string() + ": missing" + kHint);
+    if (Sha256HexOfFile(path) != sum->second)
+      throw InputError(path.string() + ": damaged or cut off (its SHA-256 is not that of " + kChecksumsName + ")" + kHint);
+  }
+}
 
 const NativeCategory& NativeDataset::category(CategoryId id) const {
   const auto found = categories_.find(id);

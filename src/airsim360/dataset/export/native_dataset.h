@@ -67,6 +67,9 @@ class NativeDataset {
   NativeFrame Frame(size_t position) const;
   /// SHA-256 of SHA256SUMS: names all the bytes of the dataset.
   std::string Hash() const;
+  /// InputError naming the first file beside the pictures that exports read and that is missing or not the one that
+  /// SHA256SUMS names. Pictures are compared when they are read.
+  void CheckDescription() const;
 
   bool Has(const std::string& product) const;
   bool HasPeople() const { return !spec_.people.empty(); }

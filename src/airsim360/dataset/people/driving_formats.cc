@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "airsim360/dataset/people/json_lines.h"
 #include "airsim360/dataset/people/nuscenes_tables.h"
@@ -23,14 +24,18 @@ std::string LineOf(const Json& person) {
   const double fraction = person["visible_fraction"];
   const Json &box = person["box2d_amodal"], &box3d = person["box3d_cam"], &p = box3d["bottom"], &lwh = box3d["lwh"];
   const int x = box[0], y = box[1], w = box[2], h = box[3];
+  // KITTI's alpha is seen from its location, the bottom's middle; that of people.jsonl from the middle of the box. They
+  // differ where the camera is tilted.
+  const double rotation_y = box3d["rotation_y"];
+  const double alpha = std::remainder(rotation_y - std::atan2(p[0].get<double>(), p[2].get<double>()), 2 * std::numbers::pi);
   char line[320];
   std::snprintf(line, sizeof line, "%s %.2f %d %.4f %d.00 %d.00 %d.00 %d.00 %.4f %.4f %.4f %.4f %.4f %.4f %.4f\n",
                 Sits(person) ? "Person_sitting" : "Pedestrian", person["truncation"].get<double>(),
                 fraction > 0.8   ? 0
                 : fraction > 0.4 ? 1
                                  : 2,
-                person["alpha"].get<double>(), x, y, x + w - 1, y + h - 1, lwh[2].get<double>(), lwh[1].get<double>(), lwh[0].get<double>(),
-                p[0].get<double>(), p[1].get<double>(), p[2].get<double>(), box3d["rotation_y"].get<double>());
+                alpha, x, y, x + w - 1, y + h - 1, lwh[2].get<double>(), lwh[1].get<double>(), lwh[0].get<double>(), p[0].get<double>(),
+                p[1].get<double>(), p[2].get<double>(), rotation_y);
   return line;
 }
 

@@ -11,6 +11,7 @@
 #include "airsim360/dataset/collector.h"
 #include "airsim360/dataset/folder.h"
 #include "airsim360/dataset/people/json_lines.h"
+#include "airsim360/dataset/people/people_export.h"
 #include "airsim360/dataset/people/person_record.h"
 #include "airsim360/dataset/verify.h"
 #include "airsim360/image/codecs.h"
@@ -194,6 +195,17 @@ TEST_F(PeopleDatasetTest, ExportsKeepTheRulesOfTheirFormats) {
     ++people;
   }
   EXPECT_EQ(people, 5);
+  // Also where a tilted camera has the bottom of a box beside its middle.
+  Json line = Json::parse(ReadTextFile(folder_ / "a/people.jsonl").substr(0, ReadTextFile(folder_ / "a/people.jsonl").find('\n')));
+  for (Json& person : line["persons"]) person["box3d_cam"]["bottom"][0] = person["box3d_cam"]["bottom"][0].get<double>() + 1;
+  std::istringstream tilted(internal::KittiLabels(line.dump() + "\n").front().text);
+  int moved = 0;
+  for (; tilted >> type; ++moved) {
+    double v[14];
+    for (double& x : v) ASSERT_TRUE(tilted >> x);
+    EXPECT_NEAR(std::remainder(v[13] - std::atan2(v[10], v[12]) - v[2], 2 * std::numbers::pi), 0, 2e-3);
+  }
+  EXPECT_EQ(moved, 5);
   // nuScenes: tokens resolve, chains of annotations are as long as the instance says.
   std::map<std::string, Json> tables;
   for (const char* name : {"category", "attribute", "visibility", "instance", "sensor", "calibrated_sensor", "ego_pose", "log", "scene",

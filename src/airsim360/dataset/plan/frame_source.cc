@@ -11,7 +11,9 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
 #include "airsim360/base/log.h"
+#include "airsim360/base/nearest_name.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/opening/world_exists.h"
 #include "airsim360/scene/scene_archive.h"
 
 namespace airsim360 {
@@ -223,7 +225,8 @@ DatasetPlan MakePlan(const Recipe& recipe, uint64_t seed, const std::function<bo
   if (EntityCount(plan) > kMostIds)
     throw InputError("plan: its worlds and people have more than 16,777,215 entities, as many as entity pictures can tell apart");
   for (const auto& [key, facts] : plan.worlds) {
-    if (!facts.exists()) LogWarning("world '" + key + "' does not exist yet: its rows are kept for later");
+    if (!facts.exists())
+      LogWarning("world '" + key + "' does not exist yet" + DidYouMean(key, WorldNames()) + ": its rows are kept for later");
   }
   SealPlan(plan);
   return plan;

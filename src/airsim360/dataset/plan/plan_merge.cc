@@ -5,7 +5,9 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/hash.h"
 #include "airsim360/base/log.h"
+#include "airsim360/base/parallel.h"
 #include "airsim360/dataset/folder.h"
 #include "airsim360/dataset/index.h"
 #include "airsim360/dataset/plan/plan_labels.h"
@@ -31,10 +33,27 @@ void CheckPlan(const Json& parameters, const std::string& hash, const fs::path& 
   throw InputError("'" + folder.string() + "' is of another plan: its hash is " + parameters["plan"].dump() + ", not \"" + hash + "\"");
 }
 
-// The file of one dataset in another: the same bytes, on disk once where it can be.
+// InputError naming the first file of a frame that is missing or not the one that its shard wrote.
+void CheckFrameFiles(const fs::path& folder, const std::vector<FileRecord>& files) {
+  std::vector<std::string> faults(files.size());
+  ParallelFor(static_cast<int64_t>(files.size()), [&](int64_t i) {
+    const FileRecord& file = files[static_cast<size_t>(i)];
+    const fs::path path = folder / file.path;
+    if (!fs::is_regular_file(path))
+      faults[static_cast<size_t>(i)] = path.string() + ": missing";
+    else if (Sha256HexOfFile(path) != file.sha256)
+      faults[static_cast<size_t>(i)] = path.string() + ": damaged or cut off (its SHA-256 is not that of its shard's index)";
+  });
+  for (const std::string& fault : faults) {
+    if (!fault.empty()) throw InputError(fault + "; delete it and run its shard again, then merge");
+  }
+}
+
+// The file of one dataset in another: the same bytes, on disk once where it can be. What a merge that failed left
+// there is replaced.
 void LinkFile(const fs::path& from, const fs::path& to) {
   std::error_code error;
-  if (fs::exists(to)) return;
+  fs::remove(to, error);
   fs::create_hard_link(from, to, error);
   if (!error) return;
   const fs::path temporary = to.string() + ".tmp";
@@ -138,7 +157,9 @@ CollectResult MergeShards(const std::vector<fs::path>& folders, const fs::path& 
       const std::vector<int64_t> taken = index.Frames();
       for (const int64_t frame : part.Frames()) {
         if (!std::ranges::binary_search(missing, frame) || std::ranges::binary_search(taken, frame)) continue;
-        for (const FileRecord& file : part.Files(frame)) LinkFile(folder / file.path, out / file.path);
+        const std::vector<FileRecord> files = part.Files(frame);
+        CheckFrameFiles(folder, files);
+        for (const FileRecord& file : files) LinkFile(folder / file.path, out / file.path);
         written();
       }
       index.Take(folder);

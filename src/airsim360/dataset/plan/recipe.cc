@@ -10,6 +10,7 @@
 #include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/dataset/plan/built_in_recipes.h"
+#include "airsim360/dataset/plan/plan_spec.h"
 #include "airsim360/dataset/record/config_json.h"
 #include "airsim360/dataset/record/record.h"
 #include "airsim360/scene/environment.h"
@@ -167,6 +168,11 @@ void CheckRecipe(const Recipe& recipe, const std::string& where) {
   for (const RecipeRow& row : recipe.rows) {
     CheckRow(row, recipe, where);
     if (!names.insert(row.name).second) throw InputError(where + ": two rows are called '" + row.name + "'");
+  }
+  try {
+    (void)SpecOfPicture(recipe.picture, {.size = recipe.picture.size, .cameras = {}});
+  } catch (const InputError& error) {
+    throw InputError(where + ": picture: " + error.what());
   }
   CheckExposures(recipe, recipe.picture.settings, where);
   if (recipe.frames() > kMostPlanFrames)

@@ -84,6 +84,9 @@ bool IsOsmName(std::string_view name) {
 }
 
 std::optional<double> ParseOsmLength(std::string_view text, double limit) {
+  // "~20": about as much.
+  text = Trim(text);
+  if (text.starts_with('~')) text.remove_prefix(1);
   std::optional<double> value = TakeNumber(text);
   if (!value) return std::nullopt;
   if (text == "ft" || text == "feet" || text == "'") {

@@ -15,6 +15,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/worlds/osm/osm_data.h"
+#include "airsim360/worlds/osm/osm_unpack.h"
 
 namespace airsim360::internal {
 namespace {
@@ -198,19 +199,19 @@ void Project(const std::string& name, Degrees box, const char* source, const Osm
   }
 }
 
-// The format by the ending of the name, as libosmium calls it.
-std::string FormatOf(const std::string& name) {
+// The format by the ending of the name, as libosmium calls it. Text under the name of a packed file has been unpacked.
+std::string FormatOf(const std::string& name, std::span<const std::byte> bytes) {
   std::string lower;
   for (char c : name) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const char* ending : {"osm.pbf", "pbf", "osm.gz", "osm.bz2", "osm"})
-    if (lower.ends_with(std::string(".") + ending)) return ending;
+    if (lower.ends_with(std::string(".") + ending)) return !bytes.empty() && bytes[0] == std::byte{'<'} ? "osm" : ending;
   throw InputError(name + ": not a name of an OpenStreetMap file: .osm, .osm.pbf, .osm.gz or .osm.bz2");
 }
 
 // Visits every object of the given kinds in the file's order; the box of its header, where there is one.
 template <class Visit>
 Degrees EachObject(const std::string& name, std::span<const std::byte> bytes, osmium::osm_entity_bits::type kinds, Visit visit) {
-  const osmium::io::File file(reinterpret_cast<const char*>(bytes.data()), bytes.size(), FormatOf(name));
+  const osmium::io::File file(reinterpret_cast<const char*>(bytes.data()), bytes.size(), FormatOf(name, bytes));
   osmium::io::Reader reader(file, kinds, osmium::io::read_meta::no);
   Degrees header;
   const osmium::Box box = reader.header().joined_boxes();
@@ -315,6 +316,8 @@ OsmData ReadOsm(const std::string& name, std::span<const std::byte> bytes, const
   Raw raw;
   std::optional<MapCut> piece = cut;
   try {
+    const std::optional<std::string> unpacked = UnpackParts(bytes, 4 * limits.max_bytes);
+    if (unpacked) bytes = std::as_bytes(std::span(*unpacked));
     Selection selection;
     if (piece) selection = SelectIn(name, bytes, limits, *piece);
     raw = ReadAll(name, bytes, limits, piece ? &selection : nullptr, header);

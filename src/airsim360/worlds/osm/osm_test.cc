@@ -1,7 +1,9 @@
 // The import of OpenStreetMap data against closed forms of a small hand-made map (data/osm), and against
 // osmium-tool and the tags themselves on the real extracts where they are at hand (folder named by
 // AIRSIM360_SHARED).
+#include <bzlib.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -42,6 +44,29 @@ const Built& World() {
     return made;
   }();
   return built;
+}
+
+std::string PackGzip(std::string_view text) {
+  z_stream stream{};
+  constexpr int kGzipOnly = 15 + 16, kMemory = 8;
+  deflateInit2(&stream, 6, Z_DEFLATED, kGzipOnly, kMemory, Z_DEFAULT_STRATEGY);
+  std::string out(deflateBound(&stream, text.size()), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream.avail_in = static_cast<uInt>(text.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  deflate(&stream, Z_FINISH);
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+std::string PackBzip2(std::string_view text) {
+  std::string out(text.size() + text.size() / 100 + 600, '\0');
+  auto size = static_cast<unsigned>(out.size());
+  BZ2_bzBuffToBuffCompress(out.data(), &size, const_cast<char*>(text.data()), static_cast<unsigned>(text.size()), 1, 0, 0);
+  out.resize(size);
+  return out;
 }
 
 std::string ErrorOf(const std::string& name, std::string_view text, const OsmLimits& limits = {}) {
@@ -135,12 +160,32 @@ Agreement CompareFootprints(const OsmData& data, const Built& built) {
   return agreement;
 }
 
+// Two parts, as pbzip2 and bgzip write them.
+TEST(OsmFile, PackedFilesMayHaveSeveralParts) {
+  const std::string text(AsText(ReadFile(kFixture)));
+  const auto part = [&](size_t begin, size_t end) { return std::string_view(text).substr(begin, end - begin); };
+  const size_t middle = text.size() / 2;
+  const OsmData plain = Fixture();
+  for (const auto& [name, pack] : {std::pair{"a.osm.gz", &PackGzip}, {"a.osm.bz2", &PackBzip2}}) {
+    const std::string packed = pack(part(0, middle)) + pack(part(middle, text.size()));
+    const OsmData data = ReadOsm(name, AsBytes(packed));
+    EXPECT_EQ(data.ways.size(), plain.ways.size()) << name;
+    EXPECT_EQ(data.nodes.size(), plain.nodes.size()) << name;
+    EXPECT_EQ(ReadOsm(name, AsBytes(pack(text))).ways.size(), plain.ways.size()) << name;
+    EXPECT_NE(ErrorOf(name, packed.substr(0, packed.size() - 20)).find(name), std::string::npos);
+    OsmLimits small;
+    small.max_bytes = text.size() / 8;
+    EXPECT_NE(ErrorOf(name, packed, small), "no error");
+  }
+}
+
 TEST(OsmTags, LengthsAndColoursAreReadAsMapsWriteThem) {
   EXPECT_DOUBLE_EQ(*ParseOsmLength("12", 100), 12);
   EXPECT_DOUBLE_EQ(*ParseOsmLength("12.5 m", 100), 12.5);
   EXPECT_DOUBLE_EQ(*ParseOsmLength("1,5", 100), 1.5);
   EXPECT_NEAR(*ParseOsmLength("10 ft", 100), 3.048, 1e-9);
   EXPECT_NEAR(*ParseOsmLength("5'6\"", 100), 1.6764, 1e-9);
+  EXPECT_DOUBLE_EQ(*ParseOsmLength(" ~20 m", 100), 20);
   for (const char* bad : {"", "tall", "-3", "1e9", "12 km", "0", "12;14", "nan"}) EXPECT_FALSE(ParseOsmLength(bad, 1000)) << bad;
   EXPECT_NEAR(ParseOsmColour("#808080")->x, 0.2159f, 1e-3f);
   EXPECT_EQ(*ParseOsmColour("#888"), *ParseOsmColour("#888888"));
