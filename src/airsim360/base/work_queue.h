@@ -11,18 +11,36 @@
 
 namespace airsim360 {
 
-/// First come, first served, by one thread or several. All functions may be called from any thread.
+/// First come, first served.
 template <class Job>
+class InOrder {
+ public:
+  void Add(Job job) { jobs_.push_back(std::move(job)); }
+  Job Take() {
+    Job job = std::move(jobs_.front());
+    jobs_.pop_front();
+    return job;
+  }
+  bool empty() const { return jobs_.empty(); }
+  void Clear() { jobs_.clear(); }
+
+ private:
+  std::deque<Job> jobs_;
+};
+
+/// For one thread or several, in the order that `Waiting` keeps. All functions may be called from any thread.
+template <class Job, class Waiting = InOrder<Job>>
 class WorkQueue {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Nothing happens after Stop.
-  void Post(Job job) {
+  /// Arguments of Waiting::Add. Nothing happens after Stop.
+  template <class... Arguments>
+  void Post(Arguments&&... arguments) {
     {
       const std::lock_guard lock(mutex_);
       if (stopped_) return;
-      jobs_.push_back(std::move(job));
+      waiting_.Add(std::forward<Arguments>(arguments)...);
     }
     wake_.notify_one();
   }
@@ -30,26 +48,26 @@ class WorkQueue {
   /// Waits for a job; nullopt after Stop.
   std::optional<Job> Next() {
     std::unique_lock lock(mutex_);
-    wake_.wait(lock, [&] { return stopped_ || !jobs_.empty(); });
+    wake_.wait(lock, [&] { return stopped_ || !waiting_.empty(); });
     return TakeLocked();
   }
   /// Waits for a job for so long; nullopt after that, or after Stop.
   std::optional<Job> NextWithin(Clock::duration time) {
     std::unique_lock lock(mutex_);
-    wake_.wait_for(lock, time, [&] { return stopped_ || !jobs_.empty(); });
+    wake_.wait_for(lock, time, [&] { return stopped_ || !waiting_.empty(); });
     return TakeLocked();
   }
   /// All that wait now, maybe none.
   std::vector<Job> TakeAll() {
     const std::lock_guard lock(mutex_);
-    std::vector<Job> all(std::make_move_iterator(jobs_.begin()), std::make_move_iterator(jobs_.end()));
-    jobs_.clear();
+    std::vector<Job> all;
+    while (!waiting_.empty()) all.push_back(waiting_.Take());
     return all;
   }
   /// Returns once a job waits, Stop was called, or it is `time` (none: never by itself).
   void WaitUntil(std::optional<Clock::time_point> time) {
     std::unique_lock lock(mutex_);
-    const auto called = [&] { return stopped_ || !jobs_.empty(); };
+    const auto called = [&] { return stopped_ || !waiting_.empty(); };
     time ? (void)wake_.wait_until(lock, *time, called) : wake_.wait(lock, called);
   }
 
@@ -58,7 +76,7 @@ class WorkQueue {
     {
       const std::lock_guard lock(mutex_);
       stopped_ = true;
-      jobs_.clear();
+      waiting_.Clear();
     }
     wake_.notify_all();
   }
@@ -69,15 +87,13 @@ class WorkQueue {
 
  private:
   std::optional<Job> TakeLocked() {
-    if (stopped_ || jobs_.empty()) return std::nullopt;
-    std::optional<Job> job(std::move(jobs_.front()));
-    jobs_.pop_front();
-    return job;
+    if (waiting_.empty()) return std::nullopt;  // as after Stop
+    return waiting_.Take();
   }
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;
-  std::deque<Job> jobs_;
+  Waiting waiting_;
   bool stopped_ = false;
 };
 

@@ -56,6 +56,9 @@ struct TownSpec {
   bool lamps = true, bus_stops = false;
   bool central_water = false;  ///< a river, canal or lake lies in the middle
 
+  /// On one side, or on all.
+  bool at_sea() const { return water == TownWater::kSea || water == TownWater::kIsland; }
+
   /// Names the fields.
   void Visit(ConfigVisitor& v);
   /// InputError, beginning with `prefix`, where two fields exclude each other.

@@ -92,7 +92,7 @@ struct Undone {
 
 // By one pixel in `step`. Nothing was undone where too few of them change.
 Undone Undo(const FlowPictures& pictures, const Remedy& remedy, size_t step) {
-  constexpr size_t kLeastSamples = 64;
+  constexpr size_t kLeastChanged = 64;
   constexpr double kChange = 0.2;
   const Vec2d factors = remedy.factors(pictures.size);
   const auto width = static_cast<size_t>(pictures.size.width), pixels = width * static_cast<size_t>(pictures.size.height);
@@ -114,7 +114,7 @@ Undone Undo(const FlowPictures& pictures, const Remedy& remedy, size_t step) {
     mended.push_back(all_mended.back());
     lengths.push_back(length);
   }
-  if (straight.size() < std::max(kLeastSamples, all_mended.size() / 10)) return {};
+  if (straight.size() < std::max(kLeastChanged, all_mended.size() / 10)) return {};
   Undone undone{UpperMedian(straight), UpperMedian(mended), UpperMedian(lengths)};
   if (undone.left() >= kLikely) return undone;
   const double usual = UpperMedian(all_lengths);

@@ -115,7 +115,7 @@ void TownDrawer::LayStreets() {
       continue;
     }
     // Over the water where both banks are near; else streets end before it.
-    const bool both = !wet.front() && !wet.back() && !AtSea() && (edge.rank == 0 || number % 3 == 0);
+    const bool both = !wet.front() && !wet.back() && !spec_.at_sea() && (edge.rank == 0 || number % 3 == 0);
     for (size_t i = 0; i < points.size();) {
       size_t k = i;
       while (k < points.size() && wet[k] == wet[i]) ++k;
@@ -172,7 +172,7 @@ Patches TownDrawer::FreeGround() const {
   for (const Patch& patch : map_.wet) {
     std::vector<Vec2d> ring = patch.outer;
     ring.push_back(ring[0]);
-    if (!AtSea()) take(Band(ring, kWaterside, kWaterside));
+    if (!spec_.at_sea()) take(Band(ring, kWaterside, kWaterside));
   }
   const Patches whole{{{{x0_, y0_}, {x1_, y0_}, {x1_, y1_}, {x0_, y1_}}, {}}};
   return Subtract(whole, taken);

@@ -32,7 +32,6 @@ class TownDrawer {
   void LayWaters();
   void LayCoast();
   void LayIsland();
-  bool AtSea() const { return spec_.water == TownWater::kSea || spec_.water == TownWater::kIsland; }
   /// Piers, boats, the promenade.
   void FurnishWaters();
   bool IsWet(Vec2d p, double margin) const;

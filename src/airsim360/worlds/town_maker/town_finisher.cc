@@ -20,7 +20,7 @@ void TownFinisher::Run() {
   if (spec_.wires) Tram();
   Traffic();
   if (spec_.trees > 0 && (spec_.country == TownCountry::kForest || spec_.country == TownCountry::kFields)) FarWoods();
-  if (spec_.country != TownCountry::kCity && spec_.water != TownWater::kSea && spec_.water != TownWater::kIsland) Ridges();
+  if (spec_.country != TownCountry::kCity && !spec_.at_sea()) Ridges();
   if (!mesh_.empty()) scene_.builder.AddInstance({scene_.builder.AddMesh(mesh_.Finish("town")), {}, kNoEntity});
 }
 

@@ -22,7 +22,7 @@ void Old(TownSpec& s) {
 }
 
 bool Always(const D&) { return true; }
-bool AtSea(const D& d) { return d.AtSea(); }
+bool AtSea(const D& d) { return d.spec.at_sea(); }
 // A clear sky may be above snow that lies, not above clouds, fog or rain.
 bool ClearSky(const D& d) {
   return std::ranges::all_of(d.airs, [](const std::string& air) { return air == "clear" || air == "winter"; });
@@ -268,7 +268,7 @@ constexpr auto kWords = std::to_array<TownWord>({
     {"surrounded by the sea", S, "island", "water: island", [](D& d) { d.spec.water = TownWater::kIsland; }},
     {"surrounded by sea", S, "island", "water: island", [](D& d) { d.spec.water = TownWater::kIsland; }},
     {"surrounded by water", S, "island", "water: island", [](D& d) { d.spec.water = TownWater::kIsland; }},
-    {"beach", S, "beach", "water: sea, harbour: false", [](D& d) { d.spec.water = TownWater::kSea; d.spec.harbour = false; }, [](const D& d) { return d.AtSea() && !d.spec.harbour; }},
+    {"beach", S, "beach", "water: sea, harbour: false", [](D& d) { d.spec.water = TownWater::kSea; d.spec.harbour = false; }, [](const D& d) { return d.spec.at_sea() && !d.spec.harbour; }},
     {"promenade", S, "water", "water: sea", [](D& d) { d.spec.water = TownWater::kSea; }, AtSea},
     {"river", S, "water", "water: river", [](D& d) { d.spec.water = TownWater::kRiver; }},
     {"riverside", S, "water", "water: river", [](D& d) { d.spec.water = TownWater::kRiver; }},

@@ -20,8 +20,6 @@ struct TownDraft {
   bool hilly = false;
   std::string time;            ///< of day: a preset of environment:, "dawn" or "sunrise"
   std::set<std::string> airs;  ///< presets of which clouds, fog, rain and snow are taken
-
-  bool AtSea() const { return spec.water == TownWater::kSea || spec.water == TownWater::kIsland; }
 };
 
 struct TownWord {

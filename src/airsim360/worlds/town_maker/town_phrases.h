@@ -50,7 +50,7 @@ inline void LowHouses(TownDraft& d) {
 inline constexpr auto kAbsent = std::to_array<Absent>(
     {{"hill", "relief", "relief: flat", [](TownDraft& d) { d.spec.relief = TownRelief::kFlat; }},
      {"slope", "relief", "relief: flat", [](TownDraft& d) { d.spec.relief = TownRelief::kFlat; }},
-     {"sea", "sea", "water: no sea", [](TownDraft& d) { if (d.AtSea()) d.spec.water = TownWater::kNone; }},
+     {"sea", "sea", "water: no sea", [](TownDraft& d) { if (d.spec.at_sea()) d.spec.water = TownWater::kNone; }},
      {"river", "no river", "water: no river", [](TownDraft& d) { if (d.spec.water == TownWater::kRiver) d.spec.water = TownWater::kNone; }},
      {"lake", "no lake", "water: no lake", [](TownDraft& d) { if (d.spec.water == TownWater::kLake) d.spec.water = TownWater::kNone; }},
      {"harbour", "harbour", "harbour: false", [](TownDraft& d) { d.spec.harbour = false; }},

@@ -105,7 +105,7 @@ void TownDrawer::FurnishWaters() {
     shore = map_.wet[0].outer;
     shore.push_back(shore[0]);
   }
-  const bool sea = AtSea(), island = spec_.water == TownWater::kIsland, wild = spec_.paving == TownPaving::kDirt;
+  const bool sea = spec_.at_sea(), island = spec_.water == TownWater::kIsland, wild = spec_.paving == TownPaving::kDirt;
   if (sea) {
     // Along the coast, and to the land from it: north, or into the island.
     std::vector<Vec2d> walk, along;
