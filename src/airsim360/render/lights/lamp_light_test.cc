@@ -6,7 +6,9 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/math/angles.h"
+#include "airsim360/projection/camera.h"
 #include "airsim360/render/lights/lamp_grid.h"
+#include "airsim360/render/renderer.h"
 #include "airsim360/render/shading/light_probes.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shared/shading_kernels.h"
@@ -221,6 +223,32 @@ TEST(LampLight, InRoomsRaysGoWhereHighlightsStandOut) {
   EXPECT_NEAR(HighlightOnAWall(false, in_room), alone, 0.01f * alone);
   EXPECT_NEAR(HighlightOnAWall(true, in_room), alone, 0.03f * alone);
   EXPECT_LT(HighlightOnAWall(true, nullptr), 0.9f * alone);  // by corners of the cell alone
+}
+
+// Skins too rough for a highlight give back as much of a lamp's light as paths find, though not where they do: base black, so that
+// nothing else is seen.
+TEST(LampLight, MattSkinsGiveBackWhatPathsFind) {
+  World world;
+  Material black;
+  black.base_color = {0, 0, 0}, black.roughness = 0.9f;
+  world.Add(Quad({-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}), black);
+  for (const Vec3f p : {Vec3f{3, 0, 2.5f}, {-2, 3, 2}, {-1, -4, 3}, {5, 4, 3}, {0.5f, 1, 3.2f}}) world.Add(Ball(p, 0.2f), 0, {20, 20, 20});
+  world.Build();
+  const auto renderer = MakeCpuRenderer(world.tracer, {.tier = Tier::kFast, .environment = world.tracer->scene().environment});
+  double light[2] = {};
+  for (const Vec3d p : {Vec3d{0, 0, 1.5}, {4, -3, 2}, {-5, 1, 1}}) {
+    RenderRequest request = MakeRequest(Equirectangular{64, 32}, BodyPose(p, 0, 0, 0) * CameraInBody(), Tier::kFast, {.radiance = true});
+    for (const Tier tier : {Tier::kFast, Tier::kReference}) {
+      request.tier = tier, request.samples = 64;
+      Frame frame;
+      renderer->Render(request, frame);
+      for (int y = 18; y < 32; ++y)
+        for (int x = 0; x < 64; ++x)
+          light[tier == Tier::kReference] += static_cast<double>(frame.radiance(x, y).g) * std::cos((y + 0.5) / 32 * kPi - kPi / 2);
+    }
+  }
+  EXPECT_GT(light[1], 0);
+  EXPECT_NEAR(light[0] / light[1], 1, 0.15);
 }
 
 TEST(LampLight, NoLampLightsThroughAWall) {

@@ -102,7 +102,10 @@ KERNEL real3 OwnAndLamps(const ShadeView& view, const SurfaceSet& s, int i, cons
   if (view.lamps.lamps == nullptr && view.moving_lamps.lamps == nullptr) return light;
   const real3 front = load3(s.lamp_r + i, s.lamp_g + i, s.lamp_b + i);
   const real3 back = load3(s.lamp_back_r + i, s.lamp_back_g + i, s.lamp_back_b + i);
-  light = light + (surface.body * front + surface.leaf * back) * real(SHADE_INV_PI);
+  // Skins without highlights spread the light of lamps as bodies do.
+  const mask_t shiny = lamp_shines(load(s.kind + i), load(s.roughness + i), load(s.metallic + i)) || (load(s.traced + i) > 0.5f);
+  const real3 body = surface.body + sel3(shiny, Grey(0), surface.skin);
+  light = light + (body * front + surface.leaf * back) * real(SHADE_INV_PI);
   return light + load3(s.lamp_shine_r + i, s.lamp_shine_g + i, s.lamp_shine_b + i);
 }
 

@@ -241,6 +241,11 @@ SHARED real lamp_irradiance(real body, real towards, real soft, real radius, rea
 
 SHARED real lamp_distance(real3 to_lamp) { return rroot(rmax(dot3(to_lamp, to_lamp), real(1e-8f))); }
 
+// Whether a skin shows highlights of lamps.
+SHARED mask_t lamp_shines(real kind, real roughness, real metallic) {
+  return !(kind == kFoliage) && ((roughness < kLampMatt) || (metallic > kShinyMetal));
+}
+
 // What the skin of a surface reflects of a lamp, whose size widens the highlight, for it is no point (Karis 2013).
 SHARED real3 lamp_skin(real3 color, real metallic) { return lerp3(make3(real(0.04f), real(0.04f), real(0.04f)), color, metallic); }
 SHARED real3 lamp_highlight(real3 f0, real own_alpha, real radius, real distance, real n_dot_l, real n_dot_v, real n_dot_h, real w_dot_h) {

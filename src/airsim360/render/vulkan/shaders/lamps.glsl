@@ -8,7 +8,7 @@ struct LampEffect {
 LampEffect EffectOfLamp(GpuLamp lamp, Ray ray, Shaded s) {
   LampEffect e;
   const bool leaf = s.kind == kFoliage;
-  const bool shiny = !s.mirror && !leaf && (s.roughness < kLampMatt || s.metallic > kShinyMetal);
+  const bool shiny = !s.mirror && lamp_shines(s.kind, s.roughness, s.metallic);
   const vec3 to = Vec(lamp.center) - s.p;
   const float distance_ = lamp_distance(to);
   const vec3 w = to * (1.0 / distance_);

@@ -31,7 +31,10 @@ Response RespondTo(Ray ray, Shaded s, bool sun) {
 
 /// Emission, and the light of lamps.
 vec3 OwnAndLamps(Shaded s, Response o) {
-  return s.emission + (o.body * s.lamp_front + o.leaf * s.lamp_back) * SHADE_INV_PI + s.lamp_shine;
+  // Skins without highlights spread the light of lamps as bodies do.
+  const bool shiny = s.traced || lamp_shines(s.kind, s.roughness, s.metallic);
+  const vec3 body = o.body + (shiny ? vec3(0.0) : o.skin);
+  return s.emission + (body * s.lamp_front + o.leaf * s.lamp_back) * SHADE_INV_PI + s.lamp_shine;
 }
 
 vec3 LightOf(Ray ray, Shaded s) {
