@@ -52,6 +52,12 @@ class BadFlags(ProgramTest):
         # Nothing is accepted and ignored.
         for flag, value in [("--people-warmup", "5"), ("--people-level", "1"), ("--sockets", "sockets.yaml")]:
             self.run_bad(2, "render", *ROOM, flag, value, "--out", out, says=[flag, "--people N"])
+        for flag, value in [("--glare", "0.1"), ("--white-error", "0"), ("--each-frame", None)]:
+            self.run_bad(2, "render", *ROOM, flag, *([value] if value else []), "--out", out, says=[flag, "add --look photo"])
+        self.run_bad(2, "collect", "--recipe", "omni360-humn", "--out", out, says=["--recipe", "did you mean 'omni360-human'"])
+        world = self.folder / "wet.yaml"
+        world.write_text("world: box_room\nenvironment: {weather: ran}\n")
+        self.run_bad(2, "render", "--world", world, "--out", out, says=["wet.yaml: unknown weather 'ran'; did you mean 'rain'"])
         self.run_bad(2, "collect", "--world", "box_room", "--size", "64x32", "--format", "native,omni360", "--out", out,
                      says=["--format: 'omni360'", "airsim360 dataset export"])
         for value in ["0", "0.0", "0.5", "180", "nan", "-90"]:

@@ -9,6 +9,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/app/world_flags.h"
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
@@ -114,7 +115,11 @@ void CheckChoice(const std::vector<HumanSubset>& subsets, const HumanRun& run) {
 }  // namespace
 
 void CollectHumanSets(const HumanRun& run, const GlobalOptions& globals) {
-  const HumanRecipe recipe = run.recipe == "omni360-human" ? PaperHumanRecipe() : ReadHumanRecipe(run.recipe);
+  const std::vector<std::string> built_in = {"omni360-human"};
+  const fs::path file = run.recipe;
+  // A word without an ending is a name.
+  if (!fs::exists(file) && !file.has_extension() && !file.has_parent_path()) ParseChoice("recipe", run.recipe, built_in, "--recipe");
+  const HumanRecipe recipe = run.recipe == built_in.front() ? PaperHumanRecipe() : ReadHumanRecipe(run.recipe);
   std::vector<HumanSubset> subsets = SubsetsOf(recipe);
   CheckChoice(subsets, run);
   HumanRun one = run;

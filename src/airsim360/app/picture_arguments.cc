@@ -18,6 +18,7 @@ std::string OptionalProductNames() {
 }  // namespace
 
 void PictureArguments::AddTo(CLI::App& command) {
+  command_ = &command;
   AddConfigFlags(command, [this](ConfigVisitor& v) { picture_.Visit(v); });
   command.add_option("--products", products_, "beside rgb,range,semantic,entity: " + OptionalProductNames())
       ->delimiter(',')
@@ -31,6 +32,11 @@ DatasetSpec PictureArguments::Spec() const {
   spec.products = WithProducts(spec.products, products_, "--products");
   spec.products.normal |= normal_;
   spec.products.radiance |= radiance_;
+  if (spec.look != Look::kPhoto) {
+    for (const std::string& flag : ConfigFlagNames([](ConfigVisitor& v) { CameraLook().Visit(v); })) {
+      if (command_ && command_->count(flag) > 0) throw InputError(flag + ": it is of the camera that --look photo is; add --look photo");
+    }
+  }
   if (spec.products.radiance && spec.tier == Tier::kLabels) throw InputError("--radiance: tier 'labels' has no light; use --tier fast");
   return spec;
 }

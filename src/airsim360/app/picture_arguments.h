@@ -19,6 +19,7 @@ struct PictureArguments {
 
  private:
   DatasetSpec picture_;  // what DatasetSpec::Visit names
+  const CLI::App* command_ = nullptr;
   std::vector<std::string> products_;
   bool normal_ = false, radiance_ = false;
 };

@@ -124,7 +124,6 @@ void EnvironmentWords::Visit(ConfigVisitor& v, const fs::path& folder) {
   std::string hdri;
   v.Field("hdri", "a sky picture, .hdr or .exr", hdri);
   if (!hdri.empty()) hdri_ = LoadSkyPicture(folder / hdri);
-  Over({});  // mistakes are found before a world is loaded
 }
 
 Environment EnvironmentWords::Over(Environment base) const {

@@ -88,6 +88,12 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
     v.List("lamps", "lamps of your own", lamps, [](ConfigVisitor& entry, PlacedLamp& lamp) { VisitLamp(entry, lamp); });
     v.Group("environment", "sun, sky and weather", [&](ConfigVisitor& group) { environment.Visit(group, file.parent_path()); });
   });
+  // Mistakes in words of the sky are found before a world is loaded.
+  try {
+    environment.Over({});
+  } catch (const InputError& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
   if (world.empty()) throw InputError(file.string() + ": key 'world' is missing");
   if (IsWorldFile(world)) throw InputError(file.string() + ": world: '" + world + "' is a world file itself");
   if (added) *added = std::move(lamps);
