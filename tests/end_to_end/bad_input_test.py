@@ -58,8 +58,8 @@ class BadFlags(ProgramTest):
         world = self.folder / "wet.yaml"
         world.write_text("world: box_room\nenvironment: {weather: ran}\n")
         self.run_bad(2, "render", "--world", world, "--out", out, says=["wet.yaml: unknown weather 'ran'; did you mean 'rain'"])
-        self.run_bad(2, "collect", "--world", "box_room", "--size", "64x32", "--format", "native,omni360", "--out", out,
-                     says=["--format: 'omni360'", "airsim360 dataset export"])
+        self.run_bad(2, "collect", "--world", "box_room", "--size", "64x32", "--format", "native,omni360", "--shard", "0/2",
+                     "--out", out, says=["--format: 'omni360'", "airsim360 dataset export"])
         for value in ["0", "0.0", "0.5", "180", "nan", "-90"]:
             self.run_bad(2, "render", "--world", "box_room", "--projection", "pinhole", "--fov", value, "--out", out, says=["--fov"])
         self.run_bad(2, "render", "--world", "box_room", "--projection", "cube", "--size", "64x32", "--out", out, says=["did you mean '64x64'"])

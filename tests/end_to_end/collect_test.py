@@ -181,6 +181,16 @@ class Collect(ProgramTest):
             parts.update({name: sha for name, sha in part.items() if "/" in name})
         self.assertEqual(parts, {name: sha for name, sha in whole.items() if "/" in name})
 
+    def test_formats_of_exports_go_beside_the_dataset_as_the_export_writes_them(self):
+        collect = ("collect", "--world", "box_room", "--frames", "2", "--size", "64x32", "--tier", "fast", "--out", self.folder / "set")
+        self.run_ok(*collect, "--format", "native,omni360,mcap")
+        whole = tree(self.folder / "set")
+        for name in ("omni360", "mcap"):
+            self.run_ok("dataset", "export", self.folder / "set", "--format", name, "--out", self.folder / name)
+            self.assertEqual(tree(self.folder / f"set_{name}"), tree(self.folder / name))
+        self.run_ok(*collect, "--format", "native,omni360,mcap")
+        self.assertEqual(tree(self.folder / "set"), whole)
+
     def test_pictures_carry_photo_sphere_metadata(self):
         png = (self.collect("png") / "rgb/000000.png").read_bytes()
         jpg = (self.collect("jpg", "--rgb-format", "jpg") / "rgb/000000.jpg").read_bytes()

@@ -1,8 +1,11 @@
 // airsim360 collect: a dataset along a route.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/camera_arguments.h"
@@ -31,6 +34,8 @@
 namespace airsim360 {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr int64_t kDefaultFrames = 8;
 constexpr int64_t kMaxFrames = 1'000'000;
 constexpr double kFileRouteSpeed = 3;  // m/s along route files without times
@@ -49,16 +54,38 @@ struct CollectArguments {
   ProcessArguments processes;
 };
 
+// Written frame by frame; other formats are exports of the finished dataset.
+constexpr std::array<std::string_view, 9> kOwnFormats = {"native",   "coco",     "video", "coco_keypoints", "kitti",
+                                                         "nuscenes", "monoloco", "crops", "overlay"};
+
+// The formats of --format that are exports.
+std::vector<std::string> ExportsOf(const CollectArguments& arguments) {
+  std::vector<std::string> exports;
+  for (const ExportFormatInfo& format : ExportFormats()) {
+    const std::string name = format.name;
+    if (std::ranges::count(kOwnFormats, name) == 0 && ("," + arguments.format + ",").find("," + name + ",") != std::string::npos)
+      exports.push_back(name);
+  }
+  return exports;
+}
+
+// Beside the dataset, whose files they are not. What stands there already was made by an earlier run: an export is whole or missing.
+void WriteExports(const CollectArguments& arguments) {
+  const std::string folder = fs::path(arguments.out).lexically_normal().string();
+  for (const std::string& format : ExportsOf(arguments)) {
+    const fs::path out = (folder.ends_with('/') ? folder.substr(0, folder.size() - 1) : folder) + "_" + format;
+    if (!fs::exists(out)) ExportDataset(arguments.out, format, out);
+  }
+}
+
 // The video, people, and what is written of them. The native layout holds panoptic.json and people.jsonl in any case.
 void SetFormats(const CollectArguments& arguments, DatasetSpec& spec) {
-  const std::vector<std::string> known = {"native", "coco", "video", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops", "overlay"};
-  for (const ExportFormatInfo& other : ExportFormats()) {
-    const std::string name = other.name;
-    if (std::ranges::count(known, name) == 0 && ("," + arguments.format + ",").find("," + name + ",") != std::string::npos)
-      throw InputError("--format: '" + name + "' is made of a finished dataset: airsim360 dataset export " + arguments.out + " --format " +
-                       name + " --out " + arguments.out + "_" + name);
-  }
+  std::vector<std::string> known(kOwnFormats.begin(), kOwnFormats.end());
+  for (const ExportFormatInfo& other : ExportFormats()) known.emplace_back(other.name);
   const std::vector<std::string> formats = ParseList("--format", arguments.format, known);
+  const std::vector<std::string> exports = ExportsOf(arguments);
+  if (!exports.empty() && (arguments.shard != "0/1" || !arguments.recipe.empty()))
+    throw InputError("--format: '" + exports.front() + "' is made of a whole dataset; collect without it, then airsim360 dataset export");
   spec.people = arguments.people.Describe();
   spec.traffic = arguments.traffic.Describe();
   const auto wanted = [&](const std::string& name) { return std::ranges::count(formats, name) > 0; };
@@ -280,6 +307,7 @@ void RunCollect(const CollectArguments& arguments, GlobalOptions& globals) {
     });
   }
   const CollectResult result = processes == 1 ? Collect(input, stage.renderer(spec.tier)) : Collect(input, RenderInProcesses(processes));
+  WriteExports(arguments);
   ReportRun(stage, spec, result, arguments.out, globals.json);
 }
 
@@ -312,7 +340,8 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   arguments->picture.AddTo(*command);
   command->add_option("--format", arguments->format,
                       "native,coco (default native, which includes COCO panoptic and people.jsonl), video (video.mp4, 360 degrees; "
-                      "needs the program ffmpeg); of people also coco_keypoints,kitti,nuscenes,monoloco,crops,overlay");
+                      "needs the program ffmpeg); of people also coco_keypoints,kitti,nuscenes,monoloco,crops,overlay; those of `dataset export` go "
+                      "to OUT_FORMAT beside it");
   arguments->people.AddTo(*command);
   arguments->traffic.AddTo(*command);
   AddEnvironmentFlags(*command, arguments->environment);
