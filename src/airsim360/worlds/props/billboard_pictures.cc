@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "airsim360/base/disk_cache.h"
 #include "airsim360/math/angles.h"
 #include "airsim360/scene/luminance.h"
 #include "airsim360/worlds/props/billboards.h"
 #include "airsim360/worlds/props/portrait.h"
+#include "airsim360/worlds/texture/kept_textures.h"
 
 namespace airsim360::internal {
 namespace {
@@ -354,10 +358,16 @@ void PrintAndAge(Canvas& c, uint32_t seed, int sheets_x, int sheets_y) {
 
 Texture BoardPicture(uint32_t variant) {
   if (variant >= kDrawnBoards) return Vista(variant - kDrawnBoards);
-  Canvas c(static_cast<int>(kBoard.x), static_cast<int>(kBoard.y), kBlack);
-  kBoardPainters[variant](c);
-  PrintAndAge(c, variant, 5, 2);
-  return c.Finish("board " + std::to_string(variant));
+  const std::string name = "board " + std::to_string(variant);
+  const auto paint = [&] {
+    Canvas c(static_cast<int>(kBoard.x), static_cast<int>(kBoard.y), kBlack);
+    kBoardPainters[variant](c);
+    PrintAndAge(c, variant, 5, 2);
+    return std::vector{c.Finish(name)};
+  };
+  // A head takes a second to paint.
+  const bool has_head = kBoardPainters[variant] == BlackAndWhiteBoard || kBoardPainters[variant] == BlueSuitBoard;
+  return std::move((has_head ? KeptTextures(DiskCache::OfUser(), name, paint) : paint())[0]);
 }
 
 Texture MuralPicture(uint32_t variant) {
