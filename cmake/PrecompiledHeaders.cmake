@@ -15,7 +15,7 @@ if(AIRSIM360_PCH)
   add_compile_options(-pthread)
   set(standard_headers <algorithm> <array> <atomic> <cmath> <cstdint> <cstring> <filesystem> <fstream> <functional> <limits> <map>
       <memory> <mutex> <optional> <random> <span> <sstream> <string> <string_view> <thread> <unordered_map> <utility> <variant> <vector>)
-  file(WRITE ${CMAKE_BINARY_DIR}/empty.cc "")
+  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/empty.cc CONTENT "")  # as it is where it is there
   add_library(airsim360_standard_headers OBJECT ${CMAKE_BINARY_DIR}/empty.cc)
   target_precompile_headers(airsim360_standard_headers PRIVATE ${standard_headers})
   airsim360_for_python(airsim360_standard_headers)

@@ -18,11 +18,13 @@ if(CMAKE_SCRIPT_MODE_FILE)
   return()
 endif()
 
+set(AIRSIM360_TEST_CACHE "AIRSIM360_CACHE=${CMAKE_BINARY_DIR}/test_cache;AIRSIM360_CACHE_PROGRAM=tests")
+
 function(airsim360_suites target)
   cmake_parse_arguments(ARG "" "" "ENVIRONMENT;PROPERTIES" ${ARGN})
   # Suites of one program share skies and worlds, in a cache that is empty at first (tests/CMakeLists.txt); tests write nothing
   # into the home of the user.
-  set(environment "AIRSIM360_CACHE=${CMAKE_BINARY_DIR}/test_cache" ${ARG_ENVIRONMENT})
+  set(environment ${AIRSIM360_TEST_CACHE} ${ARG_ENVIRONMENT})
   string(REPLACE ";" " " properties "${ARG_PROPERTIES}")
   set(list ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
   add_custom_command(TARGET ${target} POST_BUILD BYPRODUCTS ${list}

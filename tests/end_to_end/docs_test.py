@@ -89,6 +89,7 @@ def run_page(page):
             environment = {"PATH": f"{BUILD / 'bin'}:/usr/bin:/bin", "HOME": folder, "PYTHONPATH": str(BUILD / "python"),
                            "PYTHONDONTWRITEBYTECODE": "1", "LANG": "C.UTF-8", "AIRSIM360": str(PROGRAM),
                            "AIRSIM360_CACHE": CACHE}
+            environment |= {name: os.environ[name] for name in ("AIRSIM360_CACHE_PROGRAM",) if name in os.environ}
             done = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, capture_output=True, text=True, timeout=1500)
             self.assertEqual(done.returncode, 0, f"{name_of(page)}\n{done.stdout[-2000:]}\n{done.stderr[-3000:]}")
             for seconds, where in slow_blocks(done.stderr):

@@ -112,5 +112,20 @@ TEST_F(DiskCacheTest, WithoutAFolderOrAPlaceToWriteItKeepsNothingAndDoesNotFail)
   ::unsetenv("AIRSIM360_CACHE");
 }
 
+TEST_F(DiskCacheTest, ProgramsShareEntriesOnlyWhereTheyAreToldThatTheyAreOne) {
+  const char* const before = std::getenv("AIRSIM360_CACHE_PROGRAM");
+  const std::string kept = before ? before : "";
+  const auto name = [] { return CacheKey("scene", 1).AddProgram().Name(); };
+  ::unsetenv("AIRSIM360_CACHE_PROGRAM");
+  const std::string own = name();
+  ::setenv("AIRSIM360_CACHE_PROGRAM", "one", 1);
+  const std::string one = name();
+  EXPECT_EQ(one, CacheKey("scene", 1).Add("one").Name());  // of whatever program
+  EXPECT_NE(one, own);
+  ::setenv("AIRSIM360_CACHE_PROGRAM", "other", 1);
+  EXPECT_NE(name(), one);
+  before ? ::setenv("AIRSIM360_CACHE_PROGRAM", kept.c_str(), 1) : ::unsetenv("AIRSIM360_CACHE_PROGRAM");
+}
+
 }  // namespace
 }  // namespace airsim360
