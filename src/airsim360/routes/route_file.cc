@@ -136,10 +136,7 @@ std::vector<Waypoint> ParseRouteCsv(std::string_view text, std::string_view name
 std::vector<Waypoint> ReadRouteFile(const std::filesystem::path& path, const std::optional<GeoPoint>& origin) {
   std::string extension = path.extension();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const std::string file = ReadTextFile(path, kMaxFileSize), name = path.string();
-  // Spreadsheets begin their files with the mark of UTF-8.
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  const std::string_view text = std::string_view(file).substr(file.starts_with(kMark) ? kMark.size() : 0);
+  const std::string text = ReadTextFile(path, kMaxFileSize), name = path.string();
   if (extension == ".yaml" || extension == ".yml" || extension == ".json") return ParseRouteYaml(text, name);
   if (extension == ".gpx" || extension == ".kml") return ParseRouteXml(text, name, origin);
   return ParseRouteCsv(text, name);
