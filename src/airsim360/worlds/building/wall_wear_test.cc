@@ -140,6 +140,39 @@ TEST(DampFoot, EndsRoughlyBelowItsHeight) {
   }
 }
 
+// Whole walls towards a yard: most of them, at windows, but none that hangs before an opening.
+TEST(DampFoot, IsUnderMostWallsTowardsYardsBelowTheirWindows) {
+  int damp = 0;
+  for (uint64_t seed = 0; seed < 30; ++seed) {
+    SceneBuilder builder("wear");
+    const Surfaces surfaces = AddTestSurfaces(builder);
+    MeshBuilder mesh;
+    FacadeContext context{builder, surfaces, mesh, AddBalconyMesh(builder, surfaces), AddWindowBoxMesh(builder, surfaces)};
+    context.reach = 0.6f;  // as in maps
+    context.fall = [](Vec2f) { return -0.3f; };
+    BuildingPlan plan;
+    plan.outline = {{0, 0}, {17, 0}, {17, 12}, {0, 12}};
+    plan.edges = {EdgeKind::kRear, EdgeKind::kParty, EdgeKind::kParty, EdgeKind::kParty};
+    plan.party_height = {0, 1e3f, 1e3f, 1e3f};
+    plan.style = FacadeStyle::kStuccoShutters;
+    plan.seed = MixBits(seed);
+    BuildFacades(context, plan, builder.AddEntity("house", builder.tree().At("construction/building")),
+                 std::vector<FacadeDetail>(4, FacadeDetail::kSimple));
+    const TestRays rays(mesh.Finish("house"));
+    int before = 0;
+    for (float x = 0.4f; x < 16.6f; x += 0.1f) {
+      const auto hit = rays.First({x, -5, 0.4f}, {0, 1, 0}, 10);
+      ASSERT_TRUE(hit);
+      before += std::abs(hit->t - (5 - 0.6f * 0.008f)) < 1e-4f;
+      const auto above = rays.First({x, -5, 1.05f}, {0, 1, 0}, 10);
+      EXPECT_FALSE(above && std::abs(above->t - (5 - 0.6f * 0.008f)) < 1e-4f) << seed << " " << x;
+    }
+    damp += before > 60;
+  }
+  EXPECT_GE(damp, 18);
+  EXPECT_LE(damp, 29);
+}
+
 // A street where all shutters are of one green is a street of one owner.
 TEST(DressOf, OwnersPaintTheirShuttersEachInAColourOfTheirOwn) {
   std::map<Surface, int> shutters, frames;

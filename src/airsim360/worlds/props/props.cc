@@ -116,7 +116,7 @@ Vec3f PlantTint(const PropKind& kind, Vec3f p) {
   return Vec3f{0.97f + 0.22f * share, 1 + 0.05f * share, 1 - 0.10f * share} * light;
 }
 
-bool IsPlanter(const PropKind& kind) { return kind.category.starts_with("furniture/planter/"); }
+bool IsPlanter(const PropKind& kind) { return kind.name == "pot" || kind.name == "green_pot" || kind.name == "planter"; }
 bool DiffersFromNeighbours(const PropKind& kind) { return IsPlanter(kind) || kind.category.starts_with("vehicle/"); }
 
 // What is no one's own: pots come in sizes, are turned as they were put down, faded and dirty each in its way. Long planters stay

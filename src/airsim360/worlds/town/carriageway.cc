@@ -13,7 +13,7 @@ using internal::Fan;
 using internal::StreetRect;
 
 constexpr float kGutterWidth = 0.35f;
-constexpr float kIronLift = 0.0024f;
+constexpr float kIronLift = 0.004f;
 
 // Lanes of one side: where each begins, counted from the middle of the street, and its centre line.
 struct Lane {

@@ -87,8 +87,8 @@ TEST(Streets, MarkingsLieAFewMillimetresAboveTheAsphalt) {
           if (along < s.s0 || along > s.s1 || std::abs(across) > s.line.half_width) continue;
           lift = p.z - CarriagewayHeight(s.line, across);
         }
-        EXPECT_GE(lift, 0.004f);
-        EXPECT_LE(lift, 0.0125f);  // signs lie on a coat of green
+        EXPECT_GE(lift, 0.003f);
+        EXPECT_LE(lift, 0.0085f);  // signs lie on a coat of green
       }
     }
   }

@@ -8,7 +8,7 @@
 
 namespace airsim360::internal {
 
-inline constexpr float kPaintLift = 0.003f;
+inline constexpr float kPaintLift = 0.004f;
 
 /// The surface of a crossing: triangles from the middle to the rim.
 struct Fan {

@@ -74,8 +74,8 @@ TEST_P(EveryStreet, PaintLiesOneOrTwoLiftsOverTheCrownWithinTheStreet) {
   // Between the corners the crown must not come through.
   ForTriangles(mesh, [&](const MeshPart&, Vec3f a, Vec3f b, Vec3f c) {
     EXPECT_GT(Cross(b - a, c - a).z, 0);
-    EXPECT_GT(InStreet((a + b + c) * (1.0f / 3)).z, 0.004f);
-    for (const auto& [p, q] : {std::pair{a, b}, {b, c}, {c, a}}) EXPECT_GT(InStreet((p + q) * 0.5f).z, 0.003f);
+    EXPECT_GT(InStreet((a + b + c) * (1.0f / 3)).z, 0.5f * kPaintLift);
+    for (const auto& [p, q] : {std::pair{a, b}, {b, c}, {c, a}}) EXPECT_GT(InStreet((p + q) * 0.5f).z, 0.25f * kPaintLift);
   });
 }
 
