@@ -338,10 +338,11 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
       ->check(CLI::Range(0.0, 1e7));
   arguments->camera.AddTo(*command);
   arguments->picture.AddTo(*command);
-  command->add_option("--format", arguments->format,
-                      "native,coco (default native, which includes COCO panoptic and people.jsonl), video (video.mp4, 360 degrees; "
-                      "needs the program ffmpeg); of people also coco_keypoints,kitti,nuscenes,monoloco,crops,overlay; those of `dataset export` go "
-                      "to OUT_FORMAT beside it");
+  command->add_option(
+      "--format", arguments->format,
+      "native,coco (default native, which includes COCO panoptic and people.jsonl), video (video.mp4, 360 degrees; "
+      "needs the program ffmpeg); of people also coco_keypoints,kitti,nuscenes,monoloco,crops,overlay; those of `dataset export` go "
+      "to OUT_FORMAT beside it");
   arguments->people.AddTo(*command);
   arguments->traffic.AddTo(*command);
   AddEnvironmentFlags(*command, arguments->environment);
