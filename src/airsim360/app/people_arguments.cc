@@ -41,7 +41,7 @@ PeopleRequest PeopleArguments::Request(uint64_t seed) const {
                              : warm_up != PeopleArguments().warm_up ? "--people-warmup"
                                                                     : "";
     // Not accepted and ignored.
-    if (!flag.empty() && !request.any()) throw InputError(flag + ": there is nobody; add people, for example --people 30");
+    if (!flag.empty() && !request.any()) throw InputError(flag + ": there is nobody; add --people N, for example --people 30");
     return request;
   }
   if (const auto count = ParseCount(people)) {
