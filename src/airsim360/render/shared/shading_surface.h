@@ -3,7 +3,7 @@
 // argument that is only read. Fetching records, textures and noise is the back ends' own.
 
 #define SURFACE_MIRROR_ROUGHNESS 0.12f
-#define LAWN_LIFE 0.5f          // share of lawn_life that mown lawns show
+#define LAWN_LIFE 0.6f          // share of lawn_life that mown lawns show
 #define SURFACE_MOST_TAPS 8.0f  // places at which tier `high` looks up a slanted pixel
 #define SURFACE_LOW_BEAM 10.0f  // kLowBeam of scene/material.h (shading_shared_test.cc compares)
 
