@@ -9,9 +9,11 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/eval_commands.h"
+#include "airsim360/app/eval_sheet.h"
 #include "airsim360/app/eval_views.h"
 #include "airsim360/base/error.h"
 #include "airsim360/eval/coco/likely_reading.h"
+#include "airsim360/eval/coco/sphere.h"
 #include "airsim360/eval/coco/summary.h"
 #include "airsim360/eval/files/coco_file.h"
 
@@ -21,12 +23,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct CocoArguments {
-  std::string pred, gt, type = "segm", kind = "bbox", weights = "pixel", protocol;
-  bool class_agnostic = false, wrap = false, force = false;
+  std::string pred, gt, type = "segm", kind = "bbox", protocol;
+  bool class_agnostic = false, wrap = false;
   std::vector<int64_t> most;
   std::vector<std::string> held_out;
-  int seam = 0, bands = 0;
+  ViewOptions view;
   ReportOptions report;
+  SheetOptions sheet;
 };
 
 constexpr size_t kUnlimited = std::numeric_limits<size_t>::max();
@@ -82,11 +85,6 @@ Json OpenWorld(const CocoTable& table, const CocoTruths& truths, const Task& tas
   return json;
 }
 
-// [x, y, width, height] of what is compared.
-std::array<double, 4> BoxOf(const CocoObject& object, CocoKind kind) {
-  return kind == CocoKind::kMasks ? MaskBox(object.mask) : object.box;
-}
-
 // AP of the objects by where they are: `place` is a number of each, in ranges [low, high).
 std::vector<double> PlaceAp(const CocoTruths& truths, const std::vector<CocoObject>& results, CocoRun run,
                             const std::vector<double>& borders, const std::function<double(const CocoObject&, const CocoImage&)>& place) {
@@ -100,9 +98,9 @@ std::vector<double> PlaceAp(const CocoTruths& truths, const std::vector<CocoObje
   CocoTruths placed = truths;
   std::vector<CocoObject> detections = results;
   for (auto* objects : {&placed.objects, &detections}) {
-    for (CocoObject& object : *objects) object.area = place(object, *images.at(object.image));
+    for (CocoObject& object : *objects) object.place = place(object, *images.at(object.image));
   }
-  run.own_areas = true;
+  run.by_place = true;
   run.options.areas.clear();
   for (size_t i = 0; i + 1 < borders.size(); ++i) run.options.areas.push_back({borders[i], std::nextafter(borders[i + 1], borders[i])});
   const size_t categories = run.class_agnostic ? 1 : truths.categories.size(), last = run.options.most_detections.size() - 1;
@@ -112,32 +110,55 @@ std::vector<double> PlaceAp(const CocoTruths& truths, const std::vector<CocoObje
   return aps;
 }
 
-// Objects whose nearest column is within `--seam` columns of the seam, and the others; objects by the latitude of the middle of their box.
-void AppendPlaces(Json& json, const CocoArguments& a, const CocoTruths& truths, const std::vector<CocoObject>& results,
+// Objects whose nearest column is within `--seam` columns of the seam, and the others; objects by the latitude of the middle of what they
+// occupy.
+void AppendPlaces(Json& json, const ViewOptions& view, const CocoTruths& truths, const std::vector<CocoObject>& results,
                   const CocoRun& run) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (a.seam < 0 || a.bands < 0 || a.bands > 1000)
-    throw InputError("--seam and --latitude-bands must be at least 1, and at most 1000 bands");
-  if (a.seam > 0) {
-    const auto aps = PlaceAp(truths, results, run, {-kInfinity, static_cast<double>(a.seam), kInfinity},
+  if (view.seam > 0) {
+    const auto aps = PlaceAp(truths, results, run, {-kInfinity, static_cast<double>(view.seam), kInfinity},
                              [&run](const CocoObject& o, const CocoImage& image) {
-                               const auto box = BoxOf(o, run.kind);
+                               const auto box = PlaceOf(o, run.kind, image);
                                return std::min(box[0], image.width - (box[0] + box[2]));
                              });
-    json["seam"] = {{"columns", a.seam}, {"near", {{"ap", aps[0]}}}, {"far", {{"ap", aps[1]}}}};
+    json["seam"] = {{"columns", view.seam}, {"near", {{"ap", aps[0]}}}, {"far", {{"ap", aps[1]}}}};
   }
-  if (a.bands == 0) return;
+  if (view.bands == 0) return;
   std::vector<double> borders;
-  for (int band = 0; band <= a.bands; ++band) borders.push_back(-90 + 180.0 * band / a.bands);
+  for (int band = 0; band <= view.bands; ++band) borders.push_back(-90 + 180.0 * band / view.bands);
   borders.front() = -kInfinity;
   borders.back() = kInfinity;
   const auto aps = PlaceAp(truths, results, run, borders, [&run](const CocoObject& o, const CocoImage& image) {
-    const auto box = BoxOf(o, run.kind);
+    const auto box = PlaceOf(o, run.kind, image);
     return 90 - 180 * (box[1] + box[3] / 2) / image.height;
   });
-  for (int band = a.bands; band-- > 0;)
-    json["latitude_bands"].push_back(
-        {{"latitude_deg", {-90 + 180.0 * (band + 1) / a.bands, -90 + 180.0 * band / a.bands}}, {"ap", aps[static_cast<size_t>(band)]}});
+  for (int band = view.bands; band-- > 0;)
+    json["latitude_bands"].push_back({{"latitude_deg", {-90 + 180.0 * (band + 1) / view.bands, -90 + 180.0 * band / view.bands}},
+                                      {"ap", aps[static_cast<size_t>(band)]}});
+}
+
+// What cannot go round, or has no columns, is neither moved nor turned.
+void CheckTurns(const CocoArguments& a, CocoKind kind) {
+  if (a.view.rolled.empty() && a.view.turned.empty() && a.view.seam == 0 && a.view.bands == 0) return;
+  if (kind == CocoKind::kBoxes3d)
+    throw InputError("--seam, --latitude-bands, --rolled and --turned are of pictures; boxes in space are in none");
+  if (kind == CocoKind::kBoxes && !a.view.turned.empty())
+    throw InputError("--turned: a turned box is no box of columns and rows; `eval boxes --kind bfov` has such");
+  if ((kind == CocoKind::kBoxes || kind == CocoKind::kKeypoints) && !a.wrap && !(a.view.rolled.empty() && a.view.turned.empty()))
+    throw InputError("--rolled and --turned move objects over the seam: " +
+                     std::string(kind == CocoKind::kBoxes ? "`eval boxes --wrap`" : "--wrap") + " compares them there");
+}
+
+std::vector<CocoObject> MovedBack(std::vector<CocoObject> objects, const CocoTruths& truths, CocoKind kind, const Rolled& rolled) {
+  if (!rolled.turn_deg) return RollBack(std::move(objects), truths, kind, rolled.columns);
+  const Vec3d turn = *rolled.turn_deg * kDegree;
+  return TurnBack(std::move(objects), truths, kind, turn.x, turn.y, turn.z);
+}
+
+std::vector<Figure> FiguresOf(const CocoTable& table, const Task& task) {
+  std::vector<Figure> figures;
+  for (const CocoFigure& row : task.rows) figures.emplace_back(row.name, ValueOf(row, table, task.run.options));
+  return figures;
 }
 
 void WriteTable(const std::string& path, const CocoTable& table, const CocoTruths& truths, const Task& task) {
@@ -155,8 +176,8 @@ void WriteTable(const std::string& path, const CocoTable& table, const CocoTruth
 // What makes figures mean nothing is refused, what is left out is said.
 void Judge(const CocoArguments& a, const CocoTruths& truths, const std::vector<CocoObject>& results, const CocoRun& run, double ap50,
            Json& json) {
-  if (const std::string text = VoidTruths(truths, run.kind); !text.empty()) JudgeMistakes({{a.gt, {text, true}}}, a.force, json);
-  JudgeMistakes({{a.pred, LikelyReading(truths, results, run, ap50)}}, a.force, json);
+  if (const std::string text = VoidTruths(truths, run.kind); !text.empty()) JudgeMistakes({{a.gt, {text, true}}}, a.view.force, json);
+  JudgeMistakes({{a.pred, LikelyReading(truths, results, run, ap50)}}, a.view.force, json);
   if (run.class_agnostic) return;
   std::set<int64_t> known, unknown;
   for (const CocoCategory& category : truths.categories) known.insert(category.id);
@@ -169,53 +190,165 @@ void Judge(const CocoArguments& a, const CocoTruths& truths, const std::vector<C
   if (count == 0) return;
   const std::string text = std::to_string(count) + " of " + std::to_string(results.size()) + " detections have a category_id that " + a.gt +
                            " does not have, " + std::to_string(*unknown.begin()) + " first";
-  if (count == results.size()) JudgeMistakes({{a.pred, {text, true}}}, a.force, json);
+  if (count == results.size()) JudgeMistakes({{a.pred, {text, true}}}, a.view.force, json);
   if (count < results.size()) json["warnings"].push_back(a.pred + ": " + text + ": they are left out");
 }
 
-void RunTask(const CocoArguments& a, Task task, const GlobalOptions& globals, std::vector<std::string> notes) {
-  CocoTruths truths = ReadCocoTruths(a.gt, task.run.kind, task.run.wrap);
-  const std::vector<CocoObject> results = ReadCocoResults(a.pred, task.run.kind, truths, task.run.wrap);
-  if (truths.images.empty()) throw InputError(a.gt + ": has no images");
-  task.run.class_agnostic = a.class_agnostic;
-  if (task.unlimited) task.run.options.most_detections.push_back(kUnlimited);
-  const auto matches = MatchAll(truths, results, task.run);
-  const size_t categories = a.class_agnostic ? 1 : truths.categories.size();
-  const CocoTable table = AccumulateCoco(matches, task.run.options, categories);
-
-  Json json;
-  Judge(a, truths, results, task.run, table.MeanPrecision(0, CocoTable::kAll, 0, task.run.options.most_detections.size() - 1), json);
-  Json summary = Json::array();
-  for (const CocoFigure& row : task.rows) {
-    json[row.name] = ValueOf(row, table, task.run.options);
-    summary.push_back(json[row.name]);
+// What is measured: objects of the whole pictures, or masks as a projection sees them.
+class Measured {
+ public:
+  Measured(const CocoArguments& a, const Task& task, const CocoTruths& truths)
+      : task_(task), truths_(truths), seen_(truths), categories_(a.class_agnostic ? 1 : truths.categories.size()), cache_(a.view) {
+    if (a.view.projection == "erp") return;
+    if (task.run.kind != CocoKind::kMasks) throw InputError("--projection is for masks: a box is seen in no pixels");
+    projected_ = true;
+    seen_.objects = Seen(truths.objects);
   }
+
+  std::vector<std::vector<CocoMatches>> Match(const std::vector<CocoObject>& results) {
+    return projected_ ? MatchAll(seen_, Seen(results), task_.run) : MatchAll(truths_, results, task_.run);
+  }
+  CocoTable Table(const std::vector<std::vector<CocoMatches>>& matches, std::span<const uint32_t> draws = {}) const {
+    return AccumulateCoco(matches, task_.run.options, categories_, draws);
+  }
+
+ private:
+  std::vector<CocoObject> Seen(const std::vector<CocoObject>& objects) {
+    return SeenThrough(objects, truths_, [this](int width, int height) {
+      const auto views = cache_.Of(width, height);
+      return std::shared_ptr<const PixelView>(views, &views->front());
+    });
+  }
+
+  const Task& task_;
+  const CocoTruths& truths_;
+  CocoTruths seen_;
+  size_t categories_;
+  ViewCache cache_;
+  bool projected_ = false;
+};
+
+// Figures of predictions of pictures that were moved.
+void AppendMoved(Json& json, const CocoArguments& a, const Task& task, const CocoTruths& truths, Measured& measured,
+                 const std::vector<Figure>& main) {
+  const std::vector<Rolled> turns = ParseRolled(a.view);
+  std::vector<std::vector<Figure>> figures;
+  for (const Rolled& turn : turns) {
+    CocoTruths known = truths;  // takes notes of this file, which say nothing new
+    std::vector<CocoObject> moved = ReadCocoResults(turn.path, task.run.kind, known, task.run.wrap);
+    moved = MovedBack(std::move(moved), truths, task.run.kind, turn);
+    figures.push_back(FiguresOf(measured.Table(measured.Match(moved)), task));
+  }
+  AppendRolled(json, turns, figures, main);
+}
+
+// What lies inside each truth and detection of a picture, by an id that a detection shares with the truth that it covers best.
+std::pair<LabelPicture, LabelPicture> DrawnObjects(const CocoTruths& truths, const std::vector<CocoObject>& results, CocoKind kind,
+                                                   const CocoImage& image) {
+  const auto mask_of = [&](const CocoObject& o) {
+    return kind == CocoKind::kMasks ? o.mask : RasterizeBox(o.box, image.width, image.height);
+  };
+  const auto draw = [](const RleMask& mask, uint32_t id, LabelPicture& picture) {
+    const std::vector<uint8_t> inside = DecodeMask(mask);
+    for (size_t i = 0; i < inside.size(); ++i) picture.ids[i] = inside[i] ? id : picture.ids[i];
+  };
+  const auto blank = std::vector<uint32_t>(static_cast<size_t>(image.width) * static_cast<size_t>(image.height), 0);
+  LabelPicture prediction{image.width, image.height, blank}, truth{image.width, image.height, blank};
+  std::vector<RleMask> known;
+  for (const CocoObject& object : truths.objects) {
+    if (object.image != image.id) continue;
+    known.push_back(mask_of(object));
+    draw(known.back(), static_cast<uint32_t>(known.size()), truth);
+  }
+  std::vector<const CocoObject*> found;
+  for (const CocoObject& object : results) {
+    if (object.image == image.id) found.push_back(&object);
+  }
+  // The surest last, so that it lies on top.
+  std::stable_sort(found.begin(), found.end(), [](const CocoObject* a, const CocoObject* b) { return a->score < b->score; });
+  for (size_t d = 0; d < found.size(); ++d) {
+    const RleMask mask = mask_of(*found[d]);
+    uint32_t id = static_cast<uint32_t>(known.size() + 1 + d);
+    uint64_t most = 0;
+    for (size_t t = 0; t < known.size(); ++t) {
+      const uint64_t shared = SharedArea(mask, known[t]);
+      if (shared > most && 2 * shared > MaskArea(mask)) most = shared, id = static_cast<uint32_t>(t + 1);
+    }
+    draw(mask, id, prediction);
+  }
+  return {std::move(prediction), std::move(truth)};
+}
+
+void AppendWorstPictures(Json& json, const CocoArguments& a, const Task& task, const CocoTruths& truths,
+                         const std::vector<CocoObject>& results, const Measured& measured,
+                         const std::vector<std::vector<CocoMatches>>& matches) {
+  if (a.sheet.worst == 0) return;
+  std::vector<SheetItem> items;
+  for (size_t i = 0; i < truths.images.size(); ++i) {
+    std::vector<uint32_t> alone(truths.images.size(), 0);
+    alone[i] = 1;
+    const double ap = ValueOf(task.rows[0], measured.Table(matches, alone), task.run.options);
+    const CocoImage& image = truths.images[i];
+    // A picture without truths has no AP.
+    if (ap >= 0) items.push_back({i, image.name.empty() ? std::to_string(image.id) : image.name, 1 - ap});
+  }
+  AppendWorst(json, a.sheet, items, "1-ap", [&](size_t i) {
+    const auto [prediction, truth] = DrawnObjects(truths, results, task.run.kind, truths.images[i]);
+    return LabelStrip(prediction, truth);
+  });
+}
+
+// The figures, what they were counted of, and each category's.
+void AppendFigures(Json& json, const CocoArguments& a, const Task& task, const CocoTruths& truths, size_t detections,
+                   const CocoTable& table) {
+  const std::vector<Figure> figures = FiguresOf(table, task);
+  json.update(ToJson(figures));
+  Json summary = Json::array();
+  for (const Figure& figure : figures) summary.push_back(figure.second);
   json["summary"] = summary;
   if (task.unlimited)
     json["ap_all"] = table.MeanPrecision(CocoTable::kAll, CocoTable::kAll, 0, task.run.options.most_detections.size() - 1);
   json["pictures"] = truths.images.size();
   json["truths"] = truths.objects.size();
-  json["detections"] = results.size();
+  json["detections"] = detections;
   json["class_agnostic"] = a.class_agnostic;
-  json["weights"] = a.weights;
+  json["weights"] = a.view.weights;
+  if (task.run.kind == CocoKind::kMasks) json["projection"] = a.view.projection;
   if (!a.class_agnostic) json["per_class"] = PerClass(table, truths, task);
-  if (!a.held_out.empty()) {
-    if (a.class_agnostic) throw InputError("--open-world and --class-agnostic exclude each other: without categories none is held out");
-    json["open_world"] = OpenWorld(table, truths, task, a.held_out);
-  }
-  AppendPlaces(json, a, truths, results, task.run);
+  if (a.held_out.empty()) return;
+  if (a.class_agnostic) throw InputError("--open-world and --class-agnostic exclude each other: without categories none is held out");
+  json["open_world"] = OpenWorld(table, truths, task, a.held_out);
+}
+
+void RunTask(CocoArguments a, Task task, const GlobalOptions& globals, std::vector<std::string> notes) {
+  CheckViewOptions(a.view);
+  CheckSheetOptions(a.sheet);
+  CheckTurns(a, task.run.kind);
+  CocoTruths truths = ReadCocoTruths(a.gt, task.run.kind, task.run.wrap);
+  const std::vector<CocoObject> results = ReadCocoResults(a.pred, task.run.kind, truths, task.run.wrap);
+  if (truths.images.empty()) throw InputError(a.gt + ": has no images");
+  task.run.class_agnostic = a.class_agnostic;
+  if (task.unlimited) task.run.options.most_detections.push_back(kUnlimited);
+  Measured measured(a, task, truths);
+  const auto matches = measured.Match(results);
+  const CocoTable table = measured.Table(matches);
+
+  Json json;
+  Judge(a, truths, results, task.run, table.MeanPrecision(0, CocoTable::kAll, 0, task.run.options.most_detections.size() - 1), json);
+  AppendFigures(json, a, task, truths, results.size(), table);
+  AppendPlaces(json, a.view, truths, results, task.run);
+  const std::vector<Figure> main = FiguresOf(table, task);
+  AppendMoved(json, a, task, truths, measured, main);
   std::vector<std::string> names;
-  for (const CocoFigure& row : task.rows) names.push_back(row.name);
+  for (const Figure& figure : main) names.push_back(figure.first);
   AppendIntervals(json, a.report, globals.seed, matches.size(), names, [&](std::span<const uint32_t> draws) {
-    const CocoTable drawn = AccumulateCoco(matches, task.run.options, categories, draws);
     std::vector<double> values;
-    for (const CocoFigure& row : task.rows) {
-      const double value = ValueOf(row, drawn, task.run.options);
-      values.push_back(value < 0 ? std::numeric_limits<double>::quiet_NaN() : value);
-    }
+    for (const Figure& figure : FiguresOf(measured.Table(matches, draws), task))
+      values.push_back(figure.second < 0 ? std::numeric_limits<double>::quiet_NaN() : figure.second);
     return values;
   });
   WriteTable(a.report.csv, table, truths, task);
+  AppendWorstPictures(json, a, task, truths, results, measured, matches);
   notes.insert(notes.end(), truths.notes.begin(), truths.notes.end());
   if (!notes.empty()) json["notes"] = notes;
   if (globals.json)
@@ -224,13 +357,14 @@ void RunTask(const CocoArguments& a, Task task, const GlobalOptions& globals, st
     PrintFigures(json);
 }
 
-void AddCommon(CLI::App& command, CocoArguments& a) {
+// `pixels`: whether there are masks.
+void AddCommon(CLI::App& command, CocoArguments& a, bool pixels = false) {
   command.add_option("pred", a.pred, "COCO results: a list of image_id, category_id, score and what is compared")->required();
   command.add_option("gt", a.gt, "COCO annotations: images, annotations, categories")->required();
   command.add_flag("--class-agnostic", a.class_agnostic, "all categories are one");
   command.add_option("--open-world", a.held_out, "categories that training has not seen, by name: their AP beside that of the others")
       ->delimiter(',');
-  AddForceFlag(command, a.force);
+  AddViewFlags(command, a.view, pixels);
   AddReportFlags(command, a.report, "a row a category");
 }
 
@@ -249,7 +383,7 @@ void RunEntity(CocoArguments a, const GlobalOptions& globals) {
     throw InputError("--protocol: " + UnknownChoiceMessage("protocol of entities", a.protocol, protocols));
   }
   task.run.kind = a.type == "segm" ? CocoKind::kMasks : CocoKind::kBoxes;
-  task.run.solid_angle = ParsePixelWeight(a.weights) == PixelWeight::kSolidAngle;
+  task.run.solid_angle = ParsePixelWeight(a.view.weights) == PixelWeight::kSolidAngle;
   if (task.run.solid_angle && a.type == "bbox")
     throw InputError("--weights solid_angle is for masks; boxes on the sphere are `eval boxes --kind bfov`");
   task.run.options.most_detections = ParseMost(a.most, task.run.options.most_detections);
@@ -261,6 +395,7 @@ void RunEntity(CocoArguments a, const GlobalOptions& globals) {
 void RunKeypoints(const CocoArguments& a, const GlobalOptions& globals) {
   Task task;
   task.run.kind = CocoKind::kKeypoints;
+  task.run.wrap = a.wrap;
   task.run.options = KeypointCocoOptions();
   task.rows = KeypointFigures();
   RunTask(a, task, globals, {"at most 20 detections of a picture count; sigmas are the category's `sigmas`, else COCO's 17"});
@@ -293,17 +428,16 @@ void AddEvalCoco(CLI::App& command, GlobalOptions& globals) {
   const auto entity = std::make_shared<CocoArguments>(), keypoints = std::make_shared<CocoArguments>(),
              boxes = std::make_shared<CocoArguments>();
   CLI::App* one = command.add_subcommand("entity", "average precision of masks or boxes (COCO)");
-  AddCommon(*one, *entity);
+  AddCommon(*one, *entity, true);
   one->add_option("--type", entity->type, "what is compared: segm (masks, the default) or bbox");
   one->add_option("--max-detections", entity->most, "N,…: how many detections of a picture and category count (default 1,10,100)")
       ->delimiter(',');
-  one->add_option("--seam", entity->seam, "AP also of what comes within so many columns of the panorama's seam, and of the rest");
-  one->add_option("--latitude-bands", entity->bands, "AP also in so many bands of latitude, by the middle of the box");
-  one->add_option("--weights", entity->weights, "what a pixel counts: pixel (1, the default) or solid_angle (its steradians, panoramas)");
   one->add_option("--protocol", entity->protocol, "coco or entityseg");
+  AddSheetFlags(*one, entity->sheet);
   one->callback([entity, &globals] { RunEntity(*entity, globals); });
   CLI::App* two = command.add_subcommand("keypoints", "average precision of keypoints by OKS (COCO)");
   AddCommon(*two, *keypoints);
+  two->add_flag("--wrap", keypoints->wrap, "panoramas: columns go round; bbox_wrap is read where truths have it");
   two->callback([keypoints, &globals] { RunKeypoints(*keypoints, globals); });
   CLI::App* three = command.add_subcommand("boxes", "average precision of boxes: in pictures, on the sphere, in space");
   AddCommon(*three, *boxes);

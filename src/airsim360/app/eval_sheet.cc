@@ -8,6 +8,7 @@
 #include "airsim360/base/file.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/image/draw.h"
+#include "airsim360/math/angles.h"
 
 namespace airsim360 {
 namespace {
@@ -25,6 +26,12 @@ Image<Rgb8> SideBySide(const std::vector<Image<Rgb8>>& panels) {
     x += kPanelWidth + kGap;
   }
   return strip;
+}
+
+// Hue by direction, the fuller the longer; 1 is full.
+Rgb8 FlowColor(double dx, double dy) {
+  const double length = std::min(std::hypot(dx, dy), 1.0);
+  return OklchColor(0.95 - 0.25 * length, 0.15 * length, std::atan2(dy, dx) / kDegree);
 }
 
 void WriteSheet(const std::string& path, const Image<Rgb8>& sheet) {
@@ -93,6 +100,28 @@ Image<Rgb8> DepthStrip(const NumberPicture& prediction, const NumberPicture& tru
     panels[1].pixels()[i] = ScaleColor(1 - LogScale(p, low, high));
     // Relative error: 50 % and more is the end of the scale.
     panels[2].pixels()[i] = ScaleColor(2 * std::abs(p - g) / g);
+  }
+  return SideBySide(panels);
+}
+
+Image<Rgb8> FlowStrip(const NumberPicture& prediction, const NumberPicture& truth, bool panorama) {
+  std::vector<double> lengths;
+  const size_t pixels = truth.values.size() / 2;
+  for (size_t i = 0; i < pixels; ++i) {
+    if (const double length = std::hypot(truth.values[2 * i], truth.values[2 * i + 1]); std::isfinite(length)) lengths.push_back(length);
+  }
+  if (lengths.empty()) lengths.push_back(1);
+  const auto most = lengths.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(lengths.size() - 1));
+  std::nth_element(lengths.begin(), most, lengths.end());
+  const double full = std::max(*most, 1e-3);
+  std::vector<Image<Rgb8>> panels(3, Image<Rgb8>(truth.width, truth.height, kNothing));
+  for (size_t i = 0; i < pixels; ++i) {
+    const double gx = truth.values[2 * i], gy = truth.values[2 * i + 1], px = prediction.values[2 * i], py = prediction.values[2 * i + 1];
+    if (!std::isfinite(gx) || !std::isfinite(gy)) continue;
+    const double dx = panorama ? std::remainder(px - gx, static_cast<double>(truth.width)) : px - gx;
+    panels[0].pixels()[i] = FlowColor(gx / full, gy / full);
+    panels[1].pixels()[i] = FlowColor(px / full, py / full);
+    panels[2].pixels()[i] = ScaleColor(std::hypot(dx, py - gy) / full);
   }
   return SideBySide(panels);
 }

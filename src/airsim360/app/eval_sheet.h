@@ -30,6 +30,8 @@ void AppendWorst(nlohmann::ordered_json& json, const SheetOptions& options, std:
 
 /// Truth, prediction, and where they differ, side by side.
 Image<Rgb8> DepthStrip(const NumberPicture& prediction, const NumberPicture& truth);
+/// The hue of a flow is its direction, its colour is full at the 95th percentile of the true lengths.
+Image<Rgb8> FlowStrip(const NumberPicture& prediction, const NumberPicture& truth, bool panorama);
 Image<Rgb8> LabelStrip(const LabelPicture& prediction, const LabelPicture& truth);
 
 }  // namespace airsim360

@@ -89,21 +89,20 @@ void AddReportFlags(CLI::App& command, ReportOptions& options, const char* csv_r
   AddOutputOption(command, "--csv", options.csv, std::string("also write a table, ") + csv_rows);
 }
 
-void AddViewFlags(CLI::App& command, ViewOptions& options, bool turned_back) {
-  command.add_option("--weights", options.weights,
-                     "what a pixel counts: pixel (1, the default) or solid_angle (its steradians, panoramas)");
-  command.add_option("--projection", options.projection,
-                     "where pixels are counted: erp (as they are, the default), cube or tangent (the nearest pixels of a panorama)");
+void AddViewFlags(CLI::App& command, ViewOptions& options, bool pixels) {
+  if (pixels) {
+    command.add_option("--weights", options.weights,
+                       "what a pixel counts: pixel (1, the default) or solid_angle (its steradians, panoramas)");
+    command.add_option("--projection", options.projection,
+                       "where pixels are counted: erp (as they are, the default), cube or tangent (the nearest pixels of a panorama)");
+  }
   command.add_option("--seam", options.seam, "also within so many columns of the panorama's seam, and apart from it");
   command.add_option("--latitude-bands", options.bands, "also in so many bands of equal latitude");
-  if (turned_back) {
-    command.add_option(
-        "--rolled", options.rolled,
-        "COLUMNS=PRED: also predictions made of pictures whose columns were moved so far to the right; several may be given");
-    command.add_option(
-        "--turned", options.turned,
-        "YAW,PITCH,ROLL=PRED: also predictions made of panoramas of a camera that was turned so (degrees: right, up, clockwise); several may be given");
-  }
+  command.add_option("--rolled", options.rolled,
+                     "COLUMNS=PRED: also predictions made of pictures whose columns were moved so far to the right; several may be given");
+  command.add_option(
+      "--turned", options.turned,
+      "YAW,PITCH,ROLL=PRED: also predictions made of panoramas of a camera that was turned so (degrees: right, up, clockwise); several may be given");
   AddForceFlag(command, options.force);
 }
 

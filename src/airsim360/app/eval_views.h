@@ -46,8 +46,8 @@ struct ViewOptions {
   bool cos_latitude = false;                ///< of a protocol
   bool force = false;
 };
-/// --weights, --projection, --seam, --latitude-bands and --force; --rolled and --turned where predictions can be turned back.
-void AddViewFlags(CLI::App& command, ViewOptions& options, bool turned_back = true);
+/// --seam, --latitude-bands, --rolled, --turned and --force; --weights and --projection where `pixels` are counted.
+void AddViewFlags(CLI::App& command, ViewOptions& options, bool pixels = true);
 /// InputError for values that do not exist or go together.
 void CheckViewOptions(const ViewOptions& options);
 /// Whether pictures of width = 2 height are panoramas: false where the datasets of ours among `inputs` (or that they lie in) say that a camera

@@ -98,6 +98,34 @@ RleMask UniteMasks(std::span<const RleMask> masks) {
   return united;
 }
 
+RleMask RollMaskBack(const RleMask& mask, int columns) {
+  const int64_t width = mask.width, shift = (columns % width + width) % width;
+  const uint64_t moved = static_cast<uint64_t>(shift) * mask.height;
+  // Columns are stored one after the other: the first of them go to the end.
+  std::vector<uint32_t> front, rest;
+  uint64_t at = 0;
+  for (const uint32_t count : mask.counts) {
+    const uint64_t before = std::clamp(moved, at, at + count) - at;
+    front.push_back(static_cast<uint32_t>(before));
+    rest.push_back(static_cast<uint32_t>(count - before));
+    at += count;
+  }
+  RleMask back{mask.width, mask.height, {0}};
+  bool inside = false;  // whether the last run is
+  for (const auto& part : {rest, front}) {
+    for (size_t i = 0; i < part.size(); ++i) {
+      if (part[i] == 0) continue;
+      if (const bool now = i % 2 == 1; now == inside) {
+        back.counts.back() += part[i];
+      } else {
+        back.counts.push_back(part[i]);
+        inside = now;
+      }
+    }
+  }
+  return back;
+}
+
 uint64_t MaskArea(const RleMask& mask) {
   uint64_t area = 0;
   for (size_t i = 1; i < mask.counts.size(); i += 2) area += mask.counts[i];

@@ -40,6 +40,9 @@ RleMask RasterizeBox(const std::array<double, 4>& box, int width, int height);
 /// What is inside any of the masks, which have the same size.
 RleMask UniteMasks(std::span<const RleMask> masks);
 
+/// The mask as it was before each row was moved `columns` to the right, the seam joined.
+RleMask RollMaskBack(const RleMask& mask, int columns);
+
 uint64_t MaskArea(const RleMask& mask);
 /// The number of pixels inside both.
 uint64_t SharedArea(const RleMask& a, const RleMask& b);

@@ -43,7 +43,8 @@ class Overlaps {
 
   /// What the ranges of area are about: of solid angles the number of pixels at the horizon that have as much.
   double Area(const CocoObject& object, const std::vector<MaskFacts>& facts, size_t index) const {
-    if (!run_.solid_angle || run_.own_areas) return object.area;
+    if (run_.by_place) return object.place;
+    if (!run_.solid_angle) return object.area;
     const auto middle = static_cast<uint64_t>(image_.height / 2);
     return facts[index].area / (sums_.Before(middle + 1) - sums_.Before(middle));
   }
@@ -63,7 +64,7 @@ class Overlaps {
         if (t.keypoints.size() != 3 * sigmas.size() || d.keypoints.size() != t.keypoints.size())
           throw InputError("keypoints of different number: a truth has " + std::to_string(t.keypoints.size() / 3) + ", a detection " +
                            std::to_string(d.keypoints.size() / 3) + ", and there are " + std::to_string(sigmas.size()) + " sigmas");
-        return KeypointSimilarity(d.keypoints, t.keypoints, sigmas, t.area, t.box);
+        return KeypointSimilarity(d.keypoints, t.keypoints, sigmas, t.area, t.box, run_.wrap ? image_.width : 0);
       case CocoKind::kSphericalBoxes:
         return SphericalIou(Bfov(d), Bfov(t));
       case CocoKind::kBoxes3d:

@@ -29,6 +29,7 @@ struct CocoCategory {
 struct CocoObject {
   int64_t image = 0, category = 0;
   double score = 0, area = 0;
+  double place = 0;  ///< what the ranges of `areas` are about where CocoRun::by_place
   bool crowd = false, no_keypoints = false;
   RleMask mask{};
   std::array<double, 4> box{};      ///< [x, y, width, height]; x + width may exceed the picture's in boxes on the circle of columns
@@ -49,8 +50,8 @@ struct CocoRun {
   bool class_agnostic = false;  ///< all categories are one
   bool solid_angle =
       false;  ///< of masks in panoramas: overlaps are of steradians instead of pixels, areas are those of as many pixels at the horizon
-  bool wrap = false;       ///< of boxes in panoramas: columns go round
-  bool own_areas = false;  ///< ranges are about the objects' `area` (any number) also where solid_angle would replace it
+  bool wrap = false;      ///< of boxes and keypoints in panoramas: columns go round
+  bool by_place = false;  ///< the ranges of `areas` are about the objects' `place`, any number
   CocoOptions options = StandardCocoOptions();
 };
 

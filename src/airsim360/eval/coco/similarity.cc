@@ -22,15 +22,17 @@ std::span<const double> CocoKeypointSigmas() {
 }
 
 double KeypointSimilarity(std::span<const double> detection, std::span<const double> truth, std::span<const double> sigmas,
-                          double truth_area, const std::array<double, 4>& box) {
+                          double truth_area, const std::array<double, 4>& box, double columns) {
   size_t labelled = 0;
   for (size_t k = 0; k < sigmas.size(); ++k) labelled += truth[3 * k + 2] > 0;
   // The box with its own width and height more on each side.
   const double left = box[0] - box[2], right = box[0] + 2 * box[2], top = box[1] - box[3], bottom = box[1] + 2 * box[3];
+  // The nearest of the places that a column stands for.
+  const auto nearest = [columns](double x, double to) { return columns > 0 ? to + std::remainder(x - to, columns) : x; };
   double sum = 0;
   for (size_t k = 0; k < sigmas.size(); ++k) {
     if (labelled > 0 && !(truth[3 * k + 2] > 0)) continue;
-    const double x = detection[3 * k], y = detection[3 * k + 1];
+    const double x = nearest(detection[3 * k], labelled > 0 ? truth[3 * k] : box[0] + box[2] / 2), y = detection[3 * k + 1];
     double dx = x - truth[3 * k], dy = y - truth[3 * k + 1];
     if (labelled == 0) {
       dx = std::max(0.0, left - x) + std::max(0.0, x - right);

@@ -13,9 +13,10 @@ double BoxOverlap(const std::array<double, 4>& detection, const std::array<doubl
 std::span<const double> CocoKeypointSigmas();
 
 /// Object keypoint similarity of [x, y, v] * k: mean of exp(-d² / (2 area (2 sigma)²)) over keypoints that are labelled (v > 0) in
-/// the truth; without any, d is how far the detection lies outside the truth's box doubled on all sides.
+/// the truth; without any, d is how far the detection lies outside the truth's box doubled on all sides. `columns` above 0 = x goes round
+/// after so many.
 double KeypointSimilarity(std::span<const double> detection, std::span<const double> truth, std::span<const double> sigmas,
-                          double truth_area, const std::array<double, 4>& truth_box);
+                          double truth_area, const std::array<double, 4>& truth_box, double columns = 0);
 
 /// Of the box around [x, y, v] * k, whatever v says: the area of a detection in COCO's terms.
 double KeypointArea(std::span<const double> keypoints);

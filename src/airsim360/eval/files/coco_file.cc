@@ -211,7 +211,7 @@ CocoTruths TruthsOf(const JsonCursor& top, CocoKind kind, bool wrap) {
     ReadShape(one, kind, *image->second, wrap ? &wrapped : nullptr, object);
     if (kind == CocoKind::kMasks) box_polygons += HasBoxPolygon(one);
     if (kind == CocoKind::kKeypoints) {
-      object.box = Array<4>(one["bbox"]);
+      object.box = Array<4>(one[wrap && one.Has("bbox_wrap") ? "bbox_wrap" : "bbox"]);
       double labelled = 0;
       for (size_t k = 2; k < object.keypoints.size(); k += 3) labelled += object.keypoints[k] > 0;
       object.no_keypoints = one.NumberOr("num_keypoints", labelled) == 0;

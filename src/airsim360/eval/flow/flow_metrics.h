@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
+
+#include "airsim360/math/transform.h"
 
 namespace airsim360 {
 
@@ -22,5 +25,9 @@ std::array<double, kFlowFigures.size()> Figures(const FlowErrors& errors);
 /// Flows as (dx, dy) a pixel, NaN = unknown. `source[i]` is the pixel of the width x height picture that entry i belongs to (empty = i). InputError for arrays of different length or a prediction that is no number where there is a truth.
 FlowErrors MeasureFlow(std::span<const double> prediction, std::span<const double> truth, int width, int height, bool panorama,
                        std::span<const uint32_t> source = {}, std::span<const double> weights = {});
+
+/// What a flow predicted in a panorama of a turned camera says of the one that was not turned (R_C_turned of sphere/panorama_ray.h): of each
+/// pixel that of the nearest one, both ends turned back, dx the shorter way round.
+std::vector<double> TurnFlowBack(std::span<const double> flow, int width, int height, const Mat3d& R_C_turned);
 
 }  // namespace airsim360

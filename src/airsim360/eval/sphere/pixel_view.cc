@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "airsim360/base/error.h"
+#include "airsim360/eval/sphere/panorama_ray.h"
 #include "airsim360/math/angles.h"
 #include "airsim360/math/vector.h"
 
@@ -32,9 +33,8 @@ PixelView Rows(int width, int height, int first, int last, PixelWeight weight) {
 
 /// The panorama's pixel that a direction (+X right, +Y down, +Z forward) falls into.
 uint32_t PixelOf(Vec3d d, int width, int height) {
-  const double theta = std::atan2(d.x, d.z), phi = std::asin(std::clamp(-d.y / Norm(d), -1.0, 1.0));
-  const int x = std::clamp(static_cast<int>((theta / (2 * kPi) + 0.5) * width), 0, width - 1),
-            y = std::clamp(static_cast<int>((0.5 - phi / kPi) * height), 0, height - 1);
+  const Vec2d place = PanoramaPlace(d, width, height);
+  const int x = std::clamp(static_cast<int>(place.x), 0, width - 1), y = std::clamp(static_cast<int>(place.y), 0, height - 1);
   return static_cast<uint32_t>(y) * static_cast<uint32_t>(width) + static_cast<uint32_t>(x);
 }
 
@@ -146,19 +146,12 @@ PixelView TangentView(int width, int height) {
 
 PixelView TurnedView(int width, int height, double yaw, double pitch, double roll) {
   CheckPanorama(width, height, "turning");
-  const double cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch), cr = std::cos(roll), sr = std::sin(roll);
-  // Columns of R_C_turned: what the turned camera's axes are in the first one.
-  const Vec3d right{cy * cr + sy * sp * sr, cp * sr, -sy * cr + cy * sp * sr},
-      down{-cy * sr + sy * sp * cr, cp * cr, sy * sr + cy * sp * cr}, ahead{sy * cp, -sp, cy * cp};
+  const Mat3d turned_from_first = TurnedCamera(yaw, pitch, roll).transpose();
   PixelView view;
   view.source.reserve(static_cast<size_t>(width) * static_cast<size_t>(height));
   for (int y = 0; y < height; ++y) {
-    const double phi = kPi * (0.5 - (y + 0.5) / height);
-    for (int x = 0; x < width; ++x) {
-      const double theta = 2 * kPi * ((x + 0.5) / width - 0.5);
-      const Vec3d d{std::cos(phi) * std::sin(theta), -std::sin(phi), std::cos(phi) * std::cos(theta)};
-      view.source.push_back(PixelOf({Dot(d, right), Dot(d, down), Dot(d, ahead)}, width, height));
-    }
+    for (int x = 0; x < width; ++x)
+      view.source.push_back(PixelOf(turned_from_first * PanoramaRay(x + 0.5, y + 0.5, width, height), width, height));
   }
   return view;
 }
