@@ -50,8 +50,13 @@ void Multiply<double>(const double* a, const double* b, double* c, int m, int k,
 
 template <class Real>
 void Transpose(const Real* from, Real* to, int rows, int columns) {
-  for (int64_t i = 0; i < rows; ++i) {
-    for (int64_t j = 0; j < columns; ++j) to[j * rows + i] = from[i * columns + j];
+  // In strips that stay in the cache.
+  constexpr int64_t kStrip = 16;
+  for (int64_t first = 0; first < rows; first += kStrip) {
+    const int64_t end = std::min<int64_t>(rows, first + kStrip);
+    for (int64_t j = 0; j < columns; ++j) {
+      for (int64_t i = first; i < end; ++i) to[j * rows + i] = from[i * columns + j];
+    }
   }
 }
 template void Transpose<float>(const float*, float*, int, int);

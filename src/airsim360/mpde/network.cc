@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
@@ -87,10 +88,24 @@ void Network<Real>::LinearBack(size_t weight, const std::vector<Real>& inputs, c
   Multiply(out_gradient.data(), w.value.data(), in_gradient.data(), rows_, columns, w.rows, true);
 }
 
+// body(first column, number of columns) for each group of columns; the number is a constant where a group is whole, so that loops over it
+// are vectors.
+template <class Body>
+void EachGroup(int hidden, const Body& body) {
+  ParallelFor((hidden + kGroup - 1) / kGroup, [&](int64_t group) {
+    const int first = static_cast<int>(group) * kGroup;
+    if (first + kGroup <= hidden)
+      body(first, std::integral_constant<int, kGroup>());
+    else
+      body(first, hidden - first);
+  });
+}
+
 // One group of columns of a block: normalisation, ReLU, dropout.
 template <class Real>
-void Network<Real>::Normalise(Block& block, int first, bool training) {
-  const int hidden = shape_.hidden, columns = std::min(kGroup, hidden - first);
+template <class Count>
+void Network<Real>::Normalise(Block& block, int first, Count columns, bool training) {
+  const int hidden = shape_.hidden;
   const auto at = [&](int row) { return static_cast<size_t>(row) * static_cast<size_t>(hidden) + static_cast<size_t>(first); };
   Real mean[kGroup] = {}, inverse[kGroup] = {}, scale[kGroup], offset[kGroup];
   Real* running_mean = &tensors_[block.mean].value[static_cast<size_t>(first)];
@@ -103,14 +118,14 @@ void Network<Real>::Normalise(Block& block, int first, bool training) {
   // Mean and variance of the batch.
   if (training) {
     std::fill_n(mean, kGroup, Real{0}), std::fill_n(inverse, kGroup, Real{0});
-    for (int row = 0; row < rows_; ++row)
-      for (int j = 0; j < columns; ++j) mean[j] += linear_[at(row) + static_cast<size_t>(j)];
+    for (int row = 0; row < rows_; ++row) {
+      const Real* linear = &linear_[at(row)];
+      for (int j = 0; j < columns; ++j) mean[j] += linear[j];
+    }
     for (int j = 0; j < columns; ++j) mean[j] /= static_cast<Real>(rows_);
     for (int row = 0; row < rows_; ++row) {
-      for (int j = 0; j < columns; ++j) {
-        const Real d = linear_[at(row) + static_cast<size_t>(j)] - mean[j];
-        inverse[j] += d * d;
-      }
+      const Real* linear = &linear_[at(row)];
+      for (int j = 0; j < columns; ++j) inverse[j] += (linear[j] - mean[j]) * (linear[j] - mean[j]);
     }
     for (int j = 0; j < columns; ++j) {
       inverse[j] /= static_cast<Real>(rows_);
@@ -129,18 +144,25 @@ void Network<Real>::Normalise(Block& block, int first, bool training) {
   const auto limit = static_cast<uint64_t>(std::lround(shape_.dropout * 65536));
   const Real kept = drops ? 1 / (1 - static_cast<Real>(limit) / 65536) : 1;
   const uint64_t key = MixBits(dropout_key_ + block.weight);
+  Real factor[kGroup], normal[kGroup];
+  std::fill_n(factor, kGroup, kept);
   for (int row = 0; row < rows_; ++row) {
-    uint64_t bits = 0;
-    for (int j = 0; j < columns; ++j) {
-      if (drops && j % 4 == 0) bits = MixBits(key + at(row) + static_cast<size_t>(j));
-      const size_t i = at(row) + static_cast<size_t>(j);
-      const Real normal = (linear_[i] - mean[j]) * inverse[j], value = scale[j] * normal + offset[j];
-      const bool alive = value > 0 && (!drops || (bits & 0xffff) >= limit);
-      bits >>= 16;
-      const Real factor = alive ? kept : Real{0};
-      if (training) block.normal[i] = normal, block.factor[i] = factor;
-      block.output[i] = value * factor;
+    for (int four = 0; drops && four < columns; four += 4) {
+      uint64_t bits = MixBits(key + at(row) + static_cast<size_t>(four));
+      for (int j = four; j < four + 4; ++j, bits >>= 16) factor[j] = (bits & 0xffff) >= limit ? kept : Real{0};
     }
+    const Real* linear = &linear_[at(row)];
+    Real* output = &block.output[at(row)];
+    Real alive[kGroup];
+    for (int j = 0; j < columns; ++j) {
+      normal[j] = (linear[j] - mean[j]) * inverse[j];
+      const Real value = scale[j] * normal[j] + offset[j];
+      alive[j] = value > 0 ? factor[j] : Real{0};
+      output[j] = value * alive[j];
+    }
+    if (!training) continue;
+    std::copy_n(normal, columns, &block.normal[at(row)]);
+    std::copy_n(alive, columns, &block.factor[at(row)]);
   }
 }
 
@@ -152,7 +174,7 @@ void Network<Real>::RunBlock(Block& block, std::span<const Real> inputs, bool tr
   block.output.resize(size);
   block.inverse_deviation.resize(static_cast<size_t>(shape_.hidden));
   if (training) block.normal.resize(size), block.factor.resize(size);
-  ParallelFor((shape_.hidden + kGroup - 1) / kGroup, [&](int64_t group) { Normalise(block, static_cast<int>(group) * kGroup, training); });
+  EachGroup(shape_.hidden, [&](int first, auto columns) { Normalise(block, first, columns, training); });
 }
 
 template <class Real>
@@ -190,15 +212,16 @@ std::span<const Real> Network<Real>::Forward(std::span<const Real> inputs, int r
 template <class Real>
 void Network<Real>::BlockBack(Block& block, std::vector<Real>& gradient) {
   const int hidden = shape_.hidden;
-  ParallelFor((hidden + kGroup - 1) / kGroup, [&](int64_t group) {
-    const int first = static_cast<int>(group) * kGroup, columns = std::min(kGroup, hidden - first);
+  EachGroup(hidden, [&](int first, auto columns) {
     Real by_scale[kGroup] = {}, by_offset[kGroup] = {}, rate[kGroup];
-    const auto at = [&](int row, int j) { return static_cast<size_t>(row) * static_cast<size_t>(hidden) + static_cast<size_t>(first + j); };
+    const auto at = [&](int row) { return static_cast<size_t>(row) * static_cast<size_t>(hidden) + static_cast<size_t>(first); };
     for (int row = 0; row < rows_; ++row) {
+      Real* slope = &gradient[at(row)];
+      const Real *factor = &block.factor[at(row)], *normal = &block.normal[at(row)];
       for (int j = 0; j < columns; ++j) {
-        const Real g = gradient[at(row, j)] *= block.factor[at(row, j)];
-        by_offset[j] += g;
-        by_scale[j] += g * block.normal[at(row, j)];
+        slope[j] *= factor[j];
+        by_offset[j] += slope[j];
+        by_scale[j] += slope[j] * normal[j];
       }
     }
     for (int j = 0; j < columns; ++j) {
@@ -208,9 +231,11 @@ void Network<Real>::BlockBack(Block& block, std::vector<Real>& gradient) {
       rate[j] = tensors_[block.scale].value[c] * block.inverse_deviation[c];
       by_scale[j] /= static_cast<Real>(rows_), by_offset[j] /= static_cast<Real>(rows_);
     }
-    for (int row = 0; row < rows_; ++row)
-      for (int j = 0; j < columns; ++j)
-        gradient[at(row, j)] = rate[j] * (gradient[at(row, j)] - by_offset[j] - block.normal[at(row, j)] * by_scale[j]);
+    for (int row = 0; row < rows_; ++row) {
+      Real* slope = &gradient[at(row)];
+      const Real* normal = &block.normal[at(row)];
+      for (int j = 0; j < columns; ++j) slope[j] = rate[j] * (slope[j] - by_offset[j] - normal[j] * by_scale[j]);
+    }
   });
   std::vector<Real> input_gradient;
   LinearBack(block.weight, block.input, gradient, hidden, input_gradient);

@@ -63,7 +63,8 @@ class Network {
   void LinearBack(size_t weight, const std::vector<Real>& inputs, const std::vector<Real>& out_gradient, int columns,
                   std::vector<Real>& in_gradient);
   void RunBlock(Block& block, std::span<const Real> inputs, bool training);
-  void Normalise(Block& block, int column, bool training);
+  template <class Count>
+  void Normalise(Block& block, int first, Count columns, bool training);
   void BlockBack(Block& block, std::vector<Real>& gradient);
   std::span<const Real> Run(std::span<const Real> inputs, bool training);
 
