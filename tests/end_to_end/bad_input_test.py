@@ -49,6 +49,9 @@ class BadFlags(ProgramTest):
             self.run_bad(2, "render", *ROOM, flag, value, "--out", out, says=[flag, value, "is not in -1e+07 … 1e+07"])
         for flag in ["--fps", "--start", "--people-warmup"]:
             self.run_bad(2, "collect", "--world", "box_room", "--size", "64x32", flag, "nan", "--out", out, says=[flag, "nan"])
+        (self.folder / "file").write_text("")
+        for place, said in [("", "--out: ''"), (self.folder / "file" / "a" / "b", f"--out: '{self.folder / 'file'}' is not a folder")]:
+            self.run_bad(2, "render", *ROOM, "--out", place, says=[said])
         # Nothing is accepted and ignored.
         for flag, value in [("--people-warmup", "5"), ("--people-level", "1"), ("--sockets", "sockets.yaml")]:
             self.run_bad(2, "render", *ROOM, flag, value, "--out", out, says=[flag, "--people N"])

@@ -48,6 +48,15 @@ class FlyTest(ProgramTest):
             imu = list(csv.DictReader(file))
         self.assertAlmostEqual(len(imu), 200 * report["flight_s"], delta=2)
 
+    def test_a_crash_is_told_by_the_status_and_all_is_written(self):
+        out = self.folder / "crash"
+        done = run("fly", "--world", "box_room", "--script", "takeoff 2; velocity 15,0,0,3", "--out", out, "--json")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("the drone has crashed: t ", done.stderr)
+        crashes = [event for event in json.loads(done.stdout)["events"] if event["event"] == "crash"]
+        self.assertEqual(crashes[0]["entity"], "wall east")
+        self.assertTrue((out / "trajectory.csv").exists())
+
     def test_lands_against_the_wind_without_turning_over(self):
         wind = self.folder / "wind.yaml"
         for east, north in [(6, 0), (-4, 5)]:
@@ -77,7 +86,7 @@ class FlyTest(ProgramTest):
         points.write_text("x,y,z\n0,0,1\n1,0,1\n")
         for arguments, word in [(["--vmax", 3], "--waypoints"), (["--amax", 3], "--waypoints"), (["--longest", 3], "--mission"),
                                 (["--fps", 3], "--video"), (["--quality", 3], "--video"), (["--people-level", 1], "--people"),
-                                (["--sockets", "none.yaml"], "--people"), (["--waypoints", points, "--pose", "0,0,1"], "--pose")]:
+                                (["--sockets", "none.yaml"], "--people"), (["--traffic-warmup", 5], "--traffic"), (["--waypoints", points, "--pose", "0,0,1"], "--pose")]:
             self.run_bad(2, "fly", "--world", "box_room", *arguments, "--out", self.folder / "bad", says=[arguments[0], word])
 
     def test_a_sensor_is_not_read_more_often_than_the_simulation_steps(self):

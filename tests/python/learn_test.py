@@ -299,6 +299,7 @@ class Files(unittest.TestCase):
                                 (("segment", "train", "--out", self.folder / "x", "--frames", folder, "--augment", "colour"), "did you mean 'color'"),
                                 (("segment", "train", "--out", self.folder / "x", "--frames", folder, "--size", "33"), "--size: 33"),
                                 (("depth", "train", "--out", self.folder / "x", "--frames", folder, "--steps", "0"), "--steps: 0"),
+                                (("frames", "--out", self.folder / "x", "--draw", "2", "--draw-worlds", "box_rom"), "'box_rom' is no world; did you mean 'box_room'?"),
                                 (("segment", "eval", "--frames", self.folder / "none", "--model", self.folder / "seg"), "no folder of frames")):
             done = learn(*arguments)
             self.assertEqual(done.returncode, 2, (arguments, done.stderr))

@@ -237,7 +237,7 @@ class InputTest(unittest.TestCase):
     def test_what_cannot_be_viewed_is_refused_by_name(self):
         for arguments, said in {(): "--world", (ROOM,): "not a dataset", ("plan.json",): "plan.json", (ROOM / "nothing",): "nothing", (ROOM / "nothing", "--export", ROOM / "e"): "nothing' is no folder", (ROOM / "data", "--world", "box_room"): "--world",
                                 ("--world", "box_rom"): "box_room", ("--world", "box_room", "--compare", ROOM / "data"): "--compare",
-                                (ROOM / "data", "--port", "99999"): "99999", (ROOM / "data", "--compare", ROOM): "not a dataset", (ROOM / "data", "--record", ROOM / "r"): "--record",
+                                (ROOM / "data", "--port", "99999"): "99999", (ROOM / "data", "--compare", ROOM): "not a dataset", (ROOM / "data", "--record", ROOM / "r"): "--record", (ROOM / "data", "--weather", "night"): "--weather: it is of --world", (ROOM / "data", "--tier", "high"): "--tier: it is of --world",
                                 ("plan.json", "--export", ROOM / "e"): "dataset run", ("plan.json", "--compare", ROOM / "data"): "--compare", ("--connect", "here"): "HOST:PORT",
                                 ("--connect", "127.0.0.1:99999"): "HOST:PORT", ("--connect", "127.0.0.1:1", "--world", "box_room"): "--connect", ("--world", "box_room", "--lease"): "--lease",
                                 ("--connect", "127.0.0.1:1", "--record", ROOM / "r"): "--record",

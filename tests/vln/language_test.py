@@ -91,9 +91,14 @@ class LanguageTest(unittest.TestCase):
         out = self.out / "none.jsonl"
         for words, said in ((("--kind", "vqas"), "did you mean 'vqa'"), (("--count", "0"), "--count"), (("--count", "1e99"), "--count"), (("--width", "77"), "--width"),
                             (("--kind", "caption", "--layout", "refcoco"), "refcoco holds items of kind refer"), (("--layout", "coco"), "refcoco"),
-                            (("--tier", "labels"), "--tier")):
+                            (("--tier", "labels", "--pictures"), "--tier"), (("--tone", "agx"), "--tone: it is of --pictures"),
+                            (("--weather", "night"), "--weather: it is of --pictures")):
             done = run("language", "make", "--world", MAP, "--out", out, *words, status=2)
             self.assertIn(said, done.stderr)
+        done = run("language", "make", "--world", MAP, "--out", self.out, status=2)
+        self.assertIn("is a folder; give a file", done.stderr)
+        self.assertFalse(Path(str(self.out) + ".part").exists())
+        self.assertIn("is a folder", run("language", "check", self.out, status=2).stderr)
         # One cube in a room: there is nothing to tell it from.
         done = run("language", "make", "--world", "box_room", "--kind", "refer", "--count", "1", "--out", out, status=1)
         self.assertIn("gives only", done.stderr)

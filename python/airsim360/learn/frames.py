@@ -70,6 +70,12 @@ def draw(folder: Path, *, worlds: Sequence[str] = WORLDS, frames: int = 1000, wi
         raise ValueError(f"width: {width}; give a multiple of 4 from 64 to 8192")
     if not 1 <= frames <= 1_000_000:
         raise ValueError(f"frames: {frames}; give 1 to 1000000")
+    from .. import worlds as all_worlds
+    from .._words import did_you_mean
+    known = [w["name"] for w in all_worlds()]
+    for world in worlds:
+        if world not in known and not Path(world).is_file():
+            raise ValueError(f"worlds: {world!r} is no world{did_you_mean(world, known)}")
     folder.mkdir(parents=True, exist_ok=True)
     each = frames / len(worlds)
     rows = {f"{world}_{name}": recipe(world, name, max(1, round(each * share)), width, skies, clean, tier)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "airsim360/app/picture_arguments.h"
+#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/base/error.h"
 
 namespace airsim360 {
@@ -94,6 +95,35 @@ TEST(ConfigFlags, ChoicesOfCompletionAreThoseThatAreTaken) {
   EXPECT_EQ(ConfigFlagChoices(fields, "--samples"), std::vector<std::string>{});
   for (const std::string& flag : PictureFlagNames())
     for (const std::string& word : ConfigFlagChoices(fields, flag)) EXPECT_EQ(Refusal({flag, word}), "no error");
+}
+
+TEST(PictureArguments, WhatTheTierHasNoUseForIsRefused) {
+  const std::vector<std::vector<std::string>> colours = {{"--tone", "agx"},     {"--exposure", "1"}, {"--exposure", "auto"},
+                                                         {"--lens", "real360"}, {"--look", "photo"}, {"--rgb-format", "jpg"}};
+  for (const std::vector<std::string>& flag : colours) {
+    std::vector<std::string> words = flag;
+    words.insert(words.end(), {"--tier", "labels"});
+    EXPECT_EQ(Refusal(words), flag[0] + ": tier 'labels' has no use for it; use --tier fast or high or reference");
+    for (const char* tier : {"fast", "high", "reference"}) {
+      words.back() = tier;
+      EXPECT_EQ(Refusal(words), "no error") << flag[0] << tier;
+    }
+  }
+  EXPECT_EQ(Refusal({"--samples", "4"}), "--samples: tier 'fast' has no use for it; use --tier high or reference");
+  EXPECT_EQ(Refusal({"--no-denoise", "--tier", "reference"}), "--no-denoise: tier 'reference' has no use for it; use --tier high");
+  EXPECT_EQ(Refusal({"--edge-samples", "4", "--tier", "reference"}),
+            "--edge-samples: tier 'reference' has no use for it; use --tier fast or high");
+  EXPECT_EQ(Refusal({"--edge-samples", "4", "--tier", "labels", "--products", "coverage"}), "no error");
+  EXPECT_EQ(Refusal({"--products", "normal,rgb", "--tier", "labels"}).find("--products: 'rgb'"), 0u);
+  EXPECT_EQ(Refusal({"--products", "normal,rgb"}), "no error");
+  EXPECT_EQ(Refusal({"--look", "photo", "--tone", "agx"}).find("--tone: --look photo"), 0u);
+}
+
+TEST(TrafficArguments, AWarmUpNeedsVehicles) {
+  TrafficArguments arguments{.warm_up = 5};
+  EXPECT_THROW(arguments.Request(0), InputError);
+  arguments.count = 1;
+  EXPECT_EQ(arguments.Request(0).warm_up, 5);
 }
 
 TEST(CheckPictureSettings, WhatDoesNotFitTheCameraOrTheTierIsNamed) {

@@ -265,6 +265,12 @@ void CheckMissionResult(const FlyArguments& arguments, const FlyResult& result) 
   throw RuntimeError(arguments.mission + ": the mission has failed" + last);
 }
 
+// Everything is written by then as well.
+void CheckCrash(const FlyResult& result, const Scene& scene) {
+  for (const SimEvent& event : result.events)
+    if (event.kind == SimEvent::Kind::kCrash) throw RuntimeError("fly: the drone has crashed: " + DescribeEvent(event, scene));
+}
+
 void PrintFlight(const FlyArguments& arguments, const FlyResult& result, const std::optional<VideoResult>& video) {
   const std::string clearance = result.least_clearance ? Metres(*result.least_clearance) : "not flown";
   std::printf("%s: %.1f s of flight, %zu events, least clearance in the air %s, %.1f times real time\n", arguments.out.c_str(),
@@ -361,6 +367,7 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
     PrintFlight(arguments, result, video);
   }
   CheckMissionResult(arguments, result);
+  CheckCrash(result, stage.scene());
 }
 
 // Flags that count for one way to fly alone are not accepted and ignored elsewhere.

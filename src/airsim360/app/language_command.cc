@@ -8,6 +8,7 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/app/config_flags.h"
 #include "airsim360/app/environment_flags.h"
+#include "airsim360/app/out_file.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
@@ -57,11 +58,21 @@ struct LanguageMakeArguments {
   EnvironmentFlags environment;
 };
 
+// Flags of pictures are not accepted and ignored.
+void CheckBelonging(const CLI::App& command, LanguageMakeArguments& a) {
+  if (a.pictures) return;
+  std::vector<std::string> flags = ConfigFlagNames([&a](ConfigVisitor& v) { a.picture.Visit(v); });
+  flags.insert(flags.end(), {"--weather", "--clouds", "--sky-seed", "--sun", "--time", "--place", "--hdri", "--environment"});
+  for (const std::string& flag : flags)
+    if (command.count(flag) > 0) throw InputError(flag + ": it is of --pictures, which is not given");
+}
+
 void Make(LanguageMakeArguments& a, const GlobalOptions& globals) {
   for (const std::string& layout : a.layouts) CheckLanguageLayout(layout, a.options.kind);
   CheckRenderSettings(a.picture, "--");
   if (a.picture.tier == Tier::kLabels) throw InputError("--tier: labels has no pictures; choices: fast, high, reference");
   CheckLanguageOptions(a.options);
+  CheckOutFile(a.out);
   Stage stage(StageOptionsOf(a.world, globals, a.environment));
   LineFile file(a.out);
   const LanguageSummary made = MakeLanguage(stage, a.options, [&](const std::string& line) { file.Add(line); });
@@ -99,7 +110,10 @@ void AddMake(CLI::App& parent, GlobalOptions& globals) {
   AddConfigFlags(*command, [a](ConfigVisitor& v) { a->picture.Visit(v); });
   AddEnvironmentFlags(*command, a->environment);
   command->add_option("--out", a->out, "items.jsonl")->required();
-  command->callback([a, &globals] { Make(*a, globals); });
+  command->callback([a, command, &globals] {
+    CheckBelonging(*command, *a);
+    Make(*a, globals);
+  });
 }
 
 void Check(const std::string& file, const GlobalOptions& globals) {

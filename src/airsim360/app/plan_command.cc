@@ -291,7 +291,7 @@ void AddPlanCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--out", a->out, "file (several formats: its name without extension); --dataset: folder")->required();
   command->add_option("--waypoints", w.file, "CSV x,y,z[,t] (metres east-north-up, seconds), YAML, GPX or KML");
   AddLimitFlags(*command, a->limits);
-  command->add_option("--dt", a->dt, "seconds between samples; the flight takes a multiple of it (default: 0.1, any)");
+  RefuseZero(command->add_option("--dt", a->dt, "seconds between samples; the flight takes a multiple of it (default: 0.1, any)"), "--dt");
   command->add_option("--order", a->order, "degree: 7, the true minimum of snap (default), or 5, as in the paper");
   command->add_option("--minimise", a->minimise, "snap (default) or jerk (then of degree 5)");
   command->add_option("--world", a->world, "name or file of a world: the flight is checked against it");

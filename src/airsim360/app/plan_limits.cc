@@ -1,6 +1,7 @@
 #include "airsim360/app/plan_limits.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "airsim360/app/arguments.h"
@@ -24,13 +25,21 @@ Vec3d AxisLimit(const char* flag, const std::string& text) {
 
 }  // namespace
 
+void RefuseZero(CLI::Option* option, const char* flag) {
+  option->each([flag](const std::string& text) {
+    double value = 1;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc() && value == 0) CheckPositive(flag, value);
+  });
+}
+
 void AddLimitFlags(CLI::App& command, LimitArguments& a) {
-  command.add_option("--vmax", a.vmax, "greatest speed, m/s; REQUIRED unless the waypoints have times");
-  command.add_option("--amax", a.amax, "greatest acceleration, m/s^2; REQUIRED unless the waypoints have times");
+  RefuseZero(command.add_option("--vmax", a.vmax, "greatest speed, m/s; REQUIRED unless the waypoints have times"), "--vmax");
+  RefuseZero(command.add_option("--amax", a.amax, "greatest acceleration, m/s^2; REQUIRED unless the waypoints have times"), "--amax");
   command.add_option("--axis-vmax", a.axis_vmax, "greatest speed along each axis, x,y,z in m/s");
   command.add_option("--axis-amax", a.axis_amax, "greatest acceleration along each axis, x,y,z in m/s^2");
-  command.add_option("--climb", a.climb, "greatest vertical speed upwards, m/s");
-  command.add_option("--descent", a.descent, "greatest vertical speed downwards, m/s");
+  RefuseZero(command.add_option("--climb", a.climb, "greatest vertical speed upwards, m/s"), "--climb");
+  RefuseZero(command.add_option("--descent", a.descent, "greatest vertical speed downwards, m/s"), "--descent");
   command.add_option("--drone", a.drone, "keep to the thrust and body rates of a drone of the catalogue, a .yaml, or words in quotes");
 }
 

@@ -14,6 +14,9 @@ struct LimitArguments {
   std::string axis_vmax, axis_amax, drone;
 };
 
+/// 0 stands for a flag that nobody gave: InputError naming it where somebody gives it.
+void RefuseZero(CLI::Option* option, const char* flag);
+
 void AddLimitFlags(CLI::App& command, LimitArguments& arguments);
 
 /// InputError naming the flag for a limit that is not a number above zero; `timed`: the waypoints have times,

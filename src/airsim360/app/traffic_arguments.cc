@@ -1,5 +1,6 @@
 #include "airsim360/app/traffic_arguments.h"
 
+#include "airsim360/base/error.h"
 #include "airsim360/base/text.h"
 
 namespace airsim360 {
@@ -9,6 +10,12 @@ void TrafficArguments::AddTo(CLI::App& command) {
       ->check(CLI::Range(0, 20000));
   command.add_option("--traffic-warmup", warm_up, "seconds that they drive before the first frame (default 30)")
       ->check(CLI::Range(0.0, 3600.0));
+}
+
+TrafficRequest TrafficArguments::Request(uint64_t seed) const {
+  if (count == 0 && warm_up != TrafficArguments().warm_up)
+    throw InputError("--traffic-warmup: nobody drives; add --traffic N, for example --traffic 60");
+  return {static_cast<size_t>(count), seed, warm_up};
 }
 
 std::string TrafficArguments::Describe() const {

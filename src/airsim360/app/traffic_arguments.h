@@ -14,7 +14,8 @@ struct TrafficArguments {
   double warm_up = 30;
 
   void AddTo(CLI::App& command);
-  TrafficRequest Request(uint64_t seed) const { return {static_cast<size_t>(count), seed, warm_up}; }
+  /// InputError if there is a warm-up and nobody drives.
+  TrafficRequest Request(uint64_t seed) const;
   /// What a dataset says of it. Empty = none.
   std::string Describe() const;
 };

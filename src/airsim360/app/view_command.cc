@@ -143,6 +143,21 @@ void Understand(ViewArguments& arguments) {
   if (arguments.world.empty() && !arguments.record.empty()) throw InputError("--record: records a live world; give --world W");
 }
 
+// Flags of a world that is opened here are not accepted and ignored beside a dataset or a server.
+void CheckBelonging(const CLI::App& command, const ViewArguments& arguments) {
+  const bool follows = !arguments.follow.address.empty();
+  if (!follows && (arguments.what.empty() || arguments.is_run || arguments.is_plan)) return;
+  RenderSettings picture;
+  std::vector<std::string> flags = ConfigFlagNames([&picture](ConfigVisitor& v) { picture.Visit(v); });
+  flags.insert(flags.end(), {"--people", "--traffic", "--wind", "--drone", "--weather", "--clouds", "--sky-seed", "--sun", "--time",
+                             "--place", "--hdri", "--environment"});
+  for (const std::string& flag : flags) {
+    if (command.count(flag) == 0) continue;
+    throw InputError(flag + ": it is of --world, " +
+                     (follows ? "not of --connect" : "and '" + arguments.what + "' is a dataset, whose pictures are there"));
+  }
+}
+
 std::shared_ptr<LiveSource> Follow(const FollowOptions& options) {
   if (IsAirSimServer(options.address)) {
     if (!options.episode.empty())
@@ -223,11 +238,12 @@ void ServeWorld(const std::shared_ptr<ViewArguments>& arguments, const GlobalOpt
   });
 }
 
-void RunView(const std::shared_ptr<ViewArguments>& arguments, const GlobalOptions& globals) {
+void RunView(const CLI::App& command, const std::shared_ptr<ViewArguments>& arguments, const GlobalOptions& globals) {
   // Pictures of many sizes come and go for hours: each lies in pages of its own, which go back when it goes. Otherwise malloc
   // raises this limit with the first large ones, and what is left between later ones is never given back.
   ::mallopt(M_MMAP_THRESHOLD, 256 << 10);
   Understand(*arguments);
+  CheckBelonging(command, *arguments);
   if (!arguments->world.empty()) return ServeWorld(arguments, globals);
   const ViewSite site = SiteOf(arguments, globals);
   HttpServerOptions options = ViewServerOptions(arguments->port);
@@ -268,7 +284,7 @@ void AddViewCommand(CLI::App& app, GlobalOptions& globals) {
   AddWindFlag(*command, arguments->wind);
   AddEnvironmentFlags(*command, arguments->environment);
   AddWorldFlags(*command, globals);
-  command->callback([arguments, &globals] { RunView(arguments, globals); });
+  command->callback([arguments, command, &globals] { RunView(*command, arguments, globals); });
 }
 
 }  // namespace airsim360

@@ -273,6 +273,7 @@ void Run(RunArguments& a, const GlobalOptions& globals) {
   if (!a.decisions.empty()) options.decisions = ChoiceOf<Decisions>("--decisions", a.decisions, kDecisionNames);
   options.protocol = a.protocol;
   options.out = a.out;
+  CheckOutFile(a.out);
   CheckRenderSettings(options.picture, "--");
   if (a.agent == "exec") {
     std::istringstream words(a.program);

@@ -50,7 +50,9 @@ FolderLock::FolderLock(const fs::path& folder) : fd_(::open(folder.c_str(), O_RD
 FolderLock::~FolderLock() { ::close(fd_); }
 
 void CheckFolder(const fs::path& folder, const std::string& meta, const std::string& what, const char* name) {
-  if (fs::exists(folder) && !fs::is_directory(folder)) throw InputError("--out: '" + folder.string() + "' is not a folder");
+  if (folder.empty()) throw InputError("--out: '' is no name of a folder");
+  for (fs::path place = folder; place.has_relative_path(); place = place.parent_path())
+    if (fs::exists(place) && !fs::is_directory(place)) throw InputError("--out: '" + place.string() + "' is not a folder");
   CreateWritableFolder(folder);
   const fs::path on_disk = folder / name;
   if (!fs::exists(on_disk)) {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/nearest_name.h"
 #include "airsim360/mission/mission_nodes.h"
 #include "airsim360/render/products.h"
 
@@ -81,6 +82,22 @@ const std::string& TextOf(const Mission& mission, const TreeNode& node, size_t p
   return of.value.kind == Value::Kind::kText ? mission.trees.texts[of.value.index] : none;
 }
 
+// What a mission looks for is a thing of the world, or part of a category path: else it would be looked for in vain. "" if it is.
+std::string SeenProblem(const std::string& what, const MissionWorld& world) {
+  const Scene& scene = world.model->tracer->scene();
+  std::vector<std::string> words;
+  for (const auto& [id, category] : scene.tree.categories()) {
+    if (("/" + category.path + "/").find("/" + what + "/") != std::string::npos) return {};
+    words.push_back(category.path.substr(category.path.rfind('/') + 1));
+  }
+  for (const Entity& entity : scene.entities) words.push_back(entity.name);
+  try {
+    if (ParseThing(what, &world).kind != Value::Kind::kPoint) return {};
+  } catch (const InputError&) {
+  }
+  return "no thing, person, vehicle or category '" + what.substr(0, 100) + "' in the world" + DidYouMean(what, words);
+}
+
 // What follows from several nodes, or from the drone.
 void CheckNodes(const Mission& mission, std::string_view name) {
   std::map<std::string, std::string> products;
@@ -94,7 +111,13 @@ void CheckNodes(const Mission& mission, std::string_view name) {
              "products '" + wanted + "' of the dataset '" + to + "', which has '" + before->second +
                  "' elsewhere; give it another name with `to`");
     }
-    if (kind != MissionNode::kGimbal || !mission.world.model) continue;
+    if (!mission.world.model) continue;
+    if (kind == MissionNode::kSees) {
+      const std::string& what = TextOf(mission, node, 0);
+      const std::string problem = what.empty() ? "" : SeenProblem(what, mission.world);
+      if (!problem.empty()) Fail(name, node, problem);
+    }
+    if (kind != MissionNode::kGimbal) continue;
     const auto& gimbals = mission.world.model->drones[mission.vehicle]->setup().sensors.gimbals;
     const Port& port = mission.tree().ports[node.first_port + 3];
     if (port.is_slot || port.value.number < static_cast<double>(gimbals.size())) continue;

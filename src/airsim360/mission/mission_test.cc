@@ -120,7 +120,24 @@ TEST(Mission, ConditionsAskTheWorld) {
   EXPECT_EQ(result("<Sequence><Wait seconds=\"1\"/><TimeAfter seconds=\"1\"/></Sequence>"), Result::kSuccess);
   EXPECT_EQ(result("<Sees what=\"box\"/>"), Result::kSuccess);
   EXPECT_EQ(result("<Sees what=\"box\" distance=\"3\"/>"), Result::kFailure);
-  EXPECT_EQ(result("<Sees what=\"elephant\"/>"), Result::kFailure);
+  EXPECT_EQ(result("<Sees what=\"bench\"/>"), Result::kFailure);  // a category that this world has nothing of
+}
+
+TEST(Mission, WhatIsNeitherAThingNorACategoryIsNotLookedFor) {
+  const auto error = [](const std::string& what) -> std::string {
+    try {
+      Flown("<Sees what=\"" + what + "\"/>", {-2, 0, 1.5}, true, 5);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  EXPECT_NE(error("furnture").find("did you mean 'furniture'"), std::string::npos) << error("furnture");
+  EXPECT_NE(error("wal north").find("did you mean 'wall north'"), std::string::npos) << error("wal north");
+  EXPECT_NE(error("3;4;2").find("no thing, person, vehicle or category '3;4;2'"), std::string::npos);
+  EXPECT_EQ(error("furniture"), "no error");
+  EXPECT_EQ(error("wall north"), "no error");
+  EXPECT_EQ(error("person"), "no error");
 }
 
 TEST(Mission, WhatIsSeenCanBeFlownTo) {

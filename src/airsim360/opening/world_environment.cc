@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -53,13 +55,16 @@ void SetSun(const std::string& text, Environment& environment) {
 
 // "name=value,name=value".
 void ApplySettings(std::string_view text, Environment& environment) {
-  while (!text.empty()) {
-    const size_t comma = std::min(text.find(','), text.size());
+  std::set<std::string> given;
+  for (bool more = !text.empty(); more;) {
+    const size_t comma = text.find(',');
+    more = comma != std::string_view::npos;
     const std::string_view item = text.substr(0, comma);
-    text.remove_prefix(std::min(comma + 1, text.size()));
+    text.remove_prefix(more ? comma + 1 : text.size());
     const size_t equals = item.find('=');
     if (equals == std::string_view::npos) throw InputError("'" + std::string(item) + "' is not name=value");
     const std::string name(item.substr(0, equals)), value(item.substr(equals + 1));
+    if (!given.insert(name).second) throw InputError(name + ": is there twice");
     if (name == "lamps") {
       environment.lamps = ParseLamps(value);
       continue;
@@ -79,6 +84,24 @@ void ApplySettings(std::string_view text, Environment& environment) {
   }
 }
 
+// A pixel that is no number, or a sky without light, would be black without a word. Filters leave small negative values.
+void CheckLight(const Image<Rgb32f>& picture, const std::string& file) {
+  bool light = false;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const auto& p = picture(x, y);
+      for (const float c : {p.r, p.g, p.b}) {
+        if (!std::isfinite(c)) {
+          throw InputError(file + ": pixel (" + std::to_string(x) + ", " + std::to_string(y) + ") holds " +
+                           (std::isnan(c) ? "nan" : "inf") + ", not a finite number");
+        }
+        light = light || c > 0;
+      }
+    }
+  }
+  if (!light) throw InputError(file + ": no pixel has light: a sky picture holds linear light above 0");
+}
+
 }  // namespace
 
 std::shared_ptr<const SkyPicture> LoadSkyPicture(const fs::path& file) {
@@ -95,6 +118,7 @@ std::shared_ptr<const SkyPicture> LoadSkyPicture(const fs::path& file) {
     throw InputError(file.string() + ": " + std::to_string(width) + "x" + std::to_string(height) +
                      " is not a whole sky, twice as wide as high, of at most 2^26 pixels");
   }
+  CheckLight(picture->pixels, file.string());
   return picture;
 }
 

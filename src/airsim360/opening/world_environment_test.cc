@@ -112,6 +112,9 @@ TEST_F(WorldEnvironment, FlagsComeInOrderAndNameThemselvesInErrors) {
   EXPECT_NE(ErrorOf([] { ApplyFlags({.sun = "10"}, {}); }).find("--sun"), std::string::npos);
   EXPECT_NE(ErrorOf([] { ApplyFlags({.sun = "10,95"}, {}); }).find("90"), std::string::npos);
   EXPECT_NE(ErrorOf([] { ApplyFlags({.time = "2026-01-01T10:00"}, {}); }).find("--place"), std::string::npos);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.settings = "haze=1,lamps=on,haze=2"}, {}); }).find("haze: is there twice"), std::string::npos);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.settings = "lamps=on,lamps=off"}, {}); }).find("lamps: is there twice"), std::string::npos);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.settings = "haze=1,"}, {}); }).find("'' is not name=value"), std::string::npos);
   EXPECT_NE(ErrorOf([] { ApplyFlags({.settings = "clouds=1"}, {}); }).find("cloud_cover"), std::string::npos);
   EXPECT_NE(ErrorOf([] { ApplyFlags({.hdri = "a.png"}, {}); }).find("--hdri"), std::string::npos);
 }
@@ -150,6 +153,16 @@ TEST_F(WorldEnvironment, ASkyPictureIsReadAndMustBeAWholeSky) {
   EXPECT_EQ(picture->pixels(5, 5).g, 2);
   EXPECT_EQ(picture->name.rfind("a.exr sha256:", 0), 0u);
   EXPECT_THROW(LoadSkyPicture(write("b.exr", 64, 48)), InputError);
+  const auto error = [&](float value, bool everywhere) {
+    Image<Rgb32f> image(64, 32, everywhere ? Rgb32f{value, value, value} : Rgb32f{1, 2, 3});
+    image(7, 3).g = value;
+    WriteFileAtomically(folder_ / "c.exr", EncodeExr(image));
+    return ErrorOf([&] { LoadSkyPicture(folder_ / "c.exr"); });
+  };
+  EXPECT_NE(error(std::numeric_limits<float>::quiet_NaN(), false).find("c.exr: pixel (7, 3) holds nan"), std::string::npos);
+  EXPECT_NE(error(std::numeric_limits<float>::infinity(), false).find("pixel (7, 3) holds inf"), std::string::npos);
+  EXPECT_EQ(error(-1e-3f, false), "no error");  // as filters leave them
+  EXPECT_NE(error(-1, true).find("no pixel has light"), std::string::npos);
   EXPECT_NE(DescribeEnvironment(ApplyFlags({.hdri = (folder_ / "a.exr").string()}, {})).find("hdri=a.exr"), std::string::npos);
 }
 

@@ -14,6 +14,14 @@ size_t Digits(std::string_view text, size_t at) {
   return n;
 }
 
+/// Length of the exponent "e-3" that may follow a number; 0: there is none.
+size_t ExponentLength(std::string_view text, size_t at) {
+  if (at >= text.size() || text[at] != 'e') return 0;
+  const size_t sign = at + 1 < text.size() && (text[at + 1] == '-' || text[at + 1] == '+');
+  const size_t digits = Digits(text, at + 1 + sign);
+  return digits == 0 ? 0 : 1 + sign + digits;
+}
+
 bool IsUnit(const Token& token) {
   return token.kind == Token::Kind::kWord && token.word->kind >= WordKind::kMassUnit && token.word->kind <= WordKind::kPercent;
 }
@@ -232,7 +240,13 @@ size_t ReadNumber(std::string_view text, double& value) {
   }
   if (plain.empty()) return 0;
   if (plain[0] == '.') plain = "0" + plain;
-  const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value, std::chars_format::fixed);
+  // "1.5e3", as programs write figures.
+  if (const size_t exponent = ExponentLength(text, at); exponent > 0) {
+    const size_t sign = text[at + 1] == '+';  // which from_chars does not read
+    plain += "e" + std::string(text.substr(at + 1 + sign, exponent - 1 - sign));
+    at += exponent;
+  }
+  const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
   if (error != std::errc() || !(value < 1e9)) {
     throw InputError("the number '" + std::string(text.substr(0, 20)) + "' describes no drone");
   }

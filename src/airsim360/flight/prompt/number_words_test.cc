@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <string>
 
+#include "airsim360/base/error.h"
+
 namespace airsim360::internal {
 namespace {
 
@@ -53,6 +55,15 @@ TEST(NumberWords, HundredsAreCountedPastTen) {
   EXPECT_EQ(First("a hundred and eighty grams"), 180);
   EXPECT_EQ(First("a thousand two hundred grams"), 1200);
   EXPECT_EQ(First("two and a half thousand grams"), 2500);
+}
+
+TEST(NumberWords, FiguresAsProgramsWriteThem) {
+  EXPECT_EQ(First("1e3 g quad"), 1000);
+  EXPECT_EQ(First("1.5E+3 g quad"), 1500);
+  EXPECT_EQ(First("5e-1 kg quad"), 0.5);
+  EXPECT_EQ(First("25e1kg quad"), 250);
+  EXPECT_EQ(First("mass: 2.5e-01 kg"), 0.25);
+  EXPECT_THROW(Tokenize("1e99 kg quad"), InputError);
 }
 
 TEST(NumberWords, AndBetweenTwoFiguresJoinsNothing) {

@@ -186,6 +186,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{kLook, R"({"panorama": {"width": 33}})", "panorama.width", "32"},
                     Mistake{kLook, R"({"views": [{"fov": 3}]})", "views[0].fov", "fov_deg"}));
 
+TEST(AgentApi, EveryFieldIsListedOnce) {
+  Agent agent;
+  const std::string id = agent.Create();
+  const Json error = agent.Call("POST", "/v1/episodes/" + id + "/step",
+                                {{"action", {{"type", "relative_goal"}, {"distance", 1}, {"foo", 2}}}}, 422)["error"];
+  EXPECT_NE(error["message"].get<std::string>().find("elevation_deg, distance, speed"), std::string::npos) << error;
+}
+
 TEST(AgentApi, NumbersThatAreNoneHaveNoNearest) {
   Agent agent;
   const std::string id = agent.Create();

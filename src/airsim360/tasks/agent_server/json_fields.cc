@@ -70,7 +70,7 @@ JsonFields::JsonFields(const Json& value, std::string path) : value_(value), pat
 std::string JsonFields::PathOf(std::string_view name) const { return path_.empty() ? std::string(name) : path_ + "." + std::string(name); }
 
 const Json* JsonFields::Find(const char* name) {
-  known_.emplace_back(name);
+  if (std::ranges::find(known_, name) == known_.end()) known_.emplace_back(name);
   const auto found = value_.find(name);
   return found == value_.end() || found->is_null() ? nullptr : &*found;
 }

@@ -97,6 +97,7 @@ LanguageItem ParseLanguageItem(const std::string& line, const std::string& where
 }
 
 void ReadLanguageItems(const std::filesystem::path& file, const std::function<void(LanguageItem item)>& take) {
+  if (std::filesystem::is_directory(file)) throw InputError(file.string() + ": is a folder; give the file of the items");
   std::ifstream in(file);
   if (!in) throw InputError(file.string() + ": cannot be read");
   std::unordered_set<std::string> ids;

@@ -41,6 +41,21 @@ TEST(OracleAgent, GoesAroundABayThatLiesOnTheStraightLine) {
   }
 }
 
+// 16 m flown where the episode says 4 m, and its reference, whose points files round, 4.0004 m.
+TEST(ScoreOf, TakesTheShortestWayThatTheEpisodeSays) {
+  VlnResult result;
+  result.protocol = "ours";
+  result.ref = {{0, 0, 5}, {4.0004, 0, 5}};
+  result.pred = {{0, 0, 5}, {10, 0, 5}, {4, 0, 5}};
+  result.goal = {4, 0, 5};
+  result.radius = 1;
+  result.stopped = true;
+  result.geodesic_length = 4;
+  EXPECT_DOUBLE_EQ(ScoreOf(result).spl, 0.25);
+  result.geodesic_length = 0;  // not said
+  EXPECT_DOUBLE_EQ(ScoreOf(result).spl, 4.0004 / 16);
+}
+
 TEST(OracleAgent, FliesALegThatTakesLongerThanOneDecisionMay) {
   TestTown town;
   town.Box("street", "ground/road", {0, 0, 0}, {800, 60, 1}, -1);

@@ -228,7 +228,7 @@ class Flight {
 
   std::string Reason() const {
     char where[160];
-    std::snprintf(where, sizeof(where), "%.1f m from the goal (radius %.0f m)", result_.distance, radius_);
+    std::snprintf(where, sizeof(where), "%.1f m from the goal (radius %.1f m)", result_.distance, radius_);
     if (result_.end == "collision") return "touched something " + std::string(where);
     if (result_.end == "stopped")
       return result_.collided && FindVlnProtocol(protocol_.scores).collision_fails ? "touched something on the way"
@@ -417,7 +417,13 @@ class Crew {
 
 VlnScore ScoreOf(const VlnResult& r) {
   // As a file holds them, so that whoever reads it finds the same.
-  return ScoreVln({.reference = r.ref, .flown = r.pred, .goal = r.goal, .places = r.places, .stopped = r.stopped, .collided = r.collided},
+  return ScoreVln({.reference = r.ref,
+                   .flown = r.pred,
+                   .goal = r.goal,
+                   .places = r.places,
+                   .shortest = r.geodesic_length > 0 ? std::optional(r.geodesic_length) : std::nullopt,
+                   .stopped = r.stopped,
+                   .collided = r.collided},
                   r.radius, FindVlnProtocol(FindFlightRules(r.protocol).scores));
 }
 

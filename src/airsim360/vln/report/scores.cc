@@ -98,7 +98,7 @@ std::string ScoresJson(const std::vector<VlnResult>& results) {
   // 3-D distances of the same flights, whatever the protocol.
   for (const double radius : {5.0, 10.0, 20.0}) {
     double sum = 0;
-    for (const VlnResult& r : results) sum += r.stopped && Norm(r.pred.back() - r.ref.back()) <= radius;
+    for (const VlnResult& r : results) sum += r.stopped && Norm(r.pred.back() - r.goal.value_or(r.ref.back())) <= radius;
     json["sr_" + std::to_string(static_cast<int>(radius))] = results.empty() ? 0 : sum / static_cast<double>(results.size());
   }
   VlnJson by;
