@@ -15,9 +15,9 @@ void TownFinisher::Run(const Neighbours& near) {
     if (area.tags->Has("building"))
       for (const Patch& patch : area.patches) houses_.emplace_back(BoundsOf(patch.outer), patch.outer);
   for (const TownSpot& spot : map_.spots) Place(spot);
+  ChooseSpawn(near);  // cars pass below
   if (spec_.wires) Tram();
   Traffic();
-  ChooseSpawn(near);
   if (!map_.river.empty() && spec_.country != TownCountry::kCity) RiverBeyond();
   if (spec_.trees > 0 && (spec_.country == TownCountry::kForest || spec_.country == TownCountry::kFields)) FarWoods();
   if (spec_.country != TownCountry::kCity && !spec_.at_sea()) Ridges();
