@@ -126,6 +126,20 @@ bool WetAt(const TownMap& map, Vec2d p) {
   return std::any_of(map.wet.begin(), map.wet.end(), [&](const Patch& patch) { return Inside(patch, p); });
 }
 
+// Seen from above the town a valley has sides: 500 m beyond its edges the ground stands far over its own.
+TEST(TownMap, TheSidesOfAValleyGoOnRisingOutside) {
+  TownSpec spec{.relief = TownRelief::kValley};
+  spec.climb = 36;
+  const TownMap map = DrawTown(spec, 1);
+  const Relief relief(map.heights, map.data.origin, spec.width * spec.depth);
+  for (double x : {-150.0, 0.0, 150.0})
+    for (double hand : {-1.0, 1.0}) {
+      const double middle = relief.At({x, 0}), edge = relief.At({x, hand * spec.depth / 2});
+      EXPECT_GT(edge - middle, 20) << x;
+      EXPECT_GT(relief.At({x, hand * (spec.depth / 2 + 500)}) - edge, 70) << x;
+    }
+}
+
 TEST(TownMap, TheSeaSurroundsAnIsland) {
   TownSpec spec{.relief = TownRelief::kHill, .water = TownWater::kIsland};
   for (uint64_t seed : {0u, 1u, 2u}) {
