@@ -1,5 +1,7 @@
 #include "airsim360/app/program.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -206,6 +208,8 @@ int Main(int argc, const char* const* argv, const CommandSet& commands) {
   // A file size limit or a closed pipe comes back as an error of the write, not as a signal.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+  // What is large lies in pages of its own, which go back when it goes: malloc would raise this limit to 32 MiB and keep holes.
+  ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
   try {
     Program(commands).Run(argc, argv);
     return 0;

@@ -45,7 +45,10 @@ Bytes EncodeProduct(const std::string& product, const Capture& capture, const Vi
 
 // Smallest and median range over the pixels of all views that hit something.
 void FillRangeFigures(const std::vector<Capture>& captures, FrameRecord& record) {
+  size_t pixels = 0;
+  for (const Capture& capture : captures) pixels += capture.frame.range.pixels().size();
   std::vector<float> hits;
+  hits.reserve(pixels);
   for (const Capture& capture : captures) {
     std::copy_if(capture.frame.range.pixels().begin(), capture.frame.range.pixels().end(), std::back_inserter(hits),
                  [](float range) { return range > 0; });

@@ -11,6 +11,7 @@
 #include "airsim360/base/config.h"
 #include "airsim360/base/disk_cache.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/freed_memory.h"
 #include "airsim360/opening/height_file.h"
 #include "airsim360/opening/world_environment.h"
 #include "airsim360/opening/world_file.h"
@@ -159,6 +160,7 @@ std::shared_ptr<const Scene> LoadBuilt(const WorldRequest& request) {
   }
   auto built = BuildAnew(request);
   if (!cache.folder().empty()) cache.Store(key, ArchiveScene(*built));
+  ReturnFreedMemory();
   return WithCacheKey(std::move(built), key.Name());
 }
 

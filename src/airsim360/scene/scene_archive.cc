@@ -61,6 +61,15 @@ void SkipMesh(ArchiveReader& archive) {
   skip(&Mesh::positions), skip(&Mesh::normals), skip(&Mesh::uvs), skip(&Mesh::triangles), skip(&Mesh::parts), skip(&Mesh::colors);
 }
 
+// Ray tracers read some bytes behind the last position: without room there they would copy all of them.
+void ReservePositions(ArchiveReader archive, Mesh& mesh) {
+  size_t count = 0;
+  archive.SkipList<char>();
+  archive(count);
+  archive.Expect(count, sizeof(Vec3f));
+  mesh.positions.reserve(count + 1);
+}
+
 void VisitMeshes(ArchiveWriter& archive, const std::vector<Mesh>& meshes) {
   archive.Each(meshes, [&](const Mesh& mesh) { VisitMesh(archive, mesh); });
 }
@@ -76,7 +85,12 @@ void VisitMeshes(ArchiveReader& archive, std::vector<Mesh>& meshes) {
     SkipMesh(archive);
   }
   meshes.resize(count);
-  ParallelFor(static_cast<int64_t>(count), [&](int64_t i) { VisitMesh(begins[static_cast<size_t>(i)], meshes[static_cast<size_t>(i)]); });
+  ParallelFor(static_cast<int64_t>(count), [&](int64_t i) {
+    Mesh& mesh = meshes[static_cast<size_t>(i)];
+    ArchiveReader& begin = begins[static_cast<size_t>(i)];
+    ReservePositions(begin, mesh);
+    VisitMesh(begin, mesh);
+  });
 }
 
 template <class Archive, class T>

@@ -121,6 +121,28 @@ TEST(SceneArchive, GivesBackEveryPart) {
   EXPECT_EQ(read->environment.hdri->pixels, scene->environment.hdri->pixels);
 }
 
+// Room for what ray tracers read behind the last position, else they copy all; nothing else is held that is not used.
+TEST(SceneArchive, MeshesTakeNoMoreMemoryThanTheyNeed) {
+  SceneBuilder builder("fan");
+  builder.AddMaterial({});
+  Mesh fan;
+  fan.positions = {{0, 0, 0}};
+  for (uint32_t i = 1; i < 100; ++i) {
+    fan.positions.push_back({1, static_cast<float>(i), 0});
+    if (i > 1) fan.triangles.push_back({0, i - 1, i});
+  }
+  builder.AddInstance({builder.AddMesh(fan), {}, builder.AddEntity("fan", builder.tree().At("ground/road"))});
+  const auto built = builder.Build();
+  EXPECT_EQ(built->meshes[0].positions, fan.positions);
+  EXPECT_EQ(built->meshes[0].triangles, fan.triangles);
+  const std::optional<Scene> read = SceneFromArchive(ArchiveScene(*built));
+  ASSERT_TRUE(read);
+  for (const Mesh* mesh : {&built->meshes[0], &read->meshes[0]}) {
+    EXPECT_EQ(mesh->positions.capacity(), mesh->positions.size() + 1);
+    EXPECT_EQ(mesh->triangles.capacity(), mesh->triangles.size());
+  }
+}
+
 TEST(SceneArchive, CustomCategoriesKeepIdAndKind) {
   const auto scene = OddScene();
   const std::optional<Scene> read = SceneFromArchive(ArchiveScene(*scene));

@@ -1,6 +1,7 @@
 #include "airsim360/stage/stage.h"
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/freed_memory.h"
 #include "airsim360/base/log.h"
 #include "airsim360/sim/traffic/traffic.h"
 
@@ -100,6 +101,7 @@ Renderer& Stage::renderer(Tier tier) {
   if (renderer) return *renderer;
   const LongTask building("building " + name());
   renderer = MakeRenderer(seen, {.tier = tier, .environment = environment_}, device());
+  ReturnFreedMemory();
   load_seconds_ += building.seconds();
   return *renderer;
 }

@@ -50,18 +50,17 @@ std::vector<Group> Classify(const Mesh& mesh, const Scene& scene, bool sort_alph
 
 // The triangles of one group; null if there are none.
 std::unique_ptr<MeshGeometry> SelectTriangles(const Mesh& mesh, const std::vector<Group>& groups, Group wanted) {
+  const auto count = static_cast<size_t>(std::count(groups.begin(), groups.end(), wanted));
+  if (count == 0) return nullptr;
   auto out = std::make_unique<MeshGeometry>();
   out->mesh = &mesh;
+  out->primitive_count = static_cast<uint32_t>(count);
+  // All of the mesh: share its index buffer.
+  if (count == mesh.triangles.size()) return out;
+
+  out->triangles.reserve(count);
   for (uint32_t t = 0; t < groups.size(); ++t) {
     if (groups[t] == wanted) out->triangles.push_back(t);
-  }
-  out->primitive_count = static_cast<uint32_t>(out->triangles.size());
-  if (out->primitive_count == 0) return nullptr;
-
-  // All of the mesh: share its index buffer.
-  if (out->primitive_count == mesh.triangles.size()) {
-    out->triangles = {};
-    return out;
   }
   out->indices.reserve(out->triangles.size());
   for (uint32_t triangle : out->triangles) out->indices.push_back(mesh.triangles[triangle]);

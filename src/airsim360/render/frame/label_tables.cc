@@ -8,15 +8,17 @@ namespace airsim360::internal {
 namespace {
 
 // Entity of every primitive of a slot (0 = the instance's own), from the parts of the mesh.
-std::vector<uint32_t> PrimitiveEntities(const Mesh& mesh, const HitSlot& slot) {
-  std::vector<uint32_t> out(slot.primitive_count);
+void AddPrimitiveEntities(const Mesh& mesh, const HitSlot& slot, std::vector<uint32_t>& out) {
   size_t part = 0;
   for (uint32_t i = 0; i < slot.primitive_count; ++i) {
     const uint32_t triangle = slot.triangles == nullptr ? i : slot.triangles[i];
     while (triangle - mesh.parts[part].first_triangle >= mesh.parts[part].triangle_count) ++part;
-    out[i] = mesh.parts[part].entity;
+    out.push_back(mesh.parts[part].entity);
   }
-  return out;
+}
+
+bool HasEntities(const Mesh& mesh) {
+  return std::ranges::any_of(mesh.parts, [](const MeshPart& part) { return part.entity != kNoEntity; });
 }
 
 void SetNormalMatrix(const Mat3f& A, float* out) {
@@ -34,6 +36,7 @@ LabelTables::LabelTables(const RayTracer& tracer)
   const Scene& scene = tracer.scene();
   // Instances of one mesh share the tables of its geometries, told apart by their triangle lists.
   std::map<std::pair<MeshId, const uint32_t*>, std::pair<uint32_t, uint32_t>> bases;
+  slots_.reserve(tracer.slots().size());
   for (const HitSlot& slot : tracer.slots()) {
     const Instance& instance = scene.instances[slot.instance];
     const Mesh& mesh = scene.meshes[instance.mesh];
@@ -41,11 +44,9 @@ LabelTables::LabelTables(const RayTracer& tracer)
     if (is_new) {
       auto& [entity_base, triangle_base] = entry->second;
       entity_base = 0;
-      const auto has_entity = [](const MeshPart& part) { return part.entity != kNoEntity; };
-      if (std::any_of(mesh.parts.begin(), mesh.parts.end(), has_entity)) {
+      if (HasEntities(mesh)) {
         entity_base = static_cast<uint32_t>(entities_.size());
-        const std::vector<uint32_t> entities = PrimitiveEntities(mesh, slot);
-        entities_.insert(entities_.end(), entities.begin(), entities.end());
+        AddPrimitiveEntities(mesh, slot, entities_);
       }
       triangle_base = kMiss;
       if (slot.triangles != nullptr) {
@@ -69,6 +70,8 @@ LabelTables::LabelTables(const RayTracer& tracer)
   if (first_slot_.empty()) first_slot_.push_back(0);
   if (slots_.empty()) slots_.emplace_back();
   if (triangles_.empty()) triangles_.push_back(0);
+  entities_.shrink_to_fit();
+  triangles_.shrink_to_fit();
 }
 
 void LabelTables::Place(uint32_t instance, const Mat3f& normal_frame) {

@@ -305,6 +305,7 @@ SurfaceTables::SurfaceTables(const Scene& scene, bool lamps_on) {
   });
   AddPanes(scene);
   AddColors(scene);
+  instances.reserve(scene.instances.size());
   for (size_t i = 0; i < scene.instances.size(); ++i)
     instances.push_back(Place(scene.instances[i], scene.instances[i].X_WM, static_cast<uint32_t>(i)));
   if (std::ranges::any_of(scene.instances, [](const Instance& i) { return !(i.glow == Vec3f{1, 1, 1}); })) {
@@ -419,6 +420,7 @@ void SurfaceTables::AddPanes(const Scene& scene) {
       }
     }
   }
+  panes.shrink_to_fit();
 }
 
 }  // namespace airsim360::internal

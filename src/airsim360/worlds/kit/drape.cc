@@ -1,7 +1,10 @@
 #include "airsim360/worlds/kit/drape.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
+
+#include "airsim360/worlds/kit/vertex_welder.h"
 
 namespace airsim360 {
 namespace {
@@ -126,17 +129,18 @@ Mesh Drape::Lay(const Mesh& flat) const {
   Mesh laid;
   laid.name = flat.name;
   constexpr Vec3f kUp{0, 0, 1};
+  // Most corners belong to several pieces.
+  std::optional<internal::VertexWelder> welder;
+  std::vector<uint32_t> corners;
   const auto emit = [&](const Piece& piece, size_t i, size_t j, bool upper) {
-    const auto first = static_cast<uint32_t>(laid.positions.size());
+    corners.clear();
     for (const Corner& c : piece) {
       const Node node = Mix(Locate({c.p.x, c.p.y}, i, j, upper));
-      laid.positions.push_back(node.p + Vec3f{0, 0, c.p.z});
       // Normals turn with the cofactors of the frame.
       const Vec3f n = Cross(node.dy, kUp) * c.n.x + Cross(kUp, node.dx) * c.n.y + Cross(node.dx, node.dy) * c.n.z;
-      laid.normals.push_back(Unit(n, kUp));
-      laid.uvs.push_back(c.uv);
+      corners.push_back(welder->Add(node.p + Vec3f{0, 0, c.p.z}, Unit(n, kUp), c.uv));
     }
-    for (uint32_t k = 1; k + 1 < piece.size(); ++k) laid.triangles.push_back({first, first + k, first + k + 1});
+    for (size_t k = 1; k + 1 < corners.size(); ++k) laid.triangles.push_back({corners[0], corners[k], corners[k + 1]});
   };
   const auto split = [&](const Piece& piece) {
     Slice(piece, xs_, 0, [&](size_t i, const Piece& strip) {
@@ -154,6 +158,7 @@ Mesh Drape::Lay(const Mesh& flat) const {
     });
   };
   for (const MeshPart& part : flat.parts) {
+    welder.emplace(laid);
     const auto first = static_cast<uint32_t>(laid.triangles.size());
     for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
       Piece piece;

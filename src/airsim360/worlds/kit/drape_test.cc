@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "airsim360/worlds/kit/mesh_builder.h"
 #include "airsim360/worlds/kit/test_mesh.h"
@@ -73,6 +75,24 @@ TEST(Drape, KeepsEveryVertexItsHeightOverTheGround) {
       EXPECT_NEAR(q.z - drape.At({p.x, p.y, 0}).z, lift, 4e-4f);
     }
   });
+}
+
+// Pieces that meet share their corners: no vertex of a part is there twice.
+TEST(Drape, KeepsEqualVerticesOnce) {
+  const Mesh laid = HillDrape().Lay(Flat());
+  for (const MeshPart& part : laid.parts) {
+    std::set<uint32_t> vertices;
+    std::set<std::array<float, 8>> different;
+    for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
+      const Vec3u t = laid.triangles[k];
+      for (uint32_t v : {t.x, t.y, t.z}) {
+        const Vec3f p = laid.positions[v], n = laid.normals[v];
+        vertices.insert(v);
+        different.insert({p.x, p.y, p.z, n.x, n.y, n.z, laid.uvs[v].x, laid.uvs[v].y});
+      }
+    }
+    EXPECT_EQ(vertices.size(), different.size()) << part.entity;
+  }
 }
 
 // Splitting loses nothing: under a map that only lifts, the floor's area seen from above stays.

@@ -1,11 +1,10 @@
 #include "airsim360/worlds/kit/mesh_builder.h"
 
 #include <cmath>
-#include <cstring>
 #include <numeric>
-#include <unordered_map>
 
 #include "airsim360/math/angles.h"
+#include "airsim360/worlds/kit/vertex_welder.h"
 
 namespace airsim360 {
 namespace {
@@ -14,22 +13,6 @@ namespace {
 Vec3f Across(Vec3f axis) { return Normalized(Cross(axis, std::abs(axis.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0})); }
 
 float SignedArea(Vec2f a, Vec2f b, Vec2f c) { return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y); }
-
-struct Vertex {
-  Vec3f p, n;
-  Vec2f uv;
-  friend bool operator==(const Vertex&, const Vertex&) = default;
-};
-
-struct VertexHash {
-  size_t operator()(const Vertex& v) const {
-    uint64_t h = 0xcbf29ce484222325ull;
-    uint32_t words[sizeof(Vertex) / 4];
-    std::memcpy(words, &v, sizeof(v));
-    for (uint32_t w : words) h = (h ^ w) * 0x100000001b3ull;
-    return h ^ (h >> 29);
-  }
-};
 
 }  // namespace
 
@@ -154,18 +137,8 @@ Mesh MeshBuilder::Finish(std::string name) {
   for (auto& entry : groups_) {
     const auto& key = entry.first;
     const Group& group = entry.second;
-    // Merge equal vertices within the part.
-    std::unordered_map<Vertex, uint32_t, VertexHash> seen;
-    const auto index = [&](size_t i) {
-      const Vertex vertex{group.positions[i], group.normals[i], group.uvs[i]};
-      const auto [it, fresh] = seen.try_emplace(vertex, static_cast<uint32_t>(mesh.positions.size()));
-      if (fresh) {
-        mesh.positions.push_back(vertex.p);
-        mesh.normals.push_back(vertex.n);
-        mesh.uvs.push_back(vertex.uv);
-      }
-      return it->second;
-    };
+    internal::VertexWelder welder(mesh);
+    const auto index = [&](size_t i) { return welder.Add(group.positions[i], group.normals[i], group.uvs[i]); };
     const auto first = static_cast<uint32_t>(mesh.triangles.size());
     for (size_t i = 0; i + 2 < group.positions.size(); i += 3) {
       const uint32_t a = index(i), b = index(i + 1), c = index(i + 2);

@@ -20,7 +20,9 @@ std::shared_ptr<const Scene> BuildTownScene(const std::string& name, const TownS
   if (!spec.lamps) dress.lamp = nullptr;
   dress.town_around = spec.country == TownCountry::kCity;
   dress.paint = [&](SceneBuilder& builder, Surfaces& surfaces, MapDress& own) { PaintTown(spec, builder, surfaces, own); };
-  dress.finish = [&](OsmScene& scene, const std::vector<OsmBuilding>&, const Neighbours&) { TownFinisher(spec, map, scene).Run(); };
+  dress.finish = [&](OsmScene& scene, const std::vector<OsmBuilding>&, const Neighbours& near) {
+    TownFinisher(spec, map, scene).Run(near);
+  };
   OsmOptions osm{.seed = options.seed, .models = options.models};
   if (!map.heights.heights.empty()) osm.heights = [&](const GeoBox&) { return map.heights; };
   return BuildMapScene(name, map.data, osm, "", nullptr, &dress);

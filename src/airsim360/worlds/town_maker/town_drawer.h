@@ -64,6 +64,7 @@ class TownDrawer {
   void Row(const Patch& block, std::vector<Patch>& built);
   void Detached(const Patch& block, std::vector<Patch>& built);
   void Scatter();
+  bool InStreet(Vec2d c, const Ring& ring) const;
   bool HouseIn(const Ring& ring, const Patch& block, std::vector<Patch>& built);
   void AddHouse(const Ring& ring);
   void AddTower(const Ring& ring, Vec2d middle, double floors, const std::string& material, const std::string& colour);
@@ -88,7 +89,7 @@ class TownDrawer {
   std::vector<Patch> blocks_;                     // free for houses
   std::vector<Patch> taken_;                      // landmarks, in the order of being built
   std::vector<std::pair<Vec2d, double>> bodies_;  // houses as discs
-  std::vector<Vec2d> coast_, river_;
+  std::vector<Vec2d> coast_;
   double x0_ = 0, y0_ = 0, x1_ = 0, y1_ = 0;
   int64_t next_node_ = 100'000, next_way_ = 1;
   uint64_t houses_ = 0;

@@ -10,18 +10,42 @@
 #include "airsim360/worlds/town_maker/town_trees.h"
 
 namespace airsim360::internal {
-namespace {}  // namespace
-
-void TownFinisher::Run() {
+void TownFinisher::Run(const Neighbours& near) {
   for (const OsmArea& area : scene_.areas)
     if (area.tags->Has("building"))
       for (const Patch& patch : area.patches) houses_.emplace_back(BoundsOf(patch.outer), patch.outer);
   for (const TownSpot& spot : map_.spots) Place(spot);
+  ChooseSpawn(near);  // cars pass below
   if (spec_.wires) Tram();
   Traffic();
+  if (!map_.river.empty() && spec_.country != TownCountry::kCity) RiverBeyond();
   if (spec_.trees > 0 && (spec_.country == TownCountry::kForest || spec_.country == TownCountry::kFields)) FarWoods();
   if (spec_.country != TownCountry::kCity && !spec_.at_sea()) Ridges();
   if (!mesh_.empty()) scene_.builder.AddInstance({scene_.builder.AddMesh(mesh_.Finish("town")), {}, kNoEntity});
+}
+
+// Over the street nearest to the middle where a metre around is free, looking along it and not at a near wall.
+void TownFinisher::ChooseSpawn(const Neighbours& near) {
+  constexpr double kAbove = 4.5, kFree = 1.2, kStep = 2, kFar = 80, kNearWall = 25;  // metres
+  constexpr int kSteps = 40;
+  if (spec_.terrace) return;  // the terrace has its own
+  const LineIndex::Near middle = near.roads.Find(scene_.focus, 400);
+  if (middle.owner == UINT32_MAX) return;
+  const auto view = [&](Vec2d p, Vec2d along) {
+    double s = 0;
+    while (s < kFar && !InHouse(p + along * s, 0)) s += kStep;
+    return s;
+  };
+  for (int i = 0; i <= 2 * kSteps; ++i) {
+    const int step = (i % 2 ? 1 : -1) * ((i + 1) / 2);
+    const LineIndex::Near road = i == 0 ? middle : near.roads.Find(middle.point + middle.direction * (kStep * step), 6);
+    if (road.owner == UINT32_MAX) continue;
+    Vec2d along = road.direction;
+    const Footprint place{ToFloat(road.point), {static_cast<float>(kFree), static_cast<float>(kFree)}, FacingYaw(ToFloat(along))};
+    if (!scene_.occupancy.IsFree(place)) continue;
+    if (const double ahead = view(road.point, along); ahead < kNearWall && view(road.point, along * -1.0) > ahead) along = along * -1.0;
+    return scene_.builder.SetSpawn(At(road.point, kAbove), static_cast<float>(std::atan2(along.y, along.x) * 180 / M_PI));
+  }
 }
 
 void TownFinisher::Place(const TownSpot& spot) {

@@ -14,7 +14,7 @@ class TownFinisher {
  public:
   TownFinisher(const TownSpec& spec, const TownMap& map, OsmScene& scene)
       : spec_(spec), map_(map), scene_(scene), rng_(scene.options.seed, "finish") {}
-  void Run();
+  void Run(const Neighbours& near);
 
  private:
   // town_finisher.cc
@@ -26,6 +26,7 @@ class TownFinisher {
   void Market(const TownSpot& spot);
   void Undergrowth(const TownSpot& spot);
   void Traffic();
+  void ChooseSpawn(const Neighbours& near);
   EntityId Start(std::string name, std::string_view category, Vec2d p, Vec2d front, double lift = 0);
   Vec3f At(Vec2d p, double lift) const { return scene_.On(p, lift); }
   bool InHouse(Vec2d p, double margin) const;
@@ -49,6 +50,7 @@ class TownFinisher {
   void Car(Vec2d p, Vec2d along);
 
   // town_horizon.cc
+  void RiverBeyond();
   void FarWoods();
   void Ridges();
 

@@ -8,8 +8,6 @@
 #include "airsim360/worlds/town_maker/town_finisher.h"
 
 namespace airsim360::internal {
-namespace {}  // namespace
-
 void TownFinisher::FarWoods() {
   const bool forest = spec_.country == TownCountry::kForest;
   const double reach = forest ? 420 : 900;
@@ -31,6 +29,34 @@ void TownFinisher::FarWoods() {
     const auto scale = static_cast<float>(rng_.Uniform(0.75, 1.45));
     scene_.Put(forest ? "far forest tree" : "far tree", needles ? "tree_pine" : "tree_generic", scene_.On(p, -0.5), turn, scale,
                rng_.Index(6));
+  }
+}
+
+// The country knows nothing of the map's river: a ribbon on it, from a low weir at the map's edge to the hills.
+void TownFinisher::RiverBeyond() {
+  constexpr double kOver = 0.04, kWeir = 0.4, kRise = 0.002;  // metres over the country, of the weir; rise a metre over coarse ground
+  const OsmBox e = GroundBox(scene_.data);
+  const auto out = [&](Vec2d p) { return std::max(e.x0 - p.x, p.x - e.x1); };
+  const bool flat = scene_.relief.flat();
+  const auto at = [&](size_t i, double hand, double lift) {
+    const std::vector<Vec2d>& line = map_.river;
+    Vec2d p = line[i];
+    // The first cut lies on the edge.
+    for (const size_t k : {i - 1, i + 1})
+      if (k < line.size() && out(p) <= 0 && out(line[k]) > 0) p = p + (line[k] - p) * (-out(p) / (out(line[k]) - out(p)));
+    const Vec2d v = line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0];
+    return At(p + Vec2d{-v.y, v.x} * (hand * map_.river_half / Length(v)), lift + (flat ? 0 : kRise * std::max(0.0, out(p))));
+  };
+  mesh_.SetTransform({});
+  mesh_.SetEntity(scene_.builder.AddEntity("river beyond", scene_.builder.tree().At("water/lake")));
+  mesh_.SetMaterial(scene_.surfaces[Surface::kWater]);
+  for (size_t i = 0; i + 1 < map_.river.size(); ++i) {
+    const double a = out(map_.river[i]), b = out(map_.river[i + 1]);
+    if (a <= 0 && b <= 0) continue;
+    const Vec3f p[4] = {at(i, -1, kOver), at(i + 1, -1, kOver), at(i + 1, 1, kOver), at(i, 1, kOver)};
+    mesh_.QuadUv(p[0], p[1], p[2], p[3], {p[0].x, -p[0].y}, {p[1].x, -p[1].y}, {p[2].x, -p[2].y}, {p[3].x, -p[3].y});
+    if (a <= 0) mesh_.Quad(at(i, 1, -kWeir), at(i, -1, -kWeir), p[0], p[3]);
+    if (b <= 0) mesh_.Quad(at(i + 1, -1, -kWeir), at(i + 1, 1, -kWeir), p[2], p[1]);
   }
 }
 

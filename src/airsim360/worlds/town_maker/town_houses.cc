@@ -160,6 +160,16 @@ void TownDrawer::Detached(const Patch& block, std::vector<Patch>& built) {
   }
 }
 
+// Whether a house about `c` stands in a street or on its pavement: halls may be deeper than their front is wide.
+bool TownDrawer::InStreet(Vec2d c, const Ring& ring) const {
+  double reach = 0;
+  for (Vec2d p : ring) reach = std::max(reach, Length(p - c));
+  return std::ranges::any_of(map_.streets, [&](const TownStreet& street) {
+    const double half = street.half + street.pavement;
+    return DistanceToLine(street.line, c) < half + reach && !Intersect(Band(street.line, half, half), Patches{{ring, {}}}).empty();
+  });
+}
+
 // Houses beside tracks, each turned as it likes.
 void TownDrawer::Scatter() {
   const HouseStyle& style = StyleOf(spec_.style);
@@ -191,7 +201,7 @@ void TownDrawer::Scatter() {
     const Vec2d corner = c - u * (w / 2) - n * (d / 2);
     Ring ring = {corner, corner + u * w, corner + u * w + n * d, corner + n * d};
     if (u.x * n.y - u.y * n.x < 0) std::reverse(ring.begin(), ring.end());
-    if (!Intersect(built, Patches{{ring, {}}}).empty()) continue;
+    if (!Intersect(built, Patches{{ring, {}}}).empty() || InStreet(c, ring)) continue;
     built.push_back({ring, {}});
     AddHouse(ring);
     AddSpot("porch", c - n * (d / 2), n * -1.0, w);

@@ -32,9 +32,11 @@ struct TownMap {
   HeightGrid heights;  ///< empty where the town is flat
   std::vector<TownStreet> streets;
   std::vector<TownSpot> spots;
-  Patches wet;          ///< sea, river, lake
-  Patches squares;      ///< in order of their distance from the middle
-  uint64_t houses = 0;  ///< the landmarks are none
+  Patches wet;               ///< sea, river, lake
+  Patches squares;           ///< in order of their distance from the middle
+  std::vector<Vec2d> river;  ///< the middle of a river or canal, from horizon to horizon; empty where there is none
+  double river_half = 0;     ///< metres from there to the banks
+  uint64_t houses = 0;       ///< the landmarks are none
 };
 
 /// The map of a town that Check accepts; a function of the measures and the seed.

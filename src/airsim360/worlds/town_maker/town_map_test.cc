@@ -74,6 +74,14 @@ TEST(TownMap, HousesStandNeitherInEachOtherNorInStreetsNorInWater) {
   for (const TownSpec& spec : Variety()) ExpectSound(DrawTown(spec, static_cast<uint64_t>(i)), "variety " + std::to_string(i)), ++i;
 }
 
+// Halls are deeper than their fronts are wide: many seeds, for a house in a street is rare.
+TEST(TownMap, ScatteredHallsKeepOffStreets) {
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    const TownSpec spec{.plan = TownPlan::kScattered, .style = static_cast<TownStyle>(seed % 10)};
+    ExpectSound(DrawTown(spec, seed), "scattered " + std::to_string(seed));
+  }
+}
+
 TEST(TownMap, SquaresHaveRoomForTheLargestAreaOfTheHumanTable) {
   // 50 x 30 m in Rome, 30 x 50 m in Lisbon, 30 x 30 m downtown (the paper's table of human scenes).
   for (const char* name : {"downtown_city", "lisbon_downtown", "rome"}) {
@@ -118,6 +126,20 @@ bool WetAt(const TownMap& map, Vec2d p) {
   return std::any_of(map.wet.begin(), map.wet.end(), [&](const Patch& patch) { return Inside(patch, p); });
 }
 
+// Seen from above the town a valley has sides: 500 m beyond its edges the ground stands far over its own.
+TEST(TownMap, TheSidesOfAValleyGoOnRisingOutside) {
+  TownSpec spec{.relief = TownRelief::kValley};
+  spec.climb = 36;
+  const TownMap map = DrawTown(spec, 1);
+  const Relief relief(map.heights, map.data.origin, spec.width * spec.depth);
+  for (double x : {-150.0, 0.0, 150.0})
+    for (double hand : {-1.0, 1.0}) {
+      const double middle = relief.At({x, 0}), edge = relief.At({x, hand * spec.depth / 2});
+      EXPECT_GT(edge - middle, 20) << x;
+      EXPECT_GT(relief.At({x, hand * (spec.depth / 2 + 500)}) - edge, 70) << x;
+    }
+}
+
 TEST(TownMap, TheSeaSurroundsAnIsland) {
   TownSpec spec{.relief = TownRelief::kHill, .water = TownWater::kIsland};
   for (uint64_t seed : {0u, 1u, 2u}) {
@@ -147,6 +169,20 @@ TEST(TownMap, ARiverThroughTheMiddleIsThere) {
       for (double y = -0.1 * spec.depth; y <= 0.1 * spec.depth; y += 1) middle = middle || WetAt(map, {0, y});
       EXPECT_EQ(middle, central) << static_cast<int>(water);
     }
+}
+
+// In open country a river goes on to the hills of the horizon, which begin 2,400 m from the middle.
+TEST(TownMap, RiversRunToTheHorizon) {
+  for (const TownWater water : {TownWater::kRiver, TownWater::kCanal}) {
+    const TownSpec spec{.water = water, .country = TownCountry::kFields};
+    const TownMap map = DrawTown(spec, 3);
+    ASSERT_GE(map.river.size(), 2u);
+    EXPECT_LT(map.river.front().x, -2500);
+    EXPECT_GT(map.river.back().x, 2500);
+    for (size_t i = 0; i + 1 < map.river.size(); ++i)
+      for (double hand : {-0.9, 0.1, 0.9})
+        EXPECT_TRUE(WetAt(map, (map.river[i] + map.river[i + 1]) * 0.5 + Vec2d{0, hand * map.river_half})) << i;
+  }
 }
 
 TEST(TownMap, BusStopsStandAtMainStreetsNearCorners) {

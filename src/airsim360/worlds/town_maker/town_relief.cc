@@ -27,6 +27,8 @@ class Heights {
     // Hills beyond the town.
     const double out = std::max({std::abs(p.x) - spec_.width / 2, std::abs(p.y) - spec_.depth / 2, 0.0});
     if (out > 0) h += (60 + spec_.climb) * Smooth((out - 60) / 900) * std::max(0.0, 0.45 + 0.9 * Noise(p, 11));
+    // The sides of a valley go on rising: a town alone is too small for one that is seen from above.
+    if (spec_.relief == TownRelief::kValley) h += (60 + 1.5 * spec_.climb) * Smooth((std::abs(p.y) - spec_.depth / 2) / 560);
     return h * Smooth((Shore(p) - 8) / 85);
   }
 

@@ -7,7 +7,8 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kBeyond = 700;  // metres that waters go on outside the town
+constexpr double kBeyond = 700;    // metres that waters go on outside the town
+constexpr double kHorizon = 2700;  // rivers in open country: to behind the foot of the nearest hills
 
 }  // namespace
 
@@ -26,11 +27,10 @@ void TownDrawer::LayWaters() {
       const double bend = canal ? 0 : 0.06 * spec_.depth,
                    // Between the main street and the next one.
           y = spec_.central_water ? -std::min(0.5 * spec_.block, 0.08 * spec_.depth) : (canal ? -0.16 : -0.2) * spec_.depth;
-      for (double x = x0_ - kBeyond; x <= x1_ + kBeyond + 1; x += canal ? 2 * kBeyond : 22)
-        river_.push_back({x, y + bend * std::sin(x / 85 + phase)});
-      if (canal) river_ = {{x0_ - kBeyond, y}, {x1_ + kBeyond, y}};
-      const double half = canal ? 6.5 : std::clamp(0.04 * spec_.depth, 8.0, 26.0);
-      map_.wet = Band(river_, half, half);
+      const double beyond = spec_.country == TownCountry::kCity ? kBeyond : kHorizon;
+      for (double x = x0_ - beyond; x <= x1_ + beyond + 1; x += 22) map_.river.push_back({x, y + bend * std::sin(x / 85 + phase)});
+      map_.river_half = canal ? 6.5 : std::clamp(0.04 * spec_.depth, 8.0, 26.0);
+      map_.wet = Band(map_.river, map_.river_half, map_.river_half);
       for (const Patch& patch : map_.wet) AddArea(patch.outer, {{"natural", "water"}, {"name", canal ? "Canal" : "River"}});
       return;
     }
