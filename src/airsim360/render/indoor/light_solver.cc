@@ -268,7 +268,7 @@ void LightSolver::TraceGuided() {
     std::vector<Vec2f> points;
     std::vector<Landing> landings;
     guide.Sample(options_.rays, ShiftOf(i + 0x100000000ull), points);
-    SendRays(world_, reflectance_, coarse_, surfels[i], points, {}, landings);
+    SendRays(world_, reflectance_, coarse_, surfels[i], points, {&plain_, 0, 0}, landings);
     // The balance heuristic of both kinds of rays.
     const auto share = [&](Vec2f point) { return 1 / (static_cast<float>(rays) * (1 + guide.Density(point))); };
     for (size_t k = 0; k < rays; ++k) {
