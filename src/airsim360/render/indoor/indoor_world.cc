@@ -50,7 +50,7 @@ class ShadowQueue {
     tint.fill({1, 1, 1});
     if (world_.tracer.has_clear_panes()) {
       for (int i = 0; i < count_; ++i) panes.valid[i] = occluded[i] ? 0 : -1;
-      DimByPanes(world_.tracer, world_.tables, panes.valid, panes.rays, tint);
+      DimByPanes(world_.tracer, world_.tables, panes.valid, panes.rays, tint, true);
     }
     for (int i = 0; i < count_; ++i) {
       if (occluded[i]) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "airsim360/render/lights/clear_panes.h"
@@ -16,33 +17,57 @@ constexpr float kSectors = 8;    // of directions about the normal
 constexpr float kGuided = 0.8f;  // of the density that follows the light
 constexpr float kMostDense = 64;
 
-// What a pane takes on the way of the packet's rays, as grey.
-void DimPacket(const IndoorWorld& world, const RayPacket& hit, const RayPacket& sent, float* share) {
-  if (!world.tracer.has_clear_panes()) return;
+// What panes take on the way of the packet's rays, as grey, and which rays they turn.
+void MeetPanes(const IndoorWorld& world, const RayPacket& hit, const RayPacket& sent, float* share, PaneTurns& turns) {
   RayPacket panes = sent;
   for (int i = 0; i < 16; ++i) panes.rays.t_far[i] = hit.Hit(i) ? hit.rays.t_far[i] : INFINITY;
   std::array<Vec3f, 16> tint;
   tint.fill({1, 1, 1});
-  DimByPanes(world.tracer, world.tables, panes.valid, panes.rays, tint);
+  TurnAtPanes(world.tracer, world.tables, panes.valid, panes.rays, tint, turns);
   for (size_t i = 0; i < 16; ++i) share[i] *= Luminance(tint[i]);
 }
 
-// Ends one ray, or turns it at a mirror; true: it goes on. lamps: for the first surface of an even ray, else nullptr.
+// The mirrored rest of a ray that met something with that normal at `distance`.
+void Mirror(RayPacket& packet, int i, float distance, Vec3f normal) {
+  const Vec3f d = packet.Direction(i), n = Dot(normal, d) > 0 ? -normal : normal;
+  packet.Set(i, packet.Origin(i) + d * distance + n * kLinkLift, d - n * (2 * Dot(d, n)), INFINITY);
+}
+
+// By which panes turn a ray or not.
+float TurnNumber(const Surfel& from, uint32_t ray, int bounce) {
+  const uint64_t place = static_cast<uint64_t>(std::bit_cast<uint32_t>(from.p.x)) << 32 ^
+                         static_cast<uint64_t>(std::bit_cast<uint32_t>(from.p.y)) << 16 ^ std::bit_cast<uint32_t>(from.p.z);
+  return EvenPoint(ray, ShiftOf(place + static_cast<uint64_t>(bounce))).x;
+}
+
+// Where rays are on their way.
+struct Journey {
+  int bounce;  ///< mirrors met
+  bool last;   ///< there will be no further one
+};
+
+// Ends one ray, or turns it at a mirror; true: it goes on. `meets`: it shares the light of lamps with rays to them.
 bool Land(const IndoorWorld& world, const Reflectance& reflectance, const SurfelSet& coarse, RayPacket& packet, int i,
-          const MetSurface& met, bool last, const LampMix* lamps, const Surfel& from, Landing& out) {
+          const MetSurface& met, Journey at, const LampMix& lamps, bool meets, const Surfel& from, Landing& out) {
   out.direction = packet.Direction(i);
   if (!packet.Hit(i)) {
     out.target = LightLink::kSky;
+    // The sky in a mirror is a light of its own.
+    if (at.bounce > 0) out.target = Landing::kOutside, out.outside = {{}, {}, {}, SkyAlong(world, out.direction)};
     return false;
   }
-  if (lamps != nullptr) out.glow = GlowUnder(world, *lamps, packet, i, met, from.n, from.p);
+  if (meets) out.glow = GlowUnder(world, lamps, packet, i, met, from.n, from.p);
   if (met.mirror) {
     out.share *= Luminance(met.base);
     out.target = LightLink::kNothing;
-    if (last) return false;
-    const Vec3f d = out.direction - met.normal * (2 * Dot(out.direction, met.normal));
-    packet.Set(i, met.point + met.normal * kLinkLift, d, INFINITY);
-    return true;
+    if (!at.last) Mirror(packet, i, packet.rays.t_far[i], met.normal);
+    return !at.last;
+  }
+  // A lamp in a mirror is one, too: no ray to lamps finds it.
+  const Vec3f glow = at.bounce > 0 && lamps.plain != nullptr ? PlainGlow(world, *lamps.plain, packet, i, met) : Vec3f{};
+  if (glow != Vec3f{}) {
+    out.target = Landing::kOutside, out.outside = {{}, {}, {}, glow};
+    return false;
   }
   out.target = coarse.Nearest(met.point, met.normal);
   if (out.target != SurfelSet::kNone) return false;
@@ -86,38 +111,41 @@ void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const Su
       const Vec3f d = LinkDirection(steps, from, LinkStep(points[ray].x), LinkStep(points[ray].y));
       packet.Set(i, places[ray % places.size()] + from.n * kLinkLift, d, INFINITY);
     }
-    bool mirrored = false;
-    for (int bounce = 0; bounce == 0 || mirrored; ++bounce) {
+    bool goes_on = true;
+    for (int bounce = 0; goes_on; ++bounce) {
       const RayPacket sent = packet;
+      const bool last = bounce == kMostMirrors;
       world.tracer.Intersect16(packet.valid, packet.rays, bounce == 0);
-      DimPacket(world, packet, sent, share);
-      mirrored = false;
+      PaneTurns turns;
+      std::fill(turns.at, turns.at + 16, INFINITY);
+      if (world.tracer.has_clear_panes()) {
+        for (int i = 0; i < 16; ++i)
+          turns.number[i] = last ? 1 : TurnNumber(from, order[first + static_cast<size_t>(i % count)].second, bounce);
+        MeetPanes(world, packet, sent, share, turns);
+      }
+      goes_on = false;
       MetSurface met[16];
       for (int i = 0; i < count; ++i) {
-        if (!packet.Hit(i)) continue;
+        if (!packet.Hit(i) || turns.at[i] < INFINITY) continue;
         met[i] = SurfaceUnder(world, packet, i);
         coarse.Prefetch(met[i].point);
       }
       for (int i = 0; i < count; ++i) {
         if (packet.valid[i] == 0) continue;
+        if (turns.at[i] < INFINITY) {
+          Mirror(packet, i, turns.at[i], turns.normal[i]);
+          goes_on = true;
+          continue;
+        }
         const uint32_t ray = order[first + static_cast<size_t>(i)].second;
         Landing& landing = landings[ray];
         landing.share = share[i];
         const bool meets = bounce == 0 && static_cast<int>(ray) < lamps.even;
-        const bool turned =
-            Land(world, reflectance, coarse, packet, i, met[i], bounce == kMostMirrors, meets ? &lamps : nullptr, from, landing);
+        const bool turned = Land(world, reflectance, coarse, packet, i, met[i], {bounce, last}, lamps, meets, from, landing);
         if (meets) landing.glow.radiance = landing.glow.radiance * share[i];
-        if (turned) {
-          share[i] = landing.share;
-          mirrored = true;
-        } else {
-          // The sky in a mirror is a light of its own.
-          if (bounce > 0 && landing.target == LightLink::kSky) {
-            landing.target = Landing::kOutside;
-            landing.outside = {{}, {}, {}, SkyAlong(world, landing.direction)};
-          }
-          packet.valid[i] = 0;
-        }
+        share[i] = landing.share;
+        goes_on |= turned;
+        if (!turned) packet.valid[i] = 0;
       }
     }
   }

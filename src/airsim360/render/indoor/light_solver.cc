@@ -23,6 +23,7 @@ constexpr float kRefine = 1.5f;                         // ratio of neighbours
 constexpr double kMostFine = 300000;                    // surfels, about
 constexpr float kFinest = 1.0f / 3, kLeastFine = 0.6f;  // cells of the fine level, of the coarse one's
 constexpr float kTolerance = 10;                        // variances of light that are taken for noise
+constexpr float kLampTolerance = 2;                     // the same of lamps: with more, lit walls lose light to what is in shade beside
 constexpr float kOnePlane = 0.2f;                       // of a cell: what is farther off is another surface
 constexpr float kLampShare = 2.5f;                      // of all light, inverse: as much by lamps deserves all rays to them
 constexpr int kLeastLampRays = 12;
@@ -268,7 +269,7 @@ void LightSolver::TraceGuided() {
     std::vector<Vec2f> points;
     std::vector<Landing> landings;
     guide.Sample(options_.rays, ShiftOf(i + 0x100000000ull), points);
-    SendRays(world_, reflectance_, coarse_, surfels[i], points, {}, landings);
+    SendRays(world_, reflectance_, coarse_, surfels[i], points, {&plain_, 0, 0}, landings);
     // The balance heuristic of both kinds of rays.
     const auto share = [&](Vec2f point) { return 1 / (static_cast<float>(rays) * (1 + guide.Density(point))); };
     for (size_t k = 0; k < rays; ++k) {
@@ -421,9 +422,9 @@ void ForOnePlane(const SurfelSet& set, size_t i, int step, const Each& each) {
 }
 
 // Whether two differ by no more than their noise.
-float Alike(const std::vector<Vec3f>& light, const std::vector<float>& variance, size_t i, size_t j) {
+float Alike(const std::vector<Vec3f>& light, const std::vector<float>& variance, size_t i, size_t j, float tolerance) {
   const float own = Luminance(light[i]), other = Luminance(light[j]), d = other - own;
-  return std::exp(-d * d / (kTolerance * (variance[i] + variance[j]) + 2e-4f * (own * own + other * other) + 1e-20f));
+  return std::exp(-d * d / (tolerance * (variance[i] + variance[j]) + 2e-4f * (own * own + other * other) + 1e-20f));
 }
 
 }  // namespace
@@ -459,11 +460,11 @@ void LightSolver::Smooth(const SurfelSet& set, int passes, LevelLight& light) co
       float mean = 0;
       const auto share = [&](uint32_t j) { return 1 / (1 + std::max(plane.neighbours[i], plane.neighbours[j])); };
       ForOnePlane(set, i, step, [&](uint32_t j) {
-        float w = share(j) * Alike(light.light, light.variance, i, j);
+        float w = share(j) * Alike(light.light, light.variance, i, j, kTolerance);
         sum += light.light[j] * w, bend += light.bend[j] * w, mean += light.mean[j] * w;
         kept -= w, variance += w * w * light.variance[j];
         if (!(light.lamp_variance[i] > 0)) return;
-        w = share(j) * Alike(light.lamps, light.lamp_variance, i, j);
+        w = share(j) * Alike(light.lamps, light.lamp_variance, i, j, kLampTolerance);
         lamps += light.lamps[j] * w, lamps_kept -= w, lamp_variance += w * w * light.lamp_variance[j];
       });
       next.light[i] = sum + light.light[i] * kept, next.bend[i] = bend + light.bend[i] * kept;

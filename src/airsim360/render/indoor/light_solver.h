@@ -13,7 +13,7 @@ struct IndoorOptions {
   float cell = 0;      ///< m, of the coarse level; 0 = by the area: 0.12 m in homes, more in halls
   int rays = 128;      ///< of a coarse surfel by the cosine, and as many by where light comes from
   int fine_rays = 32;  ///< likewise of a fine surfel
-  int lamp_rays = 48;
+  int lamp_rays = 96;
   bool fine = true;
 };
 

@@ -93,6 +93,54 @@ TEST(LightSolver, WhiteFurnaceHasTheSeriesOfItsBounces) {
   }
 }
 
+// A pane mirrors what it does not let through: one that takes nothing changes nothing where all sides are alike.
+TEST(LightSolver, PanesThatTakeNothingLeaveAFurnaceAsItIs) {
+  RoomScene room("furnace with a pane");
+  room.Box({0, 0, 0}, {3, 3, 3}, room.Paint({0, 0, 0}, {1, 1, 1}));
+  Material glass;
+  glass.name = "glass";
+  glass.kind = SurfaceKind::kGlass, glass.base_color = {1, 1, 1}, glass.transmission = 1, glass.roughness = 0;
+  room.Quad({1.4f, 0, 0}, {1.4f, 3, 0}, {1.4f, 3, 3}, {1.4f, 0, 3}, room.builder().AddMaterial(glass), "construction/window");
+  const SolvedRoom solved(room.Build(), {.cell = 0.3f, .lamp_rays = 256, .fine = false});
+  const double expected = kPi / (1 - internal::Reflectance(solved.tables).Of(0, {0, 0, 0}).x);
+  double sum = 0, area = 0;
+  const auto& surfels = solved.solver.coarse().surfels();
+  for (size_t i = 0; i < surfels.size(); ++i) {
+    if (!FacesInwards(surfels[i], {1.5f, 1.5f, 1.5f})) continue;
+    sum += solved.solver.coarse_light().light[i].x * surfels[i].area;
+    area += surfels[i].area;
+  }
+  // Of what glows in a pane the light that it gives back is left out.
+  EXPECT_NEAR(sum / area, expected, 0.015 * expected);
+}
+
+// Light on the floor of a room 4 m long with a lamp, whose end at x = 4 m is a mirror, or half of one twice as long with two lamps.
+double LightOfFloor(bool mirror) {
+  RoomScene room("mirror");
+  const MaterialId dark = room.Paint({0.1f, 0.1f, 0.1f}), lamp = room.Paint({0, 0, 0}, {10, 10, 10});
+  room.Box({0, 0, 0}, {mirror ? 4.0f : 8.0f, 3, 2.5f}, dark, true, mirror ? 2 : 0);
+  for (const float x : {1.0f, 7.0f})
+    if (x < 4 || !mirror) room.Quad({x - 0.3f, 1, 2.4f}, {x - 0.3f, 2, 2.4f}, {x + 0.3f, 2, 2.4f}, {x + 0.3f, 1, 2.4f}, lamp);
+  Material silver;
+  silver.name = "silver";
+  silver.base_color = {1, 1, 1}, silver.metallic = 1, silver.roughness = 0.02f;
+  if (mirror) room.Quad({4, 0, 0}, {4, 0, 2.5f}, {4, 3, 2.5f}, {4, 3, 0}, room.builder().AddMaterial(silver));
+  const SolvedRoom solved(room.Build(), {.cell = 0.15f, .fine = false});
+  const auto& surfels = solved.solver.coarse().surfels();
+  double sum = 0, area = 0;
+  for (size_t i = 0; i < surfels.size(); ++i) {
+    const Surfel& s = surfels[i];
+    if (s.n.z < 0.9f || s.p.z > 0.01f || s.p.x < 2 || s.p.x > 3.9f) continue;
+    sum += (solved.solver.coarse_light().light[i].y + solved.solver.coarse_light().lamps[i].y) * s.area, area += s.area;
+  }
+  return sum / area;
+}
+
+TEST(LightSolver, AMirrorLightsARoomAsTheRoomBehindItWould) {
+  const double expected = LightOfFloor(false);
+  EXPECT_NEAR(LightOfFloor(true), expected, 0.015 * expected);
+}
+
 TEST(IndoorCache, FurnaceLooksTheSameAtEveryPointOfItsWalls) {
   RoomScene room("furnace");
   room.Box({0, 0, 0}, {3, 3, 3}, room.Paint({0.5f, 0.5f, 0.5f}, {1, 1, 1}));

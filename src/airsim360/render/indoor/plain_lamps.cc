@@ -11,6 +11,10 @@ uint32_t MaterialOf(const IndoorWorld& world, uint32_t instance, uint32_t triang
   return world.tables.triangles[world.tables.instances[instance].first_triangle + triangle].material & ~kMirroredUv;
 }
 
+SurfaceRef RefOf(const IndoorWorld& world, const RayPacket& packet, int lane) {
+  return world.tracer.Resolve(packet.rays.geometry[lane], packet.rays.instance[lane], packet.rays.primitive[lane]);
+}
+
 }  // namespace
 
 PlainLamps::PlainLamps(const IndoorWorld& world) {
@@ -25,19 +29,27 @@ PlainLamps::PlainLamps(const IndoorWorld& world) {
   }
 }
 
-MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket& packet, int lane, const MetSurface& met, Vec3f normal,
-                  Vec3f chosen_for) {
-  if (rays.plain == nullptr || met.behind) return {};
+Vec3f PlainGlow(const IndoorWorld& world, const PlainLamps& plain, const RayPacket& packet, int lane, const MetSurface& met) {
+  if (met.behind) return {};
   const Material& material = world.tracer.scene().materials[met.material];
   if (material.emission == Vec3f{}) return {};
-  const SurfaceRef ref = world.tracer.Resolve(packet.rays.geometry[lane], packet.rays.instance[lane], packet.rays.primitive[lane]);
+  const SurfaceRef ref = RefOf(world, packet, lane);
   const uint32_t lamp = world.lights->LampOf(ref.instance, ref.triangle);
-  if (lamp == LightTable::kNoLamp || !rays.plain->Holds(lamp)) return {};
+  if (lamp == LightTable::kNoLamp || !plain.Holds(lamp)) return {};
+  return material.emission * world.tables.GlowOf(ref.instance);
+}
+
+MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket& packet, int lane, const MetSurface& met, Vec3f normal,
+                  Vec3f chosen_for) {
+  if (rays.plain == nullptr) return {};
+  const Vec3f glow = PlainGlow(world, *rays.plain, packet, lane, met);
+  if (glow == Vec3f{}) return {};
+  const SurfaceRef ref = RefOf(world, packet, lane);
   const Vec3f d = packet.Direction(lane);
   const float distance = std::max(packet.rays.t_far[lane], 1e-4f);
   const float even = std::max(0.0f, Dot(d, normal)) * -Dot(d, met.normal) / (kPiF * distance * distance);
   const float left = rays.OfLampRays(world.lights->Pdf(chosen_for, normal, ref.instance, ref.triangle), even);
-  return {material.emission * world.tables.GlowOf(ref.instance) * (1 - left), world.lamps != nullptr && world.lamps->Holds(lamp)};
+  return {glow * (1 - left), world.lamps != nullptr && world.lamps->Holds(world.lights->LampOf(ref.instance, ref.triangle))};
 }
 
 }  // namespace airsim360::internal

@@ -30,6 +30,9 @@ struct LampMix {
   }
 };
 
+/// Radiance of the lamp under a ray, black where there is none that shines alike to all sides.
+Vec3f PlainGlow(const IndoorWorld& world, const PlainLamps& plain, const RayPacket& packet, int lane, const MetSurface& met);
+
 /// What an even ray from a surface that faces `normal` brings of the lamp that it met, if one: radiance less the share that is left
 /// to rays to lamps. Those were chosen for the place `chosen_for` on that surface.
 struct MetGlow {
