@@ -70,11 +70,12 @@ std::vector<std::string> ExportsOf(const CollectArguments& arguments) {
 }
 
 // Beside the dataset, whose files they are not. What stands there already was made by an earlier run: an export is whole or missing.
-void WriteExports(const CollectArguments& arguments) {
+void WriteExports(const CollectArguments& arguments, bool quiet) {
   const std::string folder = fs::path(arguments.out).lexically_normal().string();
   for (const std::string& format : ExportsOf(arguments)) {
     const fs::path out = (folder.ends_with('/') ? folder.substr(0, folder.size() - 1) : folder) + "_" + format;
     if (!fs::exists(out)) ExportDataset(arguments.out, format, out);
+    if (!quiet) std::printf("%s: as %s\n", out.c_str(), format.c_str());
   }
 }
 
@@ -307,7 +308,7 @@ void RunCollect(const CollectArguments& arguments, GlobalOptions& globals) {
     });
   }
   const CollectResult result = processes == 1 ? Collect(input, stage.renderer(spec.tier)) : Collect(input, RenderInProcesses(processes));
-  WriteExports(arguments);
+  WriteExports(arguments, globals.json);
   ReportRun(stage, spec, result, arguments.out, globals.json);
 }
 

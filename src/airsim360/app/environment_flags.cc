@@ -26,6 +26,16 @@ void AddEnvironmentFlags(CLI::App& command, EnvironmentFlags& flags) {
   command.add_option("--environment", flags.settings, "name=value,…: single values, for example cloud_cover=0.6,visibility_m=800,lamps=on");
 }
 
+std::vector<std::string> EnvironmentFlagNames() {
+  CLI::App command;
+  command.set_help_flag();
+  EnvironmentFlags flags;
+  AddEnvironmentFlags(command, flags);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) names.push_back(option->get_name());
+  return names;
+}
+
 void AddWindFlag(CLI::App& command, std::string& file) { command.add_option("--wind", file, "wind file (docs/guide/flying.md)"); }
 
 }  // namespace airsim360

@@ -1,7 +1,9 @@
 // airsim360 language: captions, referring expressions and questions with proofs, and their check.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "airsim360/app/arguments.h"
@@ -62,7 +64,7 @@ struct LanguageMakeArguments {
 void CheckBelonging(const CLI::App& command, LanguageMakeArguments& a) {
   if (a.pictures) return;
   std::vector<std::string> flags = ConfigFlagNames([&a](ConfigVisitor& v) { a.picture.Visit(v); });
-  flags.insert(flags.end(), {"--weather", "--clouds", "--sky-seed", "--sun", "--time", "--place", "--hdri", "--environment"});
+  std::ranges::copy(EnvironmentFlagNames(), std::back_inserter(flags));
   for (const std::string& flag : flags)
     if (command.count(flag) > 0) throw InputError(flag + ": it is of --pictures, which is not given");
 }

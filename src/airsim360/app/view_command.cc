@@ -1,12 +1,14 @@
 // airsim360 view: datasets and worlds in the browser, until SIGINT or SIGTERM; or as files.
 #include <malloc.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <thread>
 
@@ -149,8 +151,8 @@ void CheckBelonging(const CLI::App& command, const ViewArguments& arguments) {
   if (!follows && (arguments.what.empty() || arguments.is_run || arguments.is_plan)) return;
   RenderSettings picture;
   std::vector<std::string> flags = ConfigFlagNames([&picture](ConfigVisitor& v) { picture.Visit(v); });
-  flags.insert(flags.end(), {"--people", "--traffic", "--wind", "--drone", "--weather", "--clouds", "--sky-seed", "--sun", "--time",
-                             "--place", "--hdri", "--environment"});
+  std::ranges::copy(EnvironmentFlagNames(), std::back_inserter(flags));
+  flags.insert(flags.end(), {"--people", "--traffic", "--wind", "--drone"});
   for (const std::string& flag : flags) {
     if (command.count(flag) == 0) continue;
     throw InputError(flag + ": it is of --world, " +

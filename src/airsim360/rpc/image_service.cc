@@ -1,10 +1,9 @@
 #include "airsim360/rpc/image_service.h"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <chrono>
 
+#include "airsim360/base/freed_memory.h"
 #include "airsim360/render/relightable.h"
 #include "airsim360/rpc/limits.h"
 #include "airsim360/rpc/ned.h"
@@ -82,7 +81,7 @@ void ImageService::GiveBackMemory() {
     renderer_->Render(MakeRequest(Equirectangular{16, 8}, {}, picture_.tier), frame_);
   }
   pool_.Rest();
-  ::malloc_trim(0);
+  ReturnFreedMemory();
   holds_memory_ = false;
 }
 
