@@ -19,10 +19,8 @@ void Check(const SphericalBox& box) {
 
 // Corners in order around the box, as the viewer sees them clockwise from the top left.
 std::array<Vec3d, 4> Corners(const SphericalBox& box) {
-  const Vec3d forward{std::cos(box.lat) * std::sin(box.lon), -std::sin(box.lat), std::cos(box.lat) * std::cos(box.lon)};
-  const Vec3d east{std::cos(box.lon), 0, -std::sin(box.lon)}, south = Cross(forward, east);
-  const double c = std::cos(box.gamma), s = std::sin(box.gamma);
-  const Vec3d right = (east * c - south * s) * std::tan(box.width / 2), down = (east * s + south * c) * std::tan(box.height / 2);
+  const Mat3d axes = SphericalAxes(box.lon, box.lat, box.gamma);
+  const Vec3d forward = axes.column(2), right = axes.column(0) * std::tan(box.width / 2), down = axes.column(1) * std::tan(box.height / 2);
   return {Normalized(forward - right - down), Normalized(forward + right - down), Normalized(forward + right + down),
           Normalized(forward - right + down)};
 }
@@ -43,6 +41,13 @@ std::vector<Vec3d> Clip(const std::vector<Vec3d>& polygon, Vec3d normal) {
 double TriangleArea(Vec3d a, Vec3d b, Vec3d c) { return 2 * std::atan2(Dot(a, Cross(b, c)), 1 + Dot(a, b) + Dot(b, c) + Dot(c, a)); }
 
 }  // namespace
+
+Mat3d SphericalAxes(double lon, double lat, double gamma) {
+  const Vec3d ahead{std::cos(lat) * std::sin(lon), -std::sin(lat), std::cos(lat) * std::cos(lon)};
+  const Vec3d east{std::cos(lon), 0, -std::sin(lon)}, south = Cross(ahead, east);
+  const double c = std::cos(gamma), s = std::sin(gamma);
+  return Mat3d::FromColumns(east * c - south * s, east * s + south * c, ahead);
+}
 
 double SphericalBoxArea(const SphericalBox& box) { return 4 * std::asin(std::sin(box.width / 2) * std::sin(box.height / 2)); }
 

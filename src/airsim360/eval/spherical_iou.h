@@ -1,6 +1,8 @@
 // Overlap of boxes on the sphere, exact: no longitude-latitude approximation.
 #pragma once
 
+#include "airsim360/math/transform.h"
+
 namespace airsim360 {
 
 /// A rectangle of the tangent plane (BFoV, RBFoV): what a pinhole camera that looks along (lon, lat) and is
@@ -9,6 +11,10 @@ namespace airsim360 {
 struct SphericalBox {
   double lon = 0, lat = 0, width = 0, height = 0, gamma = 0;
 };
+
+/// Axes (right, down, ahead) of a camera that looks along (lon, lat) and is turned by gamma, as a box's is, in the panorama's frame: +X right,
+/// +Y down, +Z ahead. Radians.
+Mat3d SphericalAxes(double lon, double lat, double gamma);
 
 /// Steradians: 4 acos(-sin(width / 2) sin(height / 2)) - 2 pi, as 4 asin(...), which keeps small boxes exact.
 double SphericalBoxArea(const SphericalBox& box);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <unordered_map>
 
 #include "airsim360/base/error.h"
@@ -37,19 +36,11 @@ std::vector<CocoObject> EachChanged(std::vector<CocoObject> objects, const CocoT
   return objects;
 }
 
-// The axes of a box on the sphere in the camera's frame: right, down, ahead.
-Mat3d AxesOf(double lon, double lat, double gamma) {
-  const Vec3d ahead{std::cos(lat) * std::sin(lon), -std::sin(lat), std::cos(lat) * std::cos(lon)};
-  const Vec3d east{std::cos(lon), 0, -std::sin(lon)}, south = Cross(ahead, east);
-  const double c = std::cos(gamma), s = std::sin(gamma);
-  return Mat3d::FromColumns(east * c - south * s, east * s + south * c, ahead);
-}
-
 void TurnBoxBack(std::array<double, 5>& bfov, const Mat3d& R_C_turned) {
-  const Mat3d axes = R_C_turned * AxesOf(bfov[0] * kDegree, bfov[1] * kDegree, bfov[4] * kDegree);
+  const Mat3d axes = R_C_turned * SphericalAxes(bfov[0] * kDegree, bfov[1] * kDegree, bfov[4] * kDegree);
   const Vec3d right = axes.column(0), ahead = axes.column(2);
   const double lon = std::atan2(ahead.x, ahead.z), lat = std::asin(std::clamp(-ahead.y, -1.0, 1.0));
-  const Mat3d level = AxesOf(lon, lat, 0);
+  const Mat3d level = SphericalAxes(lon, lat, 0);
   bfov[0] = lon / kDegree;
   bfov[1] = lat / kDegree;
   bfov[4] = std::atan2(-Dot(right, level.column(1)), Dot(right, level.column(0))) / kDegree;
@@ -57,7 +48,7 @@ void TurnBoxBack(std::array<double, 5>& bfov, const Mat3d& R_C_turned) {
 
 // The meridians that a box on the sphere reaches: along its border, which is convex.
 std::array<double, 4> PlaceOfBfov(const std::array<double, 5>& bfov, const CocoImage& image) {
-  const Mat3d axes = AxesOf(bfov[0] * kDegree, bfov[1] * kDegree, bfov[4] * kDegree);
+  const Mat3d axes = SphericalAxes(bfov[0] * kDegree, bfov[1] * kDegree, bfov[4] * kDegree);
   const double across = std::tan(bfov[2] * kDegree / 2), up = std::tan(bfov[3] * kDegree / 2);
   const Vec2d middle = PanoramaPlace(axes.column(2), image.width, image.height);
   double left = 0, right = 0, top = middle.y, bottom = middle.y;
