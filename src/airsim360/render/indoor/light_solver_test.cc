@@ -75,6 +75,18 @@ TEST(LightSolver, LinksHaveTheFormFactorsOfParallelAndPerpendicularPlates) {
   }
 }
 
+// Mean light of the walls of a room of 3 x 3 x 3 m.
+double MeanOfFurnace(const SolvedRoom& solved) {
+  double sum = 0, area = 0;
+  const auto& surfels = solved.solver.coarse().surfels();
+  for (size_t i = 0; i < surfels.size(); ++i) {
+    if (!FacesInwards(surfels[i], {1.5f, 1.5f, 1.5f})) continue;
+    sum += solved.solver.coarse_light().light[i].x * surfels[i].area;
+    area += surfels[i].area;
+  }
+  return sum / area;
+}
+
 TEST(LightSolver, WhiteFurnaceHasTheSeriesOfItsBounces) {
   for (const float albedo : {0.0f, 0.5f, 0.8f}) {
     RoomScene room("furnace");
@@ -82,14 +94,7 @@ TEST(LightSolver, WhiteFurnaceHasTheSeriesOfItsBounces) {
     const SolvedRoom solved(room.Build(), {.cell = 0.3f, .lamp_rays = 256, .fine = false});
     // Even the black wall reflects a little, as its skin does.
     const float kept = internal::Reflectance(solved.tables).Of(0, {albedo, albedo, albedo}).x;
-    double sum = 0, area = 0;
-    const auto& surfels = solved.solver.coarse().surfels();
-    for (size_t i = 0; i < surfels.size(); ++i) {
-      if (!FacesInwards(surfels[i], {1.5f, 1.5f, 1.5f})) continue;
-      sum += solved.solver.coarse_light().light[i].x * surfels[i].area;
-      area += surfels[i].area;
-    }
-    EXPECT_NEAR(sum / area, kPi / (1 - kept), 0.005 * kPi / (1 - kept)) << albedo;
+    EXPECT_NEAR(MeanOfFurnace(solved), kPi / (1 - kept), 0.005 * kPi / (1 - kept)) << albedo;
   }
 }
 
@@ -103,15 +108,8 @@ TEST(LightSolver, PanesThatTakeNothingLeaveAFurnaceAsItIs) {
   room.Quad({1.4f, 0, 0}, {1.4f, 3, 0}, {1.4f, 3, 3}, {1.4f, 0, 3}, room.builder().AddMaterial(glass), "construction/window");
   const SolvedRoom solved(room.Build(), {.cell = 0.3f, .lamp_rays = 256, .fine = false});
   const double expected = kPi / (1 - internal::Reflectance(solved.tables).Of(0, {0, 0, 0}).x);
-  double sum = 0, area = 0;
-  const auto& surfels = solved.solver.coarse().surfels();
-  for (size_t i = 0; i < surfels.size(); ++i) {
-    if (!FacesInwards(surfels[i], {1.5f, 1.5f, 1.5f})) continue;
-    sum += solved.solver.coarse_light().light[i].x * surfels[i].area;
-    area += surfels[i].area;
-  }
   // Of what glows in a pane the light that it gives back is left out.
-  EXPECT_NEAR(sum / area, expected, 0.015 * expected);
+  EXPECT_NEAR(MeanOfFurnace(solved), expected, 0.015 * expected);
 }
 
 // Light on the floor of a room 4 m long with a lamp, whose end at x = 4 m is a mirror, or half of one twice as long with two lamps.
