@@ -73,14 +73,7 @@ template <class Of>
 Counts Sum(const std::vector<PanopticResult>& results, size_t categories, const Of& of, std::span<const uint32_t> draws = {}) {
   Counts sum(categories);
   for (size_t i = 0; i < results.size(); ++i) {
-    const uint32_t times = draws.empty() ? 1 : draws[i];
-    const Counts& one = of(results[i]);
-    for (size_t c = 0; c < categories; ++c) {
-      sum[c].iou += times * one[c].iou;
-      sum[c].tp += times * one[c].tp;
-      sum[c].fp += times * one[c].fp;
-      sum[c].fn += times * one[c].fn;
-    }
+    AddCounts(of(results[i]), sum, draws.empty() ? 1 : draws[i]);
   }
   return sum;
 }

@@ -1,6 +1,5 @@
 // airsim360 eval video: STQ and VPQ of panoptic video.
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
@@ -9,46 +8,26 @@
 #include "airsim360/app/eval_commands.h"
 #include "airsim360/app/eval_panoptic_input.h"
 #include "airsim360/app/eval_sheet.h"
+#include "airsim360/app/eval_video_input.h"
 #include "airsim360/app/eval_views.h"
 #include "airsim360/base/error.h"
-#include "airsim360/eval/files/file_pairs.h"
-#include "airsim360/eval/files/step_video.h"
 #include "airsim360/eval/panoptic/tracking_quality.h"
 
 namespace airsim360 {
 namespace {
 
 using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
 
 struct EvalVideoArguments {
   PanopticPaths paths;
   std::string protocol;
   std::vector<int> windows = {1, 2, 3, 4};
-  int classes = 19, void_class = 255;
-  std::vector<int> things = {11, 13};
+  StepOptions step;
   std::string step_flag;  // the first flag that was given and is for STEP's PNGs alone
   ViewOptions view;
   ReportOptions report;
   SheetOptions sheet;
   std::vector<std::string> held_out;
-};
-
-// One frame, whatever the layout of its files.
-struct VideoFrame {
-  LabelPicture prediction, truth;
-  std::vector<PanopticSegment> predicted, real;
-  std::string file;       // of what looks like a mistake
-  LikelyMistake mistake;  // in the files, whatever they show
-};
-struct Sequence {
-  std::string name;
-  std::vector<std::function<VideoFrame()>> frames;
-};
-struct Video {
-  std::vector<PanopticCategory> categories;
-  std::vector<Sequence> sequences;
-  std::vector<std::string> notes, warnings;
 };
 
 // What a part of the pictures of a sequence gives.
@@ -62,60 +41,6 @@ struct Result {
   std::vector<double> frame_pq;                                 // of each frame, the whole picture
   std::vector<std::pair<std::string, LikelyMistake>> mistakes;  // of each frame
 };
-
-Video PanopticVideo(const PanopticPaths& paths) {
-  auto input = std::make_shared<PanopticInput>(paths);
-  Video video;
-  video.categories = input->truth.categories;
-  video.notes = input->notes;
-  video.warnings = input->warnings;
-  std::map<std::string, size_t> index;
-  for (size_t i = 0; i < input->truth.frames.size(); ++i) {
-    const std::string& name = input->truth.frames[i].sequence;
-    const auto [at, fresh] = index.emplace(name, video.sequences.size());
-    if (fresh) video.sequences.push_back({name, {}});
-    video.sequences[at->second].frames.push_back([input, i] {
-      auto [pred, gt] = input->Read(i);
-      return VideoFrame{
-          std::move(pred), std::move(gt), input->Prediction(i).segments, input->truth.frames[i].segments, input->Prediction(i).file, {}};
-    });
-  }
-  return video;
-}
-
-Video StepVideo(const EvalVideoArguments& a, const std::string& predictions) {
-  if (a.classes < 1 || a.classes > 254) throw InputError("--classes " + std::to_string(a.classes) + ": must be 1 to 254");
-  if (a.void_class < 0 || a.void_class > 255) throw InputError("--void " + std::to_string(a.void_class) + ": must be 0 to 255");
-  for (const int thing : a.things) {
-    if (thing < 0 || thing >= a.classes)
-      throw InputError("--things: " + std::to_string(thing) + " is none of the classes 0 to " + std::to_string(a.classes - 1) +
-                       " (--classes)");
-  }
-  if (!a.paths.pred_dir.empty() || !a.paths.gt_dir.empty())
-    throw InputError("--pred-dir and --gt-dir are for panoptic JSON; folders of STEP's PNGs are PRED and GT themselves");
-  const StepClasses classes{a.classes, a.void_class, {a.things.begin(), a.things.end()}};
-  Video video;
-  for (int c = 0; c < a.classes; ++c) video.categories.push_back({c, std::to_string(c), classes.things.contains(c)});
-  const FilePairs files = PairFiles(predictions, a.paths.gt, {".png"}, "");
-  video.notes = files.notes;
-  // Sorted by path: a folder is a sequence, and its files are in order.
-  for (const FilePair& pair : files.pairs) {
-    const std::string name = fs::path(pair.name).parent_path().string();
-    if (video.sequences.empty() || video.sequences.back().name != name) video.sequences.push_back({name, {}});
-    video.sequences.back().frames.push_back([pair, classes] {
-      StepFrame pred = ReadStepFrame(pair.prediction, classes, false), gt = ReadStepFrame(pair.truth, classes, true);
-      if (pred.ids.width != gt.ids.width || pred.ids.height != gt.ids.height)
-        throw InputError(pair.prediction.string() + " and " + pair.truth.string() + " are of different size");
-      const std::string file = (gt.reversed ? pair.truth : pair.prediction).string();
-      LikelyMistake mistake = ChannelMistake(pred, gt);
-      if (gt.reversed)
-        mistake = {"red is 0 where blue is not: are the channels the other way round (red is the class, 256 green + blue the instance)?",
-                   true};
-      return VideoFrame{std::move(pred.ids), std::move(gt.ids), std::move(pred.segments), std::move(gt.segments), file, std::move(mistake)};
-    });
-  }
-  return video;
-}
 
 // Category and instance of every pixel, as the tracking term sees them.
 struct Labels {
@@ -276,12 +201,7 @@ Scores Pool(const std::vector<Result>& results, size_t categories, const Of& of,
       for (const auto& [window, counts] : part.windows) {
         auto& sum = scores.windows[window];
         sum.resize(categories);
-        for (size_t c = 0; c < categories; ++c) {
-          sum[c].iou += counts[c].iou;
-          sum[c].tp += counts[c].tp;
-          sum[c].fp += counts[c].fp;
-          sum[c].fn += counts[c].fn;
-        }
+        AddCounts(counts, sum);
       }
     }
   }
@@ -402,12 +322,14 @@ void Run(EvalVideoArguments a, const GlobalOptions& globals) {
   const bool pictures = PanopticJson(a.paths.gt).empty();
   if (!pictures && !a.step_flag.empty()) throw InputError(a.step_flag + " is for STEP's PNGs: panoptic JSON names its categories");
   if (!pictures) CheckTruthFiles(a.paths);
-  const Video video = pictures ? StepVideo(a, a.paths.pred) : PanopticVideo(a.paths);
+  const Video video = pictures ? StepVideo(a.paths, a.step) : PanopticVideo(a.paths);
   ChooseCategories(video.categories, a.held_out, "--open-world");
   const std::vector<Rolled> turns = ParseRolled(a.view);
   std::vector<Video> rolled;
-  for (const Rolled& turn : turns)
-    rolled.push_back(pictures ? StepVideo(a, turn.path) : PanopticVideo({turn.path, a.paths.gt, "", a.paths.gt_dir}));
+  for (const Rolled& turn : turns) {
+    const PanopticPaths moved{turn.path, a.paths.gt, "", a.paths.gt_dir};
+    rolled.push_back(pictures ? StepVideo(moved, a.step) : PanopticVideo(moved));
+  }
   const bool panorama = ArePanoramas(a.view, {a.paths.gt, a.paths.pred});
   const auto results = MeasureAll<Result>("eval video", video.sequences.size(),
                                           [&](size_t i) { return MeasureSequence(video, rolled, turns, i, a, panorama, cache); });
@@ -448,9 +370,9 @@ void AddEvalVideo(CLI::App& command, GlobalOptions& globals) {
   video
       ->add_option("--open-world", a->held_out, "categories that training has not seen, by name or id: their VPQ beside that of the others")
       ->delimiter(',');
-  video->add_option("--classes", a->classes, "STEP's PNGs: number of classes (default 19)");
-  video->add_option("--things", a->things, "STEP's PNGs: classes whose instances are followed (default 11,13)")->delimiter(',');
-  video->add_option("--void", a->void_class, "STEP's PNGs: class of ignored pixels (default 255)");
+  video->add_option("--classes", a->step.classes, "STEP's PNGs: number of classes (default 19)");
+  video->add_option("--things", a->step.things, "STEP's PNGs: classes whose instances are followed (default 11,13)")->delimiter(',');
+  video->add_option("--void", a->step.void_class, "STEP's PNGs: class of ignored pixels (default 255)");
   AddViewFlags(*video, a->view);
   AddReportFlags(*video, a->report, "a row a sequence");
   AddSheetFlags(*video, a->sheet);

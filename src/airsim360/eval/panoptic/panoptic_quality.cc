@@ -120,6 +120,15 @@ void PanopticOverlap::Count(std::span<const PanopticSegment> predictions, std::s
   }
 }
 
+void AddCounts(std::span<const PanopticCount> counts, std::span<PanopticCount> sum, int64_t times) {
+  for (size_t c = 0; c < counts.size(); ++c) {
+    sum[c].iou += static_cast<double>(times) * counts[c].iou;
+    sum[c].tp += times * counts[c].tp;
+    sum[c].fp += times * counts[c].fp;
+    sum[c].fn += times * counts[c].fn;
+  }
+}
+
 PanopticQuality QualityOf(const PanopticCount& count) {
   if (!count.seen()) return {0, 0, 0, 0};
   const auto tp = static_cast<double>(count.tp);

@@ -21,6 +21,9 @@ struct PanopticCount {
   bool seen() const { return tp + fp + fn > 0; }
 };
 
+/// Adds each category's count to that of `sum`, `times` over.
+void AddCounts(std::span<const PanopticCount> counts, std::span<PanopticCount> sum, int64_t times = 1);
+
 /// Of one category, or means over those that were seen (`categories` of them; NaN for none).
 struct PanopticQuality {
   double pq = 0, sq = 0, rq = 0;
