@@ -14,10 +14,10 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
-#include "airsim360/flight/batch.h"
-#include "airsim360/flight/contact.h"
-#include "airsim360/flight/drone_step.h"
-#include "airsim360/flight/dynamics.h"
+#include "airsim360/flight/collision/contact.h"
+#include "airsim360/flight/dynamics/batch.h"
+#include "airsim360/flight/dynamics/drone_step.h"
+#include "airsim360/flight/dynamics/dynamics.h"
 #include "airsim360/flight/test_drones.h"
 #include "clock.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "airsim360/base/random.h"
-#include "airsim360/planning/trajectory_limits.h"
+#include "airsim360/planning/splines/trajectory_limits.h"
 
 using namespace airsim360;
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "airsim360/base/random.h"
-#include "airsim360/planning/minimum_snap.h"
-#include "airsim360/planning/time_allocation.h"
+#include "airsim360/planning/splines/minimum_snap.h"
+#include "airsim360/planning/splines/time_allocation.h"
 #include "clock.h"
 
 using namespace airsim360;

@@ -12,7 +12,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/math/transform.h"
-#include "airsim360/vln/report/run_episodes.h"
+#include "airsim360/vln/flights/run_episodes.h"
 #include "clock.h"
 
 namespace {

@@ -1,15 +1,16 @@
-# airsim360_fuzz_sources(OUT FUZZER): the sources in FUZZER's folder that it reaches through includes. A source stands
-# behind the header of the folder that it includes first (x_internal.h counts as x.h).
+# airsim360_fuzz_sources(OUT FUZZER): the sources in FUZZER's module (of worlds: in its folder of worlds) that it reaches through
+# includes. A source stands behind the header of these that it includes first (x_internal.h counts as x.h).
 function(airsim360_fuzz_sources out fuzzer)
-  get_filename_component(folder ${fuzzer} DIRECTORY)
-  file(RELATIVE_PATH prefix ${CMAKE_SOURCE_DIR}/src ${folder})
-  file(GLOB candidates CONFIGURE_DEPENDS ${folder}/*.cc)
+  file(RELATIVE_PATH module ${CMAKE_SOURCE_DIR}/src/airsim360 ${fuzzer})
+  string(REGEX REPLACE "^(worlds/[a-z0-9_]+|[a-z0-9_]+)/.*" "\\1" module ${module})
+  set(prefix airsim360/${module})
+  file(GLOB_RECURSE candidates CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${prefix}/*.cc)
   list(FILTER candidates EXCLUDE REGEX "_(test|fuzz|bench|kernel)\\.cc$")
   set(found "")
   set(waiting ${fuzzer})
   while(waiting)
     list(POP_FRONT waiting file)
-    file(STRINGS ${file} includes REGEX "^#include \"${prefix}/[a-z0-9_]+\\.h\"")
+    file(STRINGS ${file} includes REGEX "^#include \"${prefix}/[a-z0-9_/]+\\.h\"")
     foreach(include ${includes})
       string(REGEX REPLACE ".*\"(.*)\".*" "\\1" header ${include})
       if(header IN_LIST found)

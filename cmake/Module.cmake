@@ -62,12 +62,13 @@ function(airsim360_module name)
   endif()
 endfunction()
 
-# airsim360_program(NAME DIR [DEPS modules...] [LIBS ...] FIRST sources... [FIRST_DEPS modules...]): every *.cc of DIR becomes
-# build/bin/NAME, main.cc over a library of the others; *_test.cc become the test program app_test. The sources of FIRST, which
-# need FIRST_DEPS alone, are also the program NAME_pictures, with pictures_main.cc: a demo builds it first (tools/demo.sh).
+# airsim360_program(NAME DIR [DEPS modules...] [LIBS ...] FIRST sources... [FIRST_DEPS modules...]): every *.cc of DIR and its
+# sub-folders becomes build/bin/NAME, program/main.cc over a library of the others; *_test.cc become the test program app_test. The
+# sources of FIRST, which need FIRST_DEPS alone, are also the program NAME_pictures, with program/pictures_main.cc: a demo builds it
+# first (tools/demo.sh).
 function(airsim360_program name dir)
   cmake_parse_arguments(ARG "" "" "DEPS;LIBS;FIRST;FIRST_DEPS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${dir}/*.cc)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${dir}/*.cc)
   set(tests ${sources})
   list(FILTER sources EXCLUDE REGEX "(_(test|fuzz|bench|main)|/main)\\.cc$")
   list(FILTER tests INCLUDE REGEX "_test\\.cc$")
@@ -88,9 +89,9 @@ function(airsim360_program name dir)
   endforeach()
   airsim360_unity(${name}_pictures_app plain ${ARG_FIRST})
   airsim360_unity(${name}_app plain ${sources})
-  add_executable(${name} ${CMAKE_SOURCE_DIR}/${dir}/main.cc)
+  add_executable(${name} ${CMAKE_SOURCE_DIR}/${dir}/program/main.cc)
   target_link_libraries(${name} PRIVATE ${name}_app)
-  add_executable(${name}_pictures ${CMAKE_SOURCE_DIR}/${dir}/pictures_main.cc)
+  add_executable(${name}_pictures ${CMAKE_SOURCE_DIR}/${dir}/program/pictures_main.cc)
   target_link_libraries(${name}_pictures PRIVATE ${name}_pictures_app)
   if(AIRSIM360_TESTS)
     add_executable(app_test ${tests})

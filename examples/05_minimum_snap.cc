@@ -8,7 +8,7 @@
 
 #include "airsim360/flight/drones/catalog.h"
 #include "airsim360/opening/world_loader.h"
-#include "airsim360/planning/time_allocation.h"
+#include "airsim360/planning/splines/time_allocation.h"
 #include "airsim360/sim/sim_loop.h"
 #include "airsim360/sim/trajectory_reference.h"
 

@@ -10,7 +10,7 @@
 
 #include "airsim360/opening/world_loader.h"
 #include "airsim360/rpc/server.h"
-#include "airsim360/rpc/wire_convert.h"
+#include "airsim360/rpc/wire/wire_convert.h"
 
 namespace {
 

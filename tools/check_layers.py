@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks that every #include between modules follows the layer table of docs/internals/architecture.md, and between the
-folders of a module that of docs/internals/rooms.md.
+folders of a module that of docs/internals/folders.md.
 
 Usage: check_layers.py [ROOT]. Prints one line per violation and exits 1 if there is any.
 Also refuses third-party headers outside the modules that own them, and in headers that another module includes.
@@ -56,18 +56,18 @@ def read_table(root):
 
 
 def read_folders(root):
-    """Folder -> set of folders of its module that it may include, from the table of docs/internals/rooms.md."""
+    """Folder -> set of folders of its module that it may include, from the table of docs/internals/folders.md."""
     allowed = {}
-    for line in (root / "docs/internals/rooms.md").read_text().splitlines():
+    for line in (root / "docs/internals/folders.md").read_text().splitlines():
         cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
-        if len(cells) == 3 and re.fullmatch(r"[a-z_/]+", cells[0]) and re.fullmatch(r"—|[a-z_/ ]+", cells[2]):
+        if len(cells) == 3 and re.fullmatch(r"[a-z0-9_/]+", cells[0]) and re.fullmatch(r"—|[a-z0-9_/ ]+", cells[2]):
             if cells[0] != "folder":
                 allowed[cells[0]] = set(cells[2].split()) - {"—"}
     return allowed
 
 
 def check_folders(root):
-    """Includes between folders of one module follow the table of rooms, and that table has no cycle."""
+    """Includes between folders of one module follow the table of folders, and that table has no cycle."""
     allowed, errors, done = read_folders(root), [], set()
 
     def visit(folder, path):

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/assets/import.h"
+#include "airsim360/assets/importing/import.h"
 #include "airsim360/planning/certificate.h"
-#include "airsim360/planning/polynomial_trajectory.h"
-#include "airsim360/planning/trajectory_limits.h"
+#include "airsim360/planning/splines/polynomial_trajectory.h"
+#include "airsim360/planning/splines/trajectory_limits.h"
 #include "airsim360/render/cuda/cuda_pictures.h"
 #include "airsim360/sensors/rig.h"
 #include "airsim360/sim/sim_loop.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
-#include "airsim360/planning/point_to_point.h"
+#include "airsim360/planning/routes/point_to_point.h"
 #include "airsim360/routes/world_clearance.h"
 #include "handles.h"
 

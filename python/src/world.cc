@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "airsim360/assets/export.h"
+#include "airsim360/assets/export/export.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/parallel.h"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "airsim360/assets/import.h"
+#include "airsim360/assets/importing/import.h"
 #include "airsim360/worlds/props/props.h"
 #include "airsim360/worlds/worlds.h"
 

@@ -9,7 +9,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
 #include "airsim360/opening/world_loader.h"
-#include "airsim360/planning/point_to_point.h"
+#include "airsim360/planning/routes/point_to_point.h"
 #include "airsim360/routes/road_route.h"
 
 namespace airsim360 {

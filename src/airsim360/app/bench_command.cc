@@ -4,13 +4,13 @@
 #include <cstdio>
 #include <memory>
 
-#include "airsim360/app/arguments.h"
-#include "airsim360/app/commands.h"
-#include "airsim360/app/environment_flags.h"
-#include "airsim360/app/people_arguments.h"
-#include "airsim360/app/session.h"
-#include "airsim360/app/traffic_arguments.h"
-#include "airsim360/app/world_flags.h"
+#include "airsim360/app/flags/arguments.h"
+#include "airsim360/app/flags/commands.h"
+#include "airsim360/app/flags/environment_flags.h"
+#include "airsim360/app/flags/people_arguments.h"
+#include "airsim360/app/flags/session.h"
+#include "airsim360/app/flags/traffic_arguments.h"
+#include "airsim360/app/flags/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/dataset/record/version.h"

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <thread>
 
-#include "airsim360/app/arguments.h"
-#include "airsim360/app/commands.h"
+#include "airsim360/app/flags/arguments.h"
+#include "airsim360/app/flags/commands.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/dataset/record/version.h"
 #include "airsim360/render/vulkan/gpu.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/app/commands.h"
+#include "airsim360/app/flags/commands.h"
 #include "airsim360/base/error.h"
 
 namespace airsim360 {

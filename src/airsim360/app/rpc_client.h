@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "airsim360/rpc/wire_value.h"
+#include "airsim360/rpc/wire/wire_value.h"
 
 namespace airsim360 {
 

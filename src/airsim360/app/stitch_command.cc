@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "airsim360/app/arguments.h"
-#include "airsim360/app/commands.h"
 #include "airsim360/app/cube_folder.h"
+#include "airsim360/app/flags/arguments.h"
+#include "airsim360/app/flags/commands.h"
 #include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"

@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "airsim360/app/arguments.h"
-#include "airsim360/app/commands.h"
+#include "airsim360/app/flags/arguments.h"
+#include "airsim360/app/flags/commands.h"
 #include "airsim360/base/error.h"
 #include "airsim360/dataset/verify.h"
 

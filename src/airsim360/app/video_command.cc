@@ -3,9 +3,9 @@
 #include <memory>
 #include <optional>
 
-#include "airsim360/app/arguments.h"
-#include "airsim360/app/commands.h"
-#include "airsim360/app/video_arguments.h"
+#include "airsim360/app/flags/arguments.h"
+#include "airsim360/app/flags/commands.h"
+#include "airsim360/app/flags/video_arguments.h"
 #include "airsim360/base/error.h"
 #include "airsim360/dataset/video.h"
 

@@ -4,11 +4,11 @@
 #include <memory>
 #include <sstream>
 
-#include "airsim360/app/arguments.h"
-#include "airsim360/app/commands.h"
-#include "airsim360/app/config_flags.h"
-#include "airsim360/app/out_file.h"
-#include "airsim360/app/session.h"
+#include "airsim360/app/flags/arguments.h"
+#include "airsim360/app/flags/commands.h"
+#include "airsim360/app/flags/config_flags.h"
+#include "airsim360/app/flags/out_file.h"
+#include "airsim360/app/flags/session.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/hash.h"

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "airsim360/assets/place_model.h"
-#include "airsim360/assets/scene_assembly.h"
+#include "airsim360/assets/importing/place_model.h"
+#include "airsim360/assets/importing/scene_assembly.h"
 #include "airsim360/base/error.h"
 #include "airsim360/scene/luminance.h"
 

@@ -7,11 +7,11 @@
 #include <map>
 #include <tuple>
 
-#include "airsim360/assets/export.h"
-#include "airsim360/assets/gltf_test_internal.h"
-#include "airsim360/assets/import.h"
+#include "airsim360/assets/export/export.h"
+#include "airsim360/assets/gltf/gltf_test_internal.h"
+#include "airsim360/assets/importing/import.h"
 #include "airsim360/assets/merge.h"
-#include "airsim360/assets/obj.h"
+#include "airsim360/assets/obj/obj.h"
 #include "airsim360/assets/test_text.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"

@@ -21,7 +21,7 @@
 
 namespace airsim360 {
 
-/// Walks the fields of a config struct: reads them from a file, from the command line (app/config_flags.h) or from
+/// Walks the fields of a config struct: reads them from a file, from the command line (app/flags/config_flags.h) or from
 /// keywords of Python, or writes them. A field that is not mentioned keeps its value.
 class ConfigVisitor {
  public:

@@ -5,7 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "airsim360/planning/npz.h"
+#include "airsim360/planning/export/npz.h"
 #include "airsim360/planning/number_text.h"
 
 namespace airsim360::internal {

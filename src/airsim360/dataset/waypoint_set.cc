@@ -10,8 +10,8 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/steady_clock.h"
 #include "airsim360/dataset/waypoint_part.h"
+#include "airsim360/planning/export/trajectory_plot.h"
 #include "airsim360/planning/number_text.h"
-#include "airsim360/planning/trajectory_plot.h"
 
 namespace airsim360 {
 namespace {

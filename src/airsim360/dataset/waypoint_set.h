@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/planning/point_to_point.h"
-#include "airsim360/planning/random_route.h"
+#include "airsim360/planning/routes/point_to_point.h"
+#include "airsim360/planning/routes/random_route.h"
 #include "airsim360/scene/scene.h"
 #include "airsim360/stage/stage.h"
 

@@ -9,7 +9,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/parallel.h"
-#include "airsim360/planning/npz.h"
+#include "airsim360/planning/export/npz.h"
 
 namespace airsim360 {
 namespace {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "airsim360/base/error.h"
-#include "airsim360/planning/area_routes.h"
-#include "airsim360/planning/point_to_point.h"
+#include "airsim360/planning/routes/area_routes.h"
+#include "airsim360/planning/routes/point_to_point.h"
 
 namespace airsim360 {
 namespace {

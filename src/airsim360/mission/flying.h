@@ -5,7 +5,7 @@
 #include <string>
 
 #include "airsim360/mission/things.h"
-#include "airsim360/planning/trajectory_limits.h"
+#include "airsim360/planning/splines/trajectory_limits.h"
 #include "airsim360/routes/world_clearance.h"
 
 namespace airsim360 {

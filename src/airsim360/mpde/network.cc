@@ -7,7 +7,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
-#include "airsim360/mpde/gemm.h"
+#include "airsim360/mpde/matrix/gemm.h"
 
 namespace airsim360 {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "airsim360/assets/import.h"
+#include "airsim360/assets/importing/import.h"
 #include "airsim360/base/error.h"
 #include "airsim360/worlds/building/massing.h"
 

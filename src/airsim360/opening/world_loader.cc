@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "airsim360/assets/import.h"
+#include "airsim360/assets/importing/import.h"
 #include "airsim360/base/config.h"
 #include "airsim360/base/disk_cache.h"
 #include "airsim360/base/error.h"
@@ -16,7 +16,7 @@
 #include "airsim360/opening/world_environment.h"
 #include "airsim360/opening/world_file.h"
 #include "airsim360/scene/scene_archive.h"
-#include "airsim360/worlds/osm/city_facades.h"
+#include "airsim360/worlds/osm/buildings/city_facades.h"
 #include "airsim360/worlds/osm/osm_world.h"
 #include "airsim360/worlds/worlds.h"
 

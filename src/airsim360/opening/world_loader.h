@@ -1,4 +1,4 @@
-// A world by name or by file: built-in worlds, model files (assets/import.h), maps (.osm, .osm.pbf, …), world YAML.
+// A world by name or by file: built-in worlds, model files (assets/importing/import.h), maps (.osm, .osm.pbf, …), world YAML.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "airsim360/assets/placement.h"
+#include "airsim360/assets/importing/placement.h"
 #include "airsim360/opening/world_city.h"
 #include "airsim360/scene/scene.h"
 #include "airsim360/worlds/osm/osm_world.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "airsim360/planning/polynomial_trajectory.h"
+#include "airsim360/planning/splines/polynomial_trajectory.h"
 
 namespace airsim360 {
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "airsim360/planning/clearance.h"
-#include "airsim360/planning/polynomial_trajectory.h"
-#include "airsim360/planning/trajectory_limits.h"
+#include "airsim360/planning/splines/polynomial_trajectory.h"
+#include "airsim360/planning/splines/trajectory_limits.h"
 
 namespace airsim360 {
 

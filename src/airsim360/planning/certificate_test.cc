@@ -5,7 +5,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/planning/analytic_world.h"
 #include "airsim360/planning/arc_length.h"
-#include "airsim360/planning/minimum_snap.h"
+#include "airsim360/planning/splines/minimum_snap.h"
 
 namespace airsim360 {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "airsim360/planning/minimum_snap.h"
-#include "airsim360/planning/spline_test_internal.h"
+#include "airsim360/planning/splines/minimum_snap.h"
+#include "airsim360/planning/splines/spline_test_internal.h"
 
 namespace airsim360 {
 namespace {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cstring>
 
-#include "airsim360/planning/aligned_buffer.h"
-#include "airsim360/planning/excess_kernel.h"
-#include "airsim360/planning/hull_kernel.h"
-#include "airsim360/planning/spline_kernel.h"
-#include "airsim360/planning/spline_test_internal.h"
+#include "airsim360/planning/splines/aligned_buffer.h"
+#include "airsim360/planning/splines/excess_kernel.h"
+#include "airsim360/planning/splines/hull_kernel.h"
+#include "airsim360/planning/splines/spline_kernel.h"
+#include "airsim360/planning/splines/spline_test_internal.h"
 
 namespace airsim360::internal {
 namespace {

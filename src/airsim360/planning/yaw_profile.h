@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "airsim360/planning/polynomial_trajectory.h"
+#include "airsim360/planning/splines/polynomial_trajectory.h"
 
 namespace airsim360 {
 

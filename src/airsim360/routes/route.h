@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "airsim360/math/vector.h"
-#include "airsim360/planning/polynomial_trajectory.h"
+#include "airsim360/planning/splines/polynomial_trajectory.h"
 #include "airsim360/planning/yaw_profile.h"
 
 namespace airsim360 {

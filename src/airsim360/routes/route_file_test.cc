@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "airsim360/base/error.h"
-#include "airsim360/planning/minimum_snap.h"
+#include "airsim360/planning/splines/minimum_snap.h"
 
 namespace airsim360 {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "airsim360/planning/search.h"
+#include "airsim360/planning/routes/search.h"
 #include "airsim360/routes/world_clearance.h"
 
 namespace airsim360 {

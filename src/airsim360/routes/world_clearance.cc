@@ -9,7 +9,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/math/box_overlap.h"
-#include "airsim360/planning/search.h"
+#include "airsim360/planning/routes/search.h"
 #include "airsim360/routes/roadmap.h"
 
 namespace airsim360 {

@@ -1,4 +1,4 @@
-#include "airsim360/rpc/limits.h"
+#include "airsim360/rpc/wire/limits.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
-#include "airsim360/rpc/ned.h"
+#include "airsim360/rpc/coordinates/ned.h"
 
 namespace airsim360 {
 namespace {

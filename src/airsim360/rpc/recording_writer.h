@@ -1,7 +1,7 @@
 // Writes what AirSim's recording writes: airsim_rec.txt and images/ in a folder of its own.
 #pragma once
 
-#include "airsim360/rpc/image_service.h"
+#include "airsim360/rpc/images/image_service.h"
 
 namespace airsim360 {
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "airsim360/base/log.h"
-#include "airsim360/rpc/api.h"
+#include "airsim360/rpc/api/api.h"
 #include "airsim360/rpc/recording_writer.h"
 
 namespace airsim360 {

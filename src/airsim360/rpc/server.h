@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "airsim360/render/renderer.h"
-#include "airsim360/rpc/scene_extras.h"
-#include "airsim360/rpc/settings.h"
-#include "airsim360/rpc/tcp_server.h"
+#include "airsim360/rpc/session/scene_extras.h"
+#include "airsim360/rpc/settings/settings.h"
+#include "airsim360/rpc/wire/tcp_server.h"
 #include "airsim360/stage/stage.h"
 
 namespace airsim360 {

@@ -8,13 +8,13 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/math/angles.h"
-#include "airsim360/rpc/limits.h"
-#include "airsim360/rpc/ned.h"
-#include "airsim360/rpc/ned_commands.h"
-#include "airsim360/rpc/objects.h"
-#include "airsim360/rpc/segmentation_palette.h"
-#include "airsim360/rpc/settings.h"
-#include "airsim360/rpc/snapshot.h"
+#include "airsim360/rpc/coordinates/ned.h"
+#include "airsim360/rpc/coordinates/ned_commands.h"
+#include "airsim360/rpc/images/segmentation_palette.h"
+#include "airsim360/rpc/session/objects.h"
+#include "airsim360/rpc/session/snapshot.h"
+#include "airsim360/rpc/settings/settings.h"
+#include "airsim360/rpc/wire/limits.h"
 
 namespace airsim360 {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
-#include "airsim360/flight/body/drone_body.h"
+#include "airsim360/flight/mesh/drone_body.h"
 #include "airsim360/scene/scene_additions.h"
 #include "airsim360/sim/people/people.h"
 #include "airsim360/sim/traffic/traffic.h"

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/flight/contact.h"
+#include "airsim360/flight/collision/contact.h"
 #include "airsim360/flight/control/autopilot.h"
-#include "airsim360/flight/dynamics.h"
+#include "airsim360/flight/dynamics/dynamics.h"
 #include "airsim360/sensors/sensor_set.h"
 
 namespace airsim360 {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "airsim360/flight/control/reference.h"
-#include "airsim360/planning/polynomial_trajectory.h"
+#include "airsim360/planning/splines/polynomial_trajectory.h"
 #include "airsim360/routes/route.h"
 
 namespace airsim360 {

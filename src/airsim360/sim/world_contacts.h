@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "airsim360/flight/contact.h"
-#include "airsim360/flight/downwash.h"
+#include "airsim360/flight/collision/contact.h"
+#include "airsim360/flight/dynamics/downwash.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "airsim360/base/config.h"
-#include "airsim360/flight/wind.h"
+#include "airsim360/flight/wind/wind.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {

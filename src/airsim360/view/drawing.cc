@@ -5,7 +5,7 @@
 #include <atomic>
 #include <filesystem>
 
-#include "airsim360/assets/label_count.h"
+#include "airsim360/assets/labels/label_count.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/dataset/record/rig_file.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "airsim360/flight/control/autopilot.h"
-#include "airsim360/flight/dynamics.h"
-#include "airsim360/flight/wind.h"
+#include "airsim360/flight/dynamics/dynamics.h"
+#include "airsim360/flight/wind/wind.h"
 
 namespace airsim360 {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "airsim360/opening/world_loader.h"
-#include "airsim360/planning/search.h"
+#include "airsim360/planning/routes/search.h"
 #include "airsim360/routes/shortest_way.h"
 #include "airsim360/tasks/agent_server/episode.h"
 

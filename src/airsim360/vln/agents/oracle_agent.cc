@@ -5,7 +5,7 @@
 #include <queue>
 
 #include "airsim360/math/angles.h"
-#include "airsim360/planning/search.h"
+#include "airsim360/planning/routes/search.h"
 #include "airsim360/routes/roadmap.h"
 #include "airsim360/vln/agents/vln_agent.h"
 

@@ -5,7 +5,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
-#include "airsim360/planning/search.h"
+#include "airsim360/planning/routes/search.h"
 #include "airsim360/routes/roadmap.h"
 #include "airsim360/vln/episodes/make_episodes.h"
 #include "airsim360/vln/episodes/places.h"

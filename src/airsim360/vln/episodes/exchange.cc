@@ -6,7 +6,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/math/angles.h"
-#include "airsim360/planning/search.h"
+#include "airsim360/planning/routes/search.h"
 #include "airsim360/vln/predicates/query_json.h"
 
 namespace airsim360 {

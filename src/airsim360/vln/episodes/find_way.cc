@@ -1,4 +1,4 @@
-#include "airsim360/planning/search.h"
+#include "airsim360/planning/routes/search.h"
 #include "airsim360/vln/episodes/places.h"
 
 namespace airsim360::internal {

@@ -8,7 +8,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/math/angles.h"
-#include "airsim360/planning/search.h"
+#include "airsim360/planning/routes/search.h"
 #include "airsim360/tasks/agent_server/episode.h"
 #include "airsim360/vln/predicates/query_json.h"
 

@@ -1,9 +1,9 @@
 // The oracle in a made-up town where the straight line to the goal leads into a bay.
 #include <gtest/gtest.h>
 
-#include "airsim360/planning/search.h"
+#include "airsim360/planning/routes/search.h"
+#include "airsim360/vln/flights/run_episodes.h"
 #include "airsim360/vln/predicates/test_town.h"
-#include "airsim360/vln/report/run_episodes.h"
 
 namespace airsim360 {
 namespace {

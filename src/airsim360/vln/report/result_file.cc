@@ -5,8 +5,8 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/vln/flights/run_episodes.h"
 #include "airsim360/vln/predicates/query_json.h"
-#include "airsim360/vln/report/run_episodes.h"
 
 namespace airsim360 {
 namespace {

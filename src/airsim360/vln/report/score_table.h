@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "airsim360/eval/statistics/bootstrap.h"
-#include "airsim360/vln/report/run_episodes.h"
+#include "airsim360/vln/flights/run_episodes.h"
 
 namespace airsim360::internal {
 

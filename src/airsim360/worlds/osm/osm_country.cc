@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
-#include "airsim360/worlds/osm/line_index.h"
+#include "airsim360/worlds/osm/data/line_index.h"
 #include "airsim360/worlds/osm/osm_country.h"
 
 namespace airsim360::internal {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "airsim360/base/file.h"
-#include "airsim360/worlds/osm/osm_data.h"
+#include "airsim360/worlds/osm/data/osm_data.h"
 #include "airsim360/worlds/osm/osm_relief.h"
 
 namespace airsim360::internal {

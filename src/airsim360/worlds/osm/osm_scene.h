@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "airsim360/worlds/kit/mesh_builder.h"
-#include "airsim360/worlds/osm/line_index.h"
+#include "airsim360/worlds/osm/buildings/osm_building_plans.h"
+#include "airsim360/worlds/osm/data/line_index.h"
 #include "airsim360/worlds/osm/map_dress.h"
-#include "airsim360/worlds/osm/osm_building_plans.h"
 #include "airsim360/worlds/osm/osm_relief.h"
 #include "airsim360/worlds/osm/osm_world.h"
 #include "airsim360/worlds/props/placer.h"

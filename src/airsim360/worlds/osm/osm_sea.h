@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/worlds/osm/osm_areas.h"
+#include "airsim360/worlds/osm/buildings/osm_areas.h"
 
 namespace airsim360::internal {
 

@@ -7,7 +7,7 @@
 
 #include "airsim360/math/angles.h"
 #include "airsim360/worlds/kit/test_mesh.h"
-#include "airsim360/worlds/osm/osm_areas.h"
+#include "airsim360/worlds/osm/buildings/osm_areas.h"
 #include "airsim360/worlds/osm/osm_dresser.h"
 #include "airsim360/worlds/osm/osm_scene.h"
 #include "airsim360/worlds/osm/test_map.h"

@@ -16,7 +16,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/scene/scene_archive.h"
-#include "airsim360/worlds/osm/osm_building_plans.h"
+#include "airsim360/worlds/osm/buildings/osm_building_plans.h"
 #include "airsim360/worlds/osm/osm_world.h"
 
 namespace airsim360::internal {

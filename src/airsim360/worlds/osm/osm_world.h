@@ -12,7 +12,7 @@
 #include "airsim360/math/geodesy.h"
 #include "airsim360/scene/model_source.h"
 #include "airsim360/scene/scene.h"
-#include "airsim360/worlds/osm/map_cut.h"
+#include "airsim360/worlds/osm/data/map_cut.h"
 
 namespace airsim360 {
 

@@ -2,7 +2,7 @@
 // distances are distributed as in real towns (data/osm/distributions.csv).
 #pragma once
 
-#include "airsim360/worlds/osm/osm_data.h"
+#include "airsim360/worlds/osm/data/osm_data.h"
 
 namespace airsim360::internal {
 

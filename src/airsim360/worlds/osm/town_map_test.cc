@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "airsim360/worlds/osm/osm_areas.h"
+#include "airsim360/worlds/osm/buildings/osm_areas.h"
 #include "airsim360/worlds/osm/test_real_towns.h"
 #include "airsim360/worlds/osm/town_map.h"
 

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "airsim360/worlds/osm/osm_data.h"
-#include "airsim360/worlds/osm/osm_facade.h"
+#include "airsim360/worlds/osm/buildings/osm_facade.h"
+#include "airsim360/worlds/osm/data/osm_data.h"
 #include "airsim360/worlds/town_maker/town_styles.h"
 
 namespace airsim360 {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/worlds/osm/osm_data.h"
+#include "airsim360/worlds/osm/data/osm_data.h"
+#include "airsim360/worlds/osm/data/patches.h"
 #include "airsim360/worlds/osm/osm_world.h"
-#include "airsim360/worlds/osm/patches.h"
 #include "airsim360/worlds/town_spec.h"
 
 namespace airsim360::internal {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
-#include "airsim360/worlds/osm/line_index.h"
-#include "airsim360/worlds/osm/osm_areas.h"
+#include "airsim360/worlds/osm/buildings/osm_areas.h"
+#include "airsim360/worlds/osm/data/line_index.h"
 #include "airsim360/worlds/osm/osm_relief.h"
 #include "airsim360/worlds/town_maker/town_build.h"
 

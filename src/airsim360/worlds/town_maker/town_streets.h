@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "airsim360/base/random.h"
-#include "airsim360/worlds/osm/patches.h"
+#include "airsim360/worlds/osm/data/patches.h"
 #include "airsim360/worlds/town_spec.h"
 
 namespace airsim360::internal {
