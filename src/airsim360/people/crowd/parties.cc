@@ -38,14 +38,15 @@ Vec2d Turned(Vec2d heading, Vec2d p) { return heading * p.x + Vec2d{-heading.y, 
 
 /// How many have room side by side on one side of the leader, `step` metres each.
 int RoomBeside(const NavMesh& mesh, const NavPoint& at, Vec2d step, int most) {
+  constexpr double kSlack = 0.02;  // metres
   const double cost = GroundCost(mesh.Kind(at));
-  const Vec2d p = Flat(at.p_W);
-  int room = 0;
-  for (; room < most; ++room) {
-    const Vec2d q = p + step * (room + 1.0);
-    if (!mesh.Straight(at, q) || GroundCost(mesh.Kind(mesh.Move(at, q))) > 2 * cost) break;
+  NavPoint beside = at;
+  for (int room = 0; room < most; ++room) {
+    const Vec2d next = Flat(beside.p_W) + step;
+    beside = mesh.Along(beside, next);
+    if (Norm(Flat(beside.p_W) - next) > kSlack || GroundCost(mesh.Kind(beside)) > 2 * cost) return room;
   }
-  return room;
+  return most;
 }
 
 /// 0 … 1 by how many strangers are near.
@@ -134,7 +135,9 @@ void ArrangeParty(CrowdTick& tick, PersonIndex leader) {
   for (const PersonIndex k : party->members)
     if (k != leader && tick.in.agents[k].accompanies) members.push_back(k);
   agent.party_pace = PaceFor(tick, leader, members);
-  if (members.empty()) return;
+  // Places are looked for half as often, and while they walk.
+  const bool again = tick.t_ns / (kThinkEvery * kCrowdTickNs) % 2 == 0;
+  if (members.empty() || agent.walk != Walk::kOnTheWay || !again) return;
 
   const Walker& walker = tick.in.walkers[leader];
   const Vec2d p = Flat(walker.at.p_W);
