@@ -2,6 +2,7 @@
 """Does our crowd teach a predictor how people walk? Measured on the walks of ETH and UCY, leave one scene out.
 
     PYTHONPATH=build/python /usr/bin/python3 bench/walks.py draw --world downtown_west --people 150 --seconds 300 --out ours.txt
+    PYTHONPATH=build/python /usr/bin/python3 bench/walks.py count ours.txt
     PYTHONPATH=build/python /usr/bin/python3 bench/walks.py table --ours ours.txt [more.txt ...] --real FOLDER [--seeds 3]
 
 A file of walks has a line `moment person x y` for each person and moment, metres, 0.4 s apart, as those of ETH and UCY have it.
@@ -179,6 +180,24 @@ def table(a):
         print(f"| {name} | " + " | ".join(f"{ade:.2f} / {fde:.2f}" for ade, fde in found) + f" | {found.mean(0)[0]:.3f} / {found.mean(0)[1]:.3f} | {spread:.3f} |", flush=True)
 
 
+def count(a):
+    """How people walk: speeds, who stands, turns, distances, stops."""
+    print("| | speed of who walks, m/s | stand | error of walking on for who stands, m | turn in 4.8 s, median, 90th percentile | nearest other, m | stop |\n|---|" + "--:|" * 6)
+    for path in a.walks:
+        own, others = walks(path)
+        length = np.linalg.norm(np.diff(own, axis=1), axis=-1).sum(1)
+        speed = length / (STEP * (SEEN + TOLD - 1))
+        stands = speed < 0.3
+        before, after = own[:, SEEN - 1] - own[:, SEEN - 4], own[:, -1] - own[:, -4]
+        goes = np.minimum(np.linalg.norm(before, axis=-1), np.linalg.norm(after, axis=-1)) > 0.5 * 3 * STEP
+        turn = np.abs(np.degrees(np.angle((after @ [1, 1j])[goes] / (before @ [1, 1j])[goes])))
+        near = np.nanmedian(np.linalg.norm(others[:, 0, -1] - own[:, SEEN - 1], axis=-1))
+        went = np.linalg.norm(own[:, SEEN - 1] - own[:, 0], axis=-1) > 0.6 * STEP * (SEEN - 1)
+        stops = went & (np.linalg.norm(own[:, -1] - own[:, SEEN], axis=-1) < 0.2 * STEP * (TOLD - 1))
+        print(f"| {path.stem} | {np.median(speed[~stands]):.2f} | {stands.mean():.2f} | {error(straight(own), own)[0][stands].mean():.2f} | "
+              f"{np.median(turn):.0f}°, {np.percentile(turn, 90):.0f}° | {near:.1f} | {100 * stops.mean():.1f} % |")
+
+
 def chosen(what, rest, seed):
     if isinstance(what, tuple) and isinstance(what[0], list):
         return what
@@ -196,6 +215,8 @@ def main():
     drawing.add_argument("--seconds", type=float, default=300)
     drawing.add_argument("--seed", type=int, default=0)
     drawing.add_argument("--out", type=Path, required=True)
+    counted = actions.add_parser("count", help="how people walk, in figures")
+    counted.add_argument("walks", type=Path, nargs="+")
     told = actions.add_parser("table", help="errors on real walks")
     told.add_argument("--ours", type=Path, nargs="+", required=True)
     told.add_argument("--real", type=Path, required=True)
@@ -205,7 +226,7 @@ def main():
     told.add_argument("--most", type=int, default=20000, help="so many walks of ours")
     a = parser.parse_args()
     torch.set_num_threads(1)
-    draw(a) if a.action == "draw" else table(a)
+    {"draw": draw, "count": count, "table": table}[a.action](a)
 
 
 if __name__ == "__main__":

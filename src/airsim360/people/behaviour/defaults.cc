@@ -59,6 +59,7 @@ constexpr std::string_view kDefaultTrees = R"(<root BTCPP_format="4" main_tree_t
   <BehaviorTree ID="walker">
     <ReactiveFallback>
       <SubTree ID="notice_drone"/>
+      <Accompany/>
       <SubTree ID="socialise"/>
       <SubTree ID="stroll" rest="0.25"/>
     </ReactiveFallback>
@@ -92,6 +93,7 @@ constexpr std::string_view kDefaultTrees = R"(<root BTCPP_format="4" main_tree_t
 
   <BehaviorTree ID="stroll">
     <Sequence>
+      <SubTree ID="gather"/>
       <WanderTo/>
       <Fallback>
         <Inverter><Chance p="{rest}"/></Inverter>
@@ -104,6 +106,14 @@ constexpr std::string_view kDefaultTrees = R"(<root BTCPP_format="4" main_tree_t
     </Sequence>
   </BehaviorTree>
 
+  <!-- Who is out with others sometimes stops to talk with them. -->
+  <BehaviorTree ID="gather">
+    <Fallback>
+      <Sequence><Chance p="0.4"/><Gather min_s="15" max_s="90"/></Sequence>
+      <AlwaysSuccess/>
+    </Fallback>
+  </BehaviorTree>
+
   <BehaviorTree ID="sit">
     <Fallback>
       <Sequence><Chance p="0.4"/><SetState state="sitting_with_phone"/></Sequence>
@@ -114,8 +124,10 @@ constexpr std::string_view kDefaultTrees = R"(<root BTCPP_format="4" main_tree_t
   <BehaviorTree ID="shopper">
     <ReactiveFallback>
       <SubTree ID="notice_drone"/>
+      <Accompany/>
       <SubTree ID="socialise"/>
       <Sequence>
+        <SubTree ID="gather"/>
         <SetState state="carrying" wait="false"/>
         <Fallback>
           <Sequence>
@@ -168,6 +180,7 @@ constexpr std::string_view kDefaultTrees = R"(<root BTCPP_format="4" main_tree_t
   <BehaviorTree ID="parent">
     <ReactiveFallback>
       <SubTree ID="notice_drone"/>
+      <Accompany/>
       <Sequence>
         <SetState state="pushing_stroller" wait="false"/>
         <WanderTo/>
@@ -178,8 +191,10 @@ constexpr std::string_view kDefaultTrees = R"(<root BTCPP_format="4" main_tree_t
   <BehaviorTree ID="tourist">
     <ReactiveFallback>
       <SubTree ID="notice_drone"/>
+      <Accompany/>
       <SubTree ID="socialise"/>
       <Sequence>
+        <SubTree ID="gather"/>
         <Fallback>
           <Sequence><Chance p="0.5"/><GoToPlace kind="sight" distance="120"/></Sequence>
           <WanderTo/>

@@ -24,6 +24,8 @@ enum class PersonNode : uint8_t {
   kLookAtDrone,
   kStepAway,
   kQueue,
+  kAccompany,
+  kGather,
   // Conditions
   kChance,
   kStateIs,

@@ -75,6 +75,12 @@ struct Place {
   int rank = 0;  ///< of a queue: 0 is the first; the others of the line follow it in the list
 };
 
+/// People who are out together; who they are is in crowd/parties.h.
+struct Party {
+  std::vector<PersonIndex> members;  ///< two to four; the first of them who is there and free leads
+  double spacing = 0.75;             ///< metres between neighbours
+};
+
 std::vector<StateDef> DefaultStates();
 std::vector<TransitionDef> DefaultTransitions();
 std::vector<std::string> DefaultMessages();
@@ -116,6 +122,8 @@ struct CrowdPlan {
   std::vector<NavArea> ground;           ///< of each CrowdModel::areas: where people start and wander
   std::vector<uint16_t> tree_of_person;  ///< index into trees
   std::vector<NavPoint> starts;          ///< of each person; reserve ones have none
+  std::vector<internal::Party> parties = {};
+  std::vector<uint32_t> party_of_person = {};  ///< number of a party, from 1; 0 = alone
   // In rooms, by person: the seat that they begin on, -1 = none; whom they begin to talk with, kNoPerson = nobody.
   std::vector<int32_t> start_seats = {};
   std::vector<PersonIndex> start_partners = {};

@@ -57,7 +57,17 @@ struct Agent {
   int64_t way_ns = 0;  ///< when they last had somewhere to go
   NavPoint errand;     ///< of WanderTo, until it is reached
   bool has_errand = false;
-  bool hold = false;      ///< red light ahead
+  bool hold = false;           ///< red light ahead
+  bool accompanies = false;    ///< walks beside the leader of the party
+  Vec2d slot;                  ///< where, in metres ahead and to the left of the leader
+  Vec2d heading{1, 0};         ///< of a leader: where the party goes, smoothed; a unit vector
+  double party_pace = 1;       ///< of a leader: share of the speed that is left for those who fall behind
+  int64_t waits_since_ns = 0;  ///< of a leader, for somebody
+  double sway = 0;             ///< radians that they walk off the straight way
+  Vec2d shift;                 ///< metres that somebody who stands is off their place, from one foot to the other
+  int64_t shifts_until_ns = 0;
+  Vec2d stand;            ///< where they came to stand
+  bool stands = false;    ///< the last time that was asked
   double pace = 1;        ///< share of the speed on the plain that stairs and slopes leave
   int32_t place = -1;     ///< index into CrowdPlan::places that is theirs
   bool at_place = false;  ///< stands or sits there, perhaps beside the mesh
@@ -136,6 +146,8 @@ Group* FindGroup(CrowdInternals& in, uint32_t id);
 uint32_t FoundGroup(CrowdTick& tick, PersonIndex a, PersonIndex b);
 bool JoinGroup(CrowdTick& tick, PersonIndex i, uint32_t group);
 void LeaveGroup(CrowdTick& tick, PersonIndex i);
+/// A talk of a party, under its number.
+void FoundPartyTalk(CrowdTick& tick, uint32_t party, const std::vector<PersonIndex>& members);
 /// Where a member stands.
 Vec2d SlotOf(const Group& group, PersonIndex i);
 /// Turns, ends, people who stand alone.
@@ -155,6 +167,8 @@ void FindWays(CrowdTick& tick);
 void WatchWay(CrowdTick& tick, PersonIndex i);
 /// Reports who has not moved for 30 s though they want to.
 void WatchStuck(CrowdTick& tick, PersonIndex i);
+/// Whether a straight line is free and does not lead onto a road that the way avoids.
+bool ShortCut(const NavMesh& mesh, const NavPoint& at, Vec2d target);
 /// Velocities wanted by all.
 void WantVelocities(CrowdTick& tick);
 

@@ -31,7 +31,7 @@ class Beginnings {
     }
     // Those who talk stand where the others have left room.
     for (const PersonIndex i : who)
-      if (TreeOf(i) == "walker" && RngStream(model_.seed, "begins to talk", i).Chance(0.5)) Talk(i);
+      if (TreeOf(i) == "walker" && plan_.party_of_person[i] == 0 && RngStream(model_.seed, "begins to talk", i).Chance(0.5)) Talk(i);
   }
 
  private:

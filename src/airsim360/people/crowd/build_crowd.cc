@@ -10,6 +10,7 @@
 #include "airsim360/people/behaviour/person_nodes.h"
 #include "airsim360/people/behaviour/plan.h"
 #include "airsim360/people/crowd/crowd.h"
+#include "airsim360/people/crowd/parties.h"
 #include "airsim360/people/crowd/people_file.h"
 #include "airsim360/people/crowd/placement.h"
 #include "airsim360/people/crowd/traits.h"
@@ -308,6 +309,7 @@ class Builder {
     }
     const auto [trees, weights] = Mix(0);
     for (size_t k = 0; k < request_.reserve; ++k) Add(0, {}, trees, weights, true);
+    plan_.party_of_person.resize(model_.people.size());
   }
 
   /// The people of one entry of the file in its rooms, from area `first` on. Who does not fit a room lives in another one.
@@ -334,7 +336,9 @@ class Builder {
                        " m2); at most " + std::to_string(wanted - left) + " do");
     for (uint32_t k = 0; k < counts.size(); ++k) {
       const auto [trees, weights] = Mix(first + k);
+      const auto first_person = static_cast<PersonIndex>(model_.people.size());
       for (const NavPoint& start : starts[k]) Add(first + k, start, trees, weights, false);
+      FormParties(model_, plan_, placement, first_person, entry.parties.value_or(in_rooms_[first + k] ? 0 : kShareInParties));
     }
   }
 

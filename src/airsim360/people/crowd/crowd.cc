@@ -188,6 +188,10 @@ CrowdState StartCrowd(const CrowdModel& model) {
     state.people[i].yaw = in.to_yaw[i];
     state.people[i].visible = walker.present;
   }
+  // Parties look one way.
+  for (const internal::Party& party : model.plan->parties)
+    for (const PersonIndex i : party.members) in.to_yaw[i] = in.from_yaw[i] = state.people[i].yaw = in.to_yaw[party.members[0]];
+  in.next_group += static_cast<uint32_t>(model.plan->parties.size());  // talks of parties have the numbers of these
   BeginInRooms(model, state);
   return state;
 }
@@ -235,6 +239,15 @@ uint64_t HashCrowd(const CrowdState& state) {
     hasher.Add(static_cast<uint64_t>(static_cast<uint32_t>(agent.place)) << 2 | static_cast<uint64_t>(agent.at_place) << 1 |
                static_cast<uint64_t>(agent.begins));
     hasher.Add(agent.pace);
+    for (const Vec2d& v : {agent.slot, agent.heading, agent.shift, agent.stand}) {
+      hasher.Add(v.x);
+      hasher.Add(v.y);
+    }
+    hasher.Add(agent.party_pace);
+    hasher.Add(agent.sway);
+    hasher.Add(agent.waits_since_ns);
+    hasher.Add(agent.shifts_until_ns);
+    hasher.Add(static_cast<uint64_t>(agent.accompanies) << 1 | static_cast<uint64_t>(agent.stands));
     hasher.Add(static_cast<uint64_t>(agent.gates.size()));
     for (const internal::Gate& gate : agent.gates) {
       hasher.Add(gate.p);

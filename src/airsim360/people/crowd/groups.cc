@@ -45,6 +45,23 @@ uint32_t FoundGroup(CrowdTick& tick, PersonIndex a, PersonIndex b) {
   return group.id;
 }
 
+void FoundPartyTalk(CrowdTick& tick, uint32_t party, const std::vector<PersonIndex>& members) {
+  Group group;
+  group.id = party;
+  group.members = members;
+  for (const PersonIndex i : members) group.centre = group.centre + PlaceOf(tick, i) * (1 / static_cast<double>(members.size()));
+  // Around the centre in the order in which they are there already.
+  const auto angle_of = [&](PersonIndex i) {
+    const Vec2d d = PlaceOf(tick, i) - group.centre;
+    return std::atan2(d.y, d.x);
+  };
+  std::ranges::sort(group.members, {}, angle_of);
+  group.angle = angle_of(group.members[0]);
+  group.since_ns = group.silent_since_ns = group.changed_ns = tick.t_ns;
+  for (const PersonIndex i : group.members) tick.in.agents[i].group = party;
+  tick.in.groups.push_back(std::move(group));
+}
+
 bool JoinGroup(CrowdTick& tick, PersonIndex i, uint32_t id) {
   Group* group = FindGroup(tick.in, id);
   if (!group || group->members.size() >= kMaxGroup) return false;

@@ -3,6 +3,7 @@
 
 #include "airsim360/people/behaviour/person_nodes.h"
 #include "airsim360/people/crowd/mind.h"
+#include "airsim360/people/crowd/parties.h"
 
 namespace airsim360::internal {
 namespace {
@@ -117,6 +118,10 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
       return choice(0) < 0 ? Status::kFailure : Send(static_cast<uint8_t>(choice(0)), PortOf(tree, node, run, 1), person(2), number(3));
     case PersonNode::kWaitMessage:
       return WaitMessage(fresh, tree, node, memory, run);
+    case PersonNode::kAccompany:
+      return Accompany(fresh);
+    case PersonNode::kGather:
+      return Gather(fresh, memory, number(0), number(1), Cause(node));
     case PersonNode::kFacePerson:
       return FacePerson(person(0));
     case PersonNode::kLookAtDrone:
@@ -175,6 +180,15 @@ void Mind::Halt(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tree
       if (agent_.state == Choice(tree, node, run, 0) && agent_.state_until_ns > 0)
         EnterState(tick_, self_, tick_.plan.states[agent_.state].next, -1, 0, "tree: interrupted");
       break;
+    case PersonNode::kAccompany:
+      agent_.accompanies = false;
+      if (agent_.group) LeaveGroup(tick_, self_);
+      if (agent_.state == kChatting) EnterState(tick_, self_, kWalking, -1, 0, "tree: interrupted");
+      DropGoal(tick_, self_);
+      break;
+    case PersonNode::kGather:
+      if (Group* group = FindGroup(tick_.in, agent_.group)) group->ends_ns = tick_.t_ns;  // the others do not talk on without them
+      [[fallthrough]];
     case PersonNode::kChat:
       LeaveGroup(tick_, self_);
       if (agent_.state == kChatting) EnterState(tick_, self_, static_cast<uint8_t>(memory.count), -1, 0, "tree: interrupted");
@@ -210,6 +224,7 @@ void Think(CrowdTick& tick, PersonIndex i) {
   RunStateMachine(tick, i);
   WatchWay(tick, i);
   WatchStuck(tick, i);
+  ArrangeParty(tick, i);
   if (agent.commanded) return;
   Mind mind(tick, i);
   TickTree(tick.plan.trees.trees[agent.tree], agent.run, tick.t_ns, mind);
@@ -222,7 +237,7 @@ void HaltPerson(CrowdTick& tick, PersonIndex i) {
   if (agent.group) LeaveGroup(tick, i);
   DropGoal(tick, i);
   LeavePlace(tick, i);
-  agent.has_errand = false;
+  agent.has_errand = agent.accompanies = false;
   agent.gaze_drone = -1;
   agent.has_face = false;
 }

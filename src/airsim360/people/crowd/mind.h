@@ -51,6 +51,8 @@ class Mind : public Leaves {
   Status Meet(bool fresh, NodeMemory& memory, double distance, double chance, double cooldown);
   Status Answer(double chance);
   Status Chat(bool fresh, NodeMemory& memory, double min_s, double max_s, const std::string& cause);
+  Status Accompany(bool fresh);
+  Status Gather(bool fresh, NodeMemory& memory, double min_s, double max_s, const std::string& cause);
   Status Send(uint8_t type, const Value& to, PersonIndex person, double distance);
 
   template <class Filter>

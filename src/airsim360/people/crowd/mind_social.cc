@@ -3,13 +3,14 @@
 #include <utility>
 
 #include "airsim360/people/crowd/mind.h"
+#include "airsim360/people/crowd/parties.h"
 
 namespace airsim360::internal {
 
-/// Whether someone may be spoken to: walks about or stands in a group with room.
+/// Whether someone may be spoken to: walks about alone or stands in a group with room.
 bool Mind::Free(PersonIndex i) const {
   const Agent& other = tick_.in.agents[i];
-  if (other.commanded || other.at_place || other.hold) return false;
+  if (other.commanded || other.at_place || other.hold || IsInParty(tick_, i)) return false;
   if (other.group) {
     const Group* group = FindGroup(tick_.in, other.group);
     return group && group->members.size() >= 2 && group->members.size() < kMaxGroup;
@@ -21,7 +22,7 @@ bool Mind::Free(PersonIndex i) const {
 Status Mind::Meet(bool fresh, NodeMemory& memory, double distance, double chance, double cooldown) {
   if (fresh) {
     if (std::exchange(agent_.begins, false) && agent_.group) return Status::kSuccess;
-    if (tick_.t_ns < agent_.social_after_ns || agent_.group || agent_.hold) return Status::kFailure;
+    if (tick_.t_ns < agent_.social_after_ns || agent_.group || agent_.hold || IsInParty(tick_, self_)) return Status::kFailure;
     // In front, free, on ground where one may stand; and then only if one feels like it.
     const double yaw = tick_.in.to_yaw[self_];
     const PersonIndex other = Nearest(distance, [&](PersonIndex k) {
@@ -61,7 +62,8 @@ Status Mind::Meet(bool fresh, NodeMemory& memory, double distance, double chance
 Status Mind::Answer(double chance) {
   Message message;
   if (!TakeMessage(agent_, kGreet, &message) || message.from == kNoPerson) return Status::kFailure;
-  const bool free = !agent_.group && !agent_.hold && agent_.greeted == kNoPerson && !tick_.plan.states[agent_.state].stop;
+  const bool free =
+      !agent_.group && !IsInParty(tick_, self_) && !agent_.hold && agent_.greeted == kNoPerson && !tick_.plan.states[agent_.state].stop;
   if (!free || !agent_.rng.Chance(chance)) {
     Post(tick_, self_, message.from, kDecline);
     return Status::kFailure;
@@ -97,6 +99,60 @@ Status Mind::Chat(bool fresh, NodeMemory& memory, double min_s, double max_s, co
   }
   TakeMessage(agent_, kBye);
   return Status::kRunning;
+}
+
+// Who leads is followed from place to place; out of sight they are walked after.
+Status Mind::Accompany(bool fresh) {
+  constexpr double kBeside = 2.5, kInSight = 8, kArrives = 1, kGone = 3;  // metres
+  const PersonIndex leader = LeaderOf(tick_, self_);
+  if (leader == kNoPerson || leader == self_ || agent_.commanded) return Status::kFailure;
+  if (fresh) {
+    LeavePlace(tick_, self_);
+    DropGoal(tick_, self_);
+    agent_.has_errand = false;
+  }
+  agent_.accompanies = true;
+  if (agent_.group) return Status::kRunning;
+  if (agent_.state == kChatting) EnterState(tick_, self_, kWalking, -1, 0, "message: bye");
+  TakeMessage(agent_, kBye);
+  const Walker& other = tick_.in.walkers[leader];
+  const double distance = FlatDistance(other.at.p_W, walker_.at.p_W);
+  const NavMesh& mesh = *tick_.model.navmesh;
+  const Vec2d there = Flat(other.at.p_W);
+  if (distance < kBeside ? mesh.Straight(walker_.at, there) : distance < kInSight && ShortCut(mesh, walker_.at, there)) {
+    if (agent_.walk != Walk::kNone) DropGoal(tick_, self_);
+  } else if (agent_.walk == Walk::kNone || agent_.walk == Walk::kArrived || agent_.walk == Walk::kFailed ||
+             FlatDistance(agent_.goal.p_W, other.at.p_W) > kGone) {
+    SetGoal(tick_, self_, other.at, 1.4 * walker_.free_speed, kArrives);
+  }
+  return Status::kRunning;
+}
+
+// Who leads stops the others, if all are there.
+Status Mind::Gather(bool fresh, NodeMemory& memory, double min_s, double max_s, const std::string& cause) {
+  constexpr double kTogether = 3;  // metres
+  if (fresh) {
+    if (agent_.group || !IsInParty(tick_, self_)) return Status::kFailure;
+    const GroundKind kind = tick_.model.navmesh->Kind(walker_.at);
+    if (kind == GroundKind::kRoad || kind == GroundKind::kCrossing || kind == GroundKind::kStairs) return Status::kFailure;
+    const uint32_t party = tick_.plan.party_of_person[self_];
+    std::vector<PersonIndex> members;
+    for (const PersonIndex k : tick_.plan.parties[party - 1].members) {
+      const Agent& other = tick_.in.agents[k];
+      if (k != self_ && (!other.accompanies || tick_.plan.states[other.state].stop)) continue;
+      if (FlatDistance(tick_.in.walkers[k].at.p_W, walker_.at.p_W) > kTogether) return Status::kFailure;
+      members.push_back(k);
+    }
+    if (members.size() < 2) return Status::kFailure;
+    FoundPartyTalk(tick_, party, members);
+    agent_.last_met = members[members[0] == self_ ? 1 : 0];
+    for (const PersonIndex k : members) {
+      if (k == self_) continue;
+      tick_.in.agents[k].last_met = self_;
+      EnterState(tick_, k, kChatting, 0, 0, cause + " with " + tick_.model.people[self_].name);
+    }
+  }
+  return Chat(fresh, memory, min_s, max_s, cause);
 }
 
 Status Mind::Send(uint8_t type, const Value& to, PersonIndex person, double distance) {

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "airsim360/base/error.h"
+#include "airsim360/people/crowd/parties.h"
 
 namespace airsim360::internal {
 namespace {
@@ -112,6 +113,7 @@ AreaEntry ReadArea(const Reader& r, const YAML::Node& node) {
             area.density = r.Number(v, "density", 0, 5);
             area.count_where = r.Where(v);
           }},
+         {"parties", [&](const YAML::Node& v) { area.parties = r.Number(v, "parties", 0, kMostInParties); }},
          {"mix", [&](const YAML::Node& v) {
             if (!v.IsMap()) r.Fail(v, "mix: expected 'behaviour: weight' lines, found " + Reader::Shown(v));
             for (const auto& entry : v) area.mix.emplace_back(r.Word(entry.first, "mix"), r.Number(entry.second, "mix", 0, 1e6));

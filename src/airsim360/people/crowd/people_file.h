@@ -26,6 +26,7 @@ struct AreaEntry {
   std::string polygon_where;
   std::optional<double> count, density;
   std::string count_where;
+  std::optional<double> parties;  ///< share of the people who are in one
   std::vector<std::pair<Placed<std::string>, double>> mix;
 };
 

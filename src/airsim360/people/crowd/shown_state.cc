@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/people/crowd/parties.h"
+
 namespace airsim360::internal {
 namespace {
 
@@ -43,7 +45,7 @@ void Show(CrowdTick& tick, PersonIndex i, double dt) {
   yaw = std::remainder(yaw + std::clamp(std::remainder(towards - yaw, 2 * kPi), -most, most), 2 * kPi);
 
   // Talk has a partner and turns.
-  person.group = agent.group;
+  person.group = agent.group || !IsInParty(tick, i) ? agent.group : tick.plan.party_of_person[i];
   person.partner = agent.group ? agent.last_met : kNoPerson;
   Behaviour lower = state.lower.value_or(ByMotion(agent, speed, person.lower));
   Behaviour upper = state.upper.value_or(lower);

@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "airsim360/math/angles.h"
 #include "airsim360/math/plane.h"
 #include "airsim360/people/crowd/agent.h"
 #include "airsim360/people/crowd/mind.h"
+#include "airsim360/people/crowd/parties.h"
 
 namespace airsim360::internal {
 namespace {
@@ -28,16 +31,6 @@ int CrossingAhead(const NavMesh& mesh, const Agent& agent, Vec2d p) {
     p = target;
   }
   return -1;
-}
-
-/// Whether a straight line is free and does not lead onto a road that the way avoids.
-bool ShortCut(const NavMesh& mesh, const NavPoint& at, Vec2d target) {
-  if (!mesh.Straight(at, target)) return false;
-  const Vec2d p = Flat(at.p_W), to = target - p;
-  const double distance = Norm(to), here = GroundCost(mesh.Kind(at));
-  for (double s = 0.7; s < std::min(distance, 4.0); s += 0.8)
-    if (GroundCost(mesh.Kind(mesh.Move(at, p + to * (s / distance)))) > 2 * here) return false;
-  return true;
 }
 
 /// What stairs and slopes leave of the speed on the plain, over the ground. Stairs: 0.610 m/s up and 0.694 m/s
@@ -79,7 +72,55 @@ bool SomebodyWantsThrough(const CrowdTick& tick, Vec2d p) {
   return found;
 }
 
+/// Strollers do not walk like arrows: their heading wanders about the straight way (an Ornstein-Uhlenbeck process). At 5 Hz.
+void Sway(Agent& agent) {
+  constexpr double kSpread = 0.16, kMemory = 2.5;  // radians, seconds
+  const double keep = std::exp(-kThinkEvery * static_cast<double>(kCrowdTickNs) * 1e-9 / kMemory);
+  agent.sway = agent.sway * keep + kSpread * std::sqrt(1 - keep * keep) * agent.rng.Normal();
+}
+
+Vec2d Turned(Vec2d v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+/// Where somebody goes, smoothed over 0.6 s; who turns around has turned at once.
+void FollowHeading(Agent& agent, Vec2d v) {
+  constexpr double kShare = static_cast<double>(kCrowdTickNs) * 1e-9 / 0.6;
+  const Vec2d ahead = v * (1 / Norm(v));
+  const Vec2d mixed = Dot(agent.heading, ahead) < 0 ? ahead : agent.heading * (1 - kShare) + ahead * kShare;
+  agent.heading = mixed * (1 / Norm(mixed));
+}
+
+/// The place for somebody who stands, and from time to time one a little step away from it. At 5 Hz.
+void ShiftWeight(CrowdTick& tick, Agent& agent) {
+  constexpr double kEvery = 7, kStep = 0.15;  // seconds, metres
+  if (!agent.stands || !agent.rng.Chance(kThinkEvery * static_cast<double>(kCrowdTickNs) * 1e-9 / kEvery)) return;
+  const double angle = agent.rng.Uniform(0, kTau), distance = kStep * std::sqrt(agent.rng.Uniform());
+  agent.shift = {distance * std::cos(angle), distance * std::sin(angle)};
+  agent.shifts_until_ns = tick.t_ns + kSecond + kSecond / 2;
+}
+
+/// Somebody stands at `place`, or makes the little step that they feel like.
+void Stand(CrowdTick& tick, Agent& agent, Walker& walker, Vec2d place) {
+  agent.stands = true;
+  const Vec2d to = place + agent.shift - Flat(walker.at.p_W);
+  const double d = Norm(to);
+  const bool steps = tick.t_ns < agent.shifts_until_ns && d > 0.03;
+  walker.still = !steps && !SomebodyWantsThrough(tick, Flat(walker.at.p_W));
+  if (steps) walker.wanted = to * (std::min(0.25, 2 * d) / d);
+}
+
 }  // namespace
+
+bool ShortCut(const NavMesh& mesh, const NavPoint& at, Vec2d target) {
+  if (!mesh.Straight(at, target)) return false;
+  const Vec2d p = Flat(at.p_W), to = target - p;
+  const double distance = Norm(to), here = GroundCost(mesh.Kind(at));
+  for (double s = 0.7; s < std::min(distance, 4.0); s += 0.8)
+    if (GroundCost(mesh.Kind(mesh.Move(at, p + to * (s / distance)))) > 2 * here) return false;
+  return true;
+}
 
 void LeavePlace(CrowdTick& tick, PersonIndex i) {
   Agent& agent = tick.in.agents[i];
@@ -148,6 +189,8 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
   Agent& agent = tick.in.agents[i];
   const Walker& walker = tick.in.walkers[i];
   agent.hold = false;
+  Sway(agent);
+  ShiftWeight(tick, agent);
   if (agent.walk != Walk::kOnTheWay) return;
   const NavMesh& mesh = *tick.model.navmesh;
   const Vec2d p = Flat(walker.at.p_W), to = NearestInGate(agent.gates[agent.gate], p) - p;
@@ -177,7 +220,8 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
     ++agent.gate;
 
   // Progress: half a metre from the last place where there was some.
-  if (Norm(walker.at.p_W - agent.progress_p) > 0.5 || agent.hold || walker.waits || tick.plan.states[agent.state].stop || agent.group) {
+  if (Norm(walker.at.p_W - agent.progress_p) > 0.5 || agent.hold || walker.waits || agent.party_pace < 0.5 ||
+      tick.plan.states[agent.state].stop || agent.group) {
     agent.progress_p = walker.at.p_W;
     agent.progress_ns = tick.t_ns;
     return;
@@ -202,7 +246,8 @@ void WatchStuck(CrowdTick& tick, PersonIndex i) {
   // Whoever stands on purpose is not stuck; goals may have changed meanwhile.
   if (agent.walk == Walk::kOnTheWay || agent.walk == Walk::kWaitsForPath) agent.way_ns = tick.t_ns;
   const bool stands = tick.t_ns - agent.way_ns > kSecond || agent.hold || tick.in.walkers[i].waits || agent.group ||
-                      tick.plan.states[agent.state].stop || agent.at_place || (agent.commanded && agent.walk != Walk::kOnTheWay);
+                      agent.party_pace < 0.5 || tick.plan.states[agent.state].stop || agent.at_place ||
+                      (agent.commanded && agent.walk != Walk::kOnTheWay);
   if (stands || Norm(p - agent.stuck_p) > 0.5) {
     agent.stuck_p = p;
     agent.stuck_ns = tick.t_ns;
@@ -212,6 +257,63 @@ void WatchStuck(CrowdTick& tick, PersonIndex i) {
     agent.stuck_ns = tick.t_ns;
   }
 }
+
+namespace {
+
+/// To the place in a talk, then stand there.
+void WantInTalk(CrowdTick& tick, const Group& group, PersonIndex i) {
+  Agent& agent = tick.in.agents[i];
+  Walker& walker = tick.in.walkers[i];
+  const Vec2d p = Flat(walker.at.p_W), place = SlotOf(group, i), to = place - p;
+  const double d = Norm(to);
+  agent.has_face = true;
+  agent.face_yaw = std::atan2(group.centre.y - p.y, group.centre.x - p.x);
+  const bool there = agent.stands && agent.stand == place;
+  if (!there && d > 0.12 && tick.t_ns - group.changed_ns < 6 * kSecond) {
+    agent.stands = false;
+    walker.wanted = to * (std::min(0.9, 2 * d) / d);
+    return;
+  }
+  if (!agent.stands || d < 0.4) agent.stand = d < 0.4 ? place : p;
+  Stand(tick, agent, walker, agent.stand);
+}
+
+/// Gate by gate; slower before the end.
+void WantOnTheWay(CrowdTick& tick, PersonIndex i) {
+  Agent& agent = tick.in.agents[i];
+  Walker& walker = tick.in.walkers[i];
+  const Vec2d p = Flat(walker.at.p_W);
+  while (agent.gate + 1 < agent.gates.size() && HasPassed(agent.gates[agent.gate], p)) ++agent.gate;
+  Vec2d to = NearestInGate(agent.gates[agent.gate], p) - p;
+  if (agent.gate + 1 < agent.gates.size() && Norm(to) < kNearGate) {
+    // Not before the next one is seen: the corner of a wall may be between.
+    const Vec2d next = NearestInGate(agent.gates[agent.gate + 1], p);
+    if (tick.model.navmesh->Straight(walker.at, next)) {
+      ++agent.gate;
+      to = next - p;
+    }
+  }
+  const double d = Norm(to);
+  const bool last = agent.gate + 1 == agent.gates.size();
+  walker.rest = d + agent.gates[agent.gate].onward;
+  if (last && d < agent.goal_reach) {
+    agent.walk = Walk::kArrived;
+    return;
+  }
+  double speed =
+      (agent.goal_speed > 0 ? agent.goal_speed : walker.free_speed) * tick.plan.states[agent.state].speed * agent.pace * agent.party_pace;
+  if (last) speed = std::min(speed, 0.4 + 1.2 * d);
+  // Turning around comes before walking away.
+  const double yaw = tick.in.to_yaw[i];
+  if (Norm(walker.v) < 0.3 && to.x * std::cos(yaw) + to.y * std::sin(yaw) < 0.3 * d) speed *= 0.3;
+  if (d > 1e-6) walker.wanted = to * (speed / d);
+  // Who strolls sways, but not at a corner, in a press or on an errand that someone has set.
+  const double share = agent.commanded || agent.goal_speed > 0 ? 0 : std::clamp(d / 3, 0.0, 1.0) * (1 - walker.pressed);
+  walker.wanted = Turned(walker.wanted, agent.sway * share);
+  if (Norm(walker.v) > 0.3) FollowHeading(agent, walker.v);
+}
+
+}  // namespace
 
 void WantVelocities(CrowdTick& tick) {
   for (PersonIndex i = 0; i < tick.in.agents.size(); ++i) {
@@ -224,51 +326,24 @@ void WantVelocities(CrowdTick& tick) {
     walker.aside = agent.at_place ? Flat(FeetOf(tick.plan, tick.in, i, tick.t_ns) - walker.at.p_W) : Vec2d{};
     if (!walker.present) continue;
     const StateDef& state = tick.plan.states[agent.state];
-    const Vec2d p = Flat(walker.at.p_W);
+    const bool stood = std::exchange(agent.stands, false);
 
-    // To the place in a group, then stand there.
     if (agent.group) {
-      const Group* group = FindGroup(tick.in, agent.group);
-      if (!group) continue;
-      const Vec2d to = SlotOf(*group, i) - p;
-      const double d = Norm(to);
-      const bool stands = d < 0.12 || tick.t_ns - group->changed_ns > 6 * kSecond;
-      walker.still = stands && !SomebodyWantsThrough(tick, p);
-      if (!stands || (!walker.still && d > 0.12)) walker.wanted = to * (std::min(0.9, 2 * d) / d);
-      agent.has_face = true;
-      agent.face_yaw = std::atan2(group->centre.y - p.y, group->centre.x - p.x);
-      continue;
-    }
-    if (agent.at_place || (state.stop && agent.walk != Walk::kOnTheWay)) {
-      walker.still = agent.at_place || !SomebodyWantsThrough(tick, p);
-      continue;
-    }
-    if (state.stop || agent.walk != Walk::kOnTheWay || agent.hold) continue;
-
-    // Gate by gate; slower before the end.
-    while (agent.gate + 1 < agent.gates.size() && HasPassed(agent.gates[agent.gate], p)) ++agent.gate;
-    Vec2d to = NearestInGate(agent.gates[agent.gate], p) - p;
-    if (agent.gate + 1 < agent.gates.size() && Norm(to) < kNearGate) {
-      // Not before the next one is seen: the corner of a wall may be between.
-      const Vec2d next = NearestInGate(agent.gates[agent.gate + 1], p);
-      if (tick.model.navmesh->Straight(walker.at, next)) {
-        ++agent.gate;
-        to = next - p;
+      agent.stands = stood;
+      if (const Group* group = FindGroup(tick.in, agent.group)) WantInTalk(tick, *group, i);
+    } else if (agent.at_place) {
+      walker.still = true;
+    } else if (state.stop && agent.walk != Walk::kOnTheWay) {
+      if (!stood) agent.stand = Flat(walker.at.p_W);
+      Stand(tick, agent, walker, agent.stand);
+    } else if (agent.accompanies && agent.walk == Walk::kNone) {
+      if (const PersonIndex leader = LeaderOf(tick, i); leader != kNoPerson && !WantBeside(tick, i, leader)) {
+        if (!stood) agent.stand = Flat(walker.at.p_W);
+        Stand(tick, agent, walker, agent.stand);
       }
+    } else if (!state.stop && agent.walk == Walk::kOnTheWay && !agent.hold) {
+      WantOnTheWay(tick, i);
     }
-    const double d = Norm(to);
-    const bool last = agent.gate + 1 == agent.gates.size();
-    walker.rest = d + agent.gates[agent.gate].onward;
-    if (last && d < agent.goal_reach) {
-      agent.walk = Walk::kArrived;
-      continue;
-    }
-    double speed = (agent.goal_speed > 0 ? agent.goal_speed : walker.free_speed) * state.speed * agent.pace;
-    if (last) speed = std::min(speed, 0.4 + 1.2 * d);
-    // Turning around comes before walking away.
-    const double yaw = tick.in.to_yaw[i];
-    if (Norm(walker.v) < 0.3 && to.x * std::cos(yaw) + to.y * std::sin(yaw) < 0.3 * d) speed *= 0.3;
-    if (d > 1e-6) walker.wanted = to * (speed / d);
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLightReach = 8;  // metres from a crossing to a traffic light that belongs to it
 
-std::vector<Vec2d> Corners(const Box3f& box) {
+std::vector<Vec2d> CornersOf(const Box3f& box) {
   return {{box.min.x, box.min.y}, {box.max.x, box.min.y}, {box.max.x, box.max.y}, {box.min.x, box.max.y}};
 }
 
@@ -60,7 +60,7 @@ std::vector<NavMesh::Crossing> FindCrossings(const Scene& scene) {
   for (auto& [entity, corners] : points) {
     NavMesh::Crossing crossing{.outline = ConvexHull(std::move(corners)), .entity = entity};
     if (crossing.outline.size() < 3) continue;
-    if (crossing.outline.size() > 12) crossing.outline = Corners(scene.entity(entity).bounds);
+    if (crossing.outline.size() > 12) crossing.outline = CornersOf(scene.entity(entity).bounds);
     for (const Vec2d light : lights)
       for (const Vec2d corner : crossing.outline) crossing.signal |= std::hypot(light.x - corner.x, light.y - corner.y) < kLightReach;
     const double axis = LongAxis(crossing.outline);
