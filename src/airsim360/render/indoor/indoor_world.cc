@@ -31,14 +31,23 @@ Vec3f EvenAnswer(const MaterialRecord& m, Vec3f base) {
   return sum / static_cast<float>(kViews);
 }
 
-// A packet of shadow rays and what each brings if it gets through.
+// What a shadow ray brings if it gets through.
+struct Brought {
+  Vec3f light;
+  Vec3f DirectLight::*to;
+  bool odd = false;     // every other one
+  uint32_t lamp = 0;    // from which it comes
+  float as_if_all = 1;  // factor: if all rays went to that lamp
+};
+
+// A packet of shadow rays. `found`: gets what lamps bring, unless nullptr.
 class ShadowQueue {
  public:
-  ShadowQueue(const IndoorWorld& world, DirectLight& sum) : world_(world), sum_(sum) {}
-  void Add(Vec3f p, Vec3f d, float t_far, Vec3f light, Vec3f DirectLight::*to) {
+  ShadowQueue(const IndoorWorld& world, DirectLight& sum, std::vector<FoundLamp>* found) : world_(world), sum_(sum), found_(found) {}
+  void Add(Vec3f p, Vec3f d, float t_far, const Brought& brought) {
     if (count_ == 16) Send();
     packet_.Set(count_, p, d, t_far);
-    light_[count_] = light, to_[count_++] = to;
+    brought_[count_++] = brought;
   }
   /// To be called last.
   void Send() {
@@ -54,9 +63,12 @@ class ShadowQueue {
     }
     for (int i = 0; i < count_; ++i) {
       if (occluded[i]) continue;
-      const Vec3f light = light_[i] * tint[static_cast<size_t>(i)];
-      sum_.*to_[i] += light;
-      if (to_[i] == &DirectLight::held) sum_.held_squares += Luminance(light) * Luminance(light);
+      const Brought& one = brought_[i];
+      const Vec3f light = one.light * tint[static_cast<size_t>(i)];
+      const float luminance = Luminance(light);
+      sum_.*one.to += light;
+      if (one.to == &DirectLight::held) sum_.held_difference += one.odd ? -luminance : luminance;
+      if (found_ != nullptr) found_->push_back({one.lamp, luminance * luminance * one.as_if_all * one.as_if_all, 0});
     }
     packet_.Clear();
     count_ = 0;
@@ -65,9 +77,9 @@ class ShadowQueue {
  private:
   const IndoorWorld& world_;
   DirectLight& sum_;
+  std::vector<FoundLamp>* found_;
   RayPacket packet_;
-  Vec3f light_[16];
-  Vec3f DirectLight::*to_[16];
+  Brought brought_[16];
   int count_ = 0;
 };
 
@@ -85,8 +97,28 @@ void AddSun(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, in
     const float cosine = Dot(n, d);
     if (!(cosine > 0)) continue;
     const Vec3f p = points[static_cast<size_t>(k) % points.size()];
-    queue.Add(p + n * kLift, d, INFINITY, sun.irradiance * (cosine * world.sky->CloudShadow(p) / static_cast<float>(rays)),
-              &DirectLight::sun);
+    queue.Add(p + n * kLift, d, INFINITY,
+              {sun.irradiance * (cosine * world.sky->CloudShadow(p) / static_cast<float>(rays)), &DirectLight::sun});
+  }
+}
+
+constexpr int kMostChosen = 256;
+using Choices = std::array<LightTree::Choice, kMostChosen>;
+
+// By ascending numbers; those up to the tree's share of them are the tree's. Probabilities are those of both together.
+void ChooseLamps(const IndoorWorld& world, Vec3f p, Vec3f n, const LampMix& mix, std::span<float> numbers, Choices& chosen) {
+  const LightTree& tree = world.lights->tree();
+  const float by_tree = mix.guide != nullptr ? mix.guide->tree_share() : 1;
+  const auto of_tree = static_cast<size_t>(std::lower_bound(numbers.begin(), numbers.end(), by_tree) - numbers.begin());
+  for (float& u : numbers.first(of_tree)) u = std::min(u / by_tree, 0.9999999f);
+  tree.ChooseAll(p, n, numbers.first(of_tree), chosen);
+  if (mix.guide == nullptr) return;
+  for (LightTree::Choice& choice : std::span(chosen).first(of_tree))
+    if (choice.probability > 0) choice.probability = by_tree * choice.probability + (1 - by_tree) * mix.guide->Probability(choice.lamp);
+  for (size_t i = of_tree; i < numbers.size(); ++i) {
+    chosen[i] = mix.guide->Choose((numbers[i] - by_tree) / (1 - by_tree));
+    const bool known = i > of_tree && chosen[i].lamp == chosen[i - 1].lamp;
+    chosen[i].probability = known ? chosen[i - 1].probability : mix.ChanceOf(*world.lights, p, n, chosen[i].lamp);
   }
 }
 
@@ -96,21 +128,22 @@ void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, 
   const Vec2f shift = ShiftOf(seed * 2654435761ull + 1);
   const float first = ShiftOf(seed * 2654435761ull + 7).x;
   // The lamp by numbers stratified apart: the sequence pairs them with points of the lamp evenly. One place chooses for all points.
-  constexpr int kMost = 256;
-  std::array<float, kMost> numbers;
-  std::array<LightTree::Choice, kMost> chosen;
+  std::array<float, kMostChosen> numbers;
+  Choices chosen;
   for (int k = 0; k < rays; ++k) {
-    const int in = k % kMost;
+    const int in = k % kMostChosen;
     if (in == 0) {
-      const auto count = static_cast<size_t>(std::min(kMost, rays - k));
+      const auto count = static_cast<size_t>(std::min(kMostChosen, rays - k));
       for (size_t i = 0; i < count; ++i)
         numbers[i] = std::min((static_cast<float>(k + static_cast<int>(i)) + first) / static_cast<float>(rays), 0.9999999f);
-      world.lights->tree().ChooseAll(points[0], n, std::span(numbers).first(count), chosen);
+      ChooseLamps(world, points[0], n, mix, std::span(numbers).first(count), chosen);
     }
     const Vec2f u = EvenPoint(static_cast<uint32_t>(k), shift);
     const Vec3f p = points[static_cast<size_t>(k) % points.size()] + n * kLift;
-    const LightSample sample = world.lights->PointOf(chosen[static_cast<size_t>(in)], p, u.x, u.y);
+    const LightTree::Choice& choice = chosen[static_cast<size_t>(in)];
+    const LightSample sample = world.lights->PointOf(choice, p, u.x, u.y);
     if (!(sample.pdf > 0)) continue;
+    if (mix.found != nullptr) mix.found->push_back({sample.lamp, 0, 1});
     const Vec3f to = sample.p - p;
     const float distance = Norm(to);
     const Vec3f d = to / std::max(distance, 1e-6f);
@@ -120,7 +153,9 @@ void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, 
     const float shape = here * there / (distance * distance);
     const bool shared = mix.plain != nullptr && mix.plain->Holds(sample.lamp);
     const float weight = shape / (sample.pdf * static_cast<float>(rays)) * (shared ? mix.OfLampRays(sample.pdf, shape / kPiF) : 1);
-    queue.Add(p, d, distance * kBeforeLamp, sample.radiance * weight, held ? &DirectLight::held : &DirectLight::others);
+    queue.Add(p, d, distance * kBeforeLamp,
+              {sample.radiance * weight, held ? &DirectLight::held : &DirectLight::others, k % 2 != 0, sample.lamp,
+               choice.probability * static_cast<float>(rays)});
   }
 }
 
@@ -193,7 +228,7 @@ MetSurface SurfaceUnder(const IndoorWorld& world, const RayPacket& packet, int l
 
 Vec3f SunFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, uint32_t seed, int rays) {
   DirectLight sum;
-  ShadowQueue queue(world, sum);
+  ShadowQueue queue(world, sum, nullptr);
   AddSun(world, points, normal, rays, ShiftOf(seed), queue);
   queue.Send();
   return sum.sun;
@@ -201,7 +236,7 @@ Vec3f SunFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3
 
 DirectLight LampsAround(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, const LampMix& lamps, uint32_t seed) {
   DirectLight sum;
-  ShadowQueue queue(world, sum);
+  ShadowQueue queue(world, sum, lamps.found);
   AddLamps(world, points, normal, lamps, seed, queue);
   queue.Send();
   return sum;

@@ -59,10 +59,10 @@ struct LampMix;  // plain_lamps.h
 
 /// Light that arrives directly at a place that faces `normal`, the mean over `points` on its surface.
 struct DirectLight {
-  Vec3f sun;               ///< irradiance
-  Vec3f held;              ///< of lamps that the grid holds
-  Vec3f others;            ///< of the others
-  float held_squares = 0;  ///< of the luminances that the rays to held lamps brought, summed up
+  Vec3f sun;                  ///< irradiance
+  Vec3f held;                 ///< of lamps that the grid holds
+  Vec3f others;               ///< of the others
+  float held_difference = 0;  ///< of the luminance of `held`: that of every other ray less that of the rest
 };
 /// Irradiance of the sun, likewise.
 Vec3f SunFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, uint32_t seed, int rays);

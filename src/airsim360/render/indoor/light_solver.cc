@@ -23,11 +23,13 @@ constexpr float kRefine = 1.5f;                         // ratio of neighbours
 constexpr double kMostFine = 300000;                    // surfels, about
 constexpr float kFinest = 1.0f / 3, kLeastFine = 0.6f;  // cells of the fine level, of the coarse one's
 constexpr float kTolerance = 10;                        // variances of light that are taken for noise
-constexpr float kLampTolerance = 2;                     // the same of lamps: with more, lit walls lose light to what is in shade beside
+constexpr float kLampTolerance = 4;                     // the same of lamps
 constexpr float kOnePlane = 0.2f;                       // of a cell: what is farther off is another surface
 constexpr float kLampShare = 2.5f;                      // of all light, inverse: as much by lamps deserves all rays to them
 constexpr int kLeastLampRays = 12;
-constexpr float kNear = 0.6f;  // of a cell: something as near needs the fine level
+constexpr int kPilot = 2;              // rays to lamps over those of the first look at them
+constexpr float kAlikeNormals = 0.7f;  // least cosine between those of surfels that see about the same
+constexpr float kNear = 0.6f;          // of a cell: something as near needs the fine level
 
 Vec3f DirectionOf(const Surfel& s, const LightLink& link) { return LinkDirection(LinkSteps(), s, link.u, link.v); }
 
@@ -55,17 +57,20 @@ void ForNeighbours(const SurfelSet& set, const Surfel& s, int step, const Each& 
   }
 }
 
-// Irradiance of what the first `even` rays met.
-void AddGlow(std::span<const Landing> landings, int even, Vec3f& held, Vec3f& others) {
-  for (const Landing& landing : landings.first(static_cast<size_t>(even)))
-    (landing.glow.held ? held : others) += landing.glow.radiance * (kPiF / static_cast<float>(even));
+// Irradiance of what the first `even` rays met. Returns how much every other ray brought of the luminance of `held`, less the rest.
+float AddGlow(std::span<const Landing> landings, int even, Vec3f& held, Vec3f& others) {
+  float difference = 0;
+  for (size_t k = 0; k < static_cast<size_t>(even); ++k) {
+    const MetGlow& glow = landings[k].glow;
+    const Vec3f light = glow.radiance * (kPiF / static_cast<float>(even));
+    (glow.held ? held : others) += light;
+    if (glow.held) difference += k % 2 != 0 ? -Luminance(light) : Luminance(light);
+  }
+  return difference;
 }
 
-// Of the luminance of held lamps, by what each ray to them brought.
-float VarianceOf(const DirectLight& direct, int rays) {
-  const float all = Luminance(direct.held);
-  return std::max(0.0f, direct.held_squares - all * all / static_cast<float>(std::max(1, rays))) * kStratified;
-}
+// Of a sum of which two halves have that difference: about as noisy as the sum itself.
+float VarianceOf(float difference) { return difference * difference; }
 
 float CellOf(std::span<const SurfacePiece> pieces, float wanted) {
   if (wanted > 0) return wanted;
@@ -101,6 +106,7 @@ LightSolver::LightSolver(const IndoorWorld& world, const Enclosure& enclosure, c
 
 LightSolver::LightSolver(const IndoorWorld& world, const std::vector<SurfacePiece>& pieces, const IndoorOptions& options)
     : world_(world), options_(options), reflectance_(world.tables), plain_(world), coarse_(world, pieces, CellOf(pieces, options.cell)) {
+  FindLamps();
   TraceEven();
   FindDirect();
   Bounce(kFirstBounces);
@@ -119,6 +125,29 @@ Vec3f LightSolver::Seen(uint32_t target, const Surfel& from, const LightLink& li
   return target == LightLink::kNothing ? Vec3f{} : radiance_[target];
 }
 
+// By the tree alone, for those that count to be sent where lamps are seen.
+void LightSolver::FindLamps() {
+  const auto& surfels = coarse_.surfels();
+  found_.resize(surfels.size());
+  ForSurfels(surfels.size(), [&](size_t i, size_t) {
+    const LampMix lamps{&plain_, std::max(1, options_.lamp_rays / kPilot), options_.rays, nullptr, &found_[i]};
+    LampsAround(world_, surfels[i].InPlane(), surfels[i].n, lamps, static_cast<uint32_t>(i) ^ 0x40000000u);
+    JoinFound(found_[i]);
+  });
+}
+
+LampGuide LightSolver::LampsNear(uint32_t at) const {
+  if (world_.lights == nullptr) return {};
+  LampTally tally(world_.lights->size());
+  const Surfel& s = coarse_.surfels()[at];
+  for (const int step : {1, 2}) {
+    ForNeighbours(coarse_, s, step, [&](uint32_t j, const Surfel& other) {
+      if (Dot(other.n, s.n) > kAlikeNormals && (step == 1 || j != at)) tally.Add(found_[j]);
+    });
+  }
+  return LampGuide(tally);
+}
+
 void LightSolver::TraceEven() {
   const auto rays = static_cast<size_t>(options_.rays);
   const size_t count = coarse_.surfels().size();
@@ -128,12 +157,19 @@ void LightSolver::TraceEven() {
   links_.assign(count * 2 * rays, {LightLink::kNothing, 0, 0, 0});
   radiance_.assign(count, {});
   std::vector<std::vector<std::pair<size_t, OutsidePlace>>> outside(count / kChunk + 1);
+  std::vector<std::vector<FoundLamp>> found(count);
   ForSurfels(count, [&](size_t i, size_t chunk) {
+    const Surfel& s = coarse_.surfels()[i];
+    const LampGuide guide = LampsNear(static_cast<uint32_t>(i));
+    const LampMix lamps{&plain_, options_.lamp_rays, options_.rays, &guide, &found[i]};
+    const DirectLight direct = LampsAround(world_, s.InPlane(), s.n, lamps, static_cast<uint32_t>(i));
+    coarse_light_.lamps[i] = direct.held, others_[i] = direct.others;
+    coarse_light_.lamp_variance[i] = VarianceOf(direct.held_difference);
     std::vector<Vec2f> points;
     std::vector<Landing> landings;
     SampleEvenly(options_.rays, ShiftOf(i), points);
-    SendRays(world_, reflectance_, coarse_, coarse_.surfels()[i], points, {&plain_, options_.lamp_rays, options_.rays}, landings);
-    AddGlow(landings, options_.rays, coarse_light_.lamps[i], others_[i]);
+    SendRays(world_, reflectance_, coarse_, s, points, lamps, landings);
+    coarse_light_.lamp_variance[i] += VarianceOf(AddGlow(landings, options_.rays, coarse_light_.lamps[i], others_[i]));
     for (size_t k = 0; k < rays; ++k) {
       const size_t at = i * 2 * rays + k;
       if (landings[k].target == Landing::kOutside) outside[chunk].push_back({at, landings[k].outside});
@@ -141,6 +177,10 @@ void LightSolver::TraceEven() {
                     LinkStep(points[k].y)};
     }
   });
+  for (size_t i = 0; i < count; ++i) {
+    found_[i].insert(found_[i].end(), found[i].begin(), found[i].end());
+    JoinFound(found_[i]);
+  }
   AddOutside(outside);
 }
 
@@ -180,12 +220,7 @@ void LightSolver::FindDirect() {
   direct_.assign(surfels.size(), {});
   ForSurfels(surfels.size(), [&](size_t i, size_t) {
     const Surfel& s = surfels[i];
-    const auto seed = static_cast<uint32_t>(i);
-    const DirectLight d = LampsAround(world_, s.InPlane(), s.n, {&plain_, options_.lamp_rays, options_.rays}, seed);
-    const Vec3f sun = SunFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, seed, kSunRays);
-    others_[i] += d.others;
-    coarse_light_.lamps[i] += d.held;
-    coarse_light_.lamp_variance[i] = VarianceOf(d, options_.lamp_rays);
+    const Vec3f sun = SunFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, static_cast<uint32_t>(i), kSunRays);
     direct_[i] = sun + coarse_light_.lamps[i] + others_[i];
     radiance_[i] = s.albedo * direct_[i] * (1 / kPiF);
   });
@@ -233,7 +268,7 @@ LightGuide LightSolver::GuideOf(const Surfel& s, uint32_t at, bool own) const {
   const auto rays = static_cast<size_t>(options_.rays);
   const Surfel& middle = coarse_.surfels()[at];
   ForNeighbours(coarse_, middle, 1, [&](uint32_t j, const Surfel& other) {
-    if (Dot(other.n, s.n) < 0.7f || (j == at && !own) || (j != at && coarse_.Weight(other, middle.p, middle.n) <= 0)) return;
+    if (Dot(other.n, s.n) < kAlikeNormals || (j == at && !own) || (j != at && coarse_.Weight(other, middle.p, middle.n) <= 0)) return;
     const bool same = other.n == s.n;
     for (size_t k = 0; k < rays; ++k) {
       const LightLink& link = links_[j * 2 * rays + k];
@@ -362,7 +397,7 @@ void LightSolver::MakeFine(std::span<const SurfacePiece> pieces) {
   fine_light_.lamps.assign(surfels.size(), {});
   fine_light_.lamp_variance.assign(surfels.size(), 0);
   ForChunks(surfels.size(), [&](size_t first, size_t end, size_t) {
-    std::unordered_map<uint32_t, LightGuide> kept;
+    KeptGuides kept;
     for (size_t i = first; i < end; ++i) LightFine(i, kept);
   });
   Smooth(*fine_, 4, fine_light_);
@@ -378,19 +413,24 @@ int LightSolver::FineLampRays(uint32_t near) const {
   return std::clamp(wanted, std::min(options_.lamp_rays, kLeastLampRays), options_.lamp_rays);
 }
 
-void LightSolver::LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& kept) {
+void LightSolver::LightFine(size_t i, KeptGuides& kept) {
   const Surfel& s = fine_->surfels()[i];
   const uint32_t near = coarse_.Nearest(s.p, s.n);
-  const LampMix lamps{&plain_, FineLampRays(near), options_.fine_rays};
+  LampMix lamps{&plain_, FineLampRays(near), options_.fine_rays};
+  if (near != SurfelSet::kNone) {
+    const auto [it, fresh] = kept.lamps.try_emplace(near);
+    if (fresh) it->second = LampsNear(near);
+    lamps.guide = &it->second;
+  }
   DirectLight direct = LampsAround(world_, s.InPlane(), s.n, lamps, static_cast<uint32_t>(i) ^ 0x80000000u);
-  const LightGuide guide = near == SurfelSet::kNone ? LightGuide() : KeptGuide(s, near, kept);
+  const LightGuide guide = near == SurfelSet::kNone ? LightGuide() : KeptGuide(s, near, kept.light);
   std::vector<Vec2f> points;
   std::vector<Landing> landings;
   SampleEvenly(options_.fine_rays, ShiftOf(i + 0x200000000ull), points);
   guide.Sample(options_.fine_rays, ShiftOf(i + 0x300000000ull), points);
   SendRays(world_, reflectance_, coarse_, s, points, lamps, landings);
-  fine_light_.lamp_variance[i] = VarianceOf(direct, lamps.to_lamps);
-  AddGlow(landings, options_.fine_rays, direct.held, direct.others);
+  fine_light_.lamp_variance[i] = VarianceOf(direct.held_difference);
+  fine_light_.lamp_variance[i] += VarianceOf(AddGlow(landings, options_.fine_rays, direct.held, direct.others));
   fine_light_.lamps[i] = direct.held;
   Sum sum;
   for (size_t k = 0; k < landings.size(); ++k) {
@@ -421,10 +461,11 @@ void ForOnePlane(const SurfelSet& set, size_t i, int step, const Each& each) {
   });
 }
 
-// Whether two differ by no more than their noise.
+// How far the difference of two is noise: as much as is expected of it says nothing.
 float Alike(const std::vector<Vec3f>& light, const std::vector<float>& variance, size_t i, size_t j, float tolerance) {
-  const float own = Luminance(light[i]), other = Luminance(light[j]), d = other - own;
-  return std::exp(-d * d / (tolerance * (variance[i] + variance[j]) + 2e-4f * (own * own + other * other) + 1e-20f));
+  const float own = Luminance(light[i]), other = Luminance(light[j]), noise = variance[i] + variance[j];
+  const float d2 = std::max(0.0f, (other - own) * (other - own) - noise);
+  return std::exp(-d2 / (tolerance * noise + 2e-4f * (own * own + other * other) + 1e-20f));
 }
 
 }  // namespace

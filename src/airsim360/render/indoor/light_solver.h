@@ -51,6 +51,7 @@ class LightSolver {
 
  private:
   struct Sum;
+  void FindLamps();
   void TraceEven();
   void TraceGuided();
   void AddOutside(std::vector<std::vector<std::pair<size_t, OutsidePlace>>>& found);
@@ -58,7 +59,14 @@ class LightSolver {
   void Bounce(int most);
   void Finish();
   void MakeFine(std::span<const SurfacePiece> pieces);
-  void LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& kept);
+  /// What fine surfels near one coarse one share.
+  struct KeptGuides {
+    std::unordered_map<uint32_t, LightGuide> light;
+    std::unordered_map<uint32_t, LampGuide> lamps;
+  };
+  void LightFine(size_t i, KeptGuides& kept);
+  /// Of the lamps that a coarse surfel and its neighbours have found.
+  LampGuide LampsNear(uint32_t at) const;
   /// For a surfel near the coarse one `at`, of what its neighbours see; `own`: and of what that one sees.
   LightGuide GuideOf(const Surfel& surfel, uint32_t at, bool own) const;
   /// The same. Those of surfels that face as the coarse one does are kept: many fine ones beside each other share one.
@@ -80,11 +88,12 @@ class LightSolver {
   Reflectance reflectance_;
   PlainLamps plain_;
   SurfelSet coarse_;
-  std::vector<LightLink> links_;  ///< 2 x rays a surfel
-  std::vector<Vec3f> direct_;     ///< irradiance of sun and lamps, by coarse surfel
-  std::vector<Vec3f> others_;     ///< of it, lamps that the grid does not hold
-  std::vector<Vec3f> radiance_;   ///< by target
-  std::vector<float> bright_;     ///< luminance along the first half of links
+  std::vector<LightLink> links_;               ///< 2 x rays a surfel
+  std::vector<std::vector<FoundLamp>> found_;  ///< by coarse surfel
+  std::vector<Vec3f> direct_;                  ///< irradiance of sun and lamps, by coarse surfel
+  std::vector<Vec3f> others_;                  ///< of it, lamps that the grid does not hold
+  std::vector<Vec3f> radiance_;                ///< by target
+  std::vector<float> bright_;                  ///< luminance along the first half of links
   LevelLight coarse_light_, fine_light_;
   std::unique_ptr<SurfelSet> fine_;
   double lost_ = 0;

@@ -9,6 +9,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/math/angles.h"
 #include "airsim360/render/indoor/indoor_kernels.h"
+#include "airsim360/render/indoor/plain_lamps.h"
 #include "airsim360/render/indoor/test_rooms.h"
 #include "airsim360/render/lights/lamp_grid.h"
 #include "airsim360/scene/luminance.h"
@@ -208,7 +209,7 @@ std::shared_ptr<const RayTracer> BrightBesideDark() {
   return rooms.Build();
 }
 
-// A hall with a hundred small lamps: few rays look for them, and floors are even all the same; the table's shade stays.
+// A hall with a hundred small lamps, about as many as a surfel sends rays to them: floors are even all the same; the table's shade stays.
 TEST(LightSolver, ManySmallLampsLeaveNoPatchesAndKeepTheirShadows) {
   RoomScene hall("hall");
   const MaterialId white = hall.Paint({0.7f, 0.7f, 0.7f}), glow = hall.Paint({0, 0, 0}, {900, 900, 900});
@@ -225,8 +226,8 @@ TEST(LightSolver, ManySmallLampsLeaveNoPatchesAndKeepTheirShadows) {
   ASSERT_GT(grid.lamps(), 0u);
   const internal::Enclosure enclosure(*tracer);
   const internal::IndoorWorld world{*tracer, tables, nullptr, &lights, &grid, nullptr};
-  const LightSolver few(world, enclosure, {.cell = 0.25f, .rays = 16, .lamp_rays = 24, .fine = false});
-  const LightSolver many(world, enclosure, {.cell = 0.25f, .rays = 16, .lamp_rays = 400, .fine = false});
+  const LightSolver few(world, enclosure, {.cell = 0.25f, .rays = 16, .fine = false});
+  const LightSolver many(world, enclosure, {.cell = 0.25f, .rays = 16, .lamp_rays = 2000, .fine = false});
   const auto& surfels = few.coarse().surfels();
   double squares = 0, sum = 0, expected = 0, shade = 0;
   int open = 0, shaded = 0;
@@ -245,6 +246,55 @@ TEST(LightSolver, ManySmallLampsLeaveNoPatchesAndKeepTheirShadows) {
   EXPECT_NEAR(sum / expected, 1, 0.01);
   EXPECT_LT(std::sqrt(squares / open), 0.015);
   EXPECT_LT(shade / shaded, 0.35 * sum / open);
+}
+
+// Two rooms with a door between them, a lamp in one, and next to both a closed hall with two hundred brighter ones: the floor behind the door has
+// the light that 4,096 rays find, as even and with as sharp a shade beside it, although lamps of the hall are as near.
+TEST(LightSolver, LampsBehindWallsTakeNoRaysFromThoseThatAreSeen) {
+  RoomScene rooms("rooms");
+  const MaterialId white = rooms.Paint({0.6f, 0.6f, 0.6f});
+  rooms.Box({0, 0, 0}, {10, 6, 3}, white);
+  rooms.Box({0, 6.1f, 0}, {10, 16, 3}, white);
+  rooms.Box({4.95f, 0, 0}, {5.05f, 2.5f, 3}, white, false);
+  rooms.Box({4.95f, 3.5f, 0}, {5.05f, 6, 3}, white, false);
+  const auto hang = [&](float x, float y, MaterialId glow) {
+    constexpr float kHalf = 0.1f, kHigh = 2.4f;
+    rooms.Quad({x - kHalf, y - kHalf, kHigh}, {x - kHalf, y + kHalf, kHigh}, {x + kHalf, y + kHalf, kHigh}, {x + kHalf, y - kHalf, kHigh},
+               glow);
+  };
+  hang(2.5f, 3, rooms.Paint({0, 0, 0}, {300, 300, 300}));
+  const MaterialId bright = rooms.Paint({0, 0, 0}, {3000, 3000, 3000});
+  for (int k = 0; k < 200; ++k) hang(0.5f + 0.47f * static_cast<float>(k % 20), 6.6f + 0.95f * static_cast<float>(k / 20), bright);
+  const auto tracer = rooms.Build();
+  const internal::SurfaceTables tables(tracer->scene(), true);
+  const internal::LightTable lights(tracer->scene(), tables, tracer->scene().environment);
+  const internal::LampGrid grid(*tracer, lights, 0);
+  const internal::IndoorWorld world{*tracer, tables, nullptr, &lights, &grid, nullptr};
+  const LightSolver solver(world, internal::Enclosure(*tracer), {.cell = 0.2f, .rays = 16, .fine = false});
+  const auto& surfels = solver.coarse().surfels();
+  std::vector<std::pair<double, double>> lights_of;  // own, right
+  double most = 0;
+  for (size_t i = 0; i < surfels.size(); ++i) {
+    const Surfel& s = surfels[i];
+    if (s.n.z < 0.9f || s.p.z > 0.1f || s.p.x < 5.2f || s.p.x > 9.8f || s.p.y > 5.8f || s.p.y < 0.2f) continue;
+    const double right = Luminance(internal::LampsAround(world, s.InPlane(), s.n, {nullptr, 4096, 0}, static_cast<uint32_t>(i)).held);
+    lights_of.emplace_back(Luminance(solver.coarse_light().lamps[i]), right);
+    most = std::max(most, right);
+  }
+  double lit = 0, lit_right = 0, shade = 0, squares = 0;
+  int of_lit = 0, of_shade = 0;
+  for (const auto& [own, right] : lights_of) {
+    if (right > 0.2 * most) lit += own, lit_right += right, squares += std::pow(own / right - 1, 2), ++of_lit;
+    if (right < 1e-3 * most) shade += own, ++of_shade;
+  }
+  ASSERT_GT(of_lit, 50);
+  ASSERT_GT(of_shade, 200);
+  RecordProperty("rms", std::to_string(std::sqrt(squares / of_lit)));
+  RecordProperty("lit", std::to_string(lit / lit_right));
+  RecordProperty("shade", std::to_string(shade / of_shade / (lit / of_lit)));
+  EXPECT_LT(std::sqrt(squares / of_lit), 0.05);
+  EXPECT_NEAR(lit / lit_right, 1, 0.02);
+  EXPECT_LT(shade / of_shade, 0.01 * lit / of_lit);
 }
 
 TEST(LightSolver, NoLightGetsThroughAWallOfThreeCentimetres) {

@@ -48,8 +48,9 @@ MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket
   const Vec3f d = packet.Direction(lane);
   const float distance = std::max(packet.rays.t_far[lane], 1e-4f);
   const float even = std::max(0.0f, Dot(d, normal)) * -Dot(d, met.normal) / (kPiF * distance * distance);
-  const float left = rays.OfLampRays(world.lights->Pdf(chosen_for, normal, ref.instance, ref.triangle), even);
-  return {glow * (1 - left), world.lamps != nullptr && world.lamps->Holds(world.lights->LampOf(ref.instance, ref.triangle))};
+  const uint32_t lamp = world.lights->LampOf(ref.instance, ref.triangle);
+  const float left = rays.OfLampRays(rays.ChanceOf(*world.lights, chosen_for, normal, lamp) / world.lights->lamps()[lamp].area, even);
+  return {glow * (1 - left), world.lamps != nullptr && world.lamps->Holds(lamp)};
 }
 
 }  // namespace airsim360::internal

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "airsim360/render/indoor/indoor_world.h"
+#include "airsim360/render/indoor/lamp_guide.h"
 
 namespace airsim360::internal {
 
@@ -22,11 +23,19 @@ class PlainLamps {
 struct LampMix {
   const PlainLamps* plain = nullptr;
   int to_lamps = 0, even = 0;
+  const LampGuide* guide = nullptr;         ///< chooses most of the lamps; nullptr: the tree chooses all
+  std::vector<FoundLamp>* found = nullptr;  ///< gets what each ray to a lamp has brought, unless nullptr
 
   /// Share of the light that is left to rays to lamps. Densities per area of the lamp.
   float OfLampRays(float lamp_density, float even_density) const {
     const float a = static_cast<float>(to_lamps) * lamp_density, b = static_cast<float>(even) * even_density;
     return a > 0 ? a / (a + b) : 0;
+  }
+  /// Probability with which a ray to lamps from a surface at p chooses that one.
+  float ChanceOf(const LightTable& lights, Vec3f p, Vec3f normal, uint32_t lamp) const {
+    const float of_tree = lights.tree().Probability(p, normal, lamp);
+    if (guide == nullptr) return of_tree;
+    return guide->tree_share() * of_tree + (1 - guide->tree_share()) * guide->Probability(lamp);
   }
 };
 
