@@ -90,6 +90,7 @@ class CumulusField {
         const float q = (dx * dx + dy * dy) / (radius * radius);
         if (q >= 1) continue;
         float& top = columns_[static_cast<size_t>(j & kShapeMask) * kShapeCells + (i & kShapeMask)].top;
+        if (top >= 1.001f * height) continue;  // most domes stand in others: no power of a number below 1 raises this one
         const float here = height * Pow(1 - q, power);
         covered_ += top <= 60 && here > 60;
         top = std::max(top, here);

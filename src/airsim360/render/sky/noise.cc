@@ -11,6 +11,16 @@ namespace {
 float Quintic(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 int Wrap(int i, int period) { return period > 0 ? ((i % period) + period) % period : i; }
 
+// A coordinate of the lattice and the next, both wrapped: divisions, which take longer than all the rest, where they are needed alone.
+struct Pair {
+  Pair(int i, int period) {
+    const bool inside = period <= 0 || (i >= 0 && i < period);
+    of[0] = inside ? i : Wrap(i, period);
+    of[1] = of[0] + 1 == period ? 0 : of[0] + 1;
+  }
+  int of[2];
+};
+
 // Component of a lattice gradient from ten bits of its hash, -1 … 1.
 float Part(uint32_t hash, int shift) { return static_cast<float>((hash >> shift) & 1023) * (2.0f / 1023) - 1; }
 
@@ -77,15 +87,17 @@ struct Points {
 float ValueNoise(float x, float y, int seed, int period) {
   const int i = FloorToInt(x), j = FloorToInt(y);
   const float u = SmoothStep(0, 1, x - static_cast<float>(i)), v = SmoothStep(0, 1, y - static_cast<float>(j));
-  const auto at = [&](int a, int b) { return HashUnit(Wrap(i + a, period), Wrap(j + b, period), seed); };
+  const Pair column(i, period), row(j, period);
+  const auto at = [&](int a, int b) { return HashUnit(column.of[a], row.of[b], seed); };
   return Mix(Mix(at(0, 0), at(1, 0), u), Mix(at(0, 1), at(1, 1), u), v);
 }
 
 float GradientNoise(float x, float y, int period, int seed) {
   const int i = FloorToInt(x), j = FloorToInt(y);
   const float fx = x - static_cast<float>(i), fy = y - static_cast<float>(j);
+  const Pair column(i, period), row(j, period);
   const auto at = [&](int a, int b) {
-    const uint32_t h = HashLattice(Wrap(i + a, period), Wrap(j + b, period), seed);
+    const uint32_t h = HashLattice(column.of[a], row.of[b], seed);
     return Part(h, 0) * (fx - static_cast<float>(a)) + Part(h, 10) * (fy - static_cast<float>(b));
   };
   const float u = Quintic(fx), v = Quintic(fy);
@@ -106,10 +118,12 @@ float FractalNoise(float x, float y, int period, int octaves, int seed) {
 
 float PointDistance(float x, float y, int period, int seed) {
   const int cx = FloorToInt(x), cy = FloorToInt(y);
+  const Pair left(cx - 1, period), right(cx, period), below(cy - 1, period), above(cy, period);
+  const int column[] = {left.of[0], left.of[1], right.of[1]}, row[] = {below.of[0], below.of[1], above.of[1]};
   float best = 9;
   for (int k = 0; k < 9; ++k) {
     const int i = cx + k % 3 - 1, j = cy + k / 3 - 1;
-    const uint32_t h = HashLattice(Wrap(i, period), Wrap(j, period), seed);
+    const uint32_t h = HashLattice(column[k % 3], row[k / 3], seed);
     const float dx = static_cast<float>(i) + static_cast<float>(h & 65535) / 65536.0f - x,
                 dy = static_cast<float>(j) + static_cast<float>(h >> 16) / 65536.0f - y;
     best = std::min(best, dx * dx + dy * dy);
