@@ -19,17 +19,27 @@ if(AIRSIM360_PCH)
   add_library(airsim360_standard_headers OBJECT ${CMAKE_BINARY_DIR}/empty.cc)
   target_precompile_headers(airsim360_standard_headers PRIVATE ${standard_headers})
   airsim360_for_python(airsim360_standard_headers)
-  add_library(airsim360_test_headers OBJECT ${CMAKE_BINARY_DIR}/empty.cc)
-  target_link_libraries(airsim360_test_headers PRIVATE GTest::gtest)
-  target_compile_options(airsim360_test_headers PRIVATE -O1)
-  target_precompile_headers(airsim360_test_headers PRIVATE ${standard_headers} <gtest/gtest.h>)
+  foreach(level O0 O1)
+    add_library(airsim360_test_headers_${level} OBJECT ${CMAKE_BINARY_DIR}/empty.cc)
+    target_link_libraries(airsim360_test_headers_${level} PRIVATE GTest::gtest)
+    target_compile_options(airsim360_test_headers_${level} PRIVATE -${level})
+    target_precompile_headers(airsim360_test_headers_${level} PRIVATE ${standard_headers} <gtest/gtest.h>)
+  endforeach()
 endif()
+
+# Tests that run for a second or two: not optimised, they compile in half the time.
+set(airsim360_short_tests app_test assets_test base_test behaviour_test dataset_test flight_test mission_test mpde_test opening_test planning_test
+    rpc_test stage_test tasks_test view_test vln_test)
 
 # airsim360_test_options(TARGET): how tests are compiled. The code under test is optimised; that of the tests need not be.
 function(airsim360_test_options target)
-  target_compile_options(${target} PRIVATE -O1)
+  set(level O1)
+  if(target IN_LIST airsim360_short_tests)
+    set(level O0)
+  endif()
+  target_compile_options(${target} PRIVATE -${level})
   if(AIRSIM360_PCH)
-    target_precompile_headers(${target} REUSE_FROM airsim360_test_headers)
+    target_precompile_headers(${target} REUSE_FROM airsim360_test_headers_${level})
   endif()
 endfunction()
 

@@ -21,7 +21,7 @@ f 5 6 7 8
 
 
 class Weather(ServerTest):
-    arguments = ("--lockstep",)
+    arguments = ("--lockstep", "--clouds", "clear")  # each weather has a sky of its own: those without clouds are painted at once
 
     @classmethod
     def setUpClass(cls):

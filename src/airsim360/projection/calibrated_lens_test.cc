@@ -3,11 +3,14 @@
 
 #include <cmath>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "airsim360/base/error.h"
 #include "airsim360/math/angles.h"
 #include "airsim360/projection/calibrated_lens.h"
 #include "airsim360/projection/camera_model_names.h"
+#include "airsim360/projection/solid_angle_rows.h"
 
 namespace airsim360 {
 namespace {
@@ -364,6 +367,20 @@ TEST(CalibratedLens, SolidAnglesSumToThoseOfTheWholeField) {
   // A distorted pinhole: the pixel in the middle is 1 / (fx fy).
   const Camera c = MakeCamera("OPENCV", 641, 481, Numbers{500, 510, 320.5, 240.5, 0.1, 0, 0, 0});
   EXPECT_NEAR(SolidAngle(c, 320, 240) * 500 * 510, 1, 1e-5);
+}
+
+TEST(CalibratedLens, SolidAnglesOfRowsAreThoseOfTheirPixels) {
+  const Camera cameras[] = {MakeCamera("DOUBLE_SPHERE", 60, 50, Numbers{16, 17, 30, 25, -0.18, 0.59}, 150),
+                            MakeCamera("OPENCV", 64, 48, Numbers{50, 51, 32, 24, 0.1, 0, 0.001, 0}), Fisheye::Equidistant(40, 40, 3)};
+  for (const Camera& camera : cameras) {
+    const auto width = static_cast<size_t>(Width(camera));
+    for (const auto& [first, last] : {std::pair{0, Height(camera)}, std::pair{7, 9}}) {
+      std::vector<double> rows(width * static_cast<size_t>(last - first));
+      internal::SolidAnglesOfRows(camera, first, last, rows);
+      for (size_t k = 0; k < rows.size(); ++k)
+        ASSERT_EQ(rows[k], SolidAngle(camera, static_cast<int>(k % width), first + static_cast<int>(k / width))) << k;
+    }
+  }
 }
 
 TEST(CalibratedLens, ItsNameAndParametersMakeItAgain) {

@@ -3,9 +3,16 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
 
+#include "airsim360/projection/calibrated_lens.h"
 #include "airsim360/projection/camera.h"
 #include "airsim360/projection/fisheye_radius.h"
+#include "airsim360/projection/solid_angle_rows.h"
 
 namespace airsim360 {
 namespace {
@@ -86,19 +93,21 @@ double Of(const Fisheye& c, int i, int j) {
 // cancel where it is small.
 double Triangle(Vec3d a, Vec3d b, Vec3d c) { return 2 * std::atan2(Dot(a, Cross(b - a, c - a)), 1 + Dot(a, b) + Dot(b, c) + Dot(c, a)); }
 
-// Of a rectangle of the picture whose corners have rays; nullopt where one has none.
-std::optional<double> Quadrangle(const CalibratedLens& c, Vec2d p, double side) {
-  const Camera camera = c;
-  const auto a = PixelToRay(camera, p), b = PixelToRay(camera, p + Vec2d{side, 0}), d = PixelToRay(camera, p + Vec2d{0, side}),
-             e = PixelToRay(camera, p + Vec2d{side, side});
+using MaybeRay = std::optional<Vec3d>;
+
+// Of a rectangle of the picture whose corners have rays, upper and lower ones from the left; nullopt where one has none.
+std::optional<double> Quadrangle(const MaybeRay& a, const MaybeRay& b, const MaybeRay& d, const MaybeRay& e) {
   if (!a || !b || !d || !e) return std::nullopt;
   return Triangle(*a, *b, *e) + Triangle(*a, *e, *d);
 }
 
-double Of(const CalibratedLens& c, int i, int j) {
-  const Vec2d corner{static_cast<double>(i), static_cast<double>(j)};
-  if (const auto whole = Quadrangle(c, corner, 1)) return *whole;
-  // Where the field ends: the part of the pixel whose points have rays, all of the size of one that has its corners too.
+std::optional<double> Quadrangle(const CalibratedLens& c, Vec2d p, double side) {
+  const auto ray = [&](double x, double y) { return internal::LensRay(c, p + Vec2d{x, y}); };
+  return Quadrangle(ray(0, 0), ray(side, 0), ray(0, side), ray(side, side));
+}
+
+// Where the field ends: the part of the pixel whose points have rays, all of the size of one that has its corners too.
+double OfRim(const CalibratedLens& c, Vec2d corner) {
   constexpr int kParts = 8;
   const Camera camera = c;
   int seen = 0;
@@ -112,10 +121,42 @@ double Of(const CalibratedLens& c, int i, int j) {
   return seen * part.value_or(0);
 }
 
+double Of(const CalibratedLens& c, int i, int j) {
+  const Vec2d corner{static_cast<double>(i), static_cast<double>(j)};
+  const auto whole = Quadrangle(c, corner, 1);
+  return whole ? *whole : OfRim(c, corner);
+}
+
+// Rays of the corners along the upper side of row j.
+std::vector<MaybeRay> CornersOf(const CalibratedLens& c, int j) {
+  std::vector<MaybeRay> rays;
+  for (int i = 0; i <= c.width; ++i) rays.push_back(internal::LensRay(c, {static_cast<double>(i), static_cast<double>(j)}));
+  return rays;
+}
+
 }  // namespace
 
 double SolidAngle(const Camera& camera, int i, int j) {
   return std::visit([&](const auto& c) { return Of(c, i, j); }, camera);
+}
+
+void internal::SolidAnglesOfRows(const Camera& camera, int first, int last, std::span<double> values) {
+  size_t at = 0;
+  const auto* const lens = std::get_if<CalibratedLens>(&camera);
+  if (lens == nullptr) {
+    for (int j = first; j < last; ++j)
+      for (int i = 0; i < Width(camera); ++i) values[at++] = SolidAngle(camera, i, j);
+    return;
+  }
+  // Four pixels share a corner.
+  std::vector<MaybeRay> upper, lower = CornersOf(*lens, first);
+  for (int j = first; j < last; ++j) {
+    upper = std::exchange(lower, CornersOf(*lens, j + 1));
+    for (size_t i = 0; i + 1 < upper.size(); ++i) {
+      const auto whole = Quadrangle(upper[i], upper[i + 1], lower[i], lower[i + 1]);
+      values[at++] = whole ? *whole : OfRim(*lens, {static_cast<double>(i), static_cast<double>(j)});
+    }
+  }
 }
 
 }  // namespace airsim360

@@ -66,18 +66,24 @@ float CloudLayer::Density(float x, float y, float altitude, bool detail) const {
   // The noise is drawn out along the wind and leans with height.
   const float along = x * form_.wind.x + y * form_.wind.y - form_.shear * z, across = y * form_.wind.x - x * form_.wind.y;
   const Vec3f p{along / form_.stretch, across, altitude};
+  const float low = SmoothStep(0, 160, z), edge = form_.edge * (2 - low);
+  const auto depth_under = [&](float noise) { return std::min(below - wear * (1 - noise), 0.9f * (z - form_.base_erosion * (1 - noise))); };
+  // Deep inside no noise thins the cloud, and far outside of what the coarse noise leaves the fine one adds none.
+  if (depth_under(0) >= edge) return form_.extinction;
   float noise = NoiseCube::Billows().At(p * (1 / form_.billow)), fine = 0.55f;
-  const float low = SmoothStep(0, 160, z);
   if (detail) {
+    if (depth_under(noise) <= 0) return 0;
+    const float finest = 0.22f + 0.35f * (1 - low);
+    if (depth_under(Clamp01(noise - finest)) >= edge) return form_.extinction;
     fine = NoiseCube::Details().At(Vec3f{p.x / form_.stretch, p.y, p.z} * (1 / form_.detail));
-    noise = Clamp01(noise - (0.22f + 0.35f * (1 - low)) * (1 - fine));
+    noise = Clamp01(noise - finest * (1 - fine));
   } else {
     noise = std::max(0.0f, noise - 0.10f);
   }
-  const float depth = std::min(below - wear * (1 - noise), 0.9f * (z - form_.base_erosion * (1 - noise)));
+  const float depth = depth_under(noise);
   if (depth <= 0) return 0;
   // Thin towards the edge, and torn there.
-  const float s = Clamp01(depth / (form_.edge * (2 - low))), torn = Clamp01(s - 0.5f * (1 - fine) * (1 - s));
+  const float s = Clamp01(depth / edge), torn = Clamp01(s - 0.5f * (1 - fine) * (1 - s));
   return torn * (0.3f + 0.7f * torn) * form_.extinction;
 }
 

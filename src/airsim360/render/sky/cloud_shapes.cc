@@ -90,6 +90,7 @@ class CumulusField {
         const float q = (dx * dx + dy * dy) / (radius * radius);
         if (q >= 1) continue;
         float& top = columns_[static_cast<size_t>(j & kShapeMask) * kShapeCells + (i & kShapeMask)].top;
+        if (top >= 1.001f * height) continue;  // most domes stand in others: no power of a number below 1 raises this one
         const float here = height * Pow(1 - q, power);
         covered_ += top <= 60 && here > 60;
         top = std::max(top, here);
@@ -100,10 +101,11 @@ class CumulusField {
   // Air rises to clouds from other heights: bases vary slowly by a tenth and from cloud to cloud by some tens of metres.
   void LiftBases() {
     ParallelFor(kShapeCells, [&](int64_t j) {
+      const float y = static_cast<float>(j) / kShapeCells;
+      const FractalRow slow(y * 5, 5, 2, seed_ + 3), fast(y * 26, 26, 2, seed_ + 5);
       for (int i = 0; i < kShapeCells; ++i) {
-        const float x = static_cast<float>(i) / kShapeCells, y = static_cast<float>(j) / kShapeCells;
-        columns_[static_cast<size_t>(j) * kShapeCells + i].base =
-            0.14f * form_.base * FractalNoise(x * 5, y * 5, 5, 2, seed_ + 3) + 110 * FractalNoise(x * 26, y * 26, 26, 2, seed_ + 5);
+        const float x = static_cast<float>(i) / kShapeCells;
+        columns_[static_cast<size_t>(j) * kShapeCells + i].base = 0.14f * form_.base * slow.At(x * 5) + 110 * fast.At(x * 26);
       }
     });
   }
@@ -139,16 +141,18 @@ CloudLayer SheetLayer(const SheetForm& form, float cover, Vec2f wind, uint32_t s
   Columns columns(kShapeCells * kShapeCells);
   std::vector<float> field(columns.size());
   ParallelFor(kShapeCells, [&](int64_t j) {
+    const float y = static_cast<float>(j) / kShapeCells;
+    const FractalRow bend_x(y * 9, 9, 3, s + 40), bend_y(y * 9, 9, 3, s + 50), wide(y * 5, 5, 4, s + 60), bases(y * 20, 20, 2, s + 80);
     for (int i = 0; i < kShapeCells; ++i) {
-      const float x = static_cast<float>(i) / kShapeCells, y = static_cast<float>(j) / kShapeCells;
-      const float wx = x + 0.035f * FractalNoise(x * 9, y * 9, 9, 3, s + 40), wy = y + 0.035f * FractalNoise(x * 9, y * 9, 9, 3, s + 50);
+      const float x = static_cast<float>(i) / kShapeCells;
+      const float wx = x + 0.035f * bend_x.At(x * 9), wy = y + 0.035f * bend_y.At(x * 9);
       const auto count = static_cast<float>(elements), twice = static_cast<float>(2 * elements + 1);
       const float heaps = 1 - PointDistance(wx * count, wy * count, elements, s),
                   small = 1 - PointDistance(wx * twice, wy * twice, 2 * elements + 1, s + 1);
-      const float fields = FractalNoise(x * 5, y * 5, 5, 4, s + 60), groups = FractalNoise(wx * 14, wy * 14, 14, 3, s + 70);
+      const float fields = wide.At(x * 5), groups = FractalNoise(wx * 14, wy * 14, 14, 3, s + 70);
       const size_t k = static_cast<size_t>(j) * kShapeCells + i;
       field[k] = 0.55f * heaps + 0.2f * small + banks * fields + 0.5f * groups;
-      columns[k].base = 0.25f * form.thickness * FractalNoise(x * 20, y * 20, 20, 2, s + 80);
+      columns[k].base = 0.25f * form.thickness * bases.At(x * 20);
     }
   });
   // The threshold that leaves as much as asked, and what wear takes from the edges besides.

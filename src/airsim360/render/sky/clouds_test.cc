@@ -11,6 +11,7 @@
 #include "airsim360/math/angles.h"
 #include "airsim360/render/sky/cloud_geometry.h"
 #include "airsim360/render/sky/cloud_shapes.h"
+#include "airsim360/render/sky/noise.h"
 #include "airsim360/render/sky/sky.h"
 
 namespace airsim360::internal {
@@ -63,6 +64,18 @@ Environment Under(const char* preset, double seed) {
   Environment e = ParseCloudPreset(preset);
   e.sky_seed = seed;
   return e;
+}
+
+TEST(CloudNoise, ARowIsTheNoiseOfItsPoints) {
+  RngStream random(5, "rows");
+  for (const int period : {1, 5, 26}) {
+    for (int k = 0; k < 40; ++k) {
+      const auto x = static_cast<float>(random.Uniform(-1, 2) * period), y = static_cast<float>(random.Uniform(-1, 2) * period);
+      const FractalRow row(y, period, 3, 77);
+      EXPECT_EQ(row.At(x), FractalNoise(x, y, period, 3, 77)) << x << ", " << y << ", " << period;
+      EXPECT_EQ(row.At(0), FractalNoise(0, y, period, 3, 77));
+    }
+  }
 }
 
 TEST(CloudGeometry, DistanceAndAltitudeAreInverses) {

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
 
+#include "airsim360/base/disk_cache.h"
 #include "airsim360/base/parallel.h"
 
 namespace airsim360::internal {
@@ -10,6 +14,16 @@ namespace {
 
 float Quintic(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 int Wrap(int i, int period) { return period > 0 ? ((i % period) + period) % period : i; }
+
+// A coordinate of the lattice and the next, both wrapped: divisions, which take longer than all the rest, where they are needed alone.
+struct Pair {
+  Pair(int i, int period) {
+    const bool inside = period <= 0 || (i >= 0 && i < period);
+    of[0] = inside ? i : Wrap(i, period);
+    of[1] = of[0] + 1 == period ? 0 : of[0] + 1;
+  }
+  int of[2];
+};
 
 // Component of a lattice gradient from ten bits of its hash, -1 … 1.
 float Part(uint32_t hash, int shift) { return static_cast<float>((hash >> shift) & 1023) * (2.0f / 1023) - 1; }
@@ -77,15 +91,17 @@ struct Points {
 float ValueNoise(float x, float y, int seed, int period) {
   const int i = FloorToInt(x), j = FloorToInt(y);
   const float u = SmoothStep(0, 1, x - static_cast<float>(i)), v = SmoothStep(0, 1, y - static_cast<float>(j));
-  const auto at = [&](int a, int b) { return HashUnit(Wrap(i + a, period), Wrap(j + b, period), seed); };
+  const Pair column(i, period), row(j, period);
+  const auto at = [&](int a, int b) { return HashUnit(column.of[a], row.of[b], seed); };
   return Mix(Mix(at(0, 0), at(1, 0), u), Mix(at(0, 1), at(1, 1), u), v);
 }
 
 float GradientNoise(float x, float y, int period, int seed) {
   const int i = FloorToInt(x), j = FloorToInt(y);
   const float fx = x - static_cast<float>(i), fy = y - static_cast<float>(j);
+  const Pair column(i, period), row(j, period);
   const auto at = [&](int a, int b) {
-    const uint32_t h = HashLattice(Wrap(i + a, period), Wrap(j + b, period), seed);
+    const uint32_t h = HashLattice(column.of[a], row.of[b], seed);
     return Part(h, 0) * (fx - static_cast<float>(a)) + Part(h, 10) * (fy - static_cast<float>(b));
   };
   const float u = Quintic(fx), v = Quintic(fy);
@@ -104,12 +120,49 @@ float FractalNoise(float x, float y, int period, int octaves, int seed) {
   return sum / total;
 }
 
+FractalRow::FractalRow(float y, int period, int octaves, int seed) {
+  for (int k = 0; k < octaves; ++k, y = 2 * y, period *= 2) {
+    const int j = FloorToInt(y);
+    const float fy = y - static_cast<float>(j);
+    const Pair row(j, period);
+    Octave octave{period, Quintic(fy), {}, {}};
+    for (int b = 0; b < 2; ++b) {
+      for (int i = 0; i < period; ++i) {
+        const uint32_t h = HashLattice(i, row.of[b], seed + 101 * k);
+        octave.along[b].push_back(Part(h, 0));
+        octave.across[b].push_back(Part(h, 10) * (fy - static_cast<float>(b)));
+      }
+    }
+    octaves_.push_back(std::move(octave));
+  }
+}
+
+float FractalRow::Octave::At(float x) const {
+  const int i = FloorToInt(x);
+  const float fx = x - static_cast<float>(i), u = Quintic(fx);
+  const Pair column(i, period);
+  const auto at = [&](int a, int b) { return along[b][column.of[a]] * (fx - static_cast<float>(a)) + across[b][column.of[a]]; };
+  return 1.6f * Mix(Mix(at(0, 0), at(1, 0), u), Mix(at(0, 1), at(1, 1), u), v);
+}
+
+float FractalRow::At(float x) const {
+  float sum = 0, weight = 1, total = 0;
+  for (const Octave& octave : octaves_) {
+    sum += weight * octave.At(x);
+    total += weight;
+    weight *= 0.5f, x = 2 * x;
+  }
+  return sum / total;
+}
+
 float PointDistance(float x, float y, int period, int seed) {
   const int cx = FloorToInt(x), cy = FloorToInt(y);
+  const Pair left(cx - 1, period), right(cx, period), below(cy - 1, period), above(cy, period);
+  const int column[] = {left.of[0], left.of[1], right.of[1]}, row[] = {below.of[0], below.of[1], above.of[1]};
   float best = 9;
   for (int k = 0; k < 9; ++k) {
     const int i = cx + k % 3 - 1, j = cy + k / 3 - 1;
-    const uint32_t h = HashLattice(Wrap(i, period), Wrap(j, period), seed);
+    const uint32_t h = HashLattice(column[k % 3], row[k / 3], seed);
     const float dx = static_cast<float>(i) + static_cast<float>(h & 65535) / 65536.0f - x,
                 dy = static_cast<float>(j) + static_cast<float>(h >> 16) / 65536.0f - y;
     best = std::min(best, dx * dx + dy * dy);
@@ -129,6 +182,20 @@ const NoiseCube& NoiseCube::Details() {
 
 NoiseCube::NoiseCube(int size, std::vector<int> balls, std::vector<float> weights, float low, float range, float bend)
     : size_(size), mask_(size - 1), voxels_(static_cast<size_t>(size) * size * size) {
+  // The same for every sky: most of a second of a processor where it is not kept.
+  const DiskCache cache = DiskCache::OfUser();
+  const CacheKey key = CacheKey("cloud_noise", 1).Add(size).AddProgram();
+  const std::span<std::byte> bytes = std::as_writable_bytes(std::span(voxels_));
+  if (const auto kept = cache.Load(key); kept && kept->bytes().size() == bytes.size()) {
+    std::ranges::copy(kept->bytes(), bytes.begin());
+    return;
+  }
+  Fill(balls, weights, low, range, bend);
+  cache.Store(key, bytes);
+}
+
+void NoiseCube::Fill(const std::vector<int>& balls, const std::vector<float>& weights, float low, float range, float bend) {
+  const int size = size_;
   const std::vector<Points> points(balls.begin(), balls.end());
   const Gradients coarse(4), middle(8), fine(16);
   ParallelFor(size, [&](int64_t k) {

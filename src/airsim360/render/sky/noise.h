@@ -40,6 +40,22 @@ float ValueNoise(float x, float y, int seed, int period = 0);
 float GradientNoise(float x, float y, int period, int seed);
 /// Octaves of GradientNoise, each twice as fine and half as strong; without a period each is turned, too.
 float FractalNoise(float x, float y, int period, int octaves, int seed);
+/// FractalNoise along one y of a lattice with a period: the same numbers in a fraction of the time for the many x of a row.
+class FractalRow {
+ public:
+  FractalRow(float y, int period, int octaves, int seed);
+  float At(float x) const;
+
+ private:
+  // GradientNoise: gradients of the lattice's rows below and above y, of the second part what it adds there.
+  struct Octave {
+    int period;
+    float v;
+    std::vector<float> along[2], across[2];
+    float At(float x) const;
+  };
+  std::vector<Octave> octaves_;
+};
 /// Distance to the nearest of random points of the plane, one a cell of size 1; 0 … about 1.2.
 float PointDistance(float x, float y, int period, int seed);
 
@@ -57,6 +73,7 @@ class NoiseCube {
  private:
   /// Worley noise of `balls[k]` points a side with `weights[k]`, then mapped from [low, low + range] with `bend` of gradient noise.
   NoiseCube(int size, std::vector<int> balls, std::vector<float> weights, float low, float range, float bend);
+  void Fill(const std::vector<int>& balls, const std::vector<float>& weights, float low, float range, float bend);
 
   int size_, mask_;
   std::vector<uint8_t> voxels_;  // 2 MB and less: the processor's second cache holds it
