@@ -29,7 +29,6 @@ constexpr int64_t kMostSilent = 3;      // batches without a single draft from t
 constexpr int kCameras = 3;             // at each place
 constexpr size_t kMostOfType = 24;      // drafts of one type and place: more would be too alike
 
-double Degrees(double rad) { return rad * 180 / std::numbers::pi; }
 
 // At most so many of each type, drawn; first those that somebody waits for.
 void Thin(std::vector<Draft>& drafts, const Balance& balance, RngStream& random) {
@@ -148,7 +147,7 @@ class LanguageMaker {
                     {"width", picture.width},
                     {"height", picture.height},
                     {"position", internal::ToJson(picture.from.p_W)},
-                    {"yaw_deg", internal::Rounded(Degrees(picture.from.yaw))}};
+                    {"yaw_deg", internal::Rounded(picture.from.yaw * 180 / std::numbers::pi)}};
     if (!picture.panorama) json.update({{"azimuth_deg", picture.azimuth_deg}, {"fov_deg", 90}});
     return json;
   }
