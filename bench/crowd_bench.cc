@@ -144,7 +144,8 @@ void Soak(size_t people, double minutes, const char* world, const char* file) {
   std::vector<CrowdEvent> events;
   std::map<std::string, size_t> transitions;
   size_t stuck = 0, lost = 0;
-  double closest = 1e9;
+  double closest = 1e9, farthest = 0;
+  size_t together = 0, apart = 0;  // parties, every five seconds
   for (int64_t tick = 0; tick < static_cast<int64_t>(minutes * 60 * 20); ++tick) {
     StepCrowd(*model, state, kCrowdTickNs, {}, &events);
     for (const CrowdEvent& event : events) {
@@ -159,6 +160,12 @@ void Soak(size_t people, double minutes, const char* world, const char* file) {
     if (tick % 100 == 0) {
       for (size_t i = 0; i < state.people.size(); ++i)
         for (size_t k = 0; k < i; ++k) closest = std::min(closest, Norm(state.people[i].p_WP - state.people[k].p_WP));
+      for (const internal::Party& party : model->plan->parties) {
+        double spread = 0;
+        for (const PersonIndex i : party.members) spread = std::max(spread, Norm(state.people[i].p_WP - state.people[party.members[0]].p_WP));
+        ++(spread < 5 ? together : apart);
+        farthest = std::max(farthest, spread);
+      }
     }
     if (tick % 12000 == 1200)
       std::printf("%5.0f min: heap %zu KiB, hash %016lx\n", static_cast<double>(tick) / 1200, mallinfo2().uordblks / 1024,
@@ -166,6 +173,8 @@ void Soak(size_t people, double minutes, const char* world, const char* file) {
   }
   std::printf("%zu people, %.0f min: stuck %zu, messages lost %zu, closest %.3f m, hash %016lx; %.0f s of work\n", people, minutes, stuck,
               lost, closest, HashCrowd(state), Milliseconds(began) / 1000);
+  std::printf("parties: %zu, over 5 m from the first of them %.2f %% of the time, at most %.1f m\n", model->plan->parties.size(),
+              100.0 * static_cast<double>(apart) / static_cast<double>(std::max<size_t>(1, apart + together)), farthest);
   for (const auto& [name, n] : transitions) std::printf("  -> %-20s %zu\n", name.c_str(), n);
 }
 

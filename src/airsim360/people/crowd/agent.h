@@ -63,7 +63,7 @@ struct Agent {
   Vec2d heading{1, 0};         ///< of a leader: where the party goes, smoothed; a unit vector
   double party_pace = 1;       ///< of a leader: share of the speed that is left for those who fall behind
   int64_t waits_since_ns = 0;  ///< of a leader, for somebody
-  double sway = 0;             ///< radians that they walk off the straight way
+  double sway = 0;             ///< tangent of the angle that they walk off the straight way
   Vec2d shift;                 ///< metres that somebody who stands is off their place, from one foot to the other
   int64_t shifts_until_ns = 0;
   Vec2d stand;            ///< where they came to stand

@@ -85,7 +85,7 @@ TEST_F(CrowdFiles, WalkersWhoMeetChatFacingEachOtherInTurnsAndWalkOn) {
            kSocialTree));
   std::map<uint32_t, std::set<PersonIndex>> groups;
   int facing = 0, pairs = 0, speakers_of_one = 0, talks = 0;
-  crowd.Run(120, [&] {
+  crowd.Run(400, [&] {
     std::map<uint32_t, std::vector<PersonIndex>> now;
     for (PersonIndex i = 0; i < 8; ++i)
       if (crowd[i].group) now[crowd[i].group].push_back(i);

@@ -103,7 +103,7 @@ Status Mind::Chat(bool fresh, NodeMemory& memory, double min_s, double max_s, co
 
 // Who leads is followed from place to place; out of sight they are walked after.
 Status Mind::Accompany(bool fresh) {
-  constexpr double kBeside = 2.5, kInSight = 8, kArrives = 1, kGone = 3;  // metres
+  constexpr double kTouches = 1.2, kBeside = 2.5, kInSight = 8, kArrives = 1, kGone = 3;  // metres
   const PersonIndex leader = LeaderOf(tick_, self_);
   if (leader == kNoPerson || leader == self_ || agent_.commanded) return Status::kFailure;
   if (fresh) {
@@ -119,7 +119,8 @@ Status Mind::Accompany(bool fresh) {
   const double distance = FlatDistance(other.at.p_W, walker_.at.p_W);
   const NavMesh& mesh = *tick_.model.navmesh;
   const Vec2d there = Flat(other.at.p_W);
-  if (distance < kBeside ? mesh.Straight(walker_.at, there) : distance < kInSight && ShortCut(mesh, walker_.at, there)) {
+  const bool beside = distance < kTouches || (distance < kBeside && mesh.Straight(walker_.at, there));
+  if (beside || (distance < kInSight && ShortCut(mesh, walker_.at, there))) {
     if (agent_.walk != Walk::kNone) DropGoal(tick_, self_);
   } else if (agent_.walk == Walk::kNone || agent_.walk == Walk::kArrived || agent_.walk == Walk::kFailed ||
              FlatDistance(agent_.goal.p_W, other.at.p_W) > kGone) {

@@ -135,8 +135,9 @@ void ArrangeParty(CrowdTick& tick, PersonIndex leader) {
   for (const PersonIndex k : party->members)
     if (k != leader && tick.in.agents[k].accompanies) members.push_back(k);
   agent.party_pace = PaceFor(tick, leader, members);
-  // Places are looked for half as often, and while they walk.
-  const bool again = tick.t_ns / (kThinkEvery * kCrowdTickNs) % 2 == 0;
+  // Places are looked for less often, and while they walk.
+  constexpr int64_t kAgain = 3;
+  const bool again = (tick.t_ns / (kThinkEvery * kCrowdTickNs) + leader) % kAgain == 0;
   if (members.empty() || agent.walk != Walk::kOnTheWay || !again) return;
 
   const Walker& walker = tick.in.walkers[leader];
@@ -181,6 +182,7 @@ bool WantBeside(CrowdTick& tick, PersonIndex i, PersonIndex leader) {
   const Vec2d wanted = other.v + to * kGain;
   const double speed = Norm(wanted), most = kHurry * walker.free_speed;
   if (speed < 0.1 && led_by.hold) return false;
+  if (Norm(to) > kBehind) agent.way_ns = tick.t_ns;  // is on the way, and may be stuck
   if (speed > 1e-6) walker.wanted = wanted * (std::min(speed, most) / speed);
   return true;
 }

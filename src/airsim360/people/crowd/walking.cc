@@ -60,7 +60,8 @@ bool Green(const NavMesh::Crossing& crossing, int64_t t_ns) {
 
 /// 0 … 1: those who want somewhere and have stood for a second begin to squeeze, after three they push.
 double PressedBy(const Agent& agent, int64_t t_ns) {
-  if (agent.walk != Walk::kOnTheWay || agent.hold) return 0;
+  const bool wants = agent.walk == Walk::kOnTheWay || (agent.accompanies && agent.walk == Walk::kNone);
+  if (!wants || agent.hold) return 0;
   return std::clamp(static_cast<double>(t_ns - agent.progress_ns - kSecond) / (2.0 * kSecond), 0.0, 1.0);
 }
 
@@ -74,14 +75,9 @@ bool SomebodyWantsThrough(const CrowdTick& tick, Vec2d p) {
 
 /// Strollers do not walk like arrows: their heading wanders about the straight way (an Ornstein-Uhlenbeck process). At 5 Hz.
 void Sway(Agent& agent) {
-  constexpr double kSpread = 0.16, kMemory = 2.5;  // radians, seconds
-  const double keep = std::exp(-kThinkEvery * static_cast<double>(kCrowdTickNs) * 1e-9 / kMemory);
+  constexpr double kSpread = 0.14, kMemory = 2.5;  // tangent, seconds
+  static const double keep = std::exp(-kThinkEvery * static_cast<double>(kCrowdTickNs) * 1e-9 / kMemory);
   agent.sway = agent.sway * keep + kSpread * std::sqrt(1 - keep * keep) * agent.rng.Normal();
-}
-
-Vec2d Turned(Vec2d v, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
 /// Where somebody goes, smoothed over 0.6 s; who turns around has turned at once.
@@ -191,6 +187,12 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
   agent.hold = false;
   Sway(agent);
   ShiftWeight(tick, agent);
+  // Who walks beside others gets on if they do, or are where they should be.
+  const bool is_beside = agent.walk == Walk::kNone && tick.t_ns - agent.way_ns > kThinkEvery * kCrowdTickNs;
+  if (is_beside || (agent.walk == Walk::kNone && Norm(walker.at.p_W - agent.progress_p) > 0.5)) {
+    agent.progress_p = walker.at.p_W;
+    agent.progress_ns = tick.t_ns;
+  }
   if (agent.walk != Walk::kOnTheWay) return;
   const NavMesh& mesh = *tick.model.navmesh;
   const Vec2d p = Flat(walker.at.p_W), to = NearestInGate(agent.gates[agent.gate], p) - p;
@@ -309,7 +311,7 @@ void WantOnTheWay(CrowdTick& tick, PersonIndex i) {
   if (d > 1e-6) walker.wanted = to * (speed / d);
   // Who strolls sways, but not at a corner, in a press or on an errand that someone has set.
   const double share = agent.commanded || agent.goal_speed > 0 ? 0 : std::clamp(d / 3, 0.0, 1.0) * (1 - walker.pressed);
-  walker.wanted = Turned(walker.wanted, agent.sway * share);
+  walker.wanted = walker.wanted + Vec2d{-walker.wanted.y, walker.wanted.x} * (agent.sway * share);
   if (Norm(walker.v) > 0.3) FollowHeading(agent, walker.v);
 }
 
