@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
@@ -14,7 +16,45 @@
 namespace airsim360::internal {
 namespace {
 
+constexpr float kMostlyWhite = 0.35f;  // of what is nearly white: more light makes such a pixel hardly brighter
+
+// Light of an edge pixel above what shows as nearly white.
+struct AboveWhite {
+  int x, y;
+  Rgb32f light;
+};
+
+Rgb32f& RadianceOf(const HighEdgeTask& task, int x, int y) {
+  const int width = task.rays->field().width, column = x - task.rays->column_shift();
+  return (*task.radiance)(column < 0 ? column + width : column, y);
+}
+
 float Luminance(Rgb32f c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+
+bool IsWhite(const HighEdgeTask& task, Rgb32f c) { return Luminance(c) * task.exposure >= kMostlyWhite * kNearWhite; }
+
+// Gives it to white pixels beside, or to the pixel itself if it is one: edges stay smooth, and what lamps and highlights send to the
+// eye is all there. What is alone stays dim, or it would sparkle.
+void GiveAway(const HighEdgeTask& task, const AboveWhite& above) {
+  const RayField& field = task.rays->field();
+  Rgb32f* white[9];
+  int count = 0;
+  if (Rgb32f& own = RadianceOf(task, above.x, above.y); IsWhite(task, own)) {
+    white[count++] = &own;
+  } else {
+    for (int k = 0; k < 9; ++k) {
+      int u = above.x + k % 3 - 1;
+      const int v = above.y + k / 3 - 1;
+      if (v < 0 || v >= field.height || (!field.separable && (u < 0 || u >= field.width))) continue;
+      u = (u + field.width) % field.width;
+      if (Rgb32f& other = RadianceOf(task, u, v); IsWhite(task, other)) white[count++] = &other;
+    }
+  }
+  for (Rgb32f* c : std::span(white, static_cast<size_t>(count))) {
+    const float share = 1 / static_cast<float>(count);
+    c->r += above.light.r * share, c->g += above.light.g * share, c->b += above.light.b * share;
+  }
+}
 
 // One tile's edge pixels.
 class EdgeTile : public EdgeRays {
@@ -30,22 +70,22 @@ class EdgeTile : public EdgeRays {
   int x(int pixel) const { return column_ + x_[pixel]; }
   int y(int pixel) const { return row_ + y_[pixel]; }
 
-  void StoreMeans() {
+  void StoreMeans(std::vector<AboveWhite>& above) {
     for (int i = 0; i < pixel_count_; ++i) {
       const float scale = 1 / static_cast<float>(count_[i]);
       Radiance(i) = {r_[i] * scale, g_[i] * scale, b_[i] * scale};
+      const Rgb32f rest = above_[i];
+      if (Luminance(rest) > 0) above.push_back({x(i), y(i), {rest.r * scale, rest.g * scale, rest.b * scale}});
     }
   }
 
  private:
-  Rgb32f& Radiance(int pixel) const {
-    const int column = x(pixel) - task_.rays->column_shift();
-    return (*task_.radiance)(column < 0 ? column + buffers_.range.width() : column, y(pixel));
-  }
+  Rgb32f& Radiance(int pixel) const { return RadianceOf(task_, x(pixel), y(pixel)); }
 
   void AddColor(int pixel, Rgb32f c) {
     const float exposed = Luminance(c) * task_.exposure, w = kNearWhite / std::max(exposed, kNearWhite);
     r_[pixel] += c.r * w, g_[pixel] += c.g * w, b_[pixel] += c.b * w;
+    above_[pixel].r += c.r * (1 - w), above_[pixel].g += c.g * (1 - w), above_[pixel].b += c.b * (1 - w);
     ++count_[pixel];
   }
 
@@ -123,6 +163,7 @@ class EdgeTile : public EdgeRays {
   int column_, row_;
   uint8_t x_[kTilePixels], y_[kTilePixels];
   float r_[kTilePixels] = {}, g_[kTilePixels] = {}, b_[kTilePixels] = {};
+  Rgb32f above_[kTilePixels] = {};
   int count_[kTilePixels] = {};
   LabelTile labels_;
   LightTerms terms_;
@@ -130,7 +171,7 @@ class EdgeTile : public EdgeRays {
 };
 
 int RefineTile(const HighEdgeTask& task, const TileKernels& kernels, const std::vector<PixelOffset>& offsets, HighBuffers& buffers,
-               int column, int row) {
+               int column, int row, std::vector<AboveWhite>& above) {
   const RayField& field = task.rays->field();
   bool any = false;
   const int columns = std::min(kTileSize, field.width - column), rows = std::min(kTileSize, field.height - row);
@@ -161,7 +202,7 @@ int RefineTile(const HighEdgeTask& task, const TileKernels& kernels, const std::
     }
   }
   tile.Finish();
-  tile.StoreMeans();
+  tile.StoreMeans(above);
   return tile.ray_count();
 }
 
@@ -171,10 +212,14 @@ int64_t RefineEdges(const HighEdgeTask& task, const std::vector<PixelOffset>& of
   const TileKernels kernels;
   const int across = buffers.across();
   std::atomic<int64_t> ray_count = 0;
+  std::vector<std::vector<AboveWhite>> above(static_cast<size_t>(across * buffers.down()));
   ParallelFor(int64_t{across} * buffers.down(), [&](int64_t tile) {
     ray_count += RefineTile(task, kernels, offsets, buffers, static_cast<int>(tile % across) * kTileSize,
-                            static_cast<int>(tile / across) * kTileSize);
+                            static_cast<int>(tile / across) * kTileSize, above[static_cast<size_t>(tile)]);
   });
+  if (task.gloss)
+    for (const std::vector<AboveWhite>& of_tile : above)
+      for (const AboveWhite& one : of_tile) GiveAway(task, one);
   return ray_count;
 }
 

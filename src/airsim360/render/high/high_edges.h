@@ -26,8 +26,9 @@ struct HighEdgeTask {
 /// Replaces `task.radiance` of pixels marked in `buffers.edges` by a mean of `samples` rays spread over the
 /// pixel: as many where a pixel only contrasts with a neighbour of the same entity, for a choice by the first ones
 /// loses what is rare, as sunlit leaves in dark crowns. The mean is one of linear light, as in tier `reference`, but
-/// no ray counts for more than what shows as nearly white, so that highlights do not sparkle. A ray takes its
-/// ambient light from the most alike of the nine pixels around. `offsets` are those of MakeSampleOffsets. Returns the number of rays.
+/// no ray counts for more than what shows as nearly white, so that highlights do not sparkle; in rooms (`gloss`) white pixels
+/// beside get the rest. A ray takes its ambient light from the most alike of the nine pixels around. `offsets` are those of
+/// MakeSampleOffsets. Returns the number of rays.
 int64_t RefineEdges(const HighEdgeTask& task, const std::vector<PixelOffset>& offsets, HighBuffers& buffers);
 
 }  // namespace airsim360::internal

@@ -150,6 +150,35 @@ TEST(HighGloss, FloorsMirrorAsMuchAsInTheReferenceAndWithoutSpecks) {
   EXPECT_EQ(half, 2);
 }
 
+// Edge pixels show no ray as more than nearly white; what a lamp of a few pixels sends to the eye is all in the picture even so.
+TEST(HighEdges, SmallLampsInRoomsHaveAllTheirLight) {
+  constexpr int kWidth = 192;
+  constexpr float kHalf = 0.08f, kLight = 2000, kFar = 1.98f;
+  test::RoomScene room("room with a spot");
+  room.Box({0, 0, 0}, {3, 2.4f, 2.4f}, room.Paint({0.1f, 0.1f, 0.1f}));
+  room.Quad({1.5f - kHalf, 2.38f, 1.4f - kHalf}, {1.5f + kHalf, 2.38f, 1.4f - kHalf}, {1.5f + kHalf, 2.38f, 1.4f + kHalf},
+            {1.5f - kHalf, 2.38f, 1.4f + kHalf}, room.Paint({}, {kLight, kLight, kLight}));
+  const auto renderer = MakeCpuRenderer(room.Build(), {.tier = Tier::kHigh});
+  const double right = kLight * 4 * std::asin(kHalf * kHalf / (kHalf * kHalf + kFar * kFar));  // of a pyramid's solid angle
+  double sum = 0;
+  constexpr int kPoses = 8;
+  for (int k = 0; k < kPoses; ++k) {
+    RenderRequest request =
+        MakeRequest(Equirectangular{kWidth, kWidth / 2},
+                    BodyPose({1.5, 0.4, 1.4 + 0.01 * k}, 2 * M_PI / kWidth * (k + 0.37) / kPoses, 0, 0) * CameraInBody(), Tier::kHigh,
+                    {.entity = true, .radiance = true});
+    Frame frame;
+    renderer->Render(request, frame);
+    for (int y = 0; y < kWidth / 2; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        if (frame.radiance(x, y).g < 1) continue;  // walls have half of it at most
+        sum += frame.radiance(x, y).g * std::cos((0.5 - (y + 0.5) / (kWidth / 2)) * M_PI) * std::pow(2 * M_PI / kWidth, 2) / kPoses;
+      }
+  }
+  RecordProperty("share", std::to_string(sum / right));
+  EXPECT_NEAR(sum / right, 1, 0.06);
+}
+
 // Tier fast sends one ray where a floor is polished: window and dark wall are seen in it where the reference sees them.
 TEST(FastGloss, PolishedFloorsMirrorTheirRoom) {
   const Frame fast = Render(Tier::kFast, 96), reference = Render(Tier::kReference, 96);
