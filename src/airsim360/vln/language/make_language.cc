@@ -29,7 +29,6 @@ constexpr int64_t kMostSilent = 3;      // batches without a single draft from t
 constexpr int kCameras = 3;             // at each place
 constexpr size_t kMostOfType = 24;      // drafts of one type and place: more would be too alike
 
-
 // At most so many of each type, drawn; first those that somebody waits for.
 void Thin(std::vector<Draft>& drafts, const Balance& balance, RngStream& random) {
   for (size_t i = 0; i + 1 < drafts.size(); ++i) std::swap(drafts[i], drafts[i + random.Index(static_cast<uint32_t>(drafts.size() - i))]);
