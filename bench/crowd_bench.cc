@@ -162,7 +162,8 @@ void Soak(size_t people, double minutes, const char* world, const char* file) {
         for (size_t k = 0; k < i; ++k) closest = std::min(closest, Norm(state.people[i].p_WP - state.people[k].p_WP));
       for (const internal::Party& party : model->plan->parties) {
         double spread = 0;
-        for (const PersonIndex i : party.members) spread = std::max(spread, Norm(state.people[i].p_WP - state.people[party.members[0]].p_WP));
+        for (const PersonIndex i : party.members)
+          spread = std::max(spread, Norm(state.people[i].p_WP - state.people[party.members[0]].p_WP));
         ++(spread < 5 ? together : apart);
         farthest = std::max(farthest, spread);
       }

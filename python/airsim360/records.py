@@ -92,6 +92,8 @@ class Person(TypedDict):
     """What arms and head do: "wave", "phone", …; as `locomotion` where they do nothing else (docs/guide/people.md)."""
     locomotion: str
     """What the legs do: "idle", "walk", "sit" and so on."""
+    group_id: int
+    """People who walk or talk together share one; 0: alone."""
     visible: bool
 
 

@@ -219,6 +219,7 @@ py::list Simulation::People() const {
     d["yaw"] = person.yaw;
     d["behaviour"] = BehaviourName(person.upper);
     d["locomotion"] = BehaviourName(person.lower);
+    d["group_id"] = person.group;
     d["visible"] = person.visible;
     list.append(std::move(d));
   }

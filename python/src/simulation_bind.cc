@@ -177,7 +177,7 @@ void BindFacts(py::class_<Simulation>& sim) {
           "As World.entities, with the bodies of drones (if there are several) and people.")
       .def_property_readonly("people", &Simulation::People,
                              "Everybody now: dictionaries with entity, position (3,) on the ground in W, velocity, "
-                             "yaw, behaviour, visible.")
+                             "yaw, behaviour, group_id (people who walk or talk together share one; 0: alone), visible.")
       .def_property_readonly("vehicles", &Simulation::Vehicles,
                              "The traffic now: dictionaries with entity, name, category, position and orientation in W, velocity, size, "
                              "indicator, braking, stopped.")

@@ -105,7 +105,13 @@ Status Mind::Chat(bool fresh, NodeMemory& memory, double min_s, double max_s, co
 Status Mind::Accompany(bool fresh) {
   constexpr double kTouches = 1.2, kBeside = 2.5, kInSight = 8, kArrives = 1, kGone = 3;  // metres
   const PersonIndex leader = LeaderOf(tick_, self_);
-  if (leader == kNoPerson || leader == self_ || agent_.commanded) return Status::kFailure;
+  const NavMesh& mesh = *tick_.model.navmesh;
+  const bool follows = leader != kNoPerson && leader != self_ && mesh.Component(walker_.at) == mesh.Component(tick_.in.walkers[leader].at);
+  if (!follows) {
+    if (agent_.accompanies) DropGoal(tick_, self_);
+    agent_.accompanies = false;
+    return Status::kFailure;
+  }
   if (fresh) {
     LeavePlace(tick_, self_);
     DropGoal(tick_, self_);
@@ -117,7 +123,6 @@ Status Mind::Accompany(bool fresh) {
   TakeMessage(agent_, kBye);
   const Walker& other = tick_.in.walkers[leader];
   const double distance = FlatDistance(other.at.p_W, walker_.at.p_W);
-  const NavMesh& mesh = *tick_.model.navmesh;
   const Vec2d there = Flat(other.at.p_W);
   const bool beside = distance < kTouches || (distance < kBeside && mesh.Straight(walker_.at, there));
   if (beside || (distance < kInSight && ShortCut(mesh, walker_.at, there))) {

@@ -129,8 +129,10 @@ bool IsInParty(const CrowdTick& tick, PersonIndex i) {
 
 void ArrangeParty(CrowdTick& tick, PersonIndex leader) {
   const Party* party = PartyOf(tick, leader);
-  if (!party || LeaderOf(tick, leader) != leader) return;
+  if (!party) return;
   Agent& agent = tick.in.agents[leader];
+  agent.party_pace = 1;
+  if (LeaderOf(tick, leader) != leader) return;
   std::vector<PersonIndex> members;
   for (const PersonIndex k : party->members)
     if (k != leader && tick.in.agents[k].accompanies) members.push_back(k);
