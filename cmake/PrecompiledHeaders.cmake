@@ -28,8 +28,8 @@ if(AIRSIM360_PCH)
 endif()
 
 # Tests that run for a second or two: not optimised, they compile in half the time.
-set(airsim360_short_tests app_test assets_test base_test behaviour_test dataset_test flight_test mission_test mpde_test opening_test planning_test
-    rpc_test stage_test tasks_test view_test vln_test)
+set(airsim360_short_tests app_test assets_test flight_test mission_test mpde_test opening_test planning_test rpc_test stage_test
+    tasks_test view_test)
 
 # airsim360_test_options(TARGET): how tests are compiled. The code under test is optimised; that of the tests need not be.
 function(airsim360_test_options target)

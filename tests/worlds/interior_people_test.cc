@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -20,10 +21,19 @@ namespace {
 
 constexpr int64_t kBegin = 3'000'000'000;  // of the crowd until it is looked at
 
+/// A crowd of a built-in building; where people can walk in it is found once, however many they are.
+std::shared_ptr<const CrowdModel> CrowdIn(const std::string& world, size_t count) {
+  static std::map<std::string, std::shared_ptr<const NavMesh>> walkable;
+  std::shared_ptr<const NavMesh>& mesh = walkable[world];
+  const auto crowd = BuildCrowd(*Built(world), mesh, {.file = {}, .count = count, .seed = 3});
+  mesh = crowd->navmesh;
+  return crowd;
+}
+
 /// A crowd that has lived for a moment, and the body of one of its sitters.
 struct Sitters {
   explicit Sitters(const std::string& world, size_t count) : scene(Built(world)), tracer(scene) {
-    crowd = BuildCrowd(*scene, nullptr, {.file = {}, .count = count, .seed = 3});
+    crowd = CrowdIn(world, count);
     state = StartCrowd(*crowd);
     StepCrowd(*crowd, state, kBegin, {});
     for (PersonIndex i = 0; i < state.people.size(); ++i)
@@ -119,8 +129,7 @@ double Facing(const PersonState& person, Vec3d p) {
 }
 
 TEST(PeopleInRooms, QueueOneBehindTheOtherAndTalkFaceToFace) {
-  const auto scene = Built("mall");
-  const auto crowd = BuildCrowd(*scene, nullptr, {.file = {}, .count = 120, .seed = 3});
+  const auto crowd = CrowdIn("mall", 120);
   CrowdState state = StartCrowd(*crowd);
   int in_line = 0, talks = 0, served = 0;
   std::vector<CrowdEvent> events;
