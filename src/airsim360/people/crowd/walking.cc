@@ -74,7 +74,7 @@ bool SomebodyWantsThrough(const CrowdTick& tick, Vec2d p) {
 }
 
 /// Strollers do not walk like arrows: their heading wanders about the straight way (an Ornstein-Uhlenbeck process). At 5 Hz.
-void Sway(Agent& agent) {
+void SwayHeading(Agent& agent) {
   constexpr double kSpread = 0.14, kMemory = 2.5;  // tangent, seconds
   static const double keep = std::exp(-kThinkEvery * static_cast<double>(kCrowdTickNs) * 1e-9 / kMemory);
   agent.sway = agent.sway * keep + kSpread * std::sqrt(1 - keep * keep) * agent.rng.Normal();
@@ -185,7 +185,7 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
   Agent& agent = tick.in.agents[i];
   const Walker& walker = tick.in.walkers[i];
   agent.hold = false;
-  Sway(agent);
+  SwayHeading(agent);
   ShiftWeight(tick, agent);
   // Who walks beside others gets on if they do, or are where they should be.
   const bool is_beside = agent.walk == Walk::kNone && tick.t_ns - agent.way_ns > kThinkEvery * kCrowdTickNs;
