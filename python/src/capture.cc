@@ -5,6 +5,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/scene/parts.h"
+#include "airsim360/sensors/idle_settings.h"
 #include "handles.h"
 #include "interrupts.h"
 #include "keywords.h"
@@ -62,6 +63,7 @@ Rig MakeRig(const py::object& width, const py::object& height, const std::option
   if (!(flow_dt > 0 && flow_dt <= 10)) throw InputError("flow_dt: " + std::to_string(flow_dt) + " s is not above 0 and at most 10");
   rig.rig.X_BC = BodyPose(ToVec3(position, "position"), Finite(yaw, "yaw"), Finite(pitch, "pitch"), Finite(roll, "roll")) * CameraInBody();
   rig.rig.products = Rendered(rig.shown);
+  RefuseIdleSettings(spec, rig.shown);
   return rig;
 }
 

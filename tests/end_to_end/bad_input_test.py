@@ -77,6 +77,24 @@ class BadFlags(ProgramTest):
                 self.run_bad(2, *arguments, value, "--out", out, says=[f"{arguments[-1]}: '{value}' is not a number"])
             self.assertFalse(out.exists())
 
+    def test_numbers_that_are_none_name_the_value_and_what_is_wanted(self):
+        self.run_bad(2, "environments", "sample", "1e3", says=["'1e3' is not a whole number"])
+        self.run_bad(2, "language", "make", "--world", "box_room", "--count", "1.5", "--out", self.folder / "out",
+                     says=["--count: '1.5' is not a whole number"])
+        self.run_bad(2, "traffic", "--seconds", "fast", says=["--seconds: 'fast' is not a number"])
+        self.run_bad(2, "vln", "run", "none.jsonl", "--agent", "forward", "--limit", "0", "--out", self.folder / "out", says=["--limit", "0"])
+        self.assertEqual(run("learn").returncode, 2)
+
+    def test_a_pack_of_people_that_is_named_has_to_be_one(self):
+        # Nobody gets other people than those that they asked for without a word.
+        out, pack = self.folder / "out", self.folder / "people.pack"
+        crowd = ["render", *ROOM, "--tier", "labels", "--people", "2", "--out", out]
+        named = {**os.environ, "AIRSIM360_PEOPLE": str(pack)}
+        self.run_bad(2, *crowd, says=["AIRSIM360_PEOPLE", "people.pack", "no such file"], env=named)
+        pack.write_text("garbage")
+        self.run_bad(2, *crowd, says=["AIRSIM360_PEOPLE", "cut off"], env=named)
+        self.assertFalse(out.exists())
+
     def test_missing_flags_are_named(self):
         self.run_bad(2, "collect", "--world", "box_room", says=["--out"])
         self.run_bad(2, "collect", "--recipe", "omni360-human", "--world", "downtown_west", "--out", self.folder / "crowd",

@@ -207,6 +207,13 @@ cameras:
         self.assertAlmostEqual(hits[0]["point"][0], 5, delta=0.01)
         self.assertAlmostEqual(hits[0]["normal"][0], -1, delta=1e-3)
 
+    def test_a_task_that_does_not_end_is_told_by_the_status(self):
+        done = run("fly", "--world", "box_room", "--script", "takeoff 2; goto 2,2,2,0.001; land", "--out", self.folder / "far", "--json")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("'goto 2,2,2,0.001' did not end and was given up", done.stderr)
+        self.assertGreater(json.loads(done.stdout)["flight_s"], 600)
+        self.assertTrue((self.folder / "far" / "trajectory.csv").exists())
+
     def test_a_flight_that_stays_on_the_ground_has_no_clearance(self):
         _, report = self.fly("run", "--script", "land")
         self.assertIsNone(report["least_clearance"])

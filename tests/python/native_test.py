@@ -753,6 +753,13 @@ class Arguments(unittest.TestCase):
     def test_colour_is_not_left_out_in_silence(self):
         with self.assertRaisesRegex(ValueError, "products: 'rgb' needs light"):
             Rig(tier="labels", products=["rgb", "range"])
+        # Nor is anything else that the tier makes nothing of.
+        for setting in ({"tone": "agx"}, {"exposure": 1.0}, {"lens": "real360"}, {"look": "photo"}, {"samples": 8}, {"denoise": False},
+                        {"edge_samples": 4}):
+            name, = setting
+            with self.subTest(name), self.assertRaisesRegex(ValueError, f"{name}: tier 'labels' has no use for it"):
+                Rig(64, tier="labels", **setting)
+        Rig(64, tier="labels", edge_samples=4, products=["coverage"])
         self.assertNotIn("rgb", ROOM.capture([0, 0, 3], Rig(64, tier="labels")).products)
         self.assertIn("rgb", ROOM.capture([0, 0, 3], Rig(64)).products)
 

@@ -20,7 +20,7 @@ f 5 6 7 8
 """
 
 
-class Weather(ServerTest):
+class FieldTest(ServerTest):
     arguments = ("--lockstep", "--clouds", "clear")  # each weather has a sky of its own: those without clouds are painted at once
 
     @classmethod
@@ -47,6 +47,8 @@ class Weather(ServerTest):
         request = {"camera_name": "0", "image_type": 0, "pixels_as_float": False, "compress": False}
         return self.client.call("simGetImages", [request], "", False)[0]["image_data_uint8"]
 
+
+class Weather(FieldTest):
     def test_the_same_weather_is_the_same_picture_whichever_way_it_came(self):
         clear = self.picture()
         goals = [{FOG: 0.4}, {RAIN: 0.6, WETNESS: 0.8}, {ROAD_SNOW: 0.7}, {DUST: 0.3}]
@@ -78,6 +80,17 @@ class Weather(ServerTest):
         for parameter, value in [(FOG, 0.3), (MAPLE, 1.0), (ROAD_LEAF, 0.5)]:
             self.client.call("simSetWeatherParameter", parameter, value)
             self.assertEqual(self.picture(), foggy)
+
+
+class TimeOfDayOfTheSettings(FieldTest):
+    settings = {"TimeOfDay": {"Enabled": True, "StartDateTime": "2021-06-21 06:30:00"}}
+
+    def test_the_sun_is_that_of_the_call(self):
+        first = self.picture()
+        self.client.call("simSetTimeOfDay", False, "", False, 1.0, 60.0, True)
+        self.assertNotEqual(self.picture(), first)
+        self.client.call("simSetTimeOfDay", True, "2021-06-21 06:30:00", False, 1.0, 60.0, True)
+        self.assertEqual(self.picture(), first)
 
 
 if __name__ == "__main__":

@@ -62,11 +62,9 @@ struct LanguageMakeArguments {
 
 // Flags of pictures are not accepted and ignored.
 void CheckBelonging(const CLI::App& command, LanguageMakeArguments& a) {
-  if (a.pictures) return;
   std::vector<std::string> flags = ConfigFlagNames([&a](ConfigVisitor& v) { a.picture.Visit(v); });
   std::ranges::copy(EnvironmentFlagNames(), std::back_inserter(flags));
-  for (const std::string& flag : flags)
-    if (command.count(flag) > 0) throw InputError(flag + ": it is of --pictures, which is not given");
+  RefuseWithout(command, flags, "--pictures");
 }
 
 void Make(LanguageMakeArguments& a, const GlobalOptions& globals) {

@@ -50,10 +50,7 @@ void AddLearnCommand(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("learn", "train on our worlds to see: classes, range, attitude (Python: python3-torch, python3-opencv)");
   command->prefix_command();  // what follows is for Python
-  command->callback([command] {
-    const std::vector<std::string> words = command->remaining();
-    RunPython(words.empty() ? std::vector<std::string>{"--help"} : words);
-  });
+  command->callback([command] { RunPython(command->remaining()); });
 }
 
 }  // namespace airsim360

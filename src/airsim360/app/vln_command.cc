@@ -136,7 +136,8 @@ void AddMake(CLI::App& parent, GlobalOptions& globals) {
   command->add_option("--seeds", a->options.seeds, "worlds, of the seeds from --seed on (default 1)")->excludes(recipe);
   command->add_option("--people", a->options.people, "people in the world when episodes are flown (default 0)");
   command->add_option("--weather", a->options.weather, "of pictures, or mix: another one an episode");
-  command->add_option("--limit", a->options.limit, "episodes of a seed at most, of all nouns in turn (default all)");
+  command->add_option("--limit", a->options.limit, "episodes of a seed at most, of all nouns in turn (default all)")
+      ->check(CLI::Range(1, 1000000));
   command->add_option("--out", a->out, "episodes.jsonl")->required();
   command->callback([a, &globals] { Make(*a, globals); });
 }
@@ -309,7 +310,7 @@ void AddRun(CLI::App& parent, GlobalOptions& globals) {
   command->add_option("--decisions", a->decisions, "yomo, discrete or waypoints (default: the protocol's)");
   command->add_option("--protocol", a->protocol, "ours, aerialvln, openfly, citynav, traveluav or uavon (default ours)");
   command->add_option("--program", a->program, "of agent exec: program and arguments, apart by spaces");
-  command->add_option("--limit", a->options.limit, "the first N episodes (default all)");
+  command->add_option("--limit", a->options.limit, "the first N episodes (default all)")->check(CLI::Range(1, 100000000));
   command->add_option("--workers", a->options.workers, "episodes at a time (default 1)");
   command->add_flag("--realtime", a->options.realtime, "what an agent takes to think passes in its episode too");
   command->add_option("--width", a->options.width, "of panoramas, pixels (default 1024)");
@@ -350,7 +351,7 @@ void AddDemos(CLI::App& parent, GlobalOptions& globals) {
   const auto a = std::make_shared<DemoArguments>();
   command->add_option("file", a->file, "episodes.jsonl")->required();
   command->add_option("--layout", a->options.layouts, "jsonl, rlds or lerobot, or several (default jsonl)")->delimiter(',');
-  command->add_option("--limit", a->options.limit, "the first N episodes (default all)");
+  command->add_option("--limit", a->options.limit, "the first N episodes (default all)")->check(CLI::Range(1, 100000000));
   command->add_option("--width", a->options.width, "of panoramas, pixels (default 512)");
   AddConfigFlags(*command, [a](ConfigVisitor& v) { a->options.picture.Visit(v); });
   command->add_option("--out", a->out, "folder; each layout has one of its name in it")->required();

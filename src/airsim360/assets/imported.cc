@@ -87,7 +87,7 @@ ResourceLoader FolderLoader(const std::string& model_name, const fs::path& folde
     }
     const fs::path relative(name);
     for (const fs::path& step : relative) {
-      if (step == "..") refuse("leaves the model's folder");
+      if (step == "..") refuse(*relative.lexically_normal().begin() == ".." ? "leaves the model's folder" : "write it without '..'");
     }
 
     // So must the file that it really is.

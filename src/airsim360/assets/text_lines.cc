@@ -26,7 +26,7 @@ std::string_view NextWord(std::string_view& line) {
 }
 
 TextLines::TextLines(std::string file, std::string_view text, bool continuations)
-    : file_(std::move(file)), rest_(text), continuations_(continuations) {
+    : file_(std::move(file)), rest_(text), continuations_(continuations), end_mark_(text.find('\n') == text.npos ? '\r' : '\n') {
   if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
 }
 
@@ -36,7 +36,7 @@ bool TextLines::Next(std::string_view& line) {
   joined_.clear();
   bool more = true;
   while (more) {
-    const size_t end = std::min(rest_.find('\n'), rest_.size());
+    const size_t end = std::min(rest_.find(end_mark_), rest_.size());
     line = Trimmed(rest_.substr(0, end));
     rest_.remove_prefix(std::min(end + 1, rest_.size()));
     ++lines_read_;

@@ -23,6 +23,7 @@ class TextLines {
   std::string file_;
   std::string_view rest_;
   bool continuations_;
+  char end_mark_;  ///< of a line: '\r' in files of the old Macintosh, which have no '\n'
   std::string joined_;
   int64_t number_ = 0;
   int64_t lines_read_ = 0;

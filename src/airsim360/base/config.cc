@@ -198,7 +198,9 @@ class Describer : public ConfigVisitor {
 
 void ReadYaml(std::string_view text, std::string_view name, const ConfigFields& fields) {
   try {
-    const YAML::Node root = YAML::Load(std::string(text));
+    const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(text));
+    if (documents.size() > 1) throw InputError(Where(name, documents[1].Mark()) + "a second document (after '---'); one file holds one");
+    const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
     YamlReader reader(root, name);
     fields(reader);
     reader.RefuseUnknownKeys();

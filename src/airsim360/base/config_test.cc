@@ -121,6 +121,10 @@ TEST(Config, DeepNestingIsAnErrorNotACrash) {
   EXPECT_NE(ErrorOf(std::string(100000, '{')), "no error");
 }
 
+TEST(Config, ASecondDocumentIsRefused) {
+  EXPECT_EQ(ErrorOf("seed: 3\n---\nseed: 4\n").find("a second document") != std::string::npos, true) << ErrorOf("seed: 3\n---\nseed: 4\n");
+}
+
 TEST(Config, DescribesEveryField) {
   Example e;
   const std::string text = DescribeConfig([&](ConfigVisitor& v) { e.Visit(v); });

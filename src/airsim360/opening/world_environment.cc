@@ -137,7 +137,6 @@ void EnvironmentWords::Visit(ConfigVisitor& v, const fs::path& folder) {
   v.Field("time", "14:30+02:00", time_);
   v.Field("latitude", "degrees north", latitude_, -90, 90);
   v.Field("longitude", "degrees east", longitude_, -180, 180);
-  if (date_.empty() != time_.empty()) throw InputError("environment: date and time belong together");
   numbers_.assign(EnvironmentFields().size(), std::nan(""));
   for (size_t i = 0; i < numbers_.size(); ++i) {
     const EnvironmentField& field = EnvironmentFields()[i];
@@ -151,6 +150,7 @@ void EnvironmentWords::Visit(ConfigVisitor& v, const fs::path& folder) {
 }
 
 Environment EnvironmentWords::Over(Environment base) const {
+  if (date_.empty() != time_.empty()) throw InputError("environment: date and time belong together");
   Environment environment = weather_.empty() ? std::move(base) : ParseEnvironmentPreset(weather_, base);
   if (!clouds_.empty()) environment = ParseCloudPreset(clouds_, environment);
   // Date and place give the sun, unless its angles follow.
@@ -170,12 +170,16 @@ Environment ApplyFlags(const EnvironmentFlags& flags, const Environment& base) {
   if (!flags.weather.empty()) Naming("--weather", [&] { environment = ParseEnvironmentPreset(flags.weather, base); });
   if (!flags.clouds.empty()) Naming("--clouds", [&] { environment = ParseCloudPreset(flags.clouds, environment); });
   Naming("--time, --place", [&] { SetSunByTime(flags.time, flags.place, environment); });
-  if (!flags.sun.empty()) Naming("--sun", [&] { SetSun(flags.sun, environment); });
+  if (!flags.sun.empty()) {
+    Naming("--sun", [&] { SetSun(flags.sun, environment); });
+    ValidateEnvironment(environment, "--sun");
+  }
   if (!flags.hdri.empty()) Naming("--hdri", [&] { environment.hdri = LoadSkyPicture(flags.hdri); });
   if (!flags.sky_seed.empty() && !ParseWholeNumber(flags.sky_seed, environment.sky_seed))
     throw InputError("--sky-seed: '" + flags.sky_seed + "' is not a whole number from 0 to 4294967295");
+  ValidateEnvironment(environment, "--sky-seed");
   Naming("--environment", [&] { ApplySettings(flags.settings, environment); });
-  ValidateEnvironment(environment, "environment");
+  ValidateEnvironment(environment, "--environment");
   return environment;
 }
 

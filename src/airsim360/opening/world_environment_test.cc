@@ -96,7 +96,7 @@ TEST_F(WorldEnvironment, MistakesInAWorldFileAreNamed) {
   EXPECT_NE(error("  cloud_cove: 1\n").find("cloud_cover"), std::string::npos);
   EXPECT_NE(error("  cloud_cover: 2\n").find("bad.yaml:3"), std::string::npos);
   EXPECT_NE(error("  weather: rainy\n").find("'rain'"), std::string::npos);
-  EXPECT_NE(error("  date: 2026-01-01\n").find("belong together"), std::string::npos);
+  EXPECT_NE(error("  date: 2026-01-01\n").find("bad.yaml: environment: date and time belong together"), std::string::npos);
   EXPECT_NE(error("  hdri: none.exr\n").find("none.exr"), std::string::npos);
 }
 
@@ -110,7 +110,8 @@ TEST_F(WorldEnvironment, FlagsComeInOrderAndNameThemselvesInErrors) {
   EXPECT_EQ(e.lamps, Lamps::kOff);
   EXPECT_NE(ErrorOf([] { ApplyFlags({.weather = "dey"}, {}); }).find("--weather"), std::string::npos);
   EXPECT_NE(ErrorOf([] { ApplyFlags({.sun = "10"}, {}); }).find("--sun"), std::string::npos);
-  EXPECT_NE(ErrorOf([] { ApplyFlags({.sun = "10,95"}, {}); }).find("90"), std::string::npos);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.sun = "10,95"}, {}); }).find("--sun: sun_elevation_deg is 95"), std::string::npos);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.settings = "rain_mm_h=151"}, {}); }).find("--environment: rain_mm_h is 151"), std::string::npos);
   EXPECT_NE(ErrorOf([] { ApplyFlags({.time = "2026-01-01T10:00"}, {}); }).find("--place"), std::string::npos);
   EXPECT_NE(ErrorOf([] { ApplyFlags({.settings = "haze=1,lamps=on,haze=2"}, {}); }).find("haze: is there twice"), std::string::npos);
   EXPECT_NE(ErrorOf([] { ApplyFlags({.settings = "lamps=on,lamps=off"}, {}); }).find("lamps: is there twice"), std::string::npos);

@@ -62,5 +62,9 @@ TEST(Lamps, MistakesAreNamed) {
   EXPECT_NE(MessageOf("world: box_room\nlamps:\n  - {z: -3}\n").find("outside of the world"), std::string::npos);
 }
 
+TEST(WorldFile, FillIsRefusedWhereThereIsNothingToFill) {
+  EXPECT_NE(MessageOf("world: box_room\nfill: false\n").find("fill: it is for maps"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace airsim360

@@ -187,6 +187,8 @@ std::shared_ptr<const Scene> LoadScene(const WorldRequest& request) {
   const fs::path path = request.world;
   CheckAdditions(request);
   if (request.cut && !IsOsmFile(path)) throw InputError(request.cut->text + ": it cuts maps (.osm, .osm.pbf), not '" + request.world + "'");
+  if (!request.fill && !IsOsmFile(path) && !IsCityFile(path))
+    throw InputError("fill: it is for maps (.osm, .osm.pbf) and CityJSON, not for '" + request.world + "'");
   const bool model = IsPath(path) && !IsOsmFile(path);
   if (model && request.heights.empty()) {
     auto scene = ImportScene(path, {.labels = request.labels, .placement = request.placement});

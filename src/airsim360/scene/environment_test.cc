@@ -114,6 +114,16 @@ TEST(SunPosition, RefusesWhatIsNoTimeOrPlace) {
                            "2026-06-21T14:30Zx", "2026-6-21T14:30", "2026-06-21T-1:30"}) {
     EXPECT_THROW(ParseTime(text), InputError) << text;
   }
+  // No place is so far ahead or behind; a day that there is not is named.
+  for (const char* text : {"2026-06-21T14:30+14:01", "2026-06-21T14:30+15:00", "2026-06-21T14:30-12:30"})
+    EXPECT_THROW(ParseTime(text), InputError) << text;
+  EXPECT_NEAR(ParseTime("2026-06-21T14:30+14:00").hours, 0.5, 1e-12);
+  try {
+    ParseTime("2026-02-30T12:00");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("30 is not in 1 … 28"), std::string::npos) << error.what();
+  }
   for (const char* text : {"", "1", "1,", "91,0", "0,181", "a,b", "1,2,3", "nan,0"}) EXPECT_THROW(ParsePlace(text), InputError) << text;
 }
 

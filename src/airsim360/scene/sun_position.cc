@@ -18,11 +18,16 @@ class TimeReader {
  public:
   explicit TimeReader(std::string_view text) : all_(text), rest_(text) {}
   [[noreturn]] void Fail() const { throw InputError("time '" + std::string(all_) + "' is not like 2026-06-21T14:30+02:00"); }
+  [[noreturn]] void FailAt(int value, int low, int high) const {
+    throw InputError("time '" + std::string(all_) + "': " + std::to_string(value) + " is not in " + std::to_string(low) + " … " +
+                     std::to_string(high));
+  }
   int Digits(size_t count, int low, int high) {
     int value = 0;
     const char* end = rest_.data() + std::min(count, rest_.size());
     const auto [at, error] = std::from_chars(rest_.data(), end, value);
-    if (rest_.size() < count || error != std::errc() || at != end || rest_[0] == '-' || value < low || value > high) Fail();
+    if (rest_.size() < count || error != std::errc() || at != end || rest_[0] == '-') Fail();
+    if (value < low || value > high) FailAt(value, low, high);
     rest_.remove_prefix(count);
     return value;
   }
@@ -82,9 +87,11 @@ UtcTime ParseTime(std::string_view text) {
   if (reader.Take(':')) time.hours += reader.Digits(2, 0, 60) / 3600.0;
   const bool east = reader.Take('+'), west = !east && reader.Take('-');
   if (east || west) {
-    double offset = reader.Digits(2, 0, 15);
+    // No place on Earth is farther ahead than 14 hours, none farther behind than 12.
+    const int most = east ? 14 : 12;
+    double offset = reader.Digits(2, 0, most);
     reader.Need(':');
-    offset += reader.Digits(2, 0, 59) / 60.0;
+    offset += reader.Digits(2, 0, offset == most ? 0 : 59) / 60.0;
     time.hours -= east ? offset : -offset;
   } else {
     reader.Take('Z');

@@ -240,7 +240,9 @@ RigidTransform PoseOf(const TrafficModel& model, const TrafficState& state, size
 }
 
 Vec3d VelocityOf(const TrafficModel& model, const TrafficState& state, size_t vehicle) {
-  return PoseOf(model, state, vehicle, state.t_ns).R.column(0) * state.vehicles[vehicle].v;
+  // The front goes along its lane at the speed of the vehicle; in a bend the middle goes slower, and not where the front looks.
+  const Vec3d p = PoseOf(model, state, vehicle, state.t_ns).p, later = PoseOf(model, state, vehicle, state.t_ns + kTrafficTickNs).p;
+  return (later - p) / (static_cast<double>(kTrafficTickNs) * 1e-9);
 }
 
 uint64_t HashTraffic(const TrafficState& state) {

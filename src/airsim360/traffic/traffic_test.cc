@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "airsim360/traffic/near_misses.h"
 #include "airsim360/traffic/test_roads.h"
@@ -230,6 +231,37 @@ TEST(Traffic, ABusInABendGoesOnPastWhoStandsBesideItsBody) {
     }
   }
   EXPECT_GT(beside, 0);
+}
+
+TEST(Traffic, InABendTheMiddleOfABusMovesSlowerThanItsFront) {
+  constexpr double kRadius = 7;
+  auto roads = std::make_shared<RoadNetwork>();
+  for (int half = 0; half < 2; ++half) {
+    Lane lane{.points = {}, .speed = 6, .next = {static_cast<LaneId>(1 - half)}};
+    for (int i = 0; i <= 200; ++i) {
+      const double a = std::numbers::pi * (half + i / 200.0);
+      lane.points.push_back({static_cast<float>(kRadius * std::cos(a)), static_cast<float>(kRadius * std::sin(a)), 0});
+    }
+    roads->lanes.push_back(lane);
+  }
+  TrafficModel model = ModelOf(roads, 1);
+  const VehicleShape shape = {.length = 12.1, .width = 2.5, .height = 3.2, .bus = true};
+  model.vehicles[0].shape = shape;
+  TrafficState state = StartTraffic(model);
+  Drive(model, 30, state);
+  // Both axles are on the circle; the middle of the bus is ahead of theirs by `ahead`.
+  const double half = shape.wheelbase() / 2, ahead = shape.length / 2 - shape.front_overhang() - half;
+  const double middle = std::sqrt(kRadius * kRadius - half * half + ahead * ahead);
+  EXPECT_LT(middle, 0.95 * kRadius);
+  for (int tick = 0; tick < 100; ++tick) {
+    const TrafficState before = state;
+    TickTraffic(model, {}, state);
+    const Vec3d v = VelocityOf(model, before, 0), p = PoseOf(model, before, 0, before.t_ns).p;
+    EXPECT_NEAR(Norm(v), before.vehicles[0].v * middle / kRadius, 0.02 * before.vehicles[0].v) << tick;
+    EXPECT_LT(std::abs(Dot(Normalized(v), Normalized(p))), 0.05) << tick;  // it goes round
+    const Vec3d moved = (PoseOf(model, state, 0, state.t_ns).p - p) / (kTrafficTickNs * 1e-9);
+    EXPECT_LT(Norm(moved - v), 0.1) << tick;
+  }
 }
 
 }  // namespace

@@ -156,6 +156,12 @@ std::vector<std::string> ConfigFlagNames(const ConfigFields& fields) {
   return names;
 }
 
+void RefuseWithout(const CLI::App& command, const std::vector<std::string>& flags, const std::string& owner) {
+  if (command.count(owner) > 0) return;
+  for (const std::string& flag : flags)
+    if (command.count(flag) > 0) throw InputError(flag + ": it is of " + owner + ", which is not given");
+}
+
 std::vector<std::string> ConfigFlagChoices(const ConfigFields& fields, std::string_view flag) {
   FlagLister lister;
   fields(lister);

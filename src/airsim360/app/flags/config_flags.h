@@ -16,6 +16,8 @@ void AddConfigFlags(CLI::App& command, const ConfigFields& fields);
 
 /// Names of the flags, "--tone", in the order of the fields.
 std::vector<std::string> ConfigFlagNames(const ConfigFields& fields);
+/// InputError for one of the flags that is given where `owner`, the flag that it is of, is not.
+void RefuseWithout(const CLI::App& command, const std::vector<std::string>& flags, const std::string& owner);
 /// What the flag of a field can be, for completion; empty where it is no choice.
 std::vector<std::string> ConfigFlagChoices(const ConfigFields& fields, std::string_view flag);
 

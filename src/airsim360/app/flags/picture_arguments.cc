@@ -4,6 +4,7 @@
 
 #include "airsim360/app/flags/config_flags.h"
 #include "airsim360/base/error.h"
+#include "airsim360/sensors/idle_settings.h"
 
 namespace airsim360 {
 namespace {
@@ -15,38 +16,6 @@ std::string OptionalProductNames() {
     if (!product.always) names += (names.empty() ? "" : ",") + std::string(product.name);
   }
   return names;
-}
-
-std::string Named(const std::vector<Tier>& tiers) {
-  std::string names;
-  for (const Tier tier : tiers) names += (names.empty() ? "" : " or ") + std::string(kTierNames[static_cast<int>(tier)]);
-  return names;
-}
-
-// What the tier makes nothing of is not accepted and ignored.
-void RefuseIdle(const DatasetSpec& spec) {
-  const std::vector<Tier> light = {Tier::kFast, Tier::kHigh, Tier::kReference};
-  // Coverage counts the rays of antialiasing in every tier.
-  const bool edges = spec.edge_samples != 0 && !spec.products.coverage;
-  const struct {
-    const char* flag;
-    bool given;
-    std::vector<Tier> tiers;
-  } flags[] = {{"--samples", spec.samples != 0, {Tier::kHigh, Tier::kReference}},
-               {"--no-denoise", !spec.denoise, {Tier::kHigh}},
-               {"--edge-samples", edges, {Tier::kFast, Tier::kHigh}},
-               {"--tone", spec.tone != ToneCurve::kFilmic, light},
-               {"--exposure", spec.auto_exposure || spec.exposure_ev != 0, light},
-               {"--lens", spec.lens != LensModel::kIdeal, light},
-               {"--look", spec.look != Look::kClean, light},
-               {"--rgb-format", spec.rgb_format != RgbFormat::kPng, light}};
-  for (const auto& f : flags) {
-    if (f.given && std::ranges::find(f.tiers, spec.tier) == f.tiers.end())
-      throw InputError(std::string(f.flag) + ": tier '" + kTierNames[static_cast<int>(spec.tier)] + "' has no use for it; use --tier " +
-                       Named(f.tiers));
-  }
-  if (spec.look == Look::kPhoto && spec.tone != ToneCurve::kFilmic)
-    throw InputError("--tone: --look photo has a curve of its own (--shoulder, --contrast); leave one of them out");
 }
 
 }  // namespace
@@ -74,7 +43,9 @@ DatasetSpec PictureArguments::Spec() const {
   if (spec.products.radiance && spec.tier == Tier::kLabels) throw InputError("--radiance: tier 'labels' has no light; use --tier fast");
   if (spec.tier == Tier::kLabels && std::ranges::find(products_, "rgb") != products_.end())
     throw InputError("--products: 'rgb' is not of tier labels, which has no colours; use --tier fast");
-  RefuseIdle(spec);
+  RefuseIdleSettings(spec, spec.products, "--");
+  if (spec.tier == Tier::kLabels && spec.rgb_format != RgbFormat::kPng)
+    throw InputError("--rgb-format: tier 'labels' has no use for it; use --tier fast or high or reference");
   return spec;
 }
 

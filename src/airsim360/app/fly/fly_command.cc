@@ -9,6 +9,7 @@
 #include "airsim360/app/flags/arguments.h"
 #include "airsim360/app/flags/camera_check.h"
 #include "airsim360/app/flags/commands.h"
+#include "airsim360/app/flags/config_flags.h"
 #include "airsim360/app/flags/environment_flags.h"
 #include "airsim360/app/flags/people_arguments.h"
 #include "airsim360/app/flags/picture_arguments.h"
@@ -271,6 +272,11 @@ void CheckCrash(const FlyResult& result, const Scene& scene) {
     if (event.kind == SimEvent::Kind::kCrash) throw RuntimeError("fly: the drone has crashed: " + DescribeEvent(event, scene));
 }
 
+// A place that the drone cannot reach, say, or a battery that was empty before.
+void CheckTasks(const FlyResult& result) {
+  for (const std::string& task : result.unfinished) throw RuntimeError("fly: '" + task + "' did not end and was given up");
+}
+
 void PrintFlight(const FlyArguments& arguments, const FlyResult& result, const std::optional<VideoResult>& video) {
   const std::string clearance = result.least_clearance ? Metres(*result.least_clearance) : "not flown";
   std::printf("%s: %.1f s of flight, %zu events, least clearance in the air %s, %.1f times real time\n", arguments.out.c_str(),
@@ -368,17 +374,14 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
   }
   CheckMissionResult(arguments, result);
   CheckCrash(result, stage.scene());
+  CheckTasks(result);
 }
 
 // Flags that count for one way to fly alone are not accepted and ignored elsewhere.
 void CheckBelonging(const CLI::App& command) {
-  constexpr std::pair<const char*, const char*> kBelongs[] = {{"--vmax", "--waypoints"},  {"--amax", "--waypoints"},
-                                                              {"--longest", "--mission"}, {"--fps", "--video"},
-                                                              {"--encoder", "--video"},   {"--quality", "--video"}};
-  for (const auto& [flag, owner] : kBelongs) {
-    if (command.count(flag) > 0 && command.count(owner) == 0)
-      throw InputError(std::string(flag) + ": it is of " + owner + ", which is not given");
-  }
+  RefuseWithout(command, {"--vmax", "--amax"}, "--waypoints");
+  RefuseWithout(command, {"--longest"}, "--mission");
+  RefuseWithout(command, {"--fps", "--encoder", "--quality"}, "--video");
   if (command.count("--waypoints") > 0 && command.count("--pose") > 0)
     throw InputError("--pose: with --waypoints the flight begins at the first of them");
 }

@@ -62,6 +62,9 @@ class Pilot {
         result_.events.push_back(event);
       }
     }
+    if (!task.until_done || done) return;
+    result_.unfinished.push_back(task.text);
+    job_.log("given up: " + task.text);
   }
 
   void RunMission() {

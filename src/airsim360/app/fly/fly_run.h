@@ -40,6 +40,7 @@ struct FlyResult {
   int64_t steps = 0;
   double charge = 1;  ///< of the battery at the end
   std::optional<Recording> recording;
+  std::vector<std::string> unfinished;     ///< tasks that were given up because they did not end
   std::optional<MissionProgress> mission;  ///< still running: it was stopped at FlyJob::longest
   std::vector<MissionCapture> captures;
 };

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/text.h"
@@ -49,7 +50,9 @@ std::vector<double> Numbers(const std::string& task, const std::string& text, si
 
 double Positive(const std::string& task, double value) {
   if (value > 0 && value <= 1e6) return value;
-  Fail(task, std::to_string(value) + " is not in 0 … 1000000");
+  char text[64];
+  std::snprintf(text, sizeof text, "%g is not above 0 and at most 1000000", value);
+  Fail(task, text);
 }
 
 FlyTask ParseTask(const std::string& task) {

@@ -143,19 +143,26 @@ std::string UnknownArgumentMessage(const CLI::App& app, const CLI::ParseError& e
   return of + error.what() + (path.empty() ? "; 'airsim360 help' lists them" : "");
 }
 
-// No range holds NaN, and none refuses it: no comparison with it is true.
-void RefuseNan(CLI::App& command) {
+// Numbers have to be such, told by the value and what is wanted. No range holds NaN, and none refuses it: no comparison with it is
+// true.
+void CheckNumbers(CLI::App& command) {
   const CLI::Validator is_number(
       [](std::string& text) {
         double value = 0;
-        std::from_chars(text.data(), text.data() + text.size(), value);
-        return std::isnan(value) ? "'" + text + "' is not a number" : std::string();
+        return CLI::detail::lexical_cast(text, value) && !std::isnan(value) ? std::string() : "'" + text + "' is not a number";
+      },
+      "");
+  const CLI::Validator is_whole(
+      [](std::string& text) {
+        int64_t value = 0;
+        return CLI::detail::lexical_cast(text, value) ? std::string() : "'" + text + "' is not a whole number";
       },
       "");
   for (CLI::Option* option : command.get_options()) {
     if (option->get_type_name().starts_with("FLOAT")) option->check(is_number);
+    if (option->get_type_name().starts_with("INT")) option->check(is_whole);
   }
-  for (CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; })) RefuseNan(*inner);
+  for (CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; })) CheckNumbers(*inner);
 }
 
 // `airsim360 help [COMMAND]`.
@@ -184,7 +191,7 @@ Program::Program(const CommandSet& commands) : app_("Panoramic (360 degree) simu
   for (const auto add : commands.own) add(app_);
   AddHelpCommand(app_);
   ArrangeHelp(app_);
-  RefuseNan(app_);
+  CheckNumbers(app_);
 }
 
 void Program::Run(int argc, const char* const* argv) {

@@ -78,6 +78,7 @@ void GltfReader::CheckVersion() {
   const JsonRef asset = root_.At("asset");
   const JsonRef version = asset.At("version");
   if (!version.Text().starts_with("2.")) version.Fail("only glTF 2 is read");
+  if (const auto least = asset.Find("minVersion"); least && least->Text() != "2.0") least->Fail("only glTF 2.0 is read");
   out_.copyright = CleanName(asset.TextOr("copyright", ""));
   if (const auto required = root_.Find("extensionsRequired")) {
     for (size_t i = 0; i < required->size(); ++i) {

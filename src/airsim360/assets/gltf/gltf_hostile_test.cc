@@ -49,6 +49,7 @@ TEST(HostileGltf, WrongTypesNameTheirPlaceAndValue) {
   EXPECT_TRUE(Contains(ErrorAfter("/nodes/0/translation", {1, 2}), {"3 numbers expected"}));
   EXPECT_TRUE(Contains(ErrorAfter("/nodes/0/name", 42), {"/nodes/0/name: a string expected (42)"}));
   EXPECT_TRUE(Contains(ErrorAfter("/asset/version", "1.0"), {"only glTF 2"}));
+  EXPECT_TRUE(Contains(ErrorAfter("/asset/minVersion", "2.1"), {"/asset/minVersion", "only glTF 2.0"}));
 }
 
 TEST(HostileGltf, IndicesOutOfRangeNameTheCount) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -126,6 +128,20 @@ void TellUnits(const Scene& scene, const std::string& file) {
   if (!guess.empty()) LogWarning(file + ": " + guess + " (in a world file; world import --scale … --out writes one)");
 }
 
+// Places are kept in single precision: far from the origin, as in coordinates of a country's survey, little is left of them.
+void TellFarAway(const Scene& scene, const std::string& file) {
+  constexpr double kCoarse = 0.01;  // metres
+  const Vec3d middle = VecCast<double>(scene.bounds.center());
+  const double farthest = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)});
+  const double step = farthest * std::numeric_limits<float>::epsilon();
+  if (step < kCoarse) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "lies around (%.0f, %.0f, %.0f), where places are kept to %.2g m: move it to the origin before it is saved", middle.x,
+                middle.y, middle.z, step);
+  LogWarning(file + ": " + text);
+}
+
 }  // namespace
 }  // namespace internal
 
@@ -138,6 +154,7 @@ std::shared_ptr<const Scene> ImportScene(const std::filesystem::path& file, cons
   auto scene = internal::AssembleScene(std::move(model.file), rules, internal::TitleOf(file), file.string(), options.placement.baked);
   if (!up.empty()) LogWarning(file.string() + ": " + up + " (in a world file; world import --up … --out writes one)");
   if (guess) internal::TellUnits(*scene, file.string());
+  internal::TellFarAway(*scene, file.string());
   return scene;
 }
 

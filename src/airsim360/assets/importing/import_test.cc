@@ -80,6 +80,7 @@ TEST_F(ImportTest, FilesOutsideTheFolderAreRefused) {
     EXPECT_TRUE(Contains(ErrorOf(Write("inside/m.gltf", doc.json.dump())), {"m.gltf: refers to"})) << uri;
   }
   EXPECT_TRUE(Contains(ErrorOf(Write("inside/m.obj", "mtllib ../secret.bin\n")), {"leaves the model's folder"}));
+  EXPECT_TRUE(Contains(ErrorOf(Write("inside/m.obj", "mtllib a/../b.mtl\n")), {"write it without '..'"}));
 }
 
 TEST_F(ImportTest, RulesBesideTheModelAreFound) {
@@ -207,6 +208,17 @@ TEST_F(ImportTest, UnlikelyUnitsAreToldAloud) {
   EXPECT_EQ(told("car", 4.5), "");
   EXPECT_EQ(told("thing", 900), "");
   EXPECT_EQ(told("car", 450, {.scale = 1}), "");  // the user has said it
+}
+
+TEST_F(ImportTest, WhatLiesSoFarAwayThatPlacesAreCoarseIsToldAloud) {
+  const auto told = [&](const std::string& x) {
+    const fs::path file = Write("a.obj", "v " + x + " 0 0\nv " + x + " 1 0\nv " + x + " 0 1\nf 1 2 3\n");
+    testing::internal::CaptureStderr();
+    ImportScene(file, {});
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_TRUE(Contains(told("4000000"), {"a.obj: lies around (4000000, ", "kept to 0.48 m"}));
+  EXPECT_EQ(told("20000"), "");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "airsim360/assets/test_text.h"
@@ -49,6 +50,12 @@ TEST(Obj, PolygonsNegativeIndicesAndContinuedLinesGiveTheSameSquare) {
     EXPECT_EQ(file.meshes[0].triangles.size(), 2u) << face;
     for (Vec3f n : file.meshes[0].normals) EXPECT_EQ(n, (Vec3f{0, -1, 0})) << face;
   }
+}
+
+TEST(Obj, LinesMayEndAsOnTheOldMacintosh) {
+  std::string text = kSquare + "f 1 2 3 4\n";
+  std::ranges::replace(text, '\n', '\r');
+  EXPECT_EQ(ReadText(text).meshes.at(0).positions.size(), 4u);
 }
 
 TEST(Obj, ObjectsAndGroupsBecomeNodesAndNamedOnesContinue) {

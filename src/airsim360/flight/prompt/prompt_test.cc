@@ -103,6 +103,8 @@ TEST(Prompt, WhatDescribesNoDroneIsRefusedWithTheReason) {
   EXPECT_TRUE(Says(ErrorOf(""), {"empty"}));
   EXPECT_TRUE(Says(ErrorOf("purple elephant"), {"nothing in", "describes a drone"}));
   EXPECT_TRUE(Says(ErrorOf("a -5 kg quad"), {"negative"}));
+  EXPECT_TRUE(Says(ErrorOf("a 1.2.3 kg quad"), {"1.2.3 kg", "no number"}));
+  EXPECT_TRUE(Says(ErrorOf("a 0x10 kg quad"), {"0x10 kg", "no number"}));
   EXPECT_TRUE(Says(ErrorOf("a 0 kg quad"), {"'0 kg'", "0.01 to 400 kg"}));
   EXPECT_TRUE(Says(ErrorOf("a 900 kg quad"), {"'900 kg'", "mass"}));
   EXPECT_TRUE(Says(ErrorOf("a tricopter"), {"three"}));

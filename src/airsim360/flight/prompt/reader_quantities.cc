@@ -60,6 +60,11 @@ bool Reader::ReadQuantity(size_t i) {
   // "-20 C" is of the weather.
   const bool weather = word->kind == WordKind::kOtherUnit;
   if ((tokens_[i].negative || minus) && !weather) throw InputError("a negative number describes no drone: '-" + q.words + "'");
+  // "1.2.3 kg", "0x10 kg": what stands onto it belongs to it, and no part of a number is one.
+  const bool part = tokens_[i].glued && i > 0 &&
+                    ((tokens_[i].text.starts_with('.') && tokens_[i - 1].kind == Token::Kind::kNumber) ||
+                     (i > 1 && tokens_[i - 1].glued && tokens_[i - 1].text == "x" && tokens_[i - 2].text == "0"));
+  if (part) throw InputError("'" + (tokens_[i - 1].text == "x" ? "0x" : tokens_[i - 1].text) + q.words + "' is no number");
   used_[i] = used_[unit] = true;
   spanning_ = &tokens_[i];
   if (word->kind == WordKind::kKvUnit) claimed_[unit] = true;

@@ -113,10 +113,13 @@ std::optional<std::filesystem::path> BodyPackPath() {
 const BodyPack* InstalledBodyPack() {
   static const std::unique_ptr<BodyPack> pack = []() -> std::unique_ptr<BodyPack> {
     const auto path = BodyPackPath();
-    if (!path || !std::filesystem::exists(*path)) return nullptr;
+    // Who names a pack wants its people and no others; the one that `make people` leaves is welcome where it is good.
+    const bool named = std::getenv("AIRSIM360_PEOPLE") != nullptr;
+    if (!path || (!named && !std::filesystem::exists(*path))) return nullptr;
     try {
       return std::make_unique<BodyPack>(DecodeBodyPack(ReadFile(*path, kMaxBytes), path->string()));
     } catch (const std::exception& error) {
+      if (named) throw InputError("AIRSIM360_PEOPLE: " + std::string(error.what()));
       std::fprintf(stderr, "%s; people are procedural\n", error.what());
       return nullptr;
     }

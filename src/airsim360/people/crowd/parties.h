@@ -9,8 +9,7 @@
 
 namespace airsim360::internal {
 
-inline constexpr double kShareInParties = 0.55;  ///< of the people outdoors, unless a file says otherwise; the paper counts 0.55 to 0.7
-inline constexpr double kMostInParties = 0.9;
+inline constexpr double kShareInParties = 0.55;     ///< of the people outdoors, unless a file says otherwise; the paper counts 0.55 to 0.7
 inline constexpr size_t kLargestParty = kMaxGroup;  // they talk, all of them
 
 /// Chance of a party of `size` in 1 … kLargestParty where `share` of the people are in parties of two and more: sizes follow a

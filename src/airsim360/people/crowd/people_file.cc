@@ -7,7 +7,6 @@
 #include <functional>
 
 #include "airsim360/base/error.h"
-#include "airsim360/people/crowd/parties.h"
 
 namespace airsim360::internal {
 namespace {

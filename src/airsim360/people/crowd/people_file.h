@@ -12,6 +12,8 @@
 
 namespace airsim360::internal {
 
+inline constexpr double kMostInParties = 0.9;  ///< of the people of an area: sizes of a Poisson law would grow without bound
+
 /// A value and where it stands ("people.yaml:12").
 template <class T>
 struct Placed {

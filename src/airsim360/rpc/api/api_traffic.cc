@@ -60,7 +60,7 @@ TrafficInfo InfoOf(const SimTraffic& traffic, const SimState& state, size_t i, V
   info.braking = vehicle.braking;
   info.stopped = vehicle.stopped_ns >= 0;
   info.pose = airsim::ToPose(X_WB, origin_W);
-  info.velocity = airsim::ToVector(NedFromWorld(X_WB.R.column(0) * vehicle.v));
+  info.velocity = airsim::ToVector(NedFromWorld(VelocityOf(traffic.model, *state.traffic, i)));
   info.size = airsim::ToVector({shape.length, shape.width, shape.height});
   return info;
 }

@@ -1,11 +1,9 @@
 // Weather and time of day, as far as our sky and surfaces have them.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 
-#include "airsim360/opening/world_environment.h"
 #include "airsim360/rpc/api/api.h"
+#include "airsim360/rpc/settings/time_of_day.h"
 
 namespace airsim360 {
 namespace {
@@ -49,25 +47,6 @@ void ApplyWeather(Session& s) {
   s.EnvironmentChanged();
 }
 
-// "2018-02-12 15:20:00" in the local mean time of the place, as our flags want it.
-std::string LocalTime(const std::string& text, double longitude_deg) {
-  int year = 0, month = 0, day = 0, hour = 0, minute = 0, second = 0;
-  const auto fail = [&](const std::string& why) {
-    throw std::invalid_argument("start_datetime '" + text.substr(0, 40) + "' is not YYYY-MM-DD HH:MM:SS" + why);
-  };
-  int end = 0;
-  const int found = std::sscanf(text.c_str(), "%4d-%2d-%2d %2d:%2d%n:%2d%n", &year, &month, &day, &hour, &minute, &end, &second, &end);
-  if (found < 5 || static_cast<size_t>(end) != text.size()) fail("");
-  using namespace std::chrono;
-  const year_month_day date{std::chrono::year(year) / month / day};
-  if (year < 1800 || year > 2200 || !date.ok()) fail(": there is no such day from 1800 to 2200");
-  if (hour < 0 || hour > 23 || minute < 0 || minute > 59 || second < 0 || second > 60) fail(": there is no such time");
-  const int zone = static_cast<int>(std::lround(longitude_deg / 15));
-  char out[64];
-  std::snprintf(out, sizeof out, "%04d-%02d-%02dT%02d:%02d%c%02d:00", year, month, day, hour, minute, zone < 0 ? '-' : '+', std::abs(zone));
-  return out;
-}
-
 }  // namespace
 
 void AddWeatherCalls(Api& api) {
@@ -97,10 +76,7 @@ void AddWeatherCalls(Api& api) {
       return ApplyWeather(s);
     }
     if (start.empty()) return;
-    const airsim::GeoPoint& origin = s.settings().origin;
-    char place[64];
-    std::snprintf(place, sizeof place, "%.6f,%.6f", origin.latitude, origin.longitude);
-    SetSunByTime(LocalTime(start, origin.longitude), place, base);
+    SetTimeOfDay(start, s.settings().origin, base);
     if (celestial_clock_speed != 1) NoticeOnce("simSetTimeOfDay: the sun is set once and stays there");
     ApplyWeather(s);
   });

@@ -7,6 +7,7 @@
 #include "airsim360/base/log.h"
 #include "airsim360/base/printable.h"
 #include "airsim360/rpc/coordinates/ned.h"
+#include "airsim360/rpc/settings/time_of_day.h"
 #include "airsim360/sim/living_world.h"
 #include "airsim360/sim/people/people.h"
 
@@ -60,7 +61,11 @@ Session::Session(Stage& stage, SceneExtras extras, const SessionOptions& options
   // What is held ready is not there yet.
   for (const DroneBodyRef& body : stage.bodies()) world->places[body.entity] = {objects_.PlaceOf(body.entity).X_WO, {1, 1, 1}, true};
   world->external_cameras = MakeExternalCameras(options_.settings);
-  world->environment = world->base_environment = world->first_environment = stage.environment();
+  world->base_environment = world->first_environment = stage.environment();
+  SetTimeOfDay(options_.settings.time_of_day, options_.settings.origin, world->base_environment);
+  world->environment = world->base_environment;
+  // The stage is lit as its world is.
+  if (!options_.settings.time_of_day.empty()) ++world->environment_version;
   world_ = std::move(world);
   BuildVehicles(stage);
   // Lockstep runs are the same every time: their clock starts at zero.

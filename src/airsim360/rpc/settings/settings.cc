@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <stdexcept>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/file_name.h"
 #include "airsim360/math/coordinate_limit.h"
 #include "airsim360/rpc/settings/settings_reader.h"
+#include "airsim360/rpc/settings/time_of_day.h"
 
 namespace airsim360 {
 namespace {
@@ -178,7 +180,8 @@ std::map<std::string, T> ReadNamed(SettingsObject& parent, const char* key, cons
   if (const JsonNode* node = parent.TakeObject(key)) {
     for (size_t i = 0; i < node->keys.size(); ++i) {
       // Recordings name pictures after vehicles and cameras.
-      const bool names_files = !std::is_same_v<T, SensorSettings> && !node->keys[i].empty();
+      // A camera may have no name, as the default one of AirSim.
+      const bool names_files = std::is_same_v<T, VehicleSettings> || (!std::is_same_v<T, SensorSettings> && !node->keys[i].empty());
       try {
         if (names_files) CheckFileName(key, node->keys[i]);
       } catch (const InputError& error) {
@@ -310,6 +313,12 @@ void ReadWorld(SettingsObject& root, AirSimSettings& settings) {
     bool enabled = false;
     std::string start;
     time.Read("Enabled", enabled), time.Read("StartDateTime", start);
+    try {
+      Environment checked;
+      SetTimeOfDay(start, settings.origin, checked);
+    } catch (const std::invalid_argument& error) {
+      time.Fail(*node, "StartDateTime: " + std::string(error.what()));
+    }
     if (enabled) settings.time_of_day = start;
     time.Ignore(kOther);
     time.Finish();

@@ -1,6 +1,7 @@
 #include "airsim360/rpc/settings/settings_reader.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/nearest_name.h"
@@ -40,8 +41,9 @@ void SettingsObject::Read(const char* key, double& value, double low, double hig
   if (member == nullptr || (member->kind == JsonNode::Kind::kString && member->text == "NaN")) return;
   if (member->kind != JsonNode::Kind::kNumber) Fail(*member, std::string(key) + ": expected a number");
   if (!(member->number >= low && member->number <= high)) {
-    Fail(*member,
-         std::string(key) + ": " + std::to_string(member->number) + " is not in " + std::to_string(low) + " … " + std::to_string(high));
+    char range[100];
+    std::snprintf(range, sizeof range, ": %.9g is not in %.9g … %.9g", member->number, low, high);
+    Fail(*member, key + std::string(range));
   }
   value = member->number;
 }

@@ -72,6 +72,12 @@ TEST(Settings, ErrorsNameFileLineAndKey) {
   EXPECT_EQ(ErrorOf("{\"Vehicles\": {\n\"../../evil\": {\"VehicleType\": \"SimpleFlight\"}}}"),
             "settings.json:2: Vehicles: '../../evil' holds a '/': it becomes the name of a file");
   EXPECT_NE(ErrorOf("{\"ExternalCameras\": {\"a\\u0000b\": {}}}").find("control character"), std::string::npos);
+  EXPECT_NE(ErrorOf("{\"Vehicles\": {\n\"\": {\"VehicleType\": \"SimpleFlight\"}}}").find("settings.json:2: Vehicles: ''"),
+            std::string::npos);
+  EXPECT_EQ(ErrorOf("{\n\"ApiServerPort\": 70000}"), "settings.json:2: ApiServerPort: 70000 is not in 0 … 65535");
+  EXPECT_NE(ErrorOf("{\"TimeOfDay\":\n{\"Enabled\": true, \"StartDateTime\": \"2026-02-30 10:00:00\"}}")
+                .find("settings.json:2: StartDateTime: start_datetime '2026-02-30 10:00:00'"),
+            std::string::npos);
   EXPECT_EQ(ErrorOf("{\"ClockSpeed\": 1,\n}"), "settings.json:2: expected a key in quotation marks");
   EXPECT_EQ(ErrorOf("{\"ClockSpeed\": 1"), "settings.json:1: the text ends too early");
   EXPECT_NE(ErrorOf("{\"CameraDefaults\": {\"CaptureSettings\": [\n{\"Width\": 0}]}}").find("settings.json:2: Width"), std::string::npos);

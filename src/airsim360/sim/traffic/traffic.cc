@@ -371,7 +371,8 @@ std::vector<VehicleBox> VehiclesNear(const SimTraffic& traffic, const TrafficSta
     RigidTransform X = PoseOf(traffic.model, state, i, t_ns);
     X.p = X.p + X.R.column(2) * (shape.height / 2);
     if (Norm(X.p - p_W) > reach + shape.length / 2) continue;
-    boxes.push_back({X, {shape.length / 2, shape.width / 2, shape.height / 2}, X.R.column(0) * vehicle.v, traffic.bodies[i].entity});
+    boxes.push_back(
+        {X, {shape.length / 2, shape.width / 2, shape.height / 2}, VelocityOf(traffic.model, state, i), traffic.bodies[i].entity});
   }
   return boxes;
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "airsim360/tasks/agent_server/agent_request.h"
 
@@ -46,12 +49,20 @@ Vec3d VectorOf(const std::string& field, const Json& value, double limit) {
 
 Json ParseJson(std::string_view text) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return Json::object();
-  const auto check_depth = [](int depth, Json::parse_event_t, Json&) {
+  // Of a key that is given twice the library would take one and drop the other.
+  std::vector<std::set<std::string>> keys;
+  const auto check = [&](int depth, Json::parse_event_t event, Json& parsed) {
     if (depth > kDeepest) throw RequestError("", "JSON is nested deeper than " + std::to_string(kDeepest));
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second) {
+      const std::string shown = Shown(parsed);
+      throw RequestError(shown.substr(1, shown.size() - 1 - shown.ends_with('"')), "the key is given twice");
+    }
     return true;
   };
   try {
-    return Json::parse(text.begin(), text.end(), check_depth);
+    return Json::parse(text.begin(), text.end(), check);
   } catch (const Json::exception& error) {
     // Its words after the library's own number, without the client's bytes.
     const std::string what = error.what();
