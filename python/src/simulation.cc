@@ -241,7 +241,7 @@ py::list Simulation::Vehicles() const {
     d["category"] = traffic.bodies[i].kind;
     d["position"] = FromVec3(X_WB.p);
     d["orientation"] = FromQuaternion(ToQuaternion(X_WB.R));
-    d["velocity"] = FromVec3(X_WB.R.column(0) * vehicle.v);
+    d["velocity"] = FromVec3(VelocityOf(traffic.model, *state->traffic, i));
     d["size"] = FromVec3({shape.length, shape.width, shape.height});
     d["track_id"] = i + 1;
     d["lane"] = vehicle.lane;
