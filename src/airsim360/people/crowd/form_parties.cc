@@ -6,6 +6,7 @@
 #include "airsim360/math/angles.h"
 #include "airsim360/people/behaviour/person_nodes.h"
 #include "airsim360/people/crowd/parties.h"
+#include "airsim360/people/crowd/people_file.h"
 
 namespace airsim360::internal {
 namespace {
