@@ -8,9 +8,6 @@
 namespace airsim360::internal {
 namespace {
 
-// A refitted structure gets worse with the distance from the pose it was built for.
-constexpr int kRefitsOfABuild = 30;
-
 const DeformedMesh* FindDeformed(const std::vector<DeformedMesh>& list, MeshId mesh) {
   const auto found = std::lower_bound(list.begin(), list.end(), mesh, [](const auto& d, MeshId m) { return d.mesh < m; });
   return found != list.end() && found->mesh == mesh ? &*found : nullptr;
@@ -20,7 +17,7 @@ const DeformedMesh* FindDeformed(const std::vector<DeformedMesh>& list, MeshId m
 
 void DynamicScene::Update(EmbreeScene& statics, const Scene& scene, const SceneState& state, const Movers& movers) {
   if (top_ == nullptr || moved_.size() != movers.instances.size()) SetMovers(statics, movers);
-  Deform(statics, state);
+  Deform(statics, scene, state);
   Place(statics, scene, state);
   rtcCommitScene(top_.get());
   statics.ThrowOnError();
@@ -50,25 +47,25 @@ void DynamicScene::SetMovers(EmbreeScene& statics, const Movers& movers) {
   shown_.assign(instances_.size(), nullptr);
 }
 
-void DynamicScene::Deform(EmbreeScene& statics, const SceneState& state) {
-  // Bodies are made one after another, then filled and built or refitted at once.
+void DynamicScene::Deform(EmbreeScene& statics, const Scene& scene, const SceneState& state) {
+  // Bodies are made one after another, then filled and refitted at once.
   std::vector<Body*> bodies;
   for (const DeformedMesh& deformed : state.deformed) bodies.push_back(&bodies_[deformed.mesh]);
   ParallelFor(static_cast<int64_t>(bodies.size()), [&](int64_t k) {
     Body& body = *bodies[static_cast<size_t>(k)];
     const DeformedMesh& deformed = state.deformed[static_cast<size_t>(k)];
     const size_t count = deformed.positions->size();
-    const bool first = body.scene == nullptr;
     body.vertices.resize(count + 1);  // Embree reads 4 bytes beyond the last vertex
-    std::copy(deformed.positions->begin(), deformed.positions->end(), body.vertices.begin());
-    if (first) body.scene = statics.MakeDeformable(deformed.mesh, body.vertices.data(), count);
-    const bool anew = !first && ++body.refits >= kRefitsOfABuild;
-    if (anew) body.refits = 0;
-    for (unsigned id = 0; !first && id < statics.GroupCount(deformed.mesh); ++id) {
+    if (body.scene == nullptr) {
+      // Of the mesh as it is at rest, whatever was drawn before: where a ray meets two triangles at the same range, the structure decides.
+      std::ranges::copy(scene.meshes[deformed.mesh].positions, body.vertices.begin());
+      body.scene = statics.MakeDeformable(deformed.mesh, body.vertices.data(), count);
+      rtcCommitScene(body.scene.get());
+    }
+    std::ranges::copy(*deformed.positions, body.vertices.begin());
+    for (unsigned id = 0; id < statics.GroupCount(deformed.mesh); ++id) {
       RTCGeometry g = rtcGetGeometry(body.scene.get(), id);
       rtcUpdateGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0);
-      // Embree builds anew when it is told that the triangles have changed.
-      if (anew) rtcUpdateGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0);
       rtcCommitGeometry(g);
     }
     rtcCommitScene(body.scene.get());

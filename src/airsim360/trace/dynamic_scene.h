@@ -35,10 +35,9 @@ class DynamicScene {
   struct Body {
     std::vector<Vec3f> vertices;
     SceneHandle scene;
-    int refits = 0;
   };
   void SetMovers(EmbreeScene& statics, const Movers& movers);
-  void Deform(EmbreeScene& statics, const SceneState& state);
+  void Deform(EmbreeScene& statics, const Scene& scene, const SceneState& state);
   void Place(EmbreeScene& statics, const Scene& scene, const SceneState& state);
 
   SceneHandle top_;

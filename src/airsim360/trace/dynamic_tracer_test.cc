@@ -161,6 +161,40 @@ TEST(DynamicTracer, DeformedMeshesAreBuiltWithTheirVerticesAlsoAfterManyRefits) 
   }
 }
 
+// Where two triangles are met at one range, Embree gives the one that it came to first.
+TEST(DynamicTracer, WhichOfTwoCoincidentTrianglesIsMetDoesNotDependOnWhatWasDrawnBefore) {
+  World world = RandomWorld(9);
+  Mesh& mesh = world.meshes[0];
+  const std::vector<Vec3u> once = mesh.triangles;
+  mesh.triangles.insert(mesh.triangles.end(), once.rbegin(), once.rend());
+  const auto base = std::make_shared<const RayTracer>(BuildScene(world));
+  const auto at = [&](DynamicTracer& dynamic, float phase) {
+    SceneState state;
+    state.deformed.push_back({0, std::make_shared<const std::vector<Vec3f>>(Bent(mesh, phase))});
+    return dynamic.At(std::make_shared<const SceneState>(state));
+  };
+  DynamicTracer fresh(base), used(base);
+  for (int tick = 0; tick < 70; ++tick) at(used, 0.5f + 0.2f * static_cast<float>(tick));
+  const auto a = at(fresh, 0), b = at(used, 0);
+  RngStream rng(9, "rays");
+  int hits = 0;
+  for (int i = 0; i < 4000; ++i) {
+    Vec3f origin, direction;
+    for (int k = 0; k < 3; ++k) {
+      origin[k] = static_cast<float>(rng.Uniform(-14, 14));
+      direction[k] = static_cast<float>(rng.Uniform(-1, 1));
+    }
+    const auto one = a->Intersect(origin, direction), other = b->Intersect(origin, direction);
+    ASSERT_EQ(one.has_value(), other.has_value()) << i;
+    if (!one) continue;
+    ++hits;
+    EXPECT_EQ(one->surface.instance, other->surface.instance);
+    EXPECT_EQ(one->surface.triangle, other->surface.triangle) << i;
+    EXPECT_EQ(one->distance, other->distance);
+  }
+  EXPECT_GT(hits, 400);
+}
+
 TEST(DynamicTracer, EarlierInstantsAndTheSceneAsBuiltStayWhatTheyAre) {
   World world = RandomWorld(4);
   const auto base = std::make_shared<const RayTracer>(BuildScene(world));
