@@ -48,7 +48,7 @@ struct Reader {
   }
 };
 
-std::optional<CatalogueModel> ReadModel(const Reader& reader, const std::string& number) {
+std::optional<CatalogueModel> ReadCatalogueModel(const Reader& reader, const std::string& number) {
   CatalogueModel model;
   model.path = reader.Text("model" + number);
   model.path.erase(0, model.path.find_first_not_of('/'));
@@ -73,7 +73,7 @@ std::vector<CatalogueModel> ParseCatalogue(const std::string& file, std::string_
   const std::string licence = LicenceName(reader.Text("license"));
   std::vector<CatalogueModel> models;
   for (int i = 1; reader.values.contains("model#" + std::to_string(i)); ++i) {
-    std::optional<CatalogueModel> model = ReadModel(reader, std::string("#").append(std::to_string(i)));
+    std::optional<CatalogueModel> model = ReadCatalogueModel(reader, std::string("#").append(std::to_string(i)));
     if (!model) continue;
     model->licence = licence;
     models.push_back(std::move(*model));
