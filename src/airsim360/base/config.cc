@@ -196,11 +196,28 @@ class Describer : public ConfigVisitor {
 
 }  // namespace
 
+namespace {
+
+// The line of the '---' that begins a second document; 0 if there is none. YAML::LoadAll never ends on some texts (`,"`).
+int SecondDocument(std::string_view text) {
+  bool begun = false;
+  for (int line = 1; !text.empty(); ++line) {
+    const std::string_view one = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.size(), one.size() + 1));
+    const bool marker = one.starts_with("---") && (one.size() == 3 || one[3] == ' ' || one[3] == '\r' || one[3] == '\t');
+    if (marker && begun) return line;
+    begun = begun || marker || (one.find_first_not_of(" \t\r") != std::string_view::npos && one[0] != '#' && one[0] != '%');
+  }
+  return 0;
+}
+
+}  // namespace
+
 void ReadYaml(std::string_view text, std::string_view name, const ConfigFields& fields) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(text));
-    if (documents.size() > 1) throw InputError(Where(name, documents[1].Mark()) + "a second document (after '---'); one file holds one");
-    const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
+    const YAML::Node root = YAML::Load(std::string(text));
+    if (const int line = SecondDocument(text); line > 0)
+      throw InputError(std::string(name) + ":" + std::to_string(line) + ": a second document (after '---'); one file holds one");
     YamlReader reader(root, name);
     fields(reader);
     reader.RefuseUnknownKeys();
