@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
-#include <span>
 #include <tuple>
 #include <type_traits>
 
@@ -87,17 +86,7 @@ bool MakePane(const Vec3f (&p)[3], const float (&uv)[6], Vec3f normal, PaneRecor
   return std::isfinite(pane.u_per_a) && std::isfinite(pane.v_per_b);
 }
 
-constexpr uint32_t kFaceNormal = 0xffffffff;  // no code of PackDirection: halves of those are at most 65534
-
-// Code of a vertex normal, kFaceNormal where it says nothing.
-uint32_t PackNormal(Vec3f normal) {
-  const Vec3f n = Normalized(normal);
-  return Dot(n, n) > 0.5f ? PackDirection(n) : kFaceNormal;
-}
-
-// `normals`: PackNormal of each vertex, where the caller has them; several triangles share one.
-TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material, const UvTransform& transform,
-                            std::span<const uint32_t> normals = {}) {
+TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material, const UvTransform& transform) {
   const Vec3u t = mesh.triangles[index];
   const uint32_t corners[3] = {t.x, t.y, t.z};
   const Vec3f p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
@@ -115,15 +104,10 @@ TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material,
   Vec3f packed = normal;  // what was packed last: most triangles of a town are flat
   uint32_t packed_bits = record.geometric_normal;
   for (int k = 0; k < 3; ++k) {
-    if (!normals.empty()) {
-      const uint32_t code = normals[corners[k]];
-      record.normals[k] = code == kFaceNormal ? record.geometric_normal : code;
-    } else {
-      Vec3f n = mesh.normals.empty() ? normal : Normalized(mesh.normals[corners[k]]);
-      if (!(Dot(n, n) > 0.5f)) n = normal;
-      if (!(n == packed)) packed = n, packed_bits = PackDirection(n);
-      record.normals[k] = packed_bits;
-    }
+    Vec3f n = mesh.normals.empty() ? normal : Normalized(mesh.normals[corners[k]]);
+    if (!(Dot(n, n) > 0.5f)) n = normal;
+    if (!(n == packed)) packed = n, packed_bits = PackDirection(n);
+    record.normals[k] = packed_bits;
     if (!mesh.uvs.empty()) uv[k] = Sane(transform * mesh.uvs[corners[k]]);
     record.uv[2 * k] = uv[k].x;
     record.uv[2 * k + 1] = uv[k].y;
@@ -381,14 +365,12 @@ const std::vector<uint32_t>& SurfaceTables::Welds(const Mesh& mesh, MeshId id) {
 }
 
 void SurfaceTables::SetTriangles(const Scene& scene, MeshId id, const Mesh& shape) {
-  std::vector<uint32_t> normals(shape.normals.size());
-  std::ranges::transform(shape.normals, normals.begin(), PackNormal);
   for (const MeshPart& part : shape.parts) {
     const UvTransform transform(scene.materials[part.material]);
     for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
       TriangleRecord& record = triangles[first_[id] + k];
       const uint32_t pane = record.pane, window = record.window;  // as built, so that panes do not flicker
-      record = MakeTriangle(shape, k, part.material, transform, normals);
+      record = MakeTriangle(shape, k, part.material, transform);
       record.pane = pane;
       record.window = window;
     }
