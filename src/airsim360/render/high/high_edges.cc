@@ -18,7 +18,7 @@ namespace {
 
 constexpr float kMostlyWhite = 0.35f;  // of what is nearly white: more light makes such a pixel hardly brighter
 
-// Light of an edge pixel above what shows as nearly white.
+// In rooms: light of an edge pixel above what shows as nearly white.
 struct AboveWhite {
   int x, y;
   Rgb32f light;
@@ -75,7 +75,7 @@ class EdgeTile : public EdgeRays {
       const float scale = 1 / static_cast<float>(count_[i]);
       Radiance(i) = {r_[i] * scale, g_[i] * scale, b_[i] * scale};
       const Rgb32f rest = above_[i];
-      if (Luminance(rest) > 0) above.push_back({x(i), y(i), {rest.r * scale, rest.g * scale, rest.b * scale}});
+      if (task_.gloss && Luminance(rest) > 0) above.push_back({x(i), y(i), {rest.r * scale, rest.g * scale, rest.b * scale}});
     }
   }
 
@@ -217,9 +217,8 @@ int64_t RefineEdges(const HighEdgeTask& task, const std::vector<PixelOffset>& of
     ray_count += RefineTile(task, kernels, offsets, buffers, static_cast<int>(tile % across) * kTileSize,
                             static_cast<int>(tile / across) * kTileSize, above[static_cast<size_t>(tile)]);
   });
-  if (task.gloss)
-    for (const std::vector<AboveWhite>& of_tile : above)
-      for (const AboveWhite& one : of_tile) GiveAway(task, one);
+  for (const std::vector<AboveWhite>& of_tile : above)
+    for (const AboveWhite& one : of_tile) GiveAway(task, one);
   return ray_count;
 }
 
