@@ -329,6 +329,10 @@ void WantVelocities(CrowdTick& tick) {
     if (!walker.present) continue;
     const StateDef& state = tick.plan.states[agent.state];
     const bool stood = std::exchange(agent.stands, false);
+    const auto stand_here = [&] {
+      if (!stood) agent.stand = Flat(walker.at.p_W);
+      Stand(tick, agent, walker, agent.stand);
+    };
 
     if (agent.group) {
       agent.stands = stood;
@@ -336,13 +340,9 @@ void WantVelocities(CrowdTick& tick) {
     } else if (agent.at_place) {
       walker.still = true;
     } else if (state.stop && agent.walk != Walk::kOnTheWay) {
-      if (!stood) agent.stand = Flat(walker.at.p_W);
-      Stand(tick, agent, walker, agent.stand);
+      stand_here();
     } else if (agent.accompanies && agent.walk == Walk::kNone) {
-      if (const PersonIndex leader = LeaderOf(tick, i); leader != kNoPerson && !WantBeside(tick, i, leader)) {
-        if (!stood) agent.stand = Flat(walker.at.p_W);
-        Stand(tick, agent, walker, agent.stand);
-      }
+      if (const PersonIndex leader = LeaderOf(tick, i); leader != kNoPerson && !WantBeside(tick, i, leader)) stand_here();
     } else if (!state.stop && agent.walk == Walk::kOnTheWay && !agent.hold) {
       WantOnTheWay(tick, i);
     }
