@@ -194,10 +194,6 @@ class Describer : public ConfigVisitor {
   std::string indent_, text_;
 };
 
-}  // namespace
-
-namespace {
-
 // The line of the '---' that begins a second document; 0 if there is none. YAML::LoadAll never ends on some texts (`,"`).
 int SecondDocument(std::string_view text) {
   bool begun = false;
